@@ -1,0 +1,40 @@
+# Language, warnings and build types, for every target of the project.
+
+# C++17: Simbody 3.7's headers do not compile as C++20, and headers are shared.
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, RelWithDebInfo or Release" FORCE)
+endif()
+
+# Debian's Simbody is built without NDEBUG and its inline functions depend on it: a program that defines
+# NDEBUG and includes its headers crashes. So no build type of this project defines it;
+# tests/build/ndebug_test.cpp and tests/build/compile_commands_test.cmake hold that.
+foreach(language C CXX)
+  set(CMAKE_${language}_FLAGS_RELEASE "-O2")
+  set(CMAKE_${language}_FLAGS_RELWITHDEBINFO "-O2 -g")
+  set(CMAKE_${language}_FLAGS_MINSIZEREL "-Os")
+endforeach()
+
+add_library(rollrig_options INTERFACE)
+target_compile_options(rollrig_options INTERFACE -Wall -Wextra -Wconversion -Wshadow=local
+                                                 $<$<BOOL:${ROLLRIG_WERROR}>:-Werror>)
+target_include_directories(rollrig_options INTERFACE "${PROJECT_SOURCE_DIR}")
+# Asserts inside Eigen's kernels cost a multiple of the arithmetic; nothing of Simbody depends on them.
+target_compile_definitions(rollrig_options INTERFACE $<$<CONFIG:Release>:EIGEN_NO_DEBUG>)
+
+# Sanitizers: -DROLLRIG_SANITIZE=address,undefined
+set(ROLLRIG_SANITIZE "" CACHE STRING "Value for -fsanitize=, or empty")
+if(ROLLRIG_SANITIZE)
+  add_compile_options(-fsanitize=${ROLLRIG_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${ROLLRIG_SANITIZE})
+endif()
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
+endif()

@@ -1,0 +1,31 @@
+# Third-party packages, all from Debian 12. Each stays behind one or two files of the project.
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(Ceres 2.1 REQUIRED)
+find_package(fmt 9 REQUIRED)
+find_package(spdlog 1.10 REQUIRED)
+find_package(tomlplusplus 3.3 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(edlib REQUIRED IMPORTED_TARGET edlib-1)
+pkg_check_modules(libmd REQUIRED IMPORTED_TARGET libmd)
+
+# Simbody: its configuration file names libraries and folders only.
+find_package(Simbody 3.7 REQUIRED NAMES Simbody simbody)
+add_library(rollrig_simbody INTERFACE)
+target_include_directories(rollrig_simbody SYSTEM INTERFACE ${Simbody_INCLUDE_DIR})
+target_link_libraries(rollrig_simbody INTERFACE SimTKsimbody SimTKmath SimTKcommon)
+
+# SUNDIALS: found by hand, since its configuration file asks for MPI and other solvers. Only the static
+# CVODES is used, and only by the target rollrig_cvodes (see sim/CMakeLists.txt).
+find_path(SUNDIALS_INCLUDE_DIR cvodes/cvodes.h REQUIRED)
+find_library(SUNDIALS_CVODES_STATIC libsundials_cvodes.a REQUIRED)
+file(STRINGS "${SUNDIALS_INCLUDE_DIR}/sundials/sundials_config.h" sundials_version_line
+  REGEX "define SUNDIALS_VERSION ")
+string(REGEX REPLACE ".*\"(.*)\".*" "\\1" ROLLRIG_SUNDIALS_VERSION "${sundials_version_line}")
+if(ROLLRIG_SUNDIALS_VERSION VERSION_LESS 6.4)
+  message(FATAL_ERROR "SUNDIALS 6.4 or newer is needed, found '${ROLLRIG_SUNDIALS_VERSION}'")
+endif()
