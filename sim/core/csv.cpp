@@ -1,0 +1,229 @@
+#include "sim/core/csv.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig {
+namespace {
+
+/// Splits RFC 4180 text into records; `line` is where a record starts.
+class CsvScanner {
+ public:
+  CsvScanner(const std::string& text, const std::string& path) : text_(text), path_(path) {
+    constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // as spreadsheets write it
+    if (text_.rfind(kByteOrderMark, 0) == 0) position_ = 3;
+  }
+
+  bool at_end() const { return position_ >= text_.size(); }
+  int line() const { return line_; }
+
+  std::vector<std::string> next_record() {
+    std::vector<std::string> cells;
+    bool more = true;
+    while (more) cells.push_back(next_cell(more));
+    return cells;
+  }
+
+ private:
+  std::string next_cell(bool& more) {
+    const bool quoted = !at_end() && text_[position_] == '"';
+    std::string cell = quoted ? quoted_content() : std::string();
+    const std::size_t end = std::min(text_.find_first_of(",\n", position_), text_.size());
+    cell.append(text_, position_, end - position_);
+    more = end < text_.size() && text_[end] == ',';
+    if (!more) {
+      if (!cell.empty() && cell.back() == '\r') cell.pop_back();
+      ++line_;
+    }
+    position_ = end + 1;
+    return cell;
+  }
+
+  std::string quoted_content() {
+    const int start_line = line_;
+    std::string content;
+    for (++position_; !at_end(); ++position_) {
+      const char c = text_[position_];
+      if (c == '\n') ++line_;
+      if (c != '"') {
+        content += c;
+      } else if (position_ + 1 < text_.size() && text_[position_ + 1] == '"') {
+        content += '"';
+        ++position_;
+      } else {
+        ++position_;
+        return content;
+      }
+    }
+    throw InputError({"a quoted field never ends", path_, start_line, "", "", "a closing \"", ""});
+  }
+
+  const std::string& text_;
+  const std::string& path_;
+  std::size_t position_ = 0;
+  int line_ = 1;
+};
+
+}  // namespace
+
+CsvTable CsvTable::read(const std::string& path) {
+  const std::string text = read_text_file(path);
+  CsvTable table;
+  table.path_ = path;
+  CsvScanner scanner(text, path);
+  table.columns_ = scanner.next_record();
+  for (std::size_t i = 0; i < table.columns_.size(); ++i) {
+    const std::string& name = table.columns_[i];
+    const auto end = table.columns_.begin() + static_cast<std::ptrdiff_t>(i);
+    if (name.empty())
+      throw InputError({"a column has no name", path, 1, "", "", "a header line with a name a column", ""});
+    if (std::find(table.columns_.begin(), end, name) != end) {
+      throw InputError({fmt::format("column '{}' stands twice", name), path, 1, name, "", "each column once", ""});
+    }
+  }
+  while (!scanner.at_end()) {
+    Row row;
+    row.line = scanner.line();
+    row.cells = scanner.next_record();
+    if (row.cells.size() == 1 && row.cells[0].empty()) continue;  // a blank line, as at the end of a file
+    if (row.cells.size() != table.columns_.size()) {
+      throw InputError({"ragged row", path, row.line, "", fmt::format("{} fields", row.cells.size()),
+                        fmt::format("{} fields, as in the header", table.columns_.size()), ""});
+    }
+    table.rows_.push_back(std::move(row));
+  }
+  if (table.rows_.empty()) throw InputError({"a header but no rows", path, 1, "", "", "at least one row", ""});
+  return table;
+}
+
+bool CsvTable::has(const std::string& column) const {
+  return std::find(columns_.begin(), columns_.end(), column) != columns_.end();
+}
+
+void CsvTable::require_known(const std::vector<std::string>& known) const {
+  for (const std::string& column : columns_) {
+    if (std::find(known.begin(), known.end(), column) != known.end()) continue;
+    InputProblem problem = unknown_name("column", column, known);
+    problem.file = path_;
+    problem.line = 1;
+    problem.key = column;
+    throw InputError(problem);
+  }
+}
+
+std::size_t CsvTable::find_column(const std::string& column) const {
+  const auto it = std::find(columns_.begin(), columns_.end(), column);
+  if (it != columns_.end()) return static_cast<std::size_t>(it - columns_.begin());
+  InputProblem problem;
+  problem.what = fmt::format("missing column '{}'", column);
+  problem.file = path_;
+  problem.line = 1;
+  problem.key = column;
+  problem.nearest = nearest_name(column, columns_);
+  throw InputError(problem);
+}
+
+std::vector<std::string> CsvTable::text(const std::string& column) const {
+  const std::size_t index = find_column(column);
+  std::vector<std::string> cells;
+  cells.reserve(rows_.size());
+  for (const Row& row : rows_) cells.push_back(row.cells[index]);
+  return cells;
+}
+
+InputError CsvTable::cell_problem(const Row& row, const std::string& column, const std::string& cell,
+                                  const std::string& what, const std::string& allowed) const {
+  return InputError({what, path_, row.line, column, cell, allowed, ""});
+}
+
+double CsvTable::parse_cell(const Row& row, const std::string& column, const std::string& cell,
+                            const Field& field) const {
+  const std::string allowed = fmt::format("a number {}", field.range.to_string());
+  double value = 0.0;
+  const char* end = cell.data() + cell.size();
+  const auto [stop, error] = std::from_chars(cell.data(), end, value);
+  if (error != std::errc() || stop != end) {
+    throw cell_problem(row, column, cell, fmt::format("'{}' is not a number", cell), allowed);
+  }
+  if (!std::isfinite(value)) throw cell_problem(row, column, cell, fmt::format("'{}' is not finite", cell), allowed);
+  if (!field.range.contains(value)) {
+    throw cell_problem(row, column, cell, fmt::format("{} is out of range", column), allowed);
+  }
+  return value;
+}
+
+std::vector<double> CsvTable::numbers(const Field& column, bool may_be_empty) const {
+  const std::size_t index = find_column(column.key);
+  const Unit unit = unit_of_key(column.key);
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  for (const Row& row : rows_) {
+    const std::string& cell = row.cells[index];
+    if (!cell.empty()) {
+      values.push_back(unit.to_si(parse_cell(row, column.key, cell, column)));
+    } else if (may_be_empty) {
+      values.push_back(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      throw cell_problem(row, column.key, "(empty)", fmt::format("'{}' has an empty field", column.key),
+                         "a number in every row: this column is an input");
+    }
+  }
+  return values;
+}
+
+std::vector<double> CsvTable::increasing_times(const std::string& column) const {
+  const std::vector<double> times = numbers({column.c_str(), any_number(), "time"});
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) continue;
+    throw cell_problem(rows_[i], column, rows_[i].cells[find_column(column)],
+                       fmt::format("time does not increase: {} after {}", times[i], times[i - 1]),
+                       fmt::format("more than {}", times[i - 1]));
+  }
+  return times;
+}
+
+CsvWriter::CsvWriter(const std::vector<std::string>& columns) {
+  begin_row();
+  for (const std::string& column : columns) add(column);
+  end_row();
+}
+
+void CsvWriter::begin_row() { first_in_row_ = true; }
+
+void CsvWriter::separate() {
+  if (!first_in_row_) text_ += ',';
+  first_in_row_ = false;
+}
+
+void CsvWriter::add(double value, int digits) {
+  separate();
+  if (std::isnan(value)) return;
+  const double written = value == 0.0 ? 0.0 : value;  // no "-0"
+  fmt::format_to(std::back_inserter(text_), "{:.{}g}", written, digits);
+}
+
+void CsvWriter::add(const std::string& text) {
+  separate();
+  if (text.find_first_of(",\"\r\n") == std::string::npos) {
+    text_ += text;
+    return;
+  }
+  text_ += '"';
+  for (const char c : text) {
+    if (c == '"') text_ += '"';
+    text_ += c;
+  }
+  text_ += '"';
+}
+
+void CsvWriter::end_row() { text_ += '\n'; }
+
+}  // namespace rollrig

@@ -1,0 +1,70 @@
+#pragma once
+/// CSV (RFC 4180: one header line, fields may be quoted) with messages that name line and column.
+///
+/// Own code because no package at hand reads a file whose columns are known only at run time and tells
+/// the line of a wrong field: fast-cpp-csv-parser fixes the number of columns when it is compiled.
+
+#include <string>
+#include <vector>
+
+#include "sim/core/schema.h"
+
+namespace rollrig {
+
+/// A CSV file as text cells.
+class CsvTable {
+ public:
+  /// Reads a file. Throws InputError: see read_text_file, and no header, a header without rows, ragged
+  /// rows, a quote that never ends, a column named twice.
+  static CsvTable read(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  const std::vector<std::string>& columns() const { return columns_; }
+  std::size_t row_count() const { return rows_.size(); }
+  bool has(const std::string& column) const;
+  /// Throws InputError, with the nearest known name, for a column that is not among `known`.
+  void require_known(const std::vector<std::string>& known) const;
+
+  /// The cells of a column as text. Throws InputError when the column is absent.
+  std::vector<std::string> text(const std::string& column) const;
+  /// A column in SI units by the unit in its name. An empty cell is an error, or NaN with `may_be_empty`.
+  std::vector<double> numbers(const Field& column, bool may_be_empty = false) const;
+  /// The time column: numbers that increase from row to row.
+  std::vector<double> increasing_times(const std::string& column) const;
+
+ private:
+  struct Row {
+    int line = 0;
+    std::vector<std::string> cells;
+  };
+
+  std::size_t find_column(const std::string& column) const;
+  InputError cell_problem(const Row& row, const std::string& column, const std::string& cell, const std::string& what,
+                          const std::string& allowed) const;
+  double parse_cell(const Row& row, const std::string& column, const std::string& cell, const Field& field) const;
+
+  std::string path_;
+  std::vector<std::string> columns_;
+  std::vector<Row> rows_;
+};
+
+/// Builds CSV text. Numbers are written so that reading them back gives the same value to `digits`
+/// significant digits.
+class CsvWriter {
+ public:
+  explicit CsvWriter(const std::vector<std::string>& columns);
+
+  void begin_row();
+  void add(double value, int digits = 9);  // NaN is written as an empty field
+  void add(const std::string& text);
+  void end_row();
+  std::string take() { return std::move(text_); }
+
+ private:
+  void separate();
+
+  std::string text_;
+  bool first_in_row_ = true;
+};
+
+}  // namespace rollrig

@@ -1,0 +1,65 @@
+#include "sim/core/error.h"
+
+#include <algorithm>
+
+#include <edlib.h>
+#include <fmt/format.h>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/join.hpp>
+
+namespace rollrig {
+namespace {
+
+std::string format_problem(const InputProblem& problem) {
+  std::string text = problem.what;
+  const auto append = [&text](const char* label, const std::string& content) {
+    if (!content.empty()) text += fmt::format("\n  {:<8} {}", label, content);
+  };
+  if (!problem.file.empty()) {
+    append("where", problem.line > 0 ? fmt::format("{}, line {}", problem.file, problem.line) : problem.file);
+  }
+  append("key", problem.key);
+  append("value", problem.value);
+  append("allowed", problem.allowed);
+  append("nearest", problem.nearest);
+  return text;
+}
+
+int find_edit_distance(const std::string& a, const std::string& b) {
+  const EdlibAlignResult result =
+      edlibAlign(a.data(), static_cast<int>(a.size()), b.data(), static_cast<int>(b.size()), edlibDefaultAlignConfig());
+  const int distance = result.editDistance;
+  edlibFreeAlignResult(result);
+  return distance;
+}
+
+}  // namespace
+
+InputError::InputError(InputProblem problem)
+    : std::runtime_error(format_problem(problem)), problem_(std::move(problem)) {}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& known) {
+  if (name.empty()) return {};
+  const std::string lower = boost::algorithm::to_lower_copy(name);
+  std::string best;
+  int best_distance = std::max(2, static_cast<int>(name.size()) / 2);  // Assumed: half the letters may differ
+  for (const std::string& candidate : known) {
+    const int distance = find_edit_distance(lower, boost::algorithm::to_lower_copy(candidate));
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+InputProblem unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
+  InputProblem problem;
+  problem.what = fmt::format("unknown {} '{}'", kind, name);
+  problem.value = name;
+  problem.allowed = boost::algorithm::join(known, ", ");
+  problem.nearest = nearest_name(name, known);
+  return problem;
+}
+
+}  // namespace rollrig

@@ -1,0 +1,196 @@
+#include "sim/core/file_io.h"
+
+#include <fcntl.h>
+#include <sha256.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <boost/locale/encoding_utf.hpp>
+#include <boost/locale/utf.hpp>
+#include <boost/scope_exit.hpp>
+
+#include "sim/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig {
+namespace {
+
+InputError file_problem(const std::string& what, const std::string& path, const std::string& allowed = {}) {
+  InputProblem problem;
+  problem.what = what;
+  problem.file = path;
+  problem.allowed = allowed;
+  return InputError(problem);
+}
+
+InputError write_problem(const std::string& path, int error_number) {
+  return file_problem(fmt::format("cannot write '{}': {}", path, std::strerror(error_number)), path,
+                      "a place with room where this user may write");
+}
+
+bool is_utf8(const std::string& text) {
+  auto it = text.begin();
+  while (it != text.end()) {
+    const auto code = boost::locale::utf::utf_traits<char>::decode(it, text.end());
+    if (code == boost::locale::utf::illegal || code == boost::locale::utf::incomplete) return false;
+  }
+  return true;
+}
+
+void write_all(int descriptor, const std::string& path, const std::string& content) {
+  std::size_t done = 0;
+  while (done < content.size()) {
+    const ssize_t n = ::write(descriptor, content.data() + done, content.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) throw write_problem(path, errno);
+    done += static_cast<std::size_t>(n);
+  }
+}
+
+void write_new_file(const std::string& path, const std::string& content, int flags) {
+  constexpr mode_t kReadableByAll = 0644;
+  const int descriptor = ::open(path.c_str(), flags, kReadableByAll);
+  if (descriptor < 0) throw write_problem(path, errno);
+  bool closed = false;
+  BOOST_SCOPE_EXIT_ALL(&) {
+    if (!closed) ::close(descriptor);
+  };
+  write_all(descriptor, path, content);
+  closed = true;
+  if (::close(descriptor) != 0) throw write_problem(path, errno);
+}
+
+std::string staging_name(const fs::path& target) {
+  fs::path name = target.filename().empty() ? target.parent_path().filename() : target.filename();
+  const fs::path parent = target.filename().empty() ? target.parent_path().parent_path() : target.parent_path();
+  return (parent / fmt::format(".{}.partial-{}", name.string(), ::getpid())).string();
+}
+
+/// The nearest folder on the way to `path` that exists.
+fs::path find_existing_ancestor(const fs::path& path) {
+  fs::path ancestor = fs::absolute(path);
+  while (!fs::exists(ancestor) && ancestor.has_relative_path()) ancestor = ancestor.parent_path();
+  return ancestor;
+}
+
+bool holds_files(const fs::path& path) { return fs::exists(path) && !fs::is_empty(path); }
+
+}  // namespace
+
+std::string read_text_file(const std::string& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (status.type() == fs::file_type::not_found) throw file_problem(fmt::format("no such file '{}'", path), path);
+  if (status.type() == fs::file_type::directory) {
+    throw file_problem(fmt::format("'{}' is a directory, not a file", path), path);
+  }
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(errno)), path);
+  std::ostringstream content;
+  content << in.rdbuf();
+  std::string text = content.str();
+  if (text.empty()) throw file_problem(fmt::format("'{}' is empty", path), path);
+  if (text.find('\0') != std::string::npos || !is_utf8(text)) {
+    throw file_problem(fmt::format("'{}' is not a text file", path), path, "UTF-8 text");
+  }
+  return text;
+}
+
+std::string calc_sha256(const std::string& content) {
+  std::array<char, SHA256_DIGEST_STRING_LENGTH> hex{};
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(content.data()), content.size(), hex.data());
+  return hex.data();
+}
+
+void write_file_atomically(const std::string& path, const std::string& content) {
+  if (fs::is_directory(path)) {
+    throw file_problem(fmt::format("'{}' is a directory, not a file", path), path, "a file name");
+  }
+  const std::string temporary = staging_name(path);
+  try {
+    write_new_file(temporary, content, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+    fs::rename(temporary, path);
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    if (const auto* system = dynamic_cast<const fs::filesystem_error*>(&error)) {
+      throw write_problem(path, system->code().value());
+    }
+    throw;
+  }
+}
+
+void write_output(const std::string& path, const std::string& content) {
+  if (path == "-") {
+    std::cout << content << std::flush;
+    if (!std::cout) throw file_problem("cannot write to standard output", path);
+    return;
+  }
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  const bool is_device = fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+  if (is_device) {
+    write_new_file(path, content, O_WRONLY | O_CLOEXEC);
+  } else {
+    write_file_atomically(path, content);
+  }
+}
+
+OutputFolder::OutputFolder(std::string path, bool force) : path_(std::move(path)) {
+  if (fs::exists(path_) && !fs::is_directory(path_)) {
+    throw file_problem(fmt::format("'{}' is a file, not a folder", path_), path_, "a folder name");
+  }
+  std::error_code code;
+  if (!force && fs::exists(path_) && !fs::is_empty(path_, code)) {
+    throw file_problem(fmt::format("folder '{}' holds files already", path_), path_,
+                       "an empty or new folder, or --force to overwrite files of the same name");
+  }
+  const fs::path parent = find_existing_ancestor(fs::absolute(path_).lexically_normal().parent_path());
+  if (::access(parent.c_str(), W_OK | X_OK) != 0) throw write_problem(path_, errno);
+}
+
+void OutputFolder::add(const std::string& file_name, std::string content) { files_[file_name] = std::move(content); }
+
+void OutputFolder::move_into_existing(const std::string& staging) const {
+  for (const auto& file : files_) {
+    fs::create_directories((fs::path(path_) / file.first).parent_path());
+    fs::rename(fs::path(staging) / file.first, fs::path(path_) / file.first);
+  }
+  fs::remove_all(staging);
+}
+
+void OutputFolder::commit() {
+  const std::string staging = staging_name(path_);
+  try {
+    fs::create_directories(staging);
+    for (const auto& [name, content] : files_) {
+      const fs::path file = fs::path(staging) / name;
+      fs::create_directories(file.parent_path());
+      write_new_file(file.string(), content, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+    }
+    if (holds_files(path_)) {
+      move_into_existing(staging);
+    } else {
+      fs::rename(staging, path_);
+    }
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    fs::remove_all(staging, ignored);
+    if (const auto* system = dynamic_cast<const fs::filesystem_error*>(&error)) {
+      throw write_problem(path_, system->code().value());
+    }
+    throw;
+  }
+}
+
+}  // namespace rollrig

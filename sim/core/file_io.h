@@ -1,0 +1,43 @@
+#pragma once
+/// Files in and out: reading with errors that say what is wrong, writing all or nothing.
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rollrig {
+
+/// The whole of a text file. Throws InputError when it is missing, a directory, unreadable, empty, or
+/// not UTF-8 text.
+std::string read_text_file(const std::string& path);
+
+/// SHA-256 of a string, in hexadecimal.
+std::string calc_sha256(const std::string& content);
+
+/// Writes one file: to a temporary name beside it, then renamed. Throws InputError (no permission, no
+/// space, no such folder); what stood there before is kept then.
+void write_file_atomically(const std::string& path, const std::string& content);
+
+/// Writes text to standard output for `-`, else to a file atomically; a device such as /dev/null is
+/// written to in place.
+void write_output(const std::string& path, const std::string& content);
+
+/// A result folder that appears whole or not at all: files are collected and written by commit(), into
+/// a folder beside the final one which is then renamed.
+class OutputFolder {
+ public:
+  /// Throws InputError when the folder holds files and `force` is off, or when it cannot be made.
+  OutputFolder(std::string path, bool force);
+
+  void add(const std::string& file_name, std::string content);
+  void commit();
+  const std::string& path() const { return path_; }
+
+ private:
+  void move_into_existing(const std::string& staging) const;
+
+  std::string path_;
+  std::map<std::string, std::string> files_;
+};
+
+}  // namespace rollrig

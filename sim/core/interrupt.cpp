@@ -1,0 +1,29 @@
+#include "sim/core/interrupt.h"
+
+#include <atomic>
+#include <csignal>
+
+#include "sim/core/error.h"
+
+namespace rollrig {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+extern "C" void note_interrupt(int signal_number) {
+  interrupted = true;
+  std::signal(signal_number, SIG_DFL);
+}
+
+}  // namespace
+
+void install_interrupt_handler() {
+  std::signal(SIGINT, note_interrupt);
+  std::signal(SIGTERM, note_interrupt);
+}
+
+void throw_if_interrupted() {
+  if (interrupted.load(std::memory_order_relaxed)) throw Interrupted();
+}
+
+}  // namespace rollrig

@@ -1,0 +1,54 @@
+#pragma once
+/// SUNDIALS CVODES behind the Integrator interface. This header and the library that holds it show no
+/// SUNDIALS symbol: Simbody brings an old SUNDIALS of its own, and the two must not meet.
+
+#include <memory>
+
+#include "sim/ode_system.h"
+
+#define ROLLRIG_EXPORT __attribute__((visibility("default")))
+
+namespace rollrig::sim {
+
+struct CvodesOptions {
+  double relative_tolerance = 1e-6;
+  /// Multiplies the relative and all absolute tolerances.
+  double tolerance_factor = 1.0;
+  int max_order = 5;
+};
+
+struct CvodesStatistics {
+  long steps = 0;
+  long rate_evaluations = 0;
+  long jacobian_evaluations = 0;
+  long error_test_failures = 0;
+};
+
+/// Variable-step BDF with dense difference Jacobian; the integrals are quadratures under error control;
+/// a stop condition is found as a root.
+/// Errors    RunFailure with the time and the reason when the integration cannot go on
+/// Checked   tests/sim/cvodes_integrator_test.cpp
+class ROLLRIG_EXPORT CvodesIntegrator : public Integrator<double> {
+ public:
+  explicit CvodesIntegrator(OdeSystem<double>& system, const CvodesOptions& options = {});
+  ~CvodesIntegrator() override;
+  CvodesIntegrator(const CvodesIntegrator&) = delete;
+  CvodesIntegrator& operator=(const CvodesIntegrator&) = delete;
+
+  void start(double time_s, const double* state, const double* integrals, double max_step_s,
+             const StopCondition* stop) override;
+  bool step(double end_time_s) override;
+  double time_s() const override;
+  const double* state() const override;
+  const double* integrals() const override;
+  void interpolate_state(double time_s, double* state) override;
+  void interpolate_integrals(double time_s, double* integrals) override;
+
+  CvodesStatistics statistics() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace rollrig::sim

@@ -1,0 +1,59 @@
+#pragma once
+/// What is done in a run, in time: phases, each a row of segments on which the inputs are straight lines.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollrig::sim {
+
+/// A straight line from the start of a segment.
+struct Ramp {
+  double start = 0.0;
+  double slope_per_s = 0.0;
+
+  double at(double elapsed_s) const { return start + slope_per_s * elapsed_s; }
+};
+
+/// A stretch without a knot in any input. A system is told which segment it is in; it never finds out
+/// from the time, so that a knot belongs to one side for sure.
+struct Segment {
+  double duration_s = 0.0;
+  std::vector<Ramp> inputs;  // in the order that the system declares
+};
+
+/// Ends a phase before its time: the watched quantity crosses the threshold.
+struct StopCondition {
+  enum class Direction { kFalling, kRising };
+  std::string watch;  // a name that the system knows
+  double threshold_SI = 0.0;
+  Direction direction = Direction::kFalling;
+};
+
+/// Something that is done to the system at the start of a phase, at once.
+struct Command {
+  std::string name;  // that the system knows
+  double value_SI = 0.0;
+};
+
+struct Phase {
+  std::string name;
+  std::vector<Segment> segments;
+  std::vector<Command> commands;
+  std::optional<StopCondition> until;
+  int row_stride = 1;       // every how many-th sample is written
+  double max_step_s = 5.0;  // of the fixed grid. Assumed: a fifth of the gas's time constant
+
+  double duration_s() const;
+};
+
+struct Program {
+  double start_time_s = 0.0;
+  double sample_interval_s = 1.0;
+  std::vector<Phase> phases;
+
+  double duration_s() const;
+};
+
+}  // namespace rollrig::sim

@@ -1,0 +1,53 @@
+#pragma once
+/// What a run leaves behind.
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sim/energy_audit.h"
+#include "sim/ode_system.h"
+
+namespace rollrig::sim {
+
+struct PhaseSpan {
+  std::string name;
+  double start_s = 0.0;
+  double end_s = 0.0;
+};
+
+template <class S>
+struct Recording {
+  std::vector<Channel> channels;
+  std::vector<PhaseSpan> phases;
+  std::vector<double> time_s;
+  std::vector<std::size_t> phase;      // index into phases, one a row
+  std::vector<std::vector<S>> values;  // one column a channel, SI units
+  std::vector<S> final_state;
+  std::vector<S> final_integrals;
+  EnergyAudit audit;
+
+  std::size_t row_count() const { return time_s.size(); }
+
+  /// Throws std::invalid_argument for a channel that was not recorded.
+  const std::vector<S>& channel(const std::string& name) const {
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      if (channels[i].name == name) return values[i];
+    }
+    throw std::invalid_argument("no channel '" + name + "' was recorded");
+  }
+  std::vector<S>& channel(const std::string& name) {
+    return const_cast<std::vector<S>&>(static_cast<const Recording&>(*this).channel(name));
+  }
+
+  const PhaseSpan& phase_named(const std::string& name) const {
+    for (const PhaseSpan& span : phases) {
+      if (span.name == name) return span;
+    }
+    throw std::invalid_argument("no phase '" + name + "' was run");
+  }
+};
+
+}  // namespace rollrig::sim

@@ -1,0 +1,220 @@
+#pragma once
+/// Runs a program on a system: phases, segments, events, samples, audits.
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "sim/core/error.h"
+#include "sim/core/interrupt.h"
+#include "sim/core/scalar.h"
+#include "sim/ode_system.h"
+#include "sim/recording.h"
+
+namespace rollrig::sim {
+
+/// Called now and then with the share of the program's time that is done, 0 to 1.
+using Progress = std::function<void(double done)>;
+
+namespace detail {
+
+/// Fills the rows of a recording as the integrator passes their times.
+///
+/// Samples lie at start + k d, d the program's interval. A row holds values at its time, and for mean
+/// channels the mean over the interval of length d centred on it, cut at both ends of the run.
+/// At a knot the row shows the inputs that hold from then on.
+template <class S>
+class Sampler {
+ public:
+  Sampler(OdeSystem<S>& system, const Program& program, Recording<S>& out)
+      : system_(system), out_(out), start_s_(program.start_time_s), interval_s_(program.sample_interval_s) {
+    out_.channels = system.channels();
+    out_.values.resize(out_.channels.size());
+    mean_start_.resize(system.integrals().size());
+    mean_end_.resize(mean_start_.size());
+    state_.resize(system.state_count());
+    for (const Channel& channel : out_.channels) instant_count_ += channel.is_mean() ? 0 : 1;
+    instant_.resize(instant_count_);
+  }
+
+  void begin_run(const std::vector<S>& integrals) { mean_start_ = integrals; }
+
+  void begin_phase(const Phase& phase, std::size_t index, double phase_end_s) {
+    stride_ = phase.row_stride;
+    phase_index_ = index;
+    first_of_phase_ = next_;
+    skip_until_s_ = phase.until.has_value() ? start_s_ : phase_end_s - 2.0 * interval_s_;
+  }
+
+  /// Takes over from the integrator's last step what became known; `segment_end_s` bounds row times.
+  void follow(Integrator<S>& integrator, double segment_end_s) {
+    while (true) {
+      const double row_s = time_of(next_);
+      if (!row_open_) {
+        if (row_s >= segment_end_s - kTimeSlack_s || row_s > integrator.time_s()) return;
+        open_row(integrator, row_s);
+      }
+      const double upper_s = row_s + 0.5 * interval_s_;
+      if (upper_s > integrator.time_s()) return;
+      close_row(integrator, upper_s);
+    }
+  }
+
+  /// Rows that are still open or due at the very end.
+  void finish(const std::vector<S>& state, const std::vector<S>& integrals, double end_s) {
+    if (!row_open_ && time_of(next_) <= end_s + kTimeSlack_s) {
+      state_ = state;
+      write_instants(time_of(next_));
+      row_open_ = row_written_ = true;
+    }
+    if (!row_open_ || !row_written_) return;
+    mean_end_ = integrals;
+    write_means(end_s);
+  }
+
+ private:
+  static constexpr double kTimeSlack_s = 1e-9;
+
+  double time_of(long k) const { return start_s_ + static_cast<double>(k) * interval_s_; }
+  bool is_written(long k) const { return (k - first_of_phase_) % stride_ == 0; }
+
+  void open_row(Integrator<S>& integrator, double row_s) {
+    row_open_ = true;
+    row_written_ = is_written(next_);
+    if (!row_written_) return;
+    integrator.interpolate_state(row_s, state_.data());
+    write_instants(row_s);
+  }
+
+  void close_row(Integrator<S>& integrator, double upper_s) {
+    if (row_written_ || is_written(next_ + 1) || upper_s > skip_until_s_) {
+      integrator.interpolate_integrals(upper_s, mean_end_.data());
+      if (row_written_) write_means(upper_s);
+      std::swap(mean_start_, mean_end_);
+    }
+    row_open_ = false;
+    ++next_;
+  }
+
+  void write_instants(double row_s) {
+    out_.time_s.push_back(row_s);
+    out_.phase.push_back(phase_index_);
+    system_.observe(row_s, state_.data(), instant_.data());
+    std::size_t next_instant = 0;
+    for (std::size_t i = 0; i < out_.channels.size(); ++i) {
+      out_.values[i].push_back(out_.channels[i].is_mean() ? zero<S>() : instant_[next_instant++]);
+    }
+  }
+
+  void write_means(double upper_s) {
+    const double width_s = upper_s - std::max(start_s_, time_of(next_) - 0.5 * interval_s_);
+    for (std::size_t i = 0; i < out_.channels.size(); ++i) {
+      const std::size_t integral = out_.channels[i].integral;
+      if (out_.channels[i].is_mean()) {
+        out_.values[i].back() = (mean_end_[integral] - mean_start_[integral]) / width_s;
+      }
+    }
+  }
+
+  OdeSystem<S>& system_;
+  Recording<S>& out_;
+  double start_s_;
+  double interval_s_;
+  std::size_t instant_count_ = 0;
+  std::vector<S> mean_start_, mean_end_, state_, instant_;
+  long next_ = 0;
+  long first_of_phase_ = 0;
+  bool row_open_ = false;
+  bool row_written_ = false;
+  int stride_ = 1;
+  double skip_until_s_ = 0.0;  // before it, boundaries of rows that are not written need no integrals
+  std::size_t phase_index_ = 0;
+};
+
+/// The two ledgers from what was stored before and after, and what was integrated.
+template <class S>
+EnergyAudit make_audit(const OdeSystem<S>& system, const std::vector<S>& stored_before,
+                       const std::vector<S>& stored_after, const std::vector<S>& integrals) {
+  using Ledger = EnergyTerm::Ledger;
+  EnergyAudit audit;
+  for (std::size_t i = 0; i < integrals.size(); ++i) {
+    const Integral& integral = system.integrals()[i];
+    const double total_J = value_of(integrals[i]);
+    switch (integral.role) {
+      case Integral::Role::kChannel:
+        break;
+      case Integral::Role::kWorkIn:
+        audit.terms.push_back({integral.name, Ledger::kMechanical, total_J});
+        break;
+      case Integral::Role::kDissipated:
+        audit.terms.push_back({integral.name, Ledger::kMechanical, -total_J});
+        break;
+      case Integral::Role::kHeatIn:
+        audit.terms.push_back({integral.name, Ledger::kThermal, total_J});
+        break;
+      case Integral::Role::kHeatOut:
+        audit.terms.push_back({integral.name, Ledger::kThermal, -total_J});
+        break;
+    }
+  }
+  for (std::size_t i = 0; i < system.stores().size(); ++i) {
+    const Store& store = system.stores()[i];
+    const Ledger ledger = store.role == Store::Role::kHeat ? Ledger::kThermal : Ledger::kMechanical;
+    audit.terms.push_back({store.name, ledger, value_of(stored_before[i]) - value_of(stored_after[i])});
+  }
+  return audit;
+}
+
+}  // namespace detail
+
+/// Runs `program` on `system` with `integrator`.
+/// Errors  RunFailure when the integration fails; Interrupted on Ctrl-C. The audits are in the recording;
+///         the caller says what closure it asks for.
+template <class S>
+Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Program& program,
+                      const Progress& progress = {}) {
+  Recording<S> out;
+  std::vector<S> state(system.state_count());
+  std::vector<S> integrals(system.integrals().size(), zero<S>());
+  std::vector<S> stored_before(system.stores().size());
+  std::vector<S> stored_after(stored_before.size());
+  double time_s = program.start_time_s;
+  const double duration_s = program.duration_s();
+  system.initialize(program.phases.front().segments.front(), time_s, state.data());
+  system.calc_stored(time_s, state.data(), stored_before.data());
+  detail::Sampler<S> sampler(system, program, out);
+  sampler.begin_run(integrals);
+  for (const Phase& phase : program.phases) {
+    const double phase_start_s = time_s;
+    double planned_end_s = phase_start_s;
+    bool stopped = false;
+    system.begin_phase(phase, time_s, state.data());
+    sampler.begin_phase(phase, out.phases.size(), phase_start_s + phase.duration_s());
+    for (const Segment& segment : phase.segments) {
+      planned_end_s += segment.duration_s;
+      system.begin_segment(segment, time_s, state.data(), integrals.data());
+      integrator.start(time_s, state.data(), integrals.data(), phase.max_step_s,
+                       phase.until.has_value() ? &*phase.until : nullptr);
+      while (!stopped && integrator.time_s() < planned_end_s) {
+        stopped = integrator.step(planned_end_s);
+        sampler.follow(integrator, stopped ? integrator.time_s() : planned_end_s);
+        throw_if_interrupted();
+        if (progress) progress((integrator.time_s() - program.start_time_s) / duration_s);
+      }
+      time_s = integrator.time_s();
+      state.assign(integrator.state(), integrator.state() + state.size());
+      integrals.assign(integrator.integrals(), integrator.integrals() + integrals.size());
+      if (stopped) break;
+    }
+    out.phases.push_back({phase.name, phase_start_s, time_s});
+  }
+  sampler.finish(state, integrals, time_s);
+  system.calc_stored(time_s, state.data(), stored_after.data());
+  out.audit = detail::make_audit(system, stored_before, stored_after, integrals);
+  out.final_state = std::move(state);
+  out.final_integrals = std::move(integrals);
+  return out;
+}
+
+}  // namespace rollrig::sim
