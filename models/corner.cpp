@@ -1,0 +1,166 @@
+#include "models/corner.h"
+
+#include <fmt/format.h>
+
+namespace rollrig::models {
+namespace {
+
+constexpr double kTemperatureScale_K = 10.0;  // Assumed: size of a tire's warm-up, for tolerances
+
+template <class S>
+std::vector<S> convert_parameters(const ActiveEffect& active) {
+  std::vector<S> parameters;
+  const auto& declared = active.effect->info.parameters;
+  for (std::size_t i = 0; i < declared.size(); ++i) {
+    parameters.push_back(quantity<S>(active.parameters[i], unit_of_key(declared[i].key).dimension));
+  }
+  return parameters;
+}
+
+/// K of baseline.md: 1/K_r of (3.1) from this surface to the drum on which A0 and A1 hold.
+template <class S>
+S calc_curvature_factor(const Context<S>& context) {
+  const S reference_per_m = S(2.0) / context.tire.rolling_resistance.reference_drum_diameter_m;
+  const S tire_radius_m = context.tire.geometry.outer_diameter_m / S(2.0);
+  return calc_drum_correction(reference_per_m, context.surface_curvature_per_m, tire_radius_m);
+}
+
+}  // namespace
+
+template <class S>
+Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects) : context_(std::move(context)) {
+  for (const ActiveEffect& active : effects) {
+    for (std::size_t i = 0; i < kNodeCount; ++i) nodes_[i] = nodes_[i] || active.effect->info.nodes[i];
+  }
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (!nodes_[i]) continue;
+    node_state_[i] = states_.size();
+    states_.push_back({fmt::format("{}_temperature_degC", kNodeNames[i]), kTemperatureScale_K});
+  }
+  for (const ActiveEffect& active : effects) {
+    effects_.push_back({active.effect, &active.effect->hooks<S>(), convert_parameters<S>(active), states_.size()});
+    for (const EffectState& state : active.effect->info.states) {
+      states_.push_back({fmt::format("{}.{}", active.effect->info.id, state.key), state.scale_SI});
+    }
+  }
+}
+
+template <class S>
+void Corner<S>::initialize(const S& temperature_K, const InitialPort<S>& initial, S* x) const {
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (nodes_[i]) x[node_state_[i]] = temperature_K;
+  }
+  for (const Installed& on : effects_) {
+    const auto& declared = on.effect->info.states;
+    for (std::size_t i = 0; i < declared.size(); ++i) {
+      x[on.first_state + i] = quantity<S>(0.0, unit_of_key(declared[i].key).dimension);
+    }
+    if (on.hooks->initial != nullptr) {
+      on.hooks->initial(EffectView<S>(on.parameters.data(), x + on.first_state), initial, x + on.first_state);
+    }
+  }
+}
+
+template <class S>
+void Corner<S>::apply_inputs(const S* x, Instant<S>& now) const {
+  now.context = &context_;
+  fill_temperatures(x, now.thermal);
+  now.acting = now.recorded;
+  run_port(&EffectHooks<S>::input, x, now, now.acting);
+  now.contact = {quantity<S>(0.0, Dimension{} / dimension::kForce), S(1.0), S(1.0)};
+  run_port(&EffectHooks<S>::contact, x, now, now.contact);
+}
+
+template <class S>
+S Corner<S>::calc_law_N(const Instant<S>& now) const {
+  using std::abs;
+  if (context_.baseline == Baseline::kConstantRrc) {
+    return calc_constant_rolling_resistance_N(context_.tire, now.motion.load_N);
+  }
+  return now.curvature_factor * calc_rolling_resistance_N(context_.tire, S(abs(now.motion.speed_m_s)),
+                                                          now.motion.load_N, now.pressure_Pa, now.loss.temperature_K);
+}
+
+template <class S>
+void Corner<S>::calc_losses(const S* x, Instant<S>& now) const {
+  using std::abs;
+  const S speed_m_s = abs(now.motion.speed_m_s);
+  now.boundary = {now.acting.surface_recorded ? now.acting.surface_K : now.acting.ambient_K, speed_m_s};
+  run_port(&EffectHooks<S>::boundary, x, now, now.boundary);
+  now.gas = {S(1.0), S(1.0)};
+  run_port(&EffectHooks<S>::gas, x, now, now.gas);
+  now.pressure_Pa = calc_gauge_pressure_Pa(now.inflation, now.thermal.temperature_K[index_of(Node::kGas)],
+                                           now.gas.mass_ratio, now.gas.volume_ratio);
+  now.curvature_factor = context_.baseline == Baseline::kConstantRrc ? S(1.0) : calc_curvature_factor(context_);
+  now.loss = LossPort<S>{S(1.0), now.thermal.temperature_K[index_of(Node::kRubber)], zero<S>(), zero<S>()};
+  run_port(&EffectHooks<S>::loss, x, now, now.loss);
+  now.parasitic = {S(1.0), zero<S>()};
+  run_port(&EffectHooks<S>::parasitic, x, now, now.parasitic);
+
+  const S fade = calc_standstill_fade(now.motion.speed_m_s);
+  const S law_N = now.loss.factor * calc_law_N(now);
+  now.rolling_resistance_N = fade * (law_N + now.loss.extra_force_N);
+  now.heating_force_N = fade * (law_N + now.loss.extra_heating_force_N);
+  now.parasitic_N =
+      fade * (now.parasitic.factor * calc_parasitic_N(context_.parasitic, speed_m_s) + now.parasitic.extra_force_N);
+}
+
+template <class S>
+void Corner<S>::calc_rates(const S* x, Instant<S>& now, S* rates) const {
+  fill_baseline_network(now, now.thermal);
+  run_port(&EffectHooks<S>::thermal, x, now, now.thermal);
+  now.heat = calc_heat_flows(now.thermal, now.acting.ambient_K, now.boundary.surface_K);
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (nodes_[i]) rates[node_state_[i]] = now.heat.temperature_rate_K_s[i];
+  }
+  for (const Installed& on : effects_) {
+    if (on.hooks->rates == nullptr) continue;
+    on.hooks->rates(EffectView<S>(on.parameters.data(), x + on.first_state), now, rates + on.first_state);
+  }
+}
+
+template <class S>
+S Corner<S>::calc_stored_heat_J(const S* x) const {
+  Instant<S> at_rest;  // capacities do not depend on the motion
+  at_rest.context = &context_;
+  fill_temperatures(x, at_rest.thermal);
+  fill_baseline_network(at_rest, at_rest.thermal);
+  run_port(&EffectHooks<S>::thermal, x, at_rest, at_rest.thermal);
+  S stored_J = zero<S>();
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (nodes_[i]) stored_J += at_rest.thermal.heat_capacity_J_per_K[i] * at_rest.thermal.temperature_K[i];
+  }
+  return stored_J;
+}
+
+template <class S>
+void Corner<S>::fill_temperatures(const S* x, ThermalNetwork<S>& network) const {
+  network.active = nodes_;
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (nodes_[i]) network.temperature_K[i] = x[node_state_[i]];
+  }
+}
+
+template <class S>
+void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& network) const {
+  using std::abs;
+  const TireThermalParameters<S>& thermal = context_.tire.thermal;
+  const std::size_t rubber = index_of(Node::kRubber);
+  network.heat_W = {};
+  network.air_W_per_K = {};
+  network.road_W_per_K = {};
+  network.link_W_per_K = {};
+  network.heat_capacity_J_per_K[rubber] = thermal.heat_capacity_J_per_K;
+  network.heat_capacity_J_per_K[index_of(Node::kGas)] = thermal.gas_heat_capacity_J_per_K;
+  network.heat_W[rubber] = now.heating_force_N * now.motion.speed_m_s;
+  network.road_W_per_K[rubber] = thermal.road_share_of_z * thermal.z_W_per_K;
+  network.air_W_per_K[rubber] =
+      (S(1.0) - thermal.road_share_of_z) * thermal.z_W_per_K + thermal.f_W_s_per_m_K * now.boundary.air_speed_m_s;
+  network.link(Node::kRubber, Node::kGas) = thermal.H_gas_W_per_K;
+}
+
+template class Corner<double>;
+template class Corner<Jet>;
+template class Corner<DimensionedScalar>;
+
+}  // namespace rollrig::models

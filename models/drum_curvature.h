@@ -1,0 +1,21 @@
+#pragma once
+/// Correction of rolling resistance from one drum to another.
+
+#include "sim/core/scalar.h"
+
+namespace rollrig::models {
+
+/// K_r from drum 1 to drum 2: F_r2 = K_r F_r1.
+/// Equation  K_r = sqrt((R_1/R_2) (R_2 + r_T) / (R_1 + r_T)), written with curvatures k = 1/R so that a
+///           flat surface (k = 0) is a drum like any other: sqrt((1 + r_T k_2) / (1 + r_T k_1))
+/// Symbols   k_1, k_2 curvature of drum 1 and 2 [1/m]; r_T half the nominal tire diameter [m]
+/// Validity  k >= 0
+/// Source    (3.1)
+/// Checked   tests/models/drum_curvature_test.cpp
+template <class S>
+S calc_drum_correction(const S& curvature_1_per_m, const S& curvature_2_per_m, const S& tire_radius_m) {
+  using std::sqrt;
+  return sqrt((S(1.0) + tire_radius_m * curvature_2_per_m) / (S(1.0) + tire_radius_m * curvature_1_per_m));
+}
+
+}  // namespace rollrig::models

@@ -1,0 +1,68 @@
+/// The bearings of the rig run easier as they warm.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct BearingWarmup {
+  enum Parameter { kFall, kTimeConstant, kRise, kReference };
+  enum State { kBearingRise };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "bearing_warmup";
+    info.summary = "The rig's bearings warm as it runs, and the parasitic loss falls with their temperature";
+    info.equation =
+        "F_par <- F_par exp(-b (theta - r D)); tau d(theta)/dt = D v/v_ref - theta, theta = T_b - T_amb, "
+        "v_ref = 80 km/h";
+    info.source =
+        "source §4.1.7, §5.2; 0.005 to 0.04 /K and 10 to 60 min: effects.md. Assumed: D, heating in proportion "
+        "to speed, r = 1: parasitic coefficients taken on a warm rig";
+    info.parameters = {
+        {"fall_per_K",
+         between(-0.2, 0.2),
+         {0.005, 0.04, Prior::Scale::kLog},
+         "b, relative fall with bearing temperature",
+         0.0},
+        {"time_constant_min", between(0.5, 600.0), {10.0, 60.0, Prior::Scale::kLog}, "tau, of the bearings' warm-up"},
+        {"rise_dK",
+         between(0.1, 100.0),
+         {8.0, 25.0, Prior::Scale::kLog},
+         "D, rise over ambient in steady running at 80 km/h"},
+        {"reference_share",
+         between(-1.0, 2.0),
+         {0.5, 1.5},
+         "r: c0, c1, c2 hold at the rise r D; 1 = on a warm rig, 0 = cold"}};
+    info.states = {{"bearing_rise_dK", 10.0, "theta, bearing temperature over ambient"}};
+    info.visible_in = {"drum_torque_Nm"};
+    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.confused_with = {"torque_zero_drift", "tire_loss_in_skim"};
+    info.splitting_tests = {"drum alone for 30 min, then a cold tire on the hot drum",
+                            "torque at standstill before and after"};
+    return info;
+  }
+
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>&, ParasiticPort<S>& port) {
+    using std::exp;
+    const S over_reference_dK = self.state(kBearingRise) - self.parameter(kReference) * self.parameter(kRise);
+    port.factor *= exp(-self.parameter(kFall) * over_reference_dK);
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
+    using std::abs;
+    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S aim_dK = self.parameter(kRise) * abs(now.motion.speed_m_s) / reference_m_s;
+    rates[kBearingRise] = (aim_dK - self.state(kBearingRise)) / self.parameter(kTimeConstant);
+  }
+};
+
+}  // namespace
+
+const Effect& effect_bearing_warmup() {
+  static const Effect effect = make_effect<BearingWarmup>();
+  return effect;
+}
+
+}  // namespace rollrig::models

@@ -1,0 +1,40 @@
+/// The loss grows with another power of the load than the first.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct LoadExponent {
+  enum Parameter { kExponent };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "load_exponent";
+    info.summary = "Rolling resistance goes with a power of the load other than one, at equal temperature";
+    info.equation = "F_rr <- F_rr (Fz/Fz_ref)^(b - 1), so that F_rr goes with Fz^b";
+    info.source = "source (3.7) and §3.3.1.3; 0.85 to 1.15: effects.md";
+    info.parameters = {{"exponent", between(0.3, 2.0), {0.85, 1.15}, "b, exponent of the load", 1.0}};
+    info.visible_in = {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.confused_with = {"tire_loss_in_skim", "bearing_load_friction"};
+    info.splitting_tests = {"skim at 50, 100, 200 and 400 N, extrapolated to zero", "load sweep hot and cold"};
+    return info;
+  }
+
+  template <class S>
+  static void loss(const EffectView<S>& self, const Instant<S>& now, LossPort<S>& port) {
+    using std::pow;
+    const S& load_N = now.motion.load_N;
+    if (value_of(load_N) <= 0.0) return;  // lifted: no loss to scale
+    const S& reference_N = now.context->tire.rolling_resistance.reference_load_N;
+    port.factor *= pow(load_N / reference_N, self.parameter(kExponent) - S(1.0));
+  }
+};
+
+}  // namespace
+
+const Effect& effect_load_exponent() {
+  static const Effect effect = make_effect<LoadExponent>();
+  return effect;
+}
+
+}  // namespace rollrig::models

@@ -1,0 +1,19 @@
+#include "models/effect.h"
+
+namespace rollrig::models {
+
+// Named one by one, since the linker drops objects of a static library that nothing refers to.
+#define ROLLRIG_EFFECT(id) const Effect& effect_##id();
+#include "models/effects/effects.def"
+#undef ROLLRIG_EFFECT
+
+const std::vector<const Effect*>& all_effects() {
+  static const std::vector<const Effect*> effects{
+#define ROLLRIG_EFFECT(id) &effect_##id(),
+#include "models/effects/effects.def"
+#undef ROLLRIG_EFFECT
+  };
+  return effects;
+}
+
+}  // namespace rollrig::models

@@ -1,0 +1,34 @@
+#pragma once
+/// Loss of the rig alone.
+
+#include "models/rolling_resistance.h"
+#include "sim/core/schema.h"
+
+namespace rollrig::models {
+
+/// Coefficients of the parasitic loss, as force at the surface of the drum, tire lifted.
+template <class S>
+struct ParasiticParameters {
+  S c0_N{};
+  S c1_N_s_per_m{};
+  S c2_N_s2_per_m2{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"c0_N", non_negative(), "Bearing friction"}, p.c0_N);
+    visit(Field{"c1_N_s_per_m", non_negative(), "Its rise with speed"}, p.c1_N_s_per_m);
+    visit(Field{"c2_N_s2_per_m2", non_negative(), "Air drag of the drum"}, p.c2_N_s2_per_m2);
+  }
+};
+
+/// Parasitic loss as a force at the surface.
+/// Equation  F_par = c0 + c1 v + c2 v^2
+/// Symbols   v surface speed [m/s], not negative
+/// Source    definition of parasitic loss: §3.2.1 item 5. Assumed: the quadratic form (baseline.md)
+/// Checked   tests/models/parasitic_loss_test.cpp
+template <class S>
+S calc_parasitic_N(const ParasiticParameters<S>& p, const S& speed_m_s) {
+  return p.c0_N + p.c1_N_s_per_m * speed_m_s + p.c2_N_s2_per_m2 * speed_m_s * speed_m_s;
+}
+
+}  // namespace rollrig::models

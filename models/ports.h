@@ -1,0 +1,163 @@
+#pragma once
+/// The ports: places in the chain of equations where an effect may act, in the order of baseline.md.
+///
+/// One evaluation fills an Instant port by port. An effect's function for a port receives the Instant,
+/// of which everything that stands before its port is filled, and the port itself, which it changes.
+/// The gas port is filled before the loss port, because the loss law needs the pressure; it reads
+/// inputs and boundary only.
+
+#include <string>
+#include <vector>
+
+#include "models/inflation_gas.h"
+#include "models/parasitic_loss.h"
+#include "models/thermal_network.h"
+#include "models/tire.h"
+
+namespace rollrig::models {
+
+/// Which law gives the loss before any effect acts (formats.md, `baseline`).
+enum class Baseline { kCombined, kConstantRrc };
+
+/// What does not change in a run: the tire, the machine under it, and the baseline.
+template <class S>
+struct Context {
+  TireParameters<S> tire;
+  ParasiticParameters<S> parasitic;
+  Baseline baseline = Baseline::kCombined;
+  S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
+  S machine_inertia_kg_m2{};    // drum or roller, about its axis
+  S skim_load_N{};              // the rig's skim load
+};
+
+/// Port "input": what is recorded, on entry; what really acts, on exit.
+template <class S>
+struct InputPort {
+  S speed_m_s{};  // of the surface
+  S acceleration_m_s2{};
+  S load_N{};
+  S ambient_K{};
+  S surface_K{};  // used where surface_recorded
+  bool surface_recorded = false;
+  S longitudinal_force_N{};  // wheel on roller, positive when it drives; zero on a drum rig
+  S slope{};                 // rise over run; zero on rigs
+  S wind_m_s{};              // along the road, positive against the vehicle; zero on rigs
+  S air_density_ratio{};     // to the reference density; 1 in the baseline
+};
+
+/// What the mechanics do at this instant: given by the multibody system, or by equilibrium.
+template <class S>
+struct Motion {
+  S speed_m_s{};             // of the surface past the contact
+  S acceleration_m_s2{};     // of the surface
+  S load_N{};                // at the contact
+  S longitudinal_force_N{};  // at the contact, on the wheel, in the direction of the surface's motion
+  S slip_power_W{};          // dissipated by longitudinal slip
+};
+
+/// Port "boundary": surroundings of the tire.
+template <class S>
+struct BoundaryPort {
+  S surface_K{};      // the recorded surface, or the ambient air where none is recorded
+  S air_speed_m_s{};  // that carries heat off the tire; the surface speed in the baseline
+};
+
+/// Port "gas": the sealed cavity.
+template <class S>
+struct GasPort {
+  S mass_ratio{};    // gas left, of what was filled in
+  S volume_ratio{};  // volume, of that at which it was filled
+};
+
+/// Port "contact and inertia".
+template <class S>
+struct ContactPort {
+  S slip_compliance_per_N{};   // 1/C of Fx = C slip; 0 = no slip loss, as in the baseline
+  S machine_inertia_factor{};  // on the drum's or roller's inertia; 1 in the baseline
+  S vehicle_mass_factor{};     // on the effective mass of a vehicle; 1 in the baseline
+};
+
+/// Port "loss": rolling resistance.
+template <class S>
+struct LossPort {
+  S factor{};         // on the rolling resistance of the law; 1 in the baseline
+  S temperature_K{};  // that the law sees; the rubber node's in the baseline
+
+  /// Adds a resisting force of the tire, of which `heat_share` heats the rubber.
+  void add_force(const S& force_N, const S& heat_share) {
+    extra_force_N += force_N;
+    extra_heating_force_N += force_N * heat_share;
+  }
+  /// Adds a resisting force of the tire, all of which heats the rubber.
+  void add_heating_force(const S& force_N) { add_force(force_N, S(1.0)); }
+
+  S extra_force_N{};
+  S extra_heating_force_N{};
+};
+
+/// Port "parasitic": loss of rig or vehicle beside the tire.
+template <class S>
+struct ParasiticPort {
+  S factor{};         // on F_par; 1 in the baseline
+  S extra_force_N{};  // at the surface
+};
+
+/// Port "thermal": the network itself, which the baseline has filled.
+template <class S>
+using ThermalPort = ThermalNetwork<S>;
+
+/// Everything at one instant.
+template <class S>
+struct Instant {
+  const Context<S>* context = nullptr;
+  Inflation<S> inflation;
+
+  InputPort<S> recorded;
+  InputPort<S> acting;
+  Motion<S> motion;
+  BoundaryPort<S> boundary;
+  GasPort<S> gas;
+  S pressure_Pa{};  // gauge
+  ContactPort<S> contact;
+  LossPort<S> loss;
+  ParasiticPort<S> parasitic;
+  ThermalPort<S> thermal;  // its temperatures are filled from the start
+
+  S curvature_factor{};      // K of baseline.md
+  S rolling_resistance_N{};  // F_rr with every effect, faded at standstill
+  S heating_force_N{};       // part of it that heats the rubber
+  S parasitic_N{};           // faded at standstill
+  HeatFlows<S> heat;
+};
+
+/// Port "trace": the measured channels after a run, one row a sample.
+template <class S>
+struct TracePort {
+  const Context<S>* context = nullptr;
+  std::vector<double> time_s;
+
+  struct Channel {
+    std::string name;       // with the unit of the file, such as "drum_torque_Nm"
+    std::vector<S> values;  // SI; NaN where there is no sample
+  };
+  std::vector<Channel> channels;
+
+  /// The values of a channel, or nullptr where the run does not have it.
+  std::vector<S>* find(const std::string& name) {
+    for (Channel& channel : channels) {
+      if (channel.name == name) return &channel.values;
+    }
+    return nullptr;
+  }
+};
+
+/// Port "initial state".
+template <class S>
+struct InitialPort {
+  const Context<S>* context = nullptr;
+  bool soaked = true;         // at rest so long that nothing remembers; formats.md's default
+  S rest_before_s{};          // standstill before the run, where not soaked
+  bool started_warm = false;  // right after another run (tire_state = "warm")
+};
+
+}  // namespace rollrig::models

@@ -1,0 +1,84 @@
+#include "models/sensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sim/core/error.h"
+#include "sim/core/random.h"
+
+namespace rollrig::models {
+namespace {
+
+/// A standard deviation in the unit of the channel is a difference: the factor without the offset.
+double difference_to_si(const std::string& channel, double value) { return value * unit_of_key(channel).factor; }
+
+SensorParameters read_sensor(TableReader& reader, const std::string& channel) {
+  SensorParameters sensor;
+  const auto in_channel_unit = [&](const char* key, const char* doc) {
+    return difference_to_si(channel, reader.number({key, non_negative(), doc}));
+  };
+  sensor.offset_sd = in_channel_unit("offset_sd", "constant over a session");
+  sensor.drift_sd = in_channel_unit("drift_sd", "first-order autoregressive drift");
+  sensor.drift_time_s = reader.number({"drift_time_s", positive(), "its time constant"});
+  sensor.noise_sd = in_channel_unit("noise_sd", "white, per sample");
+  sensor.resolution = in_channel_unit("resolution", "quantisation step, 0 for none");
+  reader.finish();
+  return sensor;
+}
+
+}  // namespace
+
+SensorSet read_sensors(const ConfigTable& sensors, const std::vector<std::string>& known) {
+  SensorSet set;
+  TableReader reader(sensors, "[sensors]");
+  for (const std::string& channel : sensors.keys()) {
+    if (std::find(known.begin(), known.end(), channel) == known.end()) {
+      InputProblem problem = unknown_name("measured channel", channel, known);
+      problem.file = sensors.find(channel)->origin.file;
+      problem.line = sensors.find(channel)->origin.line;
+      problem.key = fmt::format("[sensors.{}]", channel);
+      throw InputError(problem);
+    }
+    TableReader own(*reader.table(channel), fmt::format("[sensors.{}]", channel));
+    set[channel] = read_sensor(own, channel);
+  }
+  return set;
+}
+
+void apply_sensor(const SensorParameters& sensor, const std::string& channel, const SensorStream& stream,
+                  const std::vector<double>& time_s, std::vector<double>& values) {
+  RandomStream offsets(stream.seed, "offset/" + stream.session + "/" + channel);
+  RandomStream drifts(stream.seed, "drift/" + stream.run + "/" + channel);
+  RandomStream noises(stream.seed, "noise/" + stream.run + "/" + channel);
+  const double offset = sensor.offset_sd * offsets.normal();
+  double drift = sensor.drift_sd * drifts.normal();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) {
+      const double memory = std::exp(-(time_s[i] - time_s[i - 1]) / sensor.drift_time_s);
+      drift = memory * drift + sensor.drift_sd * std::sqrt(1.0 - memory * memory) * drifts.normal();
+    }
+    values[i] += offset + drift + sensor.noise_sd * noises.normal();
+    if (sensor.resolution > 0.0) {
+      // Rounded in the unit that is shown: for a temperature in K the zero of degC is a whole number of steps.
+      const double zero = unit_of_key(channel).offset_SI;
+      values[i] = zero + std::round((values[i] - zero) / sensor.resolution) * sensor.resolution;
+    }
+  }
+}
+
+double calc_difference_variance(const SensorParameters& sensor, int count, double interval_s, double apart_s) {
+  const auto mean_covariance = [&](double shift_s) {
+    double sum = 0.0;
+    for (int lag = -(count - 1); lag <= count - 1; ++lag) {
+      const double distance_s = std::abs(shift_s + lag * interval_s);
+      sum += (count - std::abs(lag)) * std::exp(-distance_s / sensor.drift_time_s);
+    }
+    return sensor.drift_sd * sensor.drift_sd * sum / (static_cast<double>(count) * count);
+  };
+  const double white = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0;
+  return 2.0 * mean_covariance(0.0) - 2.0 * mean_covariance(apart_s) + 2.0 * white / count;
+}
+
+}  // namespace rollrig::models

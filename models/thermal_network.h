@@ -1,0 +1,84 @@
+#pragma once
+/// Lumped thermal network of tire, gas and what effects add: nodes, heat into them, conductances.
+
+#include <array>
+#include <cstddef>
+
+#include "sim/core/scalar.h"
+
+namespace rollrig::models {
+
+/// Nodes that may exist. Rubber and gas always do; the rubber node is the inner liner's side, which the
+/// sensor reads. Tread and rim exist when an effect asks for them.
+enum class Node : std::size_t { kRubber, kGas, kTread, kRim };
+constexpr std::size_t kNodeCount = 4;
+constexpr std::array<const char*, kNodeCount> kNodeNames{"rubber", "gas", "tread", "rim"};
+
+constexpr std::size_t index_of(Node node) { return static_cast<std::size_t>(node); }
+
+/// Which nodes a tire has.
+using NodeSet = std::array<bool, kNodeCount>;
+constexpr NodeSet kBaselineNodes{true, true, false, false};
+
+template <class S>
+struct ThermalNetwork {
+  template <class T>
+  using PerNode = std::array<T, kNodeCount>;
+
+  NodeSet active = kBaselineNodes;
+  PerNode<S> temperature_K{};
+  PerNode<S> heat_capacity_J_per_K{};
+  PerNode<S> heat_W{};                 // generated in the node or brought into it
+  PerNode<S> air_W_per_K{};            // conductance to the ambient air
+  PerNode<S> road_W_per_K{};           // conductance to the surface
+  PerNode<PerNode<S>> link_W_per_K{};  // between nodes, for a < b
+
+  S& link(Node a, Node b) {
+    const std::size_t i = index_of(a);
+    const std::size_t j = index_of(b);
+    return i < j ? link_W_per_K[i][j] : link_W_per_K[j][i];
+  }
+};
+
+/// What the network does at one instant.
+template <class S>
+struct HeatFlows {
+  std::array<S, kNodeCount> temperature_rate_K_s{};
+  S heat_in_W{};  // generated, all nodes
+  S to_air_W{};
+  S to_road_W{};
+};
+
+/// Heat balance of every node.
+/// Equation  C_i dT_i/dt = Q_i - a_i (T_i - T_amb) - r_i (T_i - T_surface) - sum_j G_ij (T_i - T_j)
+/// Symbols   C heat capacity [J/K], Q heat generated [W], a, r conductance to air and road [W/K],
+///           G conductance between nodes [W/K], T temperatures [K]
+/// Energy    sum C_i dT_i/dt = heat_in - to_air - to_road, exactly
+/// Source    (3.12), (3.13), (3.19)
+/// Checked   tests/models/thermal_network_test.cpp
+template <class S>
+HeatFlows<S> calc_heat_flows(const ThermalNetwork<S>& network, const S& ambient_K, const S& surface_K) {
+  HeatFlows<S> flows;
+  std::array<S, kNodeCount> net_W{};
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (!network.active[i]) continue;
+    const S air_W = network.air_W_per_K[i] * (network.temperature_K[i] - ambient_K);
+    const S road_W = network.road_W_per_K[i] * (network.temperature_K[i] - surface_K);
+    flows.heat_in_W += network.heat_W[i];
+    flows.to_air_W += air_W;
+    flows.to_road_W += road_W;
+    net_W[i] += network.heat_W[i] - air_W - road_W;
+    for (std::size_t j = i + 1; j < kNodeCount; ++j) {
+      if (!network.active[j]) continue;
+      const S through_W = network.link_W_per_K[i][j] * (network.temperature_K[i] - network.temperature_K[j]);
+      net_W[i] -= through_W;
+      net_W[j] += through_W;
+    }
+  }
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (network.active[i]) flows.temperature_rate_K_s[i] = net_W[i] / network.heat_capacity_J_per_K[i];
+  }
+  return flows;
+}
+
+}  // namespace rollrig::models
