@@ -1,0 +1,75 @@
+#include "rigs/drum_channels.h"
+
+#include "sim/energy_audit.h"
+
+namespace rollrig::rigs {
+namespace {
+
+// Errors that do not matter, for the integrator's control: of a mean over one second a few 1e-5 of its
+// usual size, of an energy a few 1e-9 of a test's motor work (1e6 J).
+constexpr double kForceTime_N_s = 1e-3;
+constexpr double kTemperatureTime_K_s = 1e-3;
+constexpr double kPressureTime_Pa_s = 10.0;
+constexpr double kEnergy_J = 5e-3;
+
+}  // namespace
+
+std::vector<sim::Integral> make_drum_integrals(Detail detail) {
+  using Role = sim::Integral::Role;
+  std::vector<sim::Integral> integrals{
+      {"drum_torque", Role::kChannel, kForceTime_N_s},
+      {"liner_temperature", Role::kChannel, kTemperatureTime_K_s},
+      {"cavity_pressure", Role::kChannel, kPressureTime_Pa_s},
+      {"gas_temperature", Role::kChannel, kTemperatureTime_K_s},
+      {"rolling_resistance", Role::kChannel, kForceTime_N_s},
+      {"parasitic", Role::kChannel, kForceTime_N_s},
+      {"spindle_force", Role::kChannel, kForceTime_N_s},
+      {"contact_load", Role::kChannel, kForceTime_N_s},
+      {sim::kMotorWork, Role::kWorkIn, kEnergy_J},
+      {"load_actuator", Role::kWorkIn, kEnergy_J},
+      {"load_changes", Role::kWorkIn, kEnergy_J},
+      {"tire_loss", Role::kDissipated, kEnergy_J},
+      {"slip_loss", Role::kDissipated, kEnergy_J},
+      {"bearing_loss", Role::kDissipated, kEnergy_J},
+      {"tire_damper", Role::kDissipated, kEnergy_J},
+      {"cylinder_damper", Role::kDissipated, kEnergy_J},
+      {"heat_generated", Role::kHeatIn, kEnergy_J},
+      {"heat_to_air", Role::kHeatOut, kEnergy_J},
+      {"heat_to_road", Role::kHeatOut, kEnergy_J},
+  };
+  if (detail == Detail::kMeasured) integrals.resize(index_of(DrumIntegral::kRollingResistance));
+  return integrals;
+}
+
+std::vector<sim::Store> make_drum_stores(Detail detail) {
+  using Role = sim::Store::Role;
+  if (detail == Detail::kMeasured) return {};
+  return {{"kinetic", Role::kMechanical},
+          {"gravity", Role::kMechanical},
+          {"tire_spring", Role::kMechanical},
+          {"slip_spring", Role::kMechanical},
+          {"stored_heat", Role::kHeat}};
+}
+
+std::vector<sim::Channel> make_drum_channels(const std::vector<models::CornerState>& states, bool surface_recorded,
+                                             Detail detail) {
+  const auto mean = [](const char* name, DrumIntegral integral) { return sim::Channel{name, index_of(integral)}; };
+  std::vector<sim::Channel> channels;
+  if (detail == Detail::kFull) {
+    for (const char* given : {"speed_km_h", "load_N", "ambient_degC"}) channels.push_back({given});
+    if (surface_recorded) channels.push_back({"surface_temperature_degC"});
+  }
+  channels.push_back(mean("drum_torque_Nm", DrumIntegral::kDrumTorque));
+  channels.push_back(mean("liner_temperature_degC", DrumIntegral::kLinerTemperature));
+  channels.push_back(mean("cavity_pressure_kPa", DrumIntegral::kCavityPressure));
+  channels.push_back(mean("gas_temperature_degC", DrumIntegral::kGasTemperature));
+  if (detail == Detail::kMeasured) return channels;
+  channels.push_back(mean("rolling_resistance_N", DrumIntegral::kRollingResistance));
+  channels.push_back(mean("parasitic_N", DrumIntegral::kParasitic));
+  channels.push_back(mean("spindle_force_N", DrumIntegral::kSpindleForce));
+  channels.push_back(mean("contact_load_N", DrumIntegral::kContactLoad));
+  for (std::size_t i = 2; i < states.size(); ++i) channels.push_back({states[i].key});  // after rubber and gas
+  return channels;
+}
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,345 @@
+#include "rigs/multibody_drum.h"
+
+#include <Simbody.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "models/contact_force_element.h"
+#include "rigs/drum_actuators.h"
+
+namespace rollrig::rigs {
+
+using models::ContactEvaluation;
+using models::ContactForceElement;
+using models::Corner;
+using models::Node;
+using SimTK::MobilizedBody;
+using SimTK::Rotation;
+using SimTK::Transform;
+using SimTK::Vec3;
+
+namespace {
+
+/// A body that turns about z: the given inertia about that axis, a plausible one about the others.
+SimTK::Body::Rigid make_rotor(double mass_kg, double spin_inertia_kg_m2) {
+  constexpr double kTransverseShare = 0.6;  // between a disk (0.5) and a ring; no motion depends on it
+  const double transverse_kg_m2 = kTransverseShare * spin_inertia_kg_m2;
+  return SimTK::Body::Rigid(
+      SimTK::MassProperties(mass_kg, Vec3(0), SimTK::Inertia(transverse_kg_m2, transverse_kg_m2, spin_inertia_kg_m2)));
+}
+
+SimTK::Body::Rigid make_block(double mass_kg) {
+  return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, Vec3(0), SimTK::Inertia(mass_kg)));
+}
+
+/// Port "contact and inertia" of a corner. The bodies are built with it, so on this rig it may depend on
+/// parameters only, not on time or state.
+models::ContactPort<double> find_contact_port(const Corner<double>& corner) {
+  const std::vector<double> x(corner.state_count(), 0.0);
+  models::Instant<double> now;
+  corner.apply_inputs(x.data(), now);
+  return now.contact;
+}
+
+// Errors that do not matter at a relative tolerance of 1e-6, for the integrator's control.
+constexpr double kAngle_rad = 1.0;
+constexpr double kHeight_m = 1e-9;
+constexpr double kSpeed_rad_s = 1e-8;
+constexpr double kCarriageSpeed_m_s = 1e-8;
+constexpr double kSlipForce_N = 1e-4;
+constexpr double kStateShare = 1e-7;  // of a corner state's scale
+constexpr double kSpeedIntegral_rad = 1e-8;
+
+}  // namespace
+
+class MultibodyDrum::Implementation {
+ public:
+  Implementation(Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded)
+      : corner_(corner),
+        start_(std::move(start)),
+        surface_recorded_(surface_recorded),
+        contact_port_(find_contact_port(corner)),
+        integrals_(make_drum_integrals(Detail::kFull)),
+        stores_(make_drum_stores(Detail::kFull)),
+        channels_(make_drum_channels(corner.states(), surface_recorded, Detail::kFull)),
+        matter_(system_),
+        forces_(system_),
+        gravity_(forces_, matter_, Vec3(0, -kStandardGravity_m_s2, 0)),
+        drum_(matter_.Ground(), Transform(),
+              make_rotor(kDrumMass_kg, corner.context().machine_inertia_kg_m2 * contact_port_.machine_inertia_factor),
+              Transform()),
+        carriage_(matter_.Ground(), kUpwards, make_block(rig.carriage.mass_kg), kUpwards),
+        wheel_(carriage_, kReversed,
+               make_rotor(corner.context().tire.geometry.mass_kg + corner.context().tire.geometry.wheel_mass_kg,
+                          corner.context().tire.geometry.spin_inertia_kg_m2),
+               kReversed),
+        contact_(new ContactForceElement(
+            forces_, matter_, {wheel_.getMobilizedBodyIndex(), drum_.getMobilizedBodyIndex()}, corner,
+            [this](double time_s) {
+              return read_drum_inputs<double>(*segment_, time_s - segment_start_s_, surface_recorded_);
+            })),
+        actuators_(new DrumActuators(
+            forces_, matter_,
+            {drum_.getMobilizedBodyIndex(), carriage_.getMobilizedBodyIndex(), wheel_.getMobilizedBodyIndex()}, rig,
+            *contact_, corner.context())) {
+    matter_.setShowDefaultGeometry(false);
+    contact_->update_contact_parameters(contact_port_.slip_compliance_per_N);
+    SimTK::Force::Custom(forces_, contact_);
+    SimTK::Force::Custom(forces_, actuators_);
+    state_ = system_.realizeTopology();
+    system_.realizeModel(state_);
+  }
+
+  std::size_t state_count() const { return static_cast<std::size_t>(state_.getNY()); }
+
+  std::vector<double> state_tolerances() const {
+    const double spring_N_per_m = slip_spring_N_per_m();
+    std::vector<double> tolerances{kAngle_rad,
+                                   kHeight_m,
+                                   kAngle_rad,
+                                   kSpeed_rad_s,
+                                   kCarriageSpeed_m_s,
+                                   kSpeed_rad_s,
+                                   kSlipForce_N / spring_N_per_m};
+    for (const models::CornerState& state : corner_.states()) tolerances.push_back(kStateShare * state.scale_SI);
+    tolerances.push_back(kSpeedIntegral_rad);
+    return tolerances;
+  }
+
+  const std::vector<sim::Integral>& integrals() const { return integrals_; }
+  const std::vector<sim::Store>& stores() const { return stores_; }
+  const std::vector<sim::Channel>& channels() const { return channels_; }
+  const models::Inflation<double>& inflation() const { return contact_->inflation(); }
+
+  void initialize(const sim::Segment& first, double time_s, double* y) {
+    segment_ = &first;
+    segment_start_s_ = time_s;
+    actuators_->set_motor(true);
+    contact_->set_inflation(start_.inflation());
+    SimTK::Vector& z = forces_.updZ(state_);
+    z = 0.0;
+    corner_.initialize(start_.tire_temperature_K, start_.history, &z[contact_->first_z() + 1]);
+    set_equilibrium(time_s);
+    const SimTK::Vector& all = state_.getY();
+    std::copy(&all[0], &all[0] + all.size(), y);
+  }
+
+  void begin_phase(const sim::Phase& phase, const double* y) {
+    for (const sim::Command& command : phase.commands) {
+      if (command.name == kSetPressure) {
+        models::Inflation<double> inflation = contact_->inflation();
+        inflation.cold_pressure_Pa = command.value_SI;
+        inflation.temperature_K = y[corner_offset() + corner_.state_of(Node::kGas)];
+        contact_->set_inflation(inflation);
+      } else if (command.name == kMotor) {
+        actuators_->set_motor(command.value_SI != 0.0);
+      } else {
+        throw std::invalid_argument("drum rig: unknown command " + command.name);
+      }
+    }
+    state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
+  }
+
+  void begin_segment(const sim::Segment& segment, double time_s) {
+    segment_ = &segment;
+    segment_start_s_ = time_s;
+    state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
+  }
+
+  void evaluate(double time_s, const double* y, double* rates, double* integrands) {
+    set_state(time_s, y);
+    if (rates != nullptr) {
+      system_.realize(state_, SimTK::Stage::Acceleration);
+      const SimTK::Vector& y_dot = state_.getYDot();
+      std::copy(&y_dot[0], &y_dot[0] + y_dot.size(), rates);
+    }
+    if (integrands != nullptr) {
+      system_.realize(state_, SimTK::Stage::Dynamics);
+      fill_integrands(integrands);
+    }
+  }
+
+  double watch(const std::string& name, double time_s, const double* y) {
+    if (name == kWatchTireTemperature) return y[corner_offset() + corner_.state_of(Node::kRubber)];
+    if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);
+    set_state(time_s, y);
+    return y[kSpeeds] / corner_.context().surface_curvature_per_m;
+  }
+
+  void observe(double time_s, const double* y, double* values) const {
+    const models::InputPort<double> inputs =
+        read_drum_inputs<double>(*segment_, time_s - segment_start_s_, surface_recorded_);
+    *values++ = actuators_->motor_on() ? inputs.speed_m_s : y[kSpeeds] / corner_.context().surface_curvature_per_m;
+    *values++ = inputs.load_N;
+    *values++ = inputs.ambient_K;
+    if (surface_recorded_) *values++ = inputs.surface_K;
+    for (std::size_t i = 2; i < corner_.state_count(); ++i) *values++ = y[corner_offset() + i];
+  }
+
+  void calc_stored(double time_s, const double* y, double* stored_J) {
+    set_state(time_s, y);
+    system_.realize(state_, SimTK::Stage::Dynamics);
+    const ContactEvaluation& at = contact_->evaluation(state_);
+    stored_J[index_of(DrumStore::kKinetic)] = system_.calcKineticEnergy(state_);
+    stored_J[index_of(DrumStore::kTireSpring)] = contact_->calc_tire_spring_J(at);
+    stored_J[index_of(DrumStore::kSlipSpring)] = contact_->calc_slip_spring_J(state_);
+    stored_J[index_of(DrumStore::kGravity)] = system_.calcPotentialEnergy(state_) -
+                                              stored_J[index_of(DrumStore::kTireSpring)] -
+                                              stored_J[index_of(DrumStore::kSlipSpring)];
+    stored_J[index_of(DrumStore::kHeat)] = corner_.calc_stored_heat_J(y + corner_offset());
+  }
+
+  DrumForces find_forces(double time_s, const double* y) {
+    set_state(time_s, y);
+    system_.realize(state_, SimTK::Stage::Acceleration);
+    const ContactEvaluation& at = contact_->evaluation(state_);
+    const SimTK::SpatialVec hub = wheel_.findMobilizerReactionOnBodyAtMInGround(state_);
+    DrumForces forces;
+    forces.motor_torque_Nm = actuators_->evaluate(state_, at.now.acting).motor_torque_Nm;
+    forces.contact_load_N = at.normal_N;
+    forces.spindle_force_N = at.slip.force_N;
+    forces.spindle_reaction_N = -SimTK::dot(hub[1], at.tangent);
+    forces.hub_moment_Nm = SimTK::dot(hub[0], at.axis);
+    forces.rolling_resistance_N = at.now.rolling_resistance_N;
+    forces.parasitic_N = at.now.parasitic_N;
+    forces.surface_speed_m_s = at.now.motion.speed_m_s;
+    forces.drum_speed_rad_s = at.surface_speed_rad_s;
+    forces.wheel_speed_rad_s = at.wheel_speed_rad_s;
+    forces.loaded_radius_m = at.loaded_radius_m;
+    return forces;
+  }
+
+ private:
+  static constexpr double kDrumMass_kg = 1000.0;  // no motion depends on it: the drum turns about its centre
+  static constexpr std::size_t kSpeeds = 3;       // after three angles and positions
+  static constexpr std::size_t kSlipState = 6;
+
+  // A slider moves along its frame's x axis, here the ground's y; a pin turns about its frame's z axis,
+  // here the ground's -z, so that a rolling wheel turns positively.
+  static const Transform kUpwards;
+  static const Transform kReversed;
+
+  static constexpr std::size_t corner_offset() { return kSlipState + 1; }
+
+  void set_state(double time_s, const double* y) {
+    const SimTK::Vector& present = state_.getY();
+    if (state_.getTime() == time_s && std::equal(y, y + present.size(), &present[0])) return;
+    state_.setTime(time_s);
+    SimTK::Vector& all = state_.updY();
+    std::copy(y, y + all.size(), &all[0]);
+  }
+
+  double slip_spring_N_per_m() const {
+    return models::make_contact_parameters(corner_.context().tire, contact_port_.slip_compliance_per_N)
+        .slip_spring_N_per_m;
+  }
+
+  /// Steady rolling at the first inputs: load carried, no slip, motor in balance.
+  void set_equilibrium(double time_s) {
+    models::Instant<double> now;
+    state_.setTime(time_s);
+    contact_->evaluate_inputs(state_, now);
+    const models::Context<double>& context = corner_.context();
+    const double radius_m = 1.0 / context.surface_curvature_per_m;
+    const double loaded_radius_m = calc_loaded_radius_m(context.tire, now.acting.load_N);
+    carriage_.setOneQ(state_, 0, radius_m + loaded_radius_m);
+    drum_.setOneU(state_, 0, now.acting.speed_m_s / radius_m);
+    wheel_.setOneU(state_, 0, now.acting.speed_m_s / loaded_radius_m);
+    system_.realize(state_, SimTK::Stage::Velocity);
+    ContactEvaluation at;
+    contact_->evaluate(state_, at);
+    const double torque_Nm = radius_m * (at.now.rolling_resistance_N + at.now.parasitic_N);
+    forces_.updZ(state_)[contact_->first_z()] = at.couple_Nm / loaded_radius_m / slip_spring_N_per_m();
+    forces_.updZ(state_)[actuators_->integral_z()] = actuators_->find_integral_rad(torque_Nm, now.acting.load_N);
+  }
+
+  void fill_integrands(double* integrands) const {
+    const ContactEvaluation& at = contact_->evaluation(state_);
+    const ActuatorEvaluation drive = actuators_->evaluate(state_, at.now.acting);
+    const double carriage_m_s = carriage_.getOneU(state_, 0);
+    const auto put = [integrands](DrumIntegral integral, double value) { integrands[index_of(integral)] = value; };
+    put(DrumIntegral::kDrumTorque, drive.motor_torque_Nm);
+    put(DrumIntegral::kLinerTemperature, at.now.thermal.temperature_K[models::index_of(Node::kRubber)]);
+    put(DrumIntegral::kCavityPressure, at.now.pressure_Pa);
+    put(DrumIntegral::kGasTemperature, at.now.thermal.temperature_K[models::index_of(Node::kGas)]);
+    put(DrumIntegral::kRollingResistance, at.now.rolling_resistance_N);
+    put(DrumIntegral::kParasitic, at.now.parasitic_N);
+    put(DrumIntegral::kSpindleForce, at.slip.force_N);
+    put(DrumIntegral::kContactLoad, at.normal_N);
+    put(DrumIntegral::kMotorWork, drive.motor_torque_Nm * at.surface_speed_rad_s);
+    put(DrumIntegral::kLoadActuatorWork, -drive.cylinder_force_N * carriage_m_s);
+    put(DrumIntegral::kKnotWork, 0.0);
+    put(DrumIntegral::kTireLoss, at.couple_Nm * (at.wheel_speed_rad_s + at.surface_speed_rad_s));
+    put(DrumIntegral::kSlipLoss, at.slip.dissipated_W);
+    put(DrumIntegral::kBearingLoss,
+        at.now.parasitic_N * at.surface_speed_rad_s / corner_.context().surface_curvature_per_m);
+    const double spring_N = corner_.context().tire.stiffness.vertical_N_per_m * std::max(0.0, at.deflection_m);
+    put(DrumIntegral::kTireDamperLoss, (at.normal_N - spring_N) * at.deflection_rate_m_s);
+    put(DrumIntegral::kCylinderDamperLoss, -drive.damper_force_N * carriage_m_s);
+    put(DrumIntegral::kHeatGenerated, at.now.heat.heat_in_W);
+    put(DrumIntegral::kHeatToAir, at.now.heat.to_air_W);
+    put(DrumIntegral::kHeatToRoad, at.now.heat.to_road_W);
+  }
+
+  Corner<double>& corner_;
+  DrumStart<double> start_;
+  bool surface_recorded_;
+  models::ContactPort<double> contact_port_;
+  std::vector<sim::Integral> integrals_;
+  std::vector<sim::Store> stores_;
+  std::vector<sim::Channel> channels_;
+  const sim::Segment* segment_ = nullptr;
+  double segment_start_s_ = 0.0;
+
+  SimTK::MultibodySystem system_;
+  SimTK::SimbodyMatterSubsystem matter_;
+  SimTK::GeneralForceSubsystem forces_;
+  SimTK::Force::UniformGravity gravity_;
+  MobilizedBody::Pin drum_;
+  MobilizedBody::Slider carriage_;
+  MobilizedBody::Pin wheel_;
+  ContactForceElement* contact_;  // both owned by the force subsystem
+  DrumActuators* actuators_;
+  SimTK::State state_;
+};
+
+const Transform MultibodyDrum::Implementation::kUpwards(Rotation(SimTK::Pi / 2, SimTK::ZAxis), Vec3(0));
+const Transform MultibodyDrum::Implementation::kReversed(Rotation(SimTK::Pi, SimTK::XAxis), Vec3(0));
+
+MultibodyDrum::MultibodyDrum(Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded)
+    : implementation_(std::make_unique<Implementation>(corner, rig, std::move(start), surface_recorded)) {}
+MultibodyDrum::~MultibodyDrum() = default;
+
+std::size_t MultibodyDrum::state_count() const { return implementation_->state_count(); }
+std::vector<double> MultibodyDrum::state_tolerances() const { return implementation_->state_tolerances(); }
+const std::vector<sim::Integral>& MultibodyDrum::integrals() const { return implementation_->integrals(); }
+const std::vector<sim::Store>& MultibodyDrum::stores() const { return implementation_->stores(); }
+const std::vector<sim::Channel>& MultibodyDrum::channels() const { return implementation_->channels(); }
+void MultibodyDrum::initialize(const sim::Segment& first, double time_s, double* state) {
+  implementation_->initialize(first, time_s, state);
+}
+void MultibodyDrum::begin_phase(const sim::Phase& phase, double, double* state) {
+  implementation_->begin_phase(phase, state);
+}
+void MultibodyDrum::begin_segment(const sim::Segment& segment, double time_s, double*, double*) {
+  implementation_->begin_segment(segment, time_s);
+}
+void MultibodyDrum::evaluate(double time_s, const double* state, double* rates, double* integrands) {
+  implementation_->evaluate(time_s, state, rates, integrands);
+}
+double MultibodyDrum::watch(const std::string& name, double time_s, const double* state) {
+  return implementation_->watch(name, time_s, state);
+}
+void MultibodyDrum::observe(double time_s, const double* state, double* values) {
+  implementation_->observe(time_s, state, values);
+}
+void MultibodyDrum::calc_stored(double time_s, const double* state, double* stored_J) {
+  implementation_->calc_stored(time_s, state, stored_J);
+}
+const models::Inflation<double>& MultibodyDrum::inflation() const { return implementation_->inflation(); }
+DrumForces MultibodyDrum::find_forces(double time_s, const double* state) {
+  return implementation_->find_forces(time_s, state);
+}
+
+}  // namespace rollrig::rigs

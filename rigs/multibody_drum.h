@@ -1,0 +1,63 @@
+#pragma once
+/// The drum rig as a multibody system in Simbody: drum on a pin, carriage on a vertical slider with its
+/// load cylinder, wheel and tire on a pin, contact element between wheel and drum.
+
+#include <memory>
+#include <vector>
+
+#include "rigs/drum_channels.h"
+#include "rigs/rig_file.h"
+#include "sim/ode_system.h"
+
+namespace rollrig::rigs {
+
+/// Forces at one instant of one state, for tests that look inside.
+struct DrumForces {
+  double motor_torque_Nm = 0.0;
+  double contact_load_N = 0.0;
+  double spindle_force_N = 0.0;     // of the hub on the wheel, against the motion, from the contact force
+  double hub_moment_Nm = 0.0;       // of the hub on the wheel about its axis, from Simbody's joint reaction
+  double spindle_reaction_N = 0.0;  // as spindle_force_N, but from Simbody's joint reaction
+  double rolling_resistance_N = 0.0;
+  double parasitic_N = 0.0;
+  double surface_speed_m_s = 0.0;
+  double drum_speed_rad_s = 0.0;
+  double wheel_speed_rad_s = 0.0;
+  double loaded_radius_m = 0.0;
+};
+
+/// State vector: Simbody's q (drum angle, carriage height, wheel angle), u (their rates) and z (slip
+/// deflection, corner states, integral of the motor's speed error).
+/// Energy    both audits of baseline.md
+/// Checked   tests/rigs/multibody_drum_test.cpp, tests/rigs/fidelities_test.cpp
+class MultibodyDrum : public sim::OdeSystem<double> {
+ public:
+  MultibodyDrum(models::Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded);
+  ~MultibodyDrum() override;
+  MultibodyDrum(const MultibodyDrum&) = delete;
+  MultibodyDrum& operator=(const MultibodyDrum&) = delete;
+
+  std::size_t state_count() const override;
+  std::vector<double> state_tolerances() const override;
+  const std::vector<sim::Integral>& integrals() const override;
+  const std::vector<sim::Store>& stores() const override;
+  const std::vector<sim::Channel>& channels() const override;
+
+  void initialize(const sim::Segment& first, double time_s, double* state) override;
+  void begin_phase(const sim::Phase& phase, double time_s, double* state) override;
+  void begin_segment(const sim::Segment& segment, double time_s, double* state, double* integrals) override;
+  void evaluate(double time_s, const double* state, double* rates, double* integrands) override;
+  double watch(const std::string& name, double time_s, const double* state) override;
+  void observe(double time_s, const double* state, double* values) override;
+  void calc_stored(double time_s, const double* state, double* stored_J) override;
+
+  const models::Inflation<double>& inflation() const;
+  /// Everything at one state, joint reactions included.
+  DrumForces find_forces(double time_s, const double* state);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace rollrig::rigs

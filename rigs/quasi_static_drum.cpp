@@ -1,0 +1,177 @@
+#include "rigs/quasi_static_drum.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace rollrig::rigs {
+
+using models::Node;
+
+template <class S>
+QuasiStaticDrum<S>::QuasiStaticDrum(models::Corner<S>& corner, DrumStart<S> start, bool surface_recorded, Detail detail)
+    : corner_(corner),
+      start_(std::move(start)),
+      surface_recorded_(surface_recorded),
+      detail_(detail),
+      integrals_(make_drum_integrals(detail)),
+      stores_(make_drum_stores(detail)),
+      channels_(make_drum_channels(corner.states(), surface_recorded, detail)) {}
+
+template <class S>
+std::vector<double> QuasiStaticDrum<S>::state_tolerances() const {
+  std::vector<double> tolerances{1.0};
+  for (const models::CornerState& state : corner_.states()) tolerances.push_back(state.scale_SI);
+  return tolerances;
+}
+
+template <class S>
+void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S* state) {
+  segment_ = &first;
+  segment_start_s_ = time_s;
+  motor_on_ = true;
+  now_ = {};
+  now_.inflation = start_.inflation();
+  corner_.initialize(start_.tire_temperature_K, start_.history, state + kFirstCornerState);
+  state[kSpeedState] = S(first.inputs[index_of(DrumInput::kSpeed)].start);
+  find_motion(time_s, state);
+}
+
+template <class S>
+void QuasiStaticDrum<S>::begin_phase(const sim::Phase& phase, double, S* state) {
+  for (const sim::Command& command : phase.commands) {
+    if (command.name == kSetPressure) {
+      now_.inflation.cold_pressure_Pa = S(command.value_SI);
+      now_.inflation.temperature_K = state[kFirstCornerState + corner_.state_of(Node::kGas)];
+    } else if (command.name == kMotor) {
+      motor_on_ = command.value_SI != 0.0;
+    } else {
+      throw std::invalid_argument("drum rig: unknown command " + command.name);
+    }
+  }
+}
+
+template <class S>
+void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) {
+  find_motion(time_s, state);
+  const S before_J = calc_mechanical_J();
+  segment_ = &segment;
+  segment_start_s_ = time_s;
+  if (motor_on_) state[kSpeedState] = S(segment.inputs[index_of(DrumInput::kSpeed)].start);
+  find_motion(time_s, state);
+  if (detail_ == Detail::kFull) integrals[index_of(DrumIntegral::kKnotWork)] += calc_mechanical_J() - before_J;
+}
+
+/// Fills now_ up to the losses, the loaded radius and the torque.
+template <class S>
+void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
+  const S* x = state + kFirstCornerState;
+  now_.recorded = read_drum_inputs<S>(*segment_, time_s - segment_start_s_, surface_recorded_);
+  corner_.apply_inputs(x, now_);
+  models::Motion<S>& motion = now_.motion;
+  motion.speed_m_s = motor_on_ ? now_.acting.speed_m_s : state[kSpeedState];
+  motion.load_N = now_.acting.load_N;
+  corner_.calc_losses(x, now_);
+  const models::Context<S>& context = corner_.context();
+  loaded_radius_m_ = calc_loaded_radius_m(context.tire, motion.load_N);
+  const S spin_mass_kg = context.tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m_ * loaded_radius_m_);
+  const S resistance_N = now_.rolling_resistance_N + now_.parasitic_N;
+  const S effective_mass_kg = calc_effective_mass_kg();
+  motion.acceleration_m_s2 = motor_on_ ? now_.acting.acceleration_m_s2 : S(-resistance_N / effective_mass_kg);
+  motion.longitudinal_force_N =
+      now_.rolling_resistance_N / (S(1.0) + loaded_radius_m_ * context.surface_curvature_per_m) +
+      spin_mass_kg * motion.acceleration_m_s2;
+  const S slip_N = motion.longitudinal_force_N * motion.longitudinal_force_N * now_.contact.slip_compliance_per_N;
+  motion.slip_power_W = slip_N * motion.speed_m_s;
+  drum_torque_Nm_ = zero<S>();
+  if (motor_on_) {
+    drum_torque_Nm_ =
+        (resistance_N + slip_N + effective_mass_kg * motion.acceleration_m_s2) / context.surface_curvature_per_m;
+  }
+}
+
+template <class S>
+S QuasiStaticDrum<S>::calc_effective_mass_kg() const {
+  const models::Context<S>& context = corner_.context();
+  const S& curvature_per_m = context.surface_curvature_per_m;
+  return now_.contact.machine_inertia_factor * context.machine_inertia_kg_m2 * curvature_per_m * curvature_per_m +
+         context.tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m_ * loaded_radius_m_);
+}
+
+/// Kinetic energy of drum and wheel and energy of the tire's spring, in the motion of now_.
+template <class S>
+S QuasiStaticDrum<S>::calc_mechanical_J() const {
+  const S& load_N = now_.motion.load_N;
+  const S spring_J = 0.5 * load_N * load_N / corner_.context().tire.stiffness.vertical_N_per_m;
+  return 0.5 * calc_effective_mass_kg() * now_.motion.speed_m_s * now_.motion.speed_m_s + spring_J;
+}
+
+template <class S>
+void QuasiStaticDrum<S>::evaluate(double time_s, const S* state, S* rates, S* integrands) {
+  find_motion(time_s, state);
+  rates[kSpeedState] = motor_on_ ? now_.recorded.acceleration_m_s2 : now_.motion.acceleration_m_s2;
+  corner_.calc_rates(state + kFirstCornerState, now_, rates + kFirstCornerState);
+  fill_integrands(integrands);
+}
+
+template <class S>
+void QuasiStaticDrum<S>::fill_integrands(S* integrands) const {
+  const auto put = [integrands](DrumIntegral integral, const S& value) { integrands[index_of(integral)] = value; };
+  const S& speed_m_s = now_.motion.speed_m_s;
+  put(DrumIntegral::kDrumTorque, drum_torque_Nm_);
+  put(DrumIntegral::kLinerTemperature, now_.thermal.temperature_K[models::index_of(Node::kRubber)]);
+  put(DrumIntegral::kCavityPressure, now_.pressure_Pa);
+  put(DrumIntegral::kGasTemperature, now_.thermal.temperature_K[models::index_of(Node::kGas)]);
+  if (detail_ == Detail::kMeasured) return;
+  put(DrumIntegral::kRollingResistance, now_.rolling_resistance_N);
+  put(DrumIntegral::kParasitic, now_.parasitic_N);
+  put(DrumIntegral::kSpindleForce, now_.motion.longitudinal_force_N);
+  put(DrumIntegral::kContactLoad, now_.motion.load_N);
+  put(DrumIntegral::kMotorWork, drum_torque_Nm_ * speed_m_s * corner_.context().surface_curvature_per_m);
+  put(DrumIntegral::kLoadActuatorWork, zero<S>());
+  put(DrumIntegral::kKnotWork, zero<S>());
+  put(DrumIntegral::kTireLoss, now_.rolling_resistance_N * speed_m_s);
+  put(DrumIntegral::kSlipLoss, now_.motion.slip_power_W);
+  put(DrumIntegral::kBearingLoss, now_.parasitic_N * speed_m_s);
+  put(DrumIntegral::kTireDamperLoss, zero<S>());
+  put(DrumIntegral::kCylinderDamperLoss, zero<S>());
+  put(DrumIntegral::kHeatGenerated, now_.heat.heat_in_W);
+  put(DrumIntegral::kHeatToAir, now_.heat.to_air_W);
+  put(DrumIntegral::kHeatToRoad, now_.heat.to_road_W);
+}
+
+template <class S>
+S QuasiStaticDrum<S>::watch(const std::string& name, double time_s, const S* state) {
+  if (name == kWatchTireTemperature) return state[kFirstCornerState + corner_.state_of(Node::kRubber)];
+  if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);
+  find_motion(time_s, state);
+  return now_.motion.speed_m_s;
+}
+
+template <class S>
+void QuasiStaticDrum<S>::observe(double time_s, const S* state, S* values) {
+  if (detail_ == Detail::kMeasured) return;
+  find_motion(time_s, state);
+  *values++ = motor_on_ ? now_.recorded.speed_m_s : now_.motion.speed_m_s;
+  *values++ = now_.recorded.load_N;
+  *values++ = now_.recorded.ambient_K;
+  if (surface_recorded_) *values++ = now_.recorded.surface_K;
+  for (std::size_t i = 2; i < corner_.state_count(); ++i) *values++ = state[kFirstCornerState + i];
+}
+
+template <class S>
+void QuasiStaticDrum<S>::calc_stored(double time_s, const S* state, S* stored_J) {
+  if (detail_ == Detail::kMeasured) return;
+  find_motion(time_s, state);
+  const S& load_N = now_.motion.load_N;
+  const S spring_J = 0.5 * load_N * load_N / corner_.context().tire.stiffness.vertical_N_per_m;
+  stored_J[index_of(DrumStore::kTireSpring)] = spring_J;
+  stored_J[index_of(DrumStore::kKinetic)] = calc_mechanical_J() - spring_J;
+  stored_J[index_of(DrumStore::kGravity)] = zero<S>();
+  stored_J[index_of(DrumStore::kSlipSpring)] = zero<S>();
+  stored_J[index_of(DrumStore::kHeat)] = corner_.calc_stored_heat_J(state + kFirstCornerState);
+}
+
+template class QuasiStaticDrum<double>;
+template class QuasiStaticDrum<Jet>;
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,70 @@
+#pragma once
+/// The drum rig with its mechanics in equilibrium: thermal and effect states alone, and the speed when
+/// the motor is off.
+
+#include <vector>
+
+#include "models/corner.h"
+#include "rigs/drum_channels.h"
+#include "sim/ode_system.h"
+
+namespace rollrig::rigs {
+
+/// Equation  torque = R (F_rr + F_par + F_slip + m_eff dv/dt), m_eff = J/R^2 + I_spin/r_l^2
+///           spindle force = F_rr/(1 + r_l/R) + I_spin/r_l^2 dv/dt;  F_slip = Fx^2/C with slip_loss
+/// Symbols   R drum radius [m], J drum inertia, I_spin wheel inertia [kg m2], r_l loaded radius [m]
+/// Validity  slow against the load cylinder's and the speed controller's settling (a few seconds)
+/// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
+///           "load_changes" of the mechanical audit
+/// Source    baseline.md, "Rig"
+/// Checked   tests/rigs/quasi_static_drum_test.cpp, tests/rigs/fidelities_test.cpp
+template <class S>
+class QuasiStaticDrum : public sim::OdeSystem<S> {
+ public:
+  QuasiStaticDrum(models::Corner<S>& corner, DrumStart<S> start, bool surface_recorded, Detail detail);
+
+  std::size_t state_count() const override { return kFirstCornerState + corner_.state_count(); }
+  std::vector<double> state_tolerances() const override;
+  const std::vector<sim::Integral>& integrals() const override { return integrals_; }
+  const std::vector<sim::Store>& stores() const override { return stores_; }
+  const std::vector<sim::Channel>& channels() const override { return channels_; }
+
+  void initialize(const sim::Segment& first, double time_s, S* state) override;
+  void begin_phase(const sim::Phase& phase, double time_s, S* state) override;
+  void begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) override;
+  void evaluate(double time_s, const S* state, S* rates, S* integrands) override;
+  S watch(const std::string& name, double time_s, const S* state) override;
+  void observe(double time_s, const S* state, S* values) override;
+  void calc_stored(double time_s, const S* state, S* stored_J) override;
+
+  const models::Inflation<S>& inflation() const { return now_.inflation; }
+
+ private:
+  static constexpr std::size_t kSpeedState = 0;
+  static constexpr std::size_t kFirstCornerState = 1;
+
+  void find_motion(double time_s, const S* state);
+  void fill_integrands(S* integrands) const;
+  S calc_effective_mass_kg() const;
+  S calc_mechanical_J() const;
+
+  models::Corner<S>& corner_;
+  DrumStart<S> start_;
+  bool surface_recorded_;
+  Detail detail_;
+  std::vector<sim::Integral> integrals_;
+  std::vector<sim::Store> stores_;
+  std::vector<sim::Channel> channels_;
+
+  const sim::Segment* segment_ = nullptr;
+  double segment_start_s_ = 0.0;
+  bool motor_on_ = true;
+  models::Instant<S> now_;
+  S loaded_radius_m_{};
+  S drum_torque_Nm_{};
+};
+
+extern template class QuasiStaticDrum<double>;
+extern template class QuasiStaticDrum<Jet>;
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,110 @@
+#include "rigs/rig_file.h"
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "sim/core/error.h"
+
+namespace rollrig::rigs {
+namespace {
+
+const std::map<std::string, RigKind> kKinds{
+    {"drum", RigKind::kDrum}, {"dyno", RigKind::kDyno}, {"flat", RigKind::kFlat}};
+
+/// Reads table [name] into a visited group; an absent table is an error unless every field has a default.
+template <class Group>
+void read_table(TableReader& file, const std::string& name, Group& group, bool may_be_absent) {
+  const ConfigTable* table = file.table(name);
+  if (table == nullptr && !may_be_absent) {
+    throw file.problem(name, fmt::format("missing table [{}]", name), fmt::format("a table [{}]", name));
+  }
+  const ConfigTable empty{{}, file.source().origin};
+  TableReader reader(table != nullptr ? *table : empty, fmt::format("[{}]", name));
+  read_fields(reader, group);
+  reader.finish();
+}
+
+void read_parasitic(TableReader& file, RigFile& rig) {
+  const ConfigTable* table = file.table("parasitic");
+  if (table == nullptr) throw file.problem("parasitic", "missing table [parasitic]", "a table [parasitic]");
+  TableReader reader(*table, "[parasitic]");
+  read_fields(reader, rig.parasitic);
+  read_standard_uncertainties(reader, rig.parasitic_uncertainties);
+  reader.finish();
+}
+
+}  // namespace
+
+RigFile read_rig(const ConfigTable& config) {
+  RigFile rig;
+  rig.path = config.origin.file;
+  TableReader file(config, "");
+  check_format(file, "rollrig-rig", 1);
+  rig.name = file.text("name");
+  rig.kind = kKinds.at(file.text("kind", {"drum", "dyno", "flat"}));
+  if (rig.kind == RigKind::kDrum) read_table(file, "drum", rig.drum, false);
+  if (rig.kind == RigKind::kDyno) read_table(file, "roller", rig.drum, false);
+  if (rig.kind != RigKind::kFlat) read_parasitic(file, rig);
+  read_table(file, "environment", rig.environment, false);
+  if (rig.kind == RigKind::kDrum) {
+    read_table(file, "skim", rig.skim, false);
+    read_table(file, "carriage", rig.carriage, true);
+  } else if (file.has("skim")) {
+    read_table(file, "skim", rig.skim, false);
+  }
+  if (rig.kind != RigKind::kFlat) read_table(file, "drive", rig.drive, true);
+  file.finish();
+  return rig;
+}
+
+namespace {
+
+template <class Group>
+std::string write_group(const char* name, const Group& group, const Group* uncertainties = nullptr) {
+  std::vector<double> sd;
+  if (uncertainties != nullptr) {
+    Group::visit(*uncertainties, [&sd](const Field&, const double& value) { sd.push_back(value); });
+  }
+  std::string text = fmt::format("\n[{}]\n", name);
+  std::size_t i = 0;
+  Group::visit(group, [&](const Field& field, const double& value) {
+    const Unit unit = unit_of_key(field.key);
+    text += fmt::format("{} = {:.10g}\n", field.key, unit.from_si(value));
+    if (i < sd.size() && sd[i] > 0.0) text += fmt::format("{}_sd = {:.10g}\n", field.key, sd[i] / unit.factor);
+    ++i;
+  });
+  return text;
+}
+
+}  // namespace
+
+std::string write_rig(const RigFile& rig) {
+  std::string kind;
+  for (const auto& [name, value] : kKinds) {
+    if (value == rig.kind) kind = name;
+  }
+  std::string text = fmt::format("format = \"rollrig-rig/1\"\nname = \"{}\"\nkind = \"{}\"\n", rig.name, kind);
+  if (rig.kind != RigKind::kFlat) {
+    text += write_group(rig.kind == RigKind::kDrum ? "drum" : "roller", rig.drum);
+    text += write_group("parasitic", rig.parasitic, &rig.parasitic_uncertainties);
+  }
+  text += write_group("environment", rig.environment);
+  if (rig.skim.load_N > 0.0) text += write_group("skim", rig.skim);
+  if (rig.kind == RigKind::kDrum) text += write_group("carriage", rig.carriage);
+  if (rig.kind != RigKind::kFlat) text += write_group("drive", rig.drive);
+  return text;
+}
+
+models::Context<double> make_context(const models::TireFile& tire, const RigFile& rig, models::Baseline baseline) {
+  models::Context<double> context;
+  context.tire = tire.parameters_on(rig.name, baseline);
+  context.parasitic = rig.parasitic;
+  context.baseline = baseline;
+  context.surface_curvature_per_m = rig.kind == RigKind::kFlat ? 0.0 : 2.0 / rig.drum.diameter_m;
+  context.machine_inertia_kg_m2 = rig.drum.inertia_kg_m2;
+  context.skim_load_N = rig.skim.load_N;
+  return context;
+}
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,98 @@
+#pragma once
+/// assets/rigs/<name>.toml: reading, with every rule of formats.md.
+
+#include <string>
+
+#include "models/parasitic_loss.h"
+#include "models/ports.h"
+#include "models/tire_file.h"
+
+namespace rollrig::rigs {
+
+enum class RigKind { kDrum, kDyno, kFlat };
+
+/// A drum, or a roller of a dynamometer.
+struct DrumParameters {
+  double diameter_m = 0.0;
+  double inertia_kg_m2 = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"diameter_m", positive(), "Diameter of drum or roller"}, p.diameter_m);
+    visit(Field{"inertia_kg_m2", positive(), "Moment of inertia about its axis"}, p.inertia_kg_m2);
+  }
+};
+
+struct RigEnvironment {
+  double ambient_K = 0.0;
+  double ambient_pressure_Pa = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"ambient_degC", between(-60.0, 80.0), "Air at the tire"}, p.ambient_K);
+    visit(Field{"ambient_pressure_kPa", between(50.0, 110.0), "Absolute pressure of the air. Assumed: 101.325 kPa",
+                kStandardAtmosphere_Pa / 1e3},
+          p.ambient_pressure_Pa);
+  }
+};
+
+struct SkimParameters {
+  double load_N = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"load_N", positive(), "Load of the skim test"}, p.load_N);
+  }
+};
+
+/// The carriage that presses the wheel on the drum, from above.
+struct CarriageParameters {
+  double mass_kg = 0.0;
+  double damping_N_s_per_m = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"mass_kg", positive(), "Moving mass without the wheel. Assumed: 155 kg, a bounce of 5.6 Hz", 155.0},
+          p.mass_kg);
+    visit(Field{"damping_N_s_per_m", non_negative(), "Damper of the load cylinder. Assumed: 9 kN s/m, 0.7 of critical",
+                9000.0},
+          p.damping_N_s_per_m);
+  }
+};
+
+/// The speed controller of the drum's motor: proportional and integral, with feedforward of inertia.
+struct DriveParameters {
+  double bandwidth_rad_s = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"bandwidth_rad_s", positive(),
+                "Natural frequency of the speed loop, critically damped. Assumed: 3 rad/s", 3.0},
+          p.bandwidth_rad_s);
+  }
+};
+
+struct RigFile {
+  std::string path;
+  std::string content;  // as read, for the manifest's hash
+  std::string name;
+  RigKind kind = RigKind::kDrum;
+  DrumParameters drum;  // of each roller on a dyno
+  models::ParasiticParameters<double> parasitic;
+  models::ParasiticParameters<double> parasitic_uncertainties;  // 0 where none was given
+  RigEnvironment environment;
+  SkimParameters skim;
+  CarriageParameters carriage;
+  DriveParameters drive;
+};
+
+/// Reads a rig from parsed TOML. Throws InputError.
+RigFile read_rig(const ConfigTable& config);
+
+/// The file as TOML.
+std::string write_rig(const RigFile& rig);
+
+/// What the equations take of a tire on this rig. Throws InputError when the tire lacks a table.
+models::Context<double> make_context(const models::TireFile& tire, const RigFile& rig, models::Baseline baseline);
+
+}  // namespace rollrig::rigs
