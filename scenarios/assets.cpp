@@ -1,0 +1,57 @@
+#include "scenarios/assets.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "sim/core/error.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::scenarios {
+namespace {
+
+constexpr const char* kExtension = ".toml";
+
+bool is_path(const std::string& name) {
+  return name.find('/') != std::string::npos || fs::path(name).extension() == kExtension;
+}
+
+}  // namespace
+
+std::string find_assets_folder() {
+  if (const char* set = std::getenv("ROLLRIG_ASSETS")) return set;
+  std::error_code code;
+  const fs::path program = fs::read_symlink("/proc/self/exe", code);
+  const fs::path installed = program.parent_path().parent_path() / "share" / "rollrig" / "assets";
+  if (!code && fs::is_directory(installed)) return installed.string();
+  return ROLLRIG_SOURCE_ASSETS;
+}
+
+std::vector<std::string> list_assets(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(fs::path(find_assets_folder()) / folder, code)) {
+    if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string find_asset_from(const std::string& base_folder, const std::string& folder,
+                            const std::string& name_or_path) {
+  if (is_path(name_or_path)) return (fs::path(base_folder) / name_or_path).lexically_normal().string();
+  const fs::path file = fs::path(find_assets_folder()) / folder / (name_or_path + kExtension);
+  if (fs::exists(file)) return file.string();
+  InputProblem problem = unknown_name(folder.substr(0, folder.size() - 1), name_or_path, list_assets(folder));
+  problem.allowed += fmt::format("; or a path to a {} file", kExtension);
+  throw InputError(problem);
+}
+
+std::string find_asset(const std::string& folder, const std::string& name_or_path) {
+  return find_asset_from("", folder, name_or_path);
+}
+
+}  // namespace rollrig::scenarios

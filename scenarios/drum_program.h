@@ -1,0 +1,54 @@
+#pragma once
+/// Builds the program of a test on the drum, phase by phase.
+
+#include <string>
+#include <vector>
+
+#include "rigs/drum_channels.h"
+#include "scenarios/drum_conditions.h"
+#include "sim/program.h"
+
+namespace rollrig::scenarios {
+
+/// Keeps the present speed and load, and appends phases. The drum stands and carries skim load at first.
+class DrumProgram {
+ public:
+  DrumProgram(const DrumConditions& conditions, const rigs::RigFile& rig, double sample_interval_s);
+
+  /// Rest at standstill under skim load, then the pressure is set, and rests until it is verified.
+  void soak_and_inflate(double pressure_Pa);
+  /// Soak, inflation, and run-up to test speed at skim load: the start of one run of a measurement set.
+  void begin_test(const std::string& set_run_id, double pressure_Pa, double speed_m_s);
+  /// Back to standstill at skim load.
+  void end_test();
+  /// Speed changes evenly, load stays.
+  void change_speed(const std::string& name, double duration_s, double speed_m_s);
+  /// Constant speed under a load.
+  void roll(const std::string& name, double duration_s, double load_N);
+  /// Ends the phase appended last when the tire reaches a temperature from below.
+  void end_at_tire_temperature(double temperature_K);
+  /// The time at this point of the program becomes 0.
+  void mark_time_zero() { before_zero_s_ = program_.duration_s(); }
+
+  /// The program so far, with its start time.
+  sim::Program program() const;
+  /// Start and end of each run marked so far.
+  std::vector<SetRun> set_runs() const;
+  bool surface_recorded() const { return conditions_.surface_K.has_value(); }
+
+ private:
+  sim::Phase& append(const std::string& name, double duration_s, double end_speed_m_s);
+  void open_set_run(const std::string& id);
+  void close_set_run();
+
+  const DrumConditions& conditions_;
+  double skim_load_N_;
+  sim::Program program_;
+  double speed_m_s_ = 0.0;
+  double load_N_;
+  double before_zero_s_ = 0.0;
+  std::vector<SetRun> set_runs_;  // times from the start of the program
+  bool set_run_open_ = false;
+};
+
+}  // namespace rollrig::scenarios

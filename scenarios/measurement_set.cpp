@@ -1,0 +1,276 @@
+#include "scenarios/measurement_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "rigs/drum_channels.h"
+#include "scenarios/assets.h"
+#include "sim/core/csv.h"
+#include "sim/core/file_io.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::scenarios {
+namespace {
+
+constexpr Range kTemperatureRange = between(-80.0, 250.0);  // in degC
+constexpr Range kSpeedRange = between(0.0, 400.0);          // in km/h
+
+std::string set_file_of(const std::string& folder) {
+  if (fs::is_directory(folder)) return (fs::path(folder) / "set.toml").string();
+  return folder;
+}
+
+std::string folder_of(const std::string& file) { return fs::path(file).parent_path().string(); }
+
+MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) {
+  TableReader reader(table, "[[run]]");
+  MeasuredRun run;
+  run.id = reader.text("id");
+  run.file = (fs::path(folder) / reader.text("file")).string();
+  run.session = reader.text("session");
+  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", kTemperatureRange, ""});
+  run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
+  run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
+  run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
+  reader.finish();
+  return run;
+}
+
+void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
+  const CsvTable csv = CsvTable::read(run.file);
+  std::vector<std::string> known{"time_s"};
+  for (const auto* list : {&columns.given, &columns.optional_given, &columns.measured}) {
+    for (const Field& field : *list) known.push_back(field.key);
+  }
+  csv.require_known(known);
+  run.time_s = csv.increasing_times("time_s");
+  if (run.time_s.size() < 2) {
+    throw InputError({"a run needs two rows at least", run.file, 2, "", "", "two or more rows", ""});
+  }
+  for (const Field& field : columns.given) run.columns[field.key] = csv.numbers(field);
+  for (const Field& field : columns.optional_given) {
+    if (csv.has(field.key)) run.columns[field.key] = csv.numbers(field);
+  }
+  for (const Field& field : columns.measured) {
+    if (csv.has(field.key)) run.columns[field.key] = csv.numbers(field, true);
+  }
+}
+
+/// The machine of a set: a rig, or a vehicle on the road. Decides the kind.
+void read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
+  const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
+  if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
+    set.kind = SetKind::kRoad;
+    set.vehicle = read_vehicle(read_config(find_asset_from(folder, "vehicles", reader.text("vehicle"))));
+    return;
+  }
+  const std::string path = find_asset_from(folder, "rigs", reader.text("rig"));
+  set.rig = rigs::read_rig(read_config(path));
+  set.rig->content = read_text_file(path);
+  set.kind = kind_of(set.rig->kind);
+  if (!kind.empty() && kind != (set.kind == SetKind::kDrum ? "drum" : "dyno")) {
+    throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),
+                         "the rig's kind");
+  }
+}
+
+void check_runs(const TableReader& reader, const MeasurementSet& set) {
+  std::set<std::string> ids;
+  for (const MeasuredRun& run : set.runs) {
+    if (!ids.insert(run.id).second) {
+      throw reader.problem("run", fmt::format("two runs have the id '{}'", run.id), "a different id for every run");
+    }
+    for (const std::string& channel : measured_channels(set.kind)) {
+      if (!run.has(channel) || set.sensors.count(channel) > 0) continue;
+      InputProblem problem;
+      problem.what = fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, channel);
+      problem.file = set.path;
+      problem.key = fmt::format("[sensors.{}]", channel);
+      problem.allowed =
+          "a table [sensors." + channel + "] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution";
+      throw InputError(problem);
+    }
+  }
+}
+
+}  // namespace
+
+VehicleFile read_vehicle(const ConfigTable& config) {
+  TableReader reader(config, "");
+  check_format(reader, "rollrig-vehicle", 1);
+  VehicleFile vehicle;
+  vehicle.path = config.origin.file;
+  vehicle.name = reader.text("name");
+  vehicle.mass_kg = reader.number({"mass_kg", positive(), ""});
+  vehicle.mass_sd_kg = reader.number_or_none({"mass_kg_sd", positive(), ""}).value_or(0.0);
+  vehicle.rotating_mass_kg = reader.number({"rotating_mass_kg", non_negative(), ""});
+  vehicle.rotating_mass_sd_kg = reader.number_or_none({"rotating_mass_kg_sd", positive(), ""}).value_or(0.0);
+  vehicle.drag_area_m2 = reader.number({"drag_area_m2", non_negative(), ""});
+  vehicle.drag_area_sd_m2 = reader.number_or_none({"drag_area_m2_sd", positive(), ""}).value_or(0.0);
+  vehicle.tires = reader.count({"tires", between(1.0, 20.0), ""});
+  reader.finish();
+  return vehicle;
+}
+
+const SetColumns& columns_of(SetKind kind) {
+  static const std::vector<Field> temperatures_and_pressure{
+      {"liner_temperature_degC", kTemperatureRange, "temperature of the inner liner"},
+      {"cavity_pressure_kPa", between(-100.0, 3000.0), "gauge pressure"}};
+  static const auto with = [](Field first) {
+    std::vector<Field> fields{first};
+    fields.insert(fields.end(), temperatures_and_pressure.begin(), temperatures_and_pressure.end());
+    // Beyond the format's list: where the gas temperature was measured, H can be fitted (3.16).
+    fields.push_back({"gas_temperature_degC", kTemperatureRange, "temperature of the inflation gas"});
+    return fields;
+  };
+  static const SetColumns drum{{{"speed_km_h", kSpeedRange, "surface speed"},
+                                {"load_N", between(0.0, 200000.0), "load as the rig reports it"},
+                                {"ambient_degC", kTemperatureRange, "air at the tire"}},
+                               {{"surface_temperature_degC", kTemperatureRange, "drum surface"}},
+                               with({"drum_torque_Nm", any_number(), "motor torque at the drum axle"})};
+  static const SetColumns dyno{{{"speed_km_h", kSpeedRange, "surface speed"},
+                                {"load_N", between(0.0, 200000.0), "load as the rig reports it"},
+                                {"longitudinal_force_N", any_number(), "wheel on roller, positive when it drives"},
+                                {"ambient_degC", kTemperatureRange, "air at the tire"}},
+                               {{"surface_temperature_degC", kTemperatureRange, "roller surface"}},
+                               with({"loss_force_N", any_number(), "loss between hub and roller over surface speed"})};
+  static const SetColumns road{{{"speed_km_h", kSpeedRange, "vehicle speed"},
+                                {"elevation_m", any_number(), "height of the road"},
+                                {"ambient_degC", kTemperatureRange, "air"}},
+                               {},
+                               {{"traction_force_N", any_number(), "force at the wheels"}}};
+  if (kind == SetKind::kDrum) return drum;
+  return kind == SetKind::kDyno ? dyno : road;
+}
+
+std::vector<std::string> measured_channels(SetKind kind) {
+  std::vector<std::string> names;
+  for (const Field& field : columns_of(kind).measured) names.push_back(field.key);
+  return names;
+}
+
+SetKind kind_of(rigs::RigKind kind) { return kind == rigs::RigKind::kDrum ? SetKind::kDrum : SetKind::kDyno; }
+
+MeasurementSet read_measurement_set(const std::string& folder) {
+  MeasurementSet set;
+  set.path = set_file_of(folder);
+  const ConfigTable config = read_config(set.path);
+  const std::string base = folder_of(set.path);
+  TableReader reader(config, "");
+  check_format(reader, "rollrig-measurements", 1);
+  set.name = reader.text("name");
+  set.baseline = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined"
+                     ? models::Baseline::kCombined
+                     : models::Baseline::kConstantRrc;
+  const std::string tire_path = find_asset_from(base, "tires", reader.text("tire"));
+  set.tire = models::read_tire(read_config(tire_path));
+  set.tire.content = read_text_file(tire_path);
+  read_machine(reader, base, set);
+  if (const ConfigTable* sensors = reader.table("sensors")) {
+    set.sensors = models::read_sensors(*sensors, measured_channels(set.kind));
+  }
+  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base));
+  if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
+  reader.finish();
+  for (MeasuredRun& run : set.runs) read_run_columns(columns_of(set.kind), run);
+  check_runs(reader, set);
+  return set;
+}
+
+sim::Program make_replay(const MeasuredRun& run) {
+  const auto column = [&run](const char* name) -> const std::vector<double>& { return run.columns.at(name); };
+  const bool surface_recorded = run.has("surface_temperature_degC");
+  const std::vector<double>& ambient_K = column("ambient_degC");
+  const std::vector<double>& surface_K = surface_recorded ? column("surface_temperature_degC") : ambient_K;
+  sim::Phase phase;
+  phase.name = run.id;
+  for (std::size_t i = 0; i + 1 < run.time_s.size(); ++i) {
+    const double duration_s = run.time_s[i + 1] - run.time_s[i];
+    const auto line = [&](const std::vector<double>& values) {
+      return sim::Ramp{values[i], (values[i + 1] - values[i]) / duration_s};
+    };
+    sim::Segment segment{duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
+    segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = line(column("speed_km_h"));
+    segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {column("load_N")[i], 0.0};
+    segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = line(ambient_K);
+    segment.inputs[rigs::index_of(rigs::DrumInput::kSurface)] = line(surface_K);
+    phase.segments.push_back(std::move(segment));
+  }
+  sim::Program program;
+  program.start_time_s = run.time_s.front();
+  program.phases = {std::move(phase)};
+  return program;
+}
+
+namespace {
+
+std::string write_sensors(const models::SensorSet& sensors) {
+  std::string text;
+  for (const auto& [channel, sensor] : sensors) {
+    const double factor = unit_of_key(channel).factor;
+    text += fmt::format(
+        "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
+        "resolution = {:.10g}\n",
+        channel, sensor.offset_sd / factor, sensor.drift_sd / factor, sensor.drift_time_s, sensor.noise_sd / factor,
+        sensor.resolution / factor);
+  }
+  return text;
+}
+
+/// Rows of one run as CSV, times from its start.
+std::string write_run_csv(const sim::Recording<double>& recording, const SetRun& run,
+                          const std::vector<std::string>& columns) {
+  std::vector<std::string> header{"time_s"};
+  header.insert(header.end(), columns.begin(), columns.end());
+  CsvWriter csv(header);
+  constexpr double kSlack_s = 1e-6;
+  for (std::size_t row = 0; row < recording.row_count(); ++row) {
+    const double time_s = recording.time_s[row];
+    if (time_s < run.start_s - kSlack_s || time_s > run.end_s + kSlack_s) continue;
+    csv.begin_row();
+    csv.add(time_s - run.start_s);
+    for (const std::string& column : columns) csv.add(unit_of_key(column).from_si(recording.channel(column)[row]));
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+}  // namespace
+
+std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
+                                                         const std::string& name) {
+  std::map<std::string, std::string> files;
+  const models::SensorSet sensors = spec.sensors.value_or(models::SensorSet{});
+  std::vector<std::string> columns;
+  for (const sim::Channel& channel : outcome.recording.channels) {
+    const SetColumns& all = columns_of(kind_of(spec.rig.kind));
+    const auto holds = [&channel](const std::vector<Field>& fields) {
+      return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.key == channel.name; });
+    };
+    const bool is_input = holds(all.given) || holds(all.optional_given);
+    if (is_input || (holds(all.measured) && sensors.count(channel.name) > 0)) columns.push_back(channel.name);
+  }
+  std::string set = fmt::format(
+      "format = \"rollrig-measurements/1\"\nname = \"{}\"\ntire = \"tire.toml\"\nrig = \"rig.toml\"\nbaseline = "
+      "\"{}\"\n",
+      name, spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
+  set += write_sensors(sensors);
+  for (const SetRun& run : outcome.set_runs) {
+    set += fmt::format(
+        "\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"session\"\n"
+        "initial_tire_temperature_degC = {1:.10g}\ncold_pressure_kPa = {2:.10g}\n",
+        run.id, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3);
+    files[run.id + ".csv"] = write_run_csv(outcome.recording, run, columns);
+  }
+  files["set.toml"] = set;
+  files["tire.toml"] = models::write_tire(spec.tire);
+  files["rig.toml"] = rigs::write_rig(spec.rig);
+  return files;
+}
+
+}  // namespace rollrig::scenarios

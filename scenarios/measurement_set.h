@@ -1,0 +1,80 @@
+#pragma once
+/// Measurement sets of formats.md: a folder with set.toml and one CSV a run. Reading, writing, and the
+/// program that replays a run on a rig.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+#include "sim/program.h"
+
+namespace rollrig::scenarios {
+
+enum class SetKind { kDrum, kDyno, kRoad };
+
+/// Columns of a kind of set.
+struct SetColumns {
+  std::vector<Field> given;           // required in every row
+  std::vector<Field> optional_given;  // required in every row where the column is there
+  std::vector<Field> measured;        // may be absent, and empty in a row
+};
+const SetColumns& columns_of(SetKind kind);
+/// Names of the measured columns of a kind.
+std::vector<std::string> measured_channels(SetKind kind);
+
+/// A vehicle of a road set ("rollrig-vehicle/1"); uncertainties are 0 where none was given.
+struct VehicleFile {
+  std::string path;
+  std::string name;
+  double mass_kg = 0.0, mass_sd_kg = 0.0;
+  double rotating_mass_kg = 0.0, rotating_mass_sd_kg = 0.0;
+  double drag_area_m2 = 0.0, drag_area_sd_m2 = 0.0;
+  int tires = 4;
+};
+
+/// Reads a vehicle from parsed TOML. Throws InputError.
+VehicleFile read_vehicle(const ConfigTable& config);
+
+struct MeasuredRun {
+  std::string id;
+  std::string file;  // path
+  std::string session;
+  double initial_tire_temperature_K = 0.0;
+  double cold_pressure_Pa = 0.0;
+  std::optional<double> rest_before_s;
+  bool started_warm = false;
+  std::vector<double> time_s;
+  std::map<std::string, std::vector<double>> columns;  // SI by column name; NaN where there is no sample
+
+  bool has(const std::string& column) const { return columns.count(column) > 0; }
+};
+
+struct MeasurementSet {
+  std::string path;  // of set.toml
+  std::string name;
+  SetKind kind = SetKind::kDrum;
+  models::Baseline baseline = models::Baseline::kCombined;
+  models::TireFile tire;
+  std::optional<rigs::RigFile> rig;    // drum and dyno
+  std::optional<VehicleFile> vehicle;  // road
+  models::SensorSet sensors;
+  std::vector<MeasuredRun> runs;
+};
+
+/// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
+MeasurementSet read_measurement_set(const std::string& folder);
+
+/// The kind of a rig's sets.
+SetKind kind_of(rigs::RigKind kind);
+
+/// A program that follows the recorded inputs of a drum run: speed, ambient and surface linear between
+/// rows, load held from row to row. Rows are its samples.
+sim::Program make_replay(const MeasuredRun& run);
+
+/// The files of a set with the runs that `outcome` marks: set.toml, tire.toml, rig.toml and one CSV a run.
+std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
+                                                         const std::string& name);
+
+}  // namespace rollrig::scenarios

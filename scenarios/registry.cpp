@@ -1,0 +1,33 @@
+#include "scenarios/scenario.h"
+#include "sim/core/error.h"
+
+namespace rollrig::scenarios {
+
+// Named one by one, since the linker drops objects of a static library that nothing refers to.
+#define ROLLRIG_SCENARIO(name) const Scenario& scenario_##name();
+#include "scenarios/scenarios.def"
+#undef ROLLRIG_SCENARIO
+
+const std::vector<const Scenario*>& all_scenarios() {
+  static const std::vector<const Scenario*> scenarios{
+#define ROLLRIG_SCENARIO(name) &scenario_##name(),
+#include "scenarios/scenarios.def"
+#undef ROLLRIG_SCENARIO
+  };
+  return scenarios;
+}
+
+std::vector<std::string> scenario_names() {
+  std::vector<std::string> names;
+  for (const Scenario* scenario : all_scenarios()) names.push_back(scenario->text.name);
+  return names;
+}
+
+const Scenario& find_scenario(const std::string& name) {
+  for (const Scenario* scenario : all_scenarios()) {
+    if (scenario->text.name == name) return *scenario;
+  }
+  throw InputError(unknown_name("scenario", name, scenario_names()));
+}
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,22 @@
+#include "scenarios/sensor_file.h"
+
+#include "scenarios/assets.h"
+#include "scenarios/drum_bench.h"
+
+namespace rollrig::scenarios {
+
+models::SensorSet read_sensor_file(const ConfigTable& config) {
+  TableReader file(config, "");
+  check_format(file, "rollrig-sensors", 1);
+  file.text("name");
+  const ConfigTable* sensors = file.table("sensors");
+  if (sensors == nullptr) throw file.problem("sensors", "missing table [sensors]", "[sensors.<channel>] tables");
+  file.finish();
+  return models::read_sensors(*sensors, measured_drum_channels());
+}
+
+models::SensorSet read_sensor_asset(const std::string& name_or_path) {
+  return read_sensor_file(read_config(find_asset("sensors", name_or_path)));
+}
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,15 @@
+#pragma once
+/// assets/sensors/<name>.toml: presets of virtual sensors.
+
+#include <string>
+
+#include "models/sensor.h"
+
+namespace rollrig::scenarios {
+
+/// Reads a preset ("rollrig-sensors/1") by name or path. Throws InputError.
+models::SensorSet read_sensor_asset(const std::string& name_or_path);
+/// Reads a preset from parsed TOML.
+models::SensorSet read_sensor_file(const ConfigTable& config);
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,76 @@
+#pragma once
+/// Settings of a scenario: declared by a visit() as parameters are, read from [settings], shown by describe.
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <boost/algorithm/string/join.hpp>
+
+#include "scenarios/scenario.h"
+
+namespace rollrig::scenarios {
+
+namespace detail {
+
+inline std::string show_in_unit(const Field& field, double si_value) {
+  return fmt::format("{:.6g}", unit_of_key(field.key).from_si(si_value));
+}
+inline std::string show_default(const Field& field, const double&) {
+  return field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required";
+}
+inline std::string show_default(const Field& field, const int&) {
+  return field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required";
+}
+inline std::string show_default(const Field& field, const std::optional<double>& member) {
+  return member.has_value() ? show_in_unit(field, *member) : "see text";
+}
+inline std::string show_default(const Field& field, const std::vector<double>& member) {
+  std::vector<std::string> items;
+  for (const double item : member) items.push_back(show_in_unit(field, item));
+  return items.empty() ? "see text" : "[" + boost::algorithm::join(items, ", ") + "]";
+}
+
+inline Json to_json(const Field& field, double member) { return unit_of_key(field.key).from_si(member); }
+inline Json to_json(const Field&, int member) { return member; }
+inline Json to_json(const Field& field, const std::optional<double>& member) {
+  return member.has_value() ? Json(unit_of_key(field.key).from_si(*member)) : Json();
+}
+inline Json to_json(const Field& field, const std::vector<double>& member) {
+  Json list = Json::array();
+  for (const double item : member) list.push_back(unit_of_key(field.key).from_si(item));
+  return list;
+}
+
+}  // namespace detail
+
+template <class Settings>
+std::vector<SettingInfo> list_settings() {
+  std::vector<SettingInfo> list;
+  Settings settings;
+  Settings::visit(settings, [&list](const Field& field, auto& member) {
+    list.push_back({field.key, field.range.to_string(), detail::show_default(field, member), field.doc});
+  });
+  return list;
+}
+
+/// Reads a scenario's settings; every key must be known.
+template <class Settings>
+Settings read_settings(const RunSpec& spec) {
+  Settings settings;
+  TableReader reader(spec.settings, "[settings]");
+  read_fields(reader, settings);
+  reader.finish();
+  return settings;
+}
+
+/// Every setting as used, in the units of the keys, for the manifest.
+template <class Settings>
+Json settings_to_json(const Settings& settings) {
+  Json json = Json::object();
+  Settings::visit(
+      settings, [&json](const Field& field, const auto& member) { json[field.key] = detail::to_json(field, member); });
+  return json;
+}
+
+}  // namespace rollrig::scenarios
