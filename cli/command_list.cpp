@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/print.h"
+#include "scenarios/assets.h"
+#include "scenarios/run_spec.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::cli {
+namespace {
+
+Json list_everything() {
+  Json json = {{"scenarios", Json::array()}, {"effects", Json::array()}};
+  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
+    json["scenarios"].push_back({{"name", scenario->text.name}, {"summary", scenario->text.summary}});
+  }
+  for (const models::Effect* effect : models::all_effects()) {
+    json["effects"].push_back({{"name", effect->info.id}, {"summary", effect->info.summary}});
+  }
+  for (const char* folder : {"tires", "rigs", "sensors"}) json[folder] = scenarios::list_assets(folder);
+  return json;
+}
+
+int list_command(const std::string& json_file) {
+  const Json all = list_everything();
+  if (!json_file.empty()) write_output(json_file, all.dump(2) + "\n");
+  if (json_file == "-") return kDone;
+  for (const char* kind : {"scenarios", "effects"}) {
+    std::cout << kind << '\n';
+    for (const Json& item : all[kind]) {
+      std::cout << "  " << item["name"].get<std::string>() << '\n' << wrap(item["summary"].get<std::string>(), 6);
+    }
+  }
+  for (const char* kind : {"tires", "rigs", "sensors"}) {
+    std::cout << kind << '\n' << wrap(fmt::format("{}", fmt::join(all[kind].get<std::vector<std::string>>(), "  ")), 2);
+  }
+  return kDone;
+}
+
+void describe_scenario(const scenarios::Scenario& scenario) {
+  std::cout << scenario.text.name << ": scenario\n" << wrap(scenario.text.summary, 2) << '\n';
+  std::cout << "Procedure\n" << wrap(scenario.text.procedure, 2) << "Source\n" << wrap(scenario.text.source, 2);
+  std::cout << "Settings (--set key=value)\n";
+  for (const scenarios::SettingInfo& setting : scenario.settings) {
+    const std::string range = setting.range.empty() ? "" : ", " + setting.range;
+    std::cout << fmt::format("  {} [{}{}]\n", setting.key, setting.fallback, range) << wrap(setting.doc, 6);
+  }
+  std::cout << "Results\n";
+  for (const scenarios::ResultInfo& result : scenario.text.results) {
+    std::cout << "  " << result.key << '\n' << wrap(result.doc, 6);
+  }
+}
+
+std::string join_or_none(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+void describe_effect(const models::EffectInfo& info) {
+  std::cout << info.id << ": effect\n" << wrap(info.summary, 2) << '\n';
+  std::cout << "Equation\n" << wrap(info.equation, 2) << "Source\n" << wrap(info.source, 2);
+  std::cout << fmt::format("Parameters ([effects.{}])\n", info.id);
+  for (const models::EffectParameter& parameter : info.parameters) {
+    const std::string off = parameter.off.has_value() ? fmt::format(", off at {}", *parameter.off) : "";
+    std::cout << fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}; {}{}]\n", parameter.key, parameter.prior.centre(),
+                             parameter.prior.low, parameter.prior.high, parameter.range.to_string(), off)
+              << wrap(parameter.doc, 6);
+  }
+  std::cout << "Shows in\n" << wrap(join_or_none(info.visible_in), 2);
+  std::cout << "Leaves clean\n" << wrap(join_or_none(info.clean_in), 2);
+  std::cout << "Confused with\n" << wrap(join_or_none(info.confused_with), 2);
+  std::cout << "Tests that split\n" << wrap(fmt::format("{}", fmt::join(info.splitting_tests, "; ")), 2);
+}
+
+/// Source comments of an asset are part of what it says: the file itself is shown.
+void describe_file(const std::string& path) { std::cout << path << "\n\n" << read_text_file(path); }
+
+int describe_command(const std::string& name) {
+  std::vector<std::string> known = scenarios::scenario_names();
+  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
+    if (scenario->text.name == name) {
+      describe_scenario(*scenario);
+      return kDone;
+    }
+  }
+  for (const models::Effect* effect : models::all_effects()) {
+    if (effect->info.id == name) {
+      describe_effect(effect->info);
+      return kDone;
+    }
+    known.push_back(effect->info.id);
+  }
+  for (const char* folder : {"tires", "rigs", "sensors"}) {
+    for (const std::string& asset : scenarios::list_assets(folder)) {
+      if (asset == name) {
+        describe_file(scenarios::find_asset(folder, name));
+        return kDone;
+      }
+      known.push_back(asset);
+    }
+  }
+  throw InputError(unknown_name("scenario, effect or asset", name, known));
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("list", "List scenarios, effects, tires, rigs, sensors");
+  auto json = std::make_shared<std::string>();
+  command->add_option("--json", *json, "File for the list, - for standard output");
+  command->callback([json, &action] { action = [json] { return list_command(*json); }; });
+}
+
+void add_describe_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("describe", "Explain a scenario, an effect, a tire, a rig or sensors");
+  auto name = std::make_shared<std::string>();
+  command->add_option("name", *name, "Scenario, effect or asset")->required();
+  command->callback([name, &action] { action = [name] { return describe_command(*name); }; });
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/print.h"
+#include "cli/progress.h"
+#include "scenarios/assets.h"
+#include "scenarios/golden.h"
+#include "scenarios/run_spec.h"
+#include "sim/core/file_io.h"
+#include "sim/core/parallel.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::cli {
+namespace {
+
+struct Options {
+  std::string folder;
+  std::string json;
+  int threads = 0;
+  bool update = false;
+  bool quiet = false;
+};
+
+struct Case {
+  std::string name;
+  std::string run_file;
+  std::string golden_file;
+  std::string golden_text;  // as it would be written now
+  std::string status;       // "same", "differs", "no golden", "failed", "updated"
+  scenarios::GoldenComparison comparison;
+};
+
+std::vector<Case> find_cases(const std::string& folder) {
+  std::vector<Case> cases;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    if (entry.path().extension() != ".toml") continue;
+    Case found;
+    found.name = entry.path().stem().string();
+    found.run_file = entry.path().string();
+    found.golden_file = (entry.path().parent_path() / (found.name + ".golden.csv")).string();
+    cases.push_back(found);
+  }
+  if (cases.empty()) {
+    throw InputError(
+        {fmt::format("no run files in '{}'", folder), folder, 0, "", "", "a folder with run files (.toml)", ""});
+  }
+  std::sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.name < b.name; });
+  return cases;
+}
+
+void run_case(Case& each) {
+  const scenarios::RunSpec spec =
+      scenarios::read_run_spec(read_config(each.run_file), fs::path(each.run_file).parent_path().string());
+  std::vector<scenarios::GoldenValue> now;
+  try {
+    now = scenarios::make_golden(spec.scenario->run(spec, {}));
+  } catch (const RunFailure& failure) {
+    each.status = "failed";
+    each.comparison.problems = {failure.what()};
+    return;
+  }
+  if (!fs::exists(each.golden_file)) {
+    each.status = "no golden";
+  } else {
+    const std::vector<scenarios::GoldenValue> golden = scenarios::read_golden(each.golden_file);
+    scenarios::keep_tolerances(golden, now);
+    each.comparison = scenarios::compare_with_golden(golden, now);
+    each.status = each.comparison.problems.empty() ? "same" : "differs";
+  }
+  each.golden_text = scenarios::write_golden(now);
+}
+
+void print_cases(const std::vector<Case>& cases) {
+  scenarios::ResultTable table{"", {"run", "status", "values", "worst, share of tolerance"}, {}};
+  for (const Case& each : cases) {
+    const std::string worst =
+        each.comparison.worst_quantity.empty() ? "-" : fmt::format("{:.2f}", each.comparison.worst_share);
+    table.rows.push_back({each.name, each.status, fmt::format("{}", each.comparison.compared), worst});
+  }
+  std::cout << format_table(table);
+  constexpr std::size_t kShownProblems = 5;
+  for (const Case& each : cases) {
+    if (each.status == "same" || each.comparison.problems.empty()) continue;
+    std::cout << each.name << '\n';
+    for (std::size_t i = 0; i < std::min(kShownProblems, each.comparison.problems.size()); ++i) {
+      std::cout << wrap(each.comparison.problems[i], 4);
+    }
+    if (each.comparison.problems.size() > kShownProblems) {
+      std::cout << fmt::format("    and {} more\n", each.comparison.problems.size() - kShownProblems);
+    }
+  }
+}
+
+Json cases_to_json(const std::vector<Case>& cases) {
+  Json json = {{"format", "rollrig-regression/1"}, {"runs", Json::array()}};
+  for (const Case& each : cases) {
+    json["runs"].push_back({{"name", each.name},
+                            {"status", each.status},
+                            {"compared", each.comparison.compared},
+                            {"worst_share_of_tolerance", each.comparison.worst_share},
+                            {"worst", each.comparison.worst_quantity},
+                            {"problems", each.comparison.problems}});
+  }
+  return json;
+}
+
+int regress_command(const Options& options) {
+  const std::string folder =
+      options.folder.empty() ? (fs::path(scenarios::find_assets_folder()) / "regression").string() : options.folder;
+  std::vector<Case> cases = find_cases(folder);
+  {
+    ProgressLine progress("regress", options.quiet);
+    std::atomic<std::size_t> done{0};
+    parallel_for(cases.size(), options.threads, [&](std::size_t i) {
+      run_case(cases[i]);
+      progress.update(static_cast<double>(++done) / static_cast<double>(cases.size()));
+    });
+  }
+  bool good = true;
+  for (Case& each : cases) {
+    const bool to_update = options.update && (each.status == "differs" || each.status == "no golden");
+    if (to_update) {
+      write_file_atomically(each.golden_file, each.golden_text);
+      each.status = "updated";
+    }
+    good = good && (each.status == "same" || each.status == "updated");
+  }
+  if (!options.json.empty()) write_output(options.json, cases_to_json(cases).dump(2) + "\n");
+  if (!options.quiet && options.json != "-") print_cases(cases);
+  return good ? kDone : kDiffers;
+}
+
+}  // namespace
+
+void add_regress_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("regress", "Rerun all regression scenarios against their goldens");
+  auto options = std::make_shared<Options>();
+  command->add_option("folder", options->folder, "Folder of run files [assets/regression]");
+  command->add_flag("--update", options->update, "Write new goldens where results differ");
+  command->add_option("--json", options->json, "File for the comparison, - for standard output");
+  command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &action] { action = [options] { return regress_command(*options); }; });
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/print.h"
+#include "cli/progress.h"
+#include "cli/run_options.h"
+#include "scenarios/measurement_set.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::cli {
+namespace {
+
+struct Options {
+  RunOptions run;
+  std::string out;
+  std::string json;
+  std::string set_folder;
+  bool force = false;
+  bool quiet = false;
+};
+
+int run_command(const Options& options) {
+  const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
+  // Refused before the run, not after it, when the results could not be written.
+  std::optional<OutputFolder> out;
+  std::optional<OutputFolder> set;
+  if (!options.out.empty()) out.emplace(options.out, options.force);
+  if (!options.set_folder.empty()) set.emplace(options.set_folder, options.force);
+  ProgressLine progress(spec.scenario->text.name, options.quiet);
+  const scenarios::Outcome outcome = spec.scenario->run(spec, progress.callback());
+  const std::string result = scenarios::make_result_json(spec, outcome).dump(2) + "\n";
+  if (out.has_value()) {
+    out->add("result.json", result);
+    out->add("recording.csv", scenarios::make_recording_csv(outcome.recording));
+    out->add("manifest.json", scenarios::make_manifest(spec, outcome).dump(2) + "\n");
+    out->commit();
+  }
+  if (set.has_value()) {
+    for (auto& [name, content] : scenarios::write_measurement_set(spec, outcome, spec.scenario->text.name)) {
+      set->add(name, content);
+    }
+    set->commit();
+  }
+  if (!options.json.empty()) write_output(options.json, result);
+  if (options.quiet || options.json == "-") return kDone;
+  std::cout << format_outcome(spec, outcome);
+  if (out.has_value())
+    std::cout << fmt::format("  written to {}/: result.json recording.csv manifest.json\n", options.out);
+  if (set.has_value()) std::cout << fmt::format("  measurement set written to {}/\n", options.set_folder);
+  return kDone;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("run", "Run a scenario on a rig");
+  auto options = std::make_shared<Options>();
+  options->run.add_to(*command);
+  command->add_option("--out", options->out, "Folder for result.json, recording.csv, manifest.json");
+  command->add_option("--write-set", options->set_folder, "Folder for the run as a measurement set");
+  command->add_option("--json", options->json, "File for result.json, - for standard output");
+  command->add_flag("--force", options->force, "Write into folders that hold files");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &action] { action = [options] { return run_command(*options); }; });
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "scenarios/measurement_set.h"
+#include "scenarios/run_spec.h"
+#include "scenarios/sensor_file.h"
+#include "sim/core/csv.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::cli {
+namespace {
+
+std::string validate_set(const std::string& path) {
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(path);
+  std::size_t rows = 0;
+  for (const scenarios::MeasuredRun& run : set.runs) rows += run.time_s.size();
+  return fmt::format("measurement set '{}': {} runs, {} rows", set.name, set.runs.size(), rows);
+}
+
+std::string validate_cycle(const std::string& path) {
+  const CsvTable csv = CsvTable::read(path);
+  csv.require_known({"time_s", "speed_km_h"});
+  csv.increasing_times("time_s");
+  csv.numbers({"speed_km_h", between(0.0, 400.0), "speed"});
+  return fmt::format("cycle: {} rows", csv.row_count());
+}
+
+std::string validate_toml(const std::string& path) {
+  const ConfigTable config = read_config(path);
+  TableReader reader(config, "");
+  const std::string format = reader.text("format");
+  const std::string kind = format.substr(0, format.find('/'));
+  if (kind == "rollrig-tire") return fmt::format("tire '{}'", models::read_tire(config).name);
+  if (kind == "rollrig-rig") return fmt::format("rig '{}'", rigs::read_rig(config).name);
+  if (kind == "rollrig-sensors") return fmt::format("sensors: {} channels", scenarios::read_sensor_file(config).size());
+  if (kind == "rollrig-measurements") return validate_set(path);
+  if (kind == "rollrig-vehicle") return fmt::format("vehicle '{}'", scenarios::read_vehicle(config).name);
+  if (kind == "rollrig-run") {
+    const scenarios::RunSpec spec = scenarios::read_run_spec(config, fs::path(path).parent_path().string());
+    spec.scenario->check(spec);
+    return fmt::format("run of scenario '{}'", spec.scenario->text.name);
+  }
+  InputProblem problem = unknown_name(
+      "format", kind,
+      {"rollrig-tire", "rollrig-rig", "rollrig-run", "rollrig-sensors", "rollrig-measurements", "rollrig-vehicle"});
+  problem.file = path;
+  problem.key = "format";
+  throw InputError(problem);
+}
+
+int validate_command(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    const bool is_csv = fs::path(path).extension() == ".csv";
+    const std::string found = fs::is_directory(path) ? validate_set(path)
+                              : is_csv               ? validate_cycle(path)
+                                                     : validate_toml(path);
+    std::cout << fmt::format("{}: good {}\n", path, found);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("validate", "Check files without running anything");
+  auto paths = std::make_shared<std::vector<std::string>>();
+  command->add_option("file", *paths, "Tire, rig, run, sensors, vehicle or set.toml, a set's folder, or a cycle's CSV")
+      ->required();
+  command->callback([paths, &action] { action = [paths] { return validate_command(*paths); }; });
+}
+
+}  // namespace rollrig::cli

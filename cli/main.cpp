@@ -1,0 +1,74 @@
+/// rollrig: the command line.
+#include <fmt/format.h>
+
+#include <exception>
+#include <iostream>
+
+#include "cli/command.h"
+#include "cli/typo.h"
+#include "sim/core/error.h"
+#include "sim/core/interrupt.h"
+
+namespace rollrig::cli {
+namespace {
+
+constexpr const char* kDescription =
+    "rollrig: a virtual rolling-resistance laboratory.\n"
+    "Simulates tires on test rigs, whole tests at a time.\n";
+
+constexpr const char* kFooter =
+    "\nExamples:\n"
+    "  rollrig run iso_28580 --tire a50\n"
+    "  rollrig run warm_up --tire a60 --set speed_km_h=120 --out warm\n"
+    "  rollrig sweep iso_28580 --tire a50 --vary pressure_kPa=210:310:20\n"
+    "  rollrig describe iso_28580\n"
+    "Exit status: 0 done, 1 a regression differs, 2 input or usage, 3 the run failed.\n";
+
+int report(const char* what, const std::string& text, int status) {
+  std::cout << std::flush;
+  std::cerr << what << ": " << text << '\n';
+  return status;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{kDescription, "rollrig"};
+  app.footer(kFooter);
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("rollrig ") + ROLLRIG_VERSION);
+  Action action;
+  add_run_command(app, action);
+  add_sweep_command(app, action);
+  add_regress_command(app, action);
+  add_validate_command(app, action);
+  add_list_command(app, action);
+  add_describe_command(app, action);
+  add_fit_command(app, action);
+  add_completion_command(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {  // --help, --version
+    return app.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    return report("error", explain_usage_error(app, error, argc, argv), kInputError);
+  }
+  return action();
+}
+
+}  // namespace
+}  // namespace rollrig::cli
+
+int main(int argc, char** argv) {
+  using namespace rollrig::cli;
+  rollrig::install_interrupt_handler();
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const rollrig::InputError& error) {
+    return report("error", error.what(), kInputError);
+  } catch (const rollrig::RunFailure& error) {
+    return report("run failed", error.what(), kRunFailed);
+  } catch (const rollrig::Interrupted&) {
+    return report("stopped", "nothing was written", kInterrupted);
+  } catch (const std::exception& error) {
+    return report("internal error", error.what(), kRunFailed);
+  }
+}

@@ -1,0 +1,84 @@
+#include "cli/print.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "scenarios/run_spec.h"
+
+namespace rollrig::cli {
+namespace {
+
+/// Characters, not bytes, so that "§" counts once.
+std::size_t count_characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+}  // namespace
+
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width) {
+  std::istringstream words(text);
+  std::string out;
+  std::string line(indent, ' ');
+  std::string word;
+  bool empty = true;
+  while (words >> word) {
+    if (!empty && count_characters(line) + 1 + count_characters(word) > width) {
+      out += line + "\n";
+      line.assign(indent, ' ');
+      empty = true;
+    }
+    if (!empty) line += ' ';
+    line += word;
+    empty = false;
+  }
+  return out + line + "\n";
+}
+
+std::string format_lines(const std::vector<scenarios::ResultLine>& lines) {
+  std::size_t width = 0;
+  for (const scenarios::ResultLine& line : lines) width = std::max(width, line.label.size());
+  std::string text;
+  for (const scenarios::ResultLine& line : lines) text += fmt::format("  {:<{}}  {}\n", line.label, width, line.value);
+  return text;
+}
+
+std::string format_table(const scenarios::ResultTable& table) {
+  std::vector<std::size_t> widths;
+  for (const std::string& column : table.columns) widths.push_back(count_characters(column));
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], count_characters(row[i]));
+  }
+  const auto format_row = [&widths](const std::vector<std::string>& cells) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      line += fmt::format(" {:>{}}", cells[i], widths[i] + (cells[i].size() - count_characters(cells[i])));
+    }
+    return line + "\n";
+  };
+  std::string text = "  " + table.title + "\n" + format_row(table.columns);
+  for (const auto& row : table.rows) text += format_row(row);
+  return text;
+}
+
+std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
+  using Ledger = sim::EnergyTerm::Ledger;
+  std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name, spec.tire.name,
+                                 spec.tire.designation, spec.rig.name, scenarios::name_of(spec.fidelity));
+  if (!spec.effects.empty()) {
+    std::string names;
+    for (const models::ActiveEffect& active : spec.effects) names += " " + active.effect->info.id;
+    text += wrap("effects on:" + names, 2);
+  }
+  text += format_lines(outcome.lines);
+  for (const scenarios::ResultTable& table : outcome.tables) text += format_table(table);
+  const sim::EnergyAudit& audit = outcome.recording.audit;
+  text += fmt::format("  energy closes to {:.1e} (mechanical) and {:.1e} (thermal) of the motor work\n",
+                      audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));
+  for (const std::string& warning : outcome.warnings) text += wrap("warning: " + warning, 2);
+  return text;
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,23 @@
+#pragma once
+/// What a person reads in the terminal: 80 columns, plain text.
+
+#include <string>
+#include <vector>
+
+#include "scenarios/scenario.h"
+
+namespace rollrig::cli {
+
+/// Text broken into lines of at most `width`, each indented.
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 80);
+
+/// Label and value lines, values aligned.
+std::string format_lines(const std::vector<scenarios::ResultLine>& lines);
+
+/// A table, columns aligned to the right, the first to the left.
+std::string format_table(const scenarios::ResultTable& table);
+
+/// Header, lines, tables and warnings of a run.
+std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
+
+}  // namespace rollrig::cli

@@ -1,0 +1,41 @@
+#include "cli/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace rollrig::cli {
+namespace {
+
+constexpr std::chrono::seconds kQuietFor{2};
+constexpr std::chrono::milliseconds kBetweenUpdates{200};
+
+}  // namespace
+
+ProgressLine::ProgressLine(std::string label, bool quiet)
+    : label_(std::move(label)), active_(!quiet && isatty(STDERR_FILENO) != 0) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressLine::update(double done) {
+  if (!active_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Clock::time_point now = Clock::now();
+  if (now - start_ < kQuietFor || now - last_ < kBetweenUpdates) return;
+  last_ = now;
+  shown_ = true;
+  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  const double left_s = done > 0.0 ? elapsed_s * (1.0 - done) / done : 0.0;
+  fmt::print(stderr, "\r\033[K{}  {:3.0f} %  about {:.0f} s left", label_, 100.0 * done, left_s);
+  std::fflush(stderr);
+}
+
+sim::Progress ProgressLine::callback() {
+  if (!active_) return {};
+  return [this](double done) { update(done); };
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,36 @@
+#pragma once
+/// A progress line on the terminal, for what takes longer than two seconds.
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "sim/simulate.h"
+
+namespace rollrig::cli {
+
+/// Writes to standard error when that is a terminal, and only once two seconds have passed.
+class ProgressLine {
+ public:
+  ProgressLine(std::string label, bool quiet);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// `done` from 0 to 1. May be called from several threads.
+  void update(double done);
+  /// A callback for simulate().
+  sim::Progress callback();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string label_;
+  bool active_;
+  bool shown_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+  std::mutex mutex_;
+};
+
+}  // namespace rollrig::cli

@@ -1,0 +1,72 @@
+#include "cli/typo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/core/error.h"
+
+namespace rollrig::cli {
+namespace {
+
+/// The app whose options were being read: the subcommand named by the leading words, where there is one.
+const CLI::App& find_called(const CLI::App& app, int argc, char** argv, int& next) {
+  const CLI::App* called = &app;
+  for (next = 1; next < argc; ++next) {
+    const CLI::App* found = find_subcommand(*called, argv[next]);
+    if (found == nullptr) break;
+    called = found;
+  }
+  return *called;
+}
+
+std::string suggest(const CLI::App& called, int argc, char** argv, int next) {
+  const std::vector<std::string> options = list_options(called);
+  for (int i = next; i < argc; ++i) {
+    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+    const bool unknown_option =
+        word.rfind("--", 0) == 0 && std::find(options.begin(), options.end(), word) == options.end();
+    if (unknown_option) return nearest_name(word, options);
+  }
+  const std::vector<std::string> subcommands = list_subcommands(called);
+  if (next < argc && !subcommands.empty()) return nearest_name(argv[next], subcommands);
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> list_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+const CLI::App* find_subcommand(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (subcommand->get_name() == name) return subcommand;
+  }
+  return nullptr;
+}
+
+std::vector<std::string> list_subcommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(subcommand->get_name());
+  }
+  return names;
+}
+
+std::string explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  int next = 1;
+  const CLI::App& called = find_called(app, argc, argv, next);
+  std::string command = "rollrig";
+  for (int i = 1; i < next; ++i) command += std::string(" ") + argv[i];
+  std::string text = error.what();
+  const std::string nearest = suggest(called, argc, argv, next);
+  if (!nearest.empty()) text += fmt::format("\n  nearest  {}", nearest);
+  return text + fmt::format("\n  allowed  see {} --help", command);
+}
+
+}  // namespace rollrig::cli
