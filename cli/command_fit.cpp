@@ -1,5 +1,102 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
 #include "cli/command.h"
+#include "cli/print.h"
+#include "identification/fit_tire.h"
+#include "sim/core/file_io.h"
 
 namespace rollrig::cli {
-void add_fit_command(CLI::App&, Action&) {}
+namespace {
+
+struct Options {
+  std::string set;
+  std::string out;
+  std::string json;
+  std::string name;
+  bool load_map = false;
+  bool free_H = false;
+  int threads = 0;
+  bool force = false;
+  bool quiet = false;
+};
+
+std::string short_name(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
+
+scenarios::ResultTable make_table(const identification::TireFit& fit) {
+  scenarios::ResultTable table{
+      "Fitted, with standard uncertainty and 95 % interval", {"parameter", "value", "sd", "from", "to"}, {}};
+  for (const identification::Estimate& estimate : fit.estimates) {
+    const auto number = [](double value) { return fmt::format("{:.5g}", value); };
+    table.rows.push_back({short_name(estimate.key) + (estimate.nuisance ? " (prior)" : ""), number(estimate.value),
+                          number(estimate.sd), number(estimate.lower_95()), number(estimate.upper_95())});
+  }
+  return table;
+}
+
+std::string format_fit(const scenarios::MeasurementSet& set, const identification::TireFit& fit) {
+  std::string text = fmt::format("fit tire   set {}   tire {}   rig {}\n", set.name, set.tire.name, set.rig->name);
+  text += format_table(make_table(fit));
+  for (const identification::ChannelFit& channel : fit.channels) {
+    text += fmt::format("  {:<24} {:>7} samples, rest {:.3f} of the sensor's noise\n", channel.channel, channel.samples,
+                        channel.whitened_rms);
+  }
+  const identification::TwoStepEstimate& two_step = fit.two_step;
+  text += wrap(fmt::format("two-step regression of the source (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "
+                           "{:.4g} 1/degC, B1 {:.4g} s/(m degC), z {:.4g} W/K, f {:.4g} W s/(m K){}",
+                           two_step.A0_N, two_step.A1_N_s_per_m, two_step.B0_per_K, two_step.B1_s_per_m_K,
+                           two_step.z_W_per_K, two_step.f_W_s_per_m_K,
+                           two_step.H_gas_W_per_K.has_value() ? fmt::format(", H {:.4g} W/K", *two_step.H_gas_W_per_K)
+                                                              : std::string()),
+               2);
+  for (const std::string& warning : fit.warnings) text += wrap("warning: " + warning, 2);
+  return text;
+}
+
+int fit_tire_command(const Options& options) {
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
+  std::optional<OutputFolder> out;
+  if (!options.out.empty()) out.emplace(options.out, options.force);
+  identification::FitOptions fit_options;
+  fit_options.load_map = options.load_map;
+  fit_options.threads = options.threads;
+  if (options.free_H) fit_options.free_H = true;
+  identification::TireFit fit = identification::fit_tire(set, fit_options);
+  fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
+  const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";
+  const std::string tire_file = fit.tire.name + ".toml";
+  if (out.has_value()) {
+    out->add(tire_file, models::write_tire(fit.tire, fit.notes));
+    out->add("fit.json", json);
+    out->commit();
+  }
+  if (!options.json.empty()) write_output(options.json, json);
+  if (options.quiet || options.json == "-") return kDone;
+  std::cout << format_fit(set, fit);
+  if (out.has_value()) std::cout << fmt::format("  written to {}/: {} fit.json\n", options.out, tire_file);
+  return kDone;
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("fit", "Fit a model to measurements");
+  command->require_subcommand(1);
+  CLI::App* tire = command->add_subcommand("tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds");
+  auto options = std::make_shared<Options>();
+  tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();
+  tire->add_option("--name", options->name, "Name of the fitted tire [<tire>_fit]");
+  tire->add_option("--out", options->out, "Folder for the tire file and fit.json");
+  tire->add_option("--json", options->json, "File for fit.json, - for standard output");
+  tire->add_flag("--load-map", options->load_map, "Fit A0, A1, B0, B1 at each load of the set");
+  tire->add_flag("--free-h", options->free_H, "Fit H even where the gas temperature was not measured");
+  tire->add_option("--threads", options->threads, "Threads [as many as the machine has]")->check(CLI::Range(1, 1024));
+  tire->add_flag("--force", options->force, "Write into a folder that holds files");
+  tire->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  tire->callback([options, &action] { action = [options] { return fit_tire_command(*options); }; });
+}
+
 }  // namespace rollrig::cli

@@ -65,7 +65,8 @@ void apply_sensors(const RunSpec& spec, sim::Recording<double>& recording) {
 }  // namespace
 
 const std::vector<std::string>& measured_drum_channels() {
-  static const std::vector<std::string> channels{"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
+  static const std::vector<std::string> channels{"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa",
+                                                 "gas_temperature_degC"};
   return channels;
 }
 

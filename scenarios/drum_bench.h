@@ -6,7 +6,7 @@
 
 namespace rollrig::scenarios {
 
-/// Channels that a drum rig measures (formats.md).
+/// Channels that a drum rig measures (formats.md), and the gas temperature, which some sensors have (3.16).
 const std::vector<std::string>& measured_drum_channels();
 
 /// Simulates `program` from a soaked tire, checks both audits, applies trace effects and sensors to the

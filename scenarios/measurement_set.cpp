@@ -182,6 +182,24 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   return set;
 }
 
+namespace {
+
+/// Whether `next` continues every straight line of `before`, so that the two are one segment.
+bool continues(const sim::Segment& before, const sim::Segment& next) {
+  constexpr double kSame = 1e-12;
+  for (std::size_t i = 0; i < before.inputs.size(); ++i) {
+    const sim::Ramp& a = before.inputs[i];
+    const sim::Ramp& b = next.inputs[i];
+    const double scale = kSame * (1.0 + std::abs(b.start));
+    const bool same_line = std::abs(a.at(before.duration_s) - b.start) <= scale &&
+                           std::abs(a.slope_per_s - b.slope_per_s) * next.duration_s <= scale;
+    if (!same_line) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 sim::Program make_replay(const MeasuredRun& run) {
   const auto column = [&run](const char* name) -> const std::vector<double>& { return run.columns.at(name); };
   const bool surface_recorded = run.has("surface_temperature_degC");
@@ -199,10 +217,15 @@ sim::Program make_replay(const MeasuredRun& run) {
     segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {column("load_N")[i], 0.0};
     segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = line(ambient_K);
     segment.inputs[rigs::index_of(rigs::DrumInput::kSurface)] = line(surface_K);
-    phase.segments.push_back(std::move(segment));
+    if (!phase.segments.empty() && continues(phase.segments.back(), segment)) {
+      phase.segments.back().duration_s += duration_s;
+    } else {
+      phase.segments.push_back(std::move(segment));
+    }
   }
   sim::Program program;
   program.start_time_s = run.time_s.front();
+  program.sample_times_s = run.time_s;
   program.phases = {std::move(phase)};
   return program;
 }
@@ -222,7 +245,13 @@ std::string write_sensors(const models::SensorSet& sensors) {
   return text;
 }
 
-/// Rows of one run as CSV, times from its start.
+bool is_measured(const std::string& column) {
+  const std::vector<std::string> measured = measured_channels(SetKind::kDrum);
+  return std::find(measured.begin(), measured.end(), column) != measured.end();
+}
+
+/// Rows of one run as CSV, times from its start. Where the run is cut out of a longer recording, a mean at
+/// its first or last row reaches beyond the cut: that field is left empty.
 std::string write_run_csv(const sim::Recording<double>& recording, const SetRun& run,
                           const std::vector<std::string>& columns) {
   std::vector<std::string> header{"time_s"};
@@ -232,9 +261,14 @@ std::string write_run_csv(const sim::Recording<double>& recording, const SetRun&
   for (std::size_t row = 0; row < recording.row_count(); ++row) {
     const double time_s = recording.time_s[row];
     if (time_s < run.start_s - kSlack_s || time_s > run.end_s + kSlack_s) continue;
+    const bool cut_before = std::abs(time_s - run.start_s) <= kSlack_s && row > 0;
+    const bool cut_after = std::abs(time_s - run.end_s) <= kSlack_s && row + 1 < recording.row_count();
     csv.begin_row();
     csv.add(time_s - run.start_s);
-    for (const std::string& column : columns) csv.add(unit_of_key(column).from_si(recording.channel(column)[row]));
+    for (const std::string& column : columns) {
+      const bool beyond = (cut_before || cut_after) && is_measured(column);
+      csv.add(beyond ? std::nan("") : unit_of_key(column).from_si(recording.channel(column)[row]));
+    }
     csv.end_row();
   }
   return csv.take();

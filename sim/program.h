@@ -51,6 +51,7 @@ struct Phase {
 struct Program {
   double start_time_s = 0.0;
   double sample_interval_s = 1.0;
+  std::vector<double> sample_times_s;  // where not empty, instead of the interval; increasing, from start to end
   std::vector<Phase> phases;
 
   double duration_s() const;

@@ -21,14 +21,18 @@ namespace detail {
 
 /// Fills the rows of a recording as the integrator passes their times.
 ///
-/// Samples lie at start + k d, d the program's interval. A row holds values at its time, and for mean
-/// channels the mean over the interval of length d centred on it, cut at both ends of the run.
-/// At a knot the row shows the inputs that hold from then on.
+/// Samples lie at start + k d, d the program's interval, or at the program's own times. A row holds values
+/// at its time, and for mean channels the mean from half-way to the sample before to half-way to the next,
+/// cut at both ends of the run. At a knot the row shows the inputs that hold from then on.
 template <class S>
 class Sampler {
  public:
   Sampler(OdeSystem<S>& system, const Program& program, Recording<S>& out)
-      : system_(system), out_(out), start_s_(program.start_time_s), interval_s_(program.sample_interval_s) {
+      : system_(system),
+        out_(out),
+        program_(program),
+        start_s_(program.start_time_s),
+        interval_s_(program.sample_interval_s) {
     out_.channels = system.channels();
     out_.values.resize(out_.channels.size());
     mean_start_.resize(system.integrals().size());
@@ -55,7 +59,7 @@ class Sampler {
         if (row_s >= segment_end_s - kTimeSlack_s || row_s > integrator.time_s()) return;
         open_row(integrator, row_s);
       }
-      const double upper_s = row_s + 0.5 * interval_s_;
+      const double upper_s = boundary_after(next_);
       if (upper_s > integrator.time_s()) return;
       close_row(integrator, upper_s);
     }
@@ -75,8 +79,14 @@ class Sampler {
 
  private:
   static constexpr double kTimeSlack_s = 1e-9;
+  static constexpr double kNever_s = 1e300;
 
-  double time_of(long k) const { return start_s_ + static_cast<double>(k) * interval_s_; }
+  double time_of(long k) const {
+    const std::vector<double>& times_s = program_.sample_times_s;
+    if (times_s.empty()) return start_s_ + static_cast<double>(k) * interval_s_;
+    return k < static_cast<long>(times_s.size()) ? times_s[static_cast<std::size_t>(k)] : kNever_s;
+  }
+  double boundary_after(long k) const { return 0.5 * (time_of(k) + time_of(k + 1)); }
   bool is_written(long k) const { return (k - first_of_phase_) % stride_ == 0; }
 
   void open_row(Integrator<S>& integrator, double row_s) {
@@ -108,7 +118,7 @@ class Sampler {
   }
 
   void write_means(double upper_s) {
-    const double width_s = upper_s - std::max(start_s_, time_of(next_) - 0.5 * interval_s_);
+    const double width_s = upper_s - (next_ > 0 ? boundary_after(next_ - 1) : start_s_);
     for (std::size_t i = 0; i < out_.channels.size(); ++i) {
       const std::size_t integral = out_.channels[i].integral;
       if (out_.channels[i].is_mean()) {
@@ -119,6 +129,7 @@ class Sampler {
 
   OdeSystem<S>& system_;
   Recording<S>& out_;
+  const Program& program_;
   double start_s_;
   double interval_s_;
   std::size_t instant_count_ = 0;

@@ -1,0 +1,22 @@
+#pragma once
+/// Which samples of a measured run a comparison may use.
+
+#include <vector>
+
+#include "scenarios/measurement_set.h"
+
+namespace rollrig::identification {
+
+constexpr double kSettling_s = 30.0;               // design: leave out 30 s after each load change
+constexpr double kLoadedShare = 0.2;               // Assumed: above this share of the reference load a tire is loaded
+constexpr double kSteadyAcceleration_m_s2 = 0.05;  // Assumed
+constexpr double kTrustedSpeed_m_s = 20.0 / 3.6;   // §4.2.1: the source trusts its law from 20 km/h up
+
+/// Acceleration between a row and the next.
+double find_acceleration(const scenarios::MeasuredRun& run, std::size_t row);
+
+/// Rows whose torque is free of the settling of load cylinder and speed controller: 30 s after each load
+/// change and each kink of the speed, and faster than 20 km/h.
+std::vector<bool> find_settled_rows(const scenarios::MeasuredRun& run);
+
+}  // namespace rollrig::identification
