@@ -79,10 +79,12 @@ void ContactForceElement::evaluate(const State& state, ContactEvaluation& out) c
   out.slip = calc_slip_force(contact_, motion.speed_m_s, slip_speed_m_s, out.normal_N, z[0]);
   motion.longitudinal_force_N = out.slip.force_N;
   motion.slip_power_W = out.slip.dissipated_W;
+  const double curvature_per_m = corner_.context().surface_curvature_per_m;
+  motion.rolling_speed_m_s = (out.wheel_speed_rad_s + out.surface_speed_rad_s) * out.loaded_radius_m /
+                             (1.0 + out.loaded_radius_m * curvature_per_m);
   corner_.calc_losses(x, out.now);
   corner_.calc_rates(x, out.now, out.corner_rates.data());
-  out.couple_Nm = calc_resistance_couple_Nm(out.now.rolling_resistance_N, out.loaded_radius_m,
-                                            corner_.context().surface_curvature_per_m);
+  out.couple_Nm = calc_resistance_couple_Nm(out.now.rolling_resistance_N, out.loaded_radius_m, curvature_per_m);
 }
 
 void ContactForceElement::calcForce(const State& state, SimTK::Vector_<SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,

@@ -46,7 +46,7 @@ class Corner {
   void apply_inputs(const S* x, Instant<S>& now) const;
   /// From now.motion (speed and load): ports boundary, gas, loss, parasitic.
   void calc_losses(const S* x, Instant<S>& now) const;
-  /// From now.motion (force and slip power as well): port thermal, and the rates of all states.
+  /// From all of now.motion: port thermal, and the rates of all states.
   void calc_rates(const S* x, Instant<S>& now, S* rates) const;
 
   /// Heat stored in all nodes, from 0 K [J].

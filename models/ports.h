@@ -53,6 +53,8 @@ struct Motion {
   S load_N{};                // at the contact
   S longitudinal_force_N{};  // at the contact, on the wheel, in the direction of the surface's motion
   S slip_power_W{};          // dissipated by longitudinal slip
+  S rolling_speed_m_s{};     // over which rolling resistance works: (omega_wheel + omega_drum) r_l/(1 + r_l/R),
+                             // the surface speed but for slip
 };
 
 /// Port "boundary": surroundings of the tire.

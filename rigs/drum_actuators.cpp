@@ -1,5 +1,7 @@
 #include "rigs/drum_actuators.h"
 
+#include <cmath>
+
 namespace rollrig::rigs {
 
 using SimTK::SpatialVec;
@@ -25,8 +27,14 @@ double DrumActuators::calc_effective_inertia_kg_m2(double load_N) const {
   return context_.machine_inertia_kg_m2 + context_.tire.geometry.spin_inertia_kg_m2 * ratio * ratio;
 }
 
-double DrumActuators::find_integral_rad(double torque_Nm, double load_N) const {
-  return torque_Nm / (calc_effective_inertia_kg_m2(load_N) * bandwidth_rad_s_ * bandwidth_rad_s_);
+double DrumActuators::calc_friction_feedforward_Nm(double speed_m_s) const {
+  return radius_m_ * models::calc_standstill_fade(speed_m_s) *
+         models::calc_parasitic_N(context_.parasitic, std::abs(speed_m_s));
+}
+
+double DrumActuators::find_integral_rad(double torque_Nm, double speed_m_s, double load_N) const {
+  return (torque_Nm - calc_friction_feedforward_Nm(speed_m_s)) /
+         (calc_effective_inertia_kg_m2(load_N) * bandwidth_rad_s_ * bandwidth_rad_s_);
 }
 
 double DrumActuators::drum_speed_rad_s(const State& state) const {
@@ -42,6 +50,7 @@ ActuatorEvaluation DrumActuators::evaluate(const State& state, const models::Inp
   at.speed_error_rad_s = acting.speed_m_s / radius_m_ - drum_speed_rad_s(state);
   const double integral_rad = forces_.getZ(state)[integral_z_];
   at.motor_torque_Nm =
+      calc_friction_feedforward_Nm(acting.speed_m_s) +
       inertia_kg_m2 * (acting.acceleration_m_s2 / radius_m_ + 2.0 * bandwidth_rad_s_ * at.speed_error_rad_s +
                        bandwidth_rad_s_ * bandwidth_rad_s_ * integral_rad);
   return at;

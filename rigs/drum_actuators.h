@@ -16,9 +16,9 @@ struct ActuatorEvaluation {
   double speed_error_rad_s = 0.0;
 };
 
-/// Motor     T = J_eff domega_set/dt + K_p e + K_i I,  dI/dt = e,  e = omega_set - omega;
+/// Motor     T = J_eff domega_set/dt + R F_par(v_set) + K_p e + K_i I,  dI/dt = e,  e = omega_set - omega;
 ///           K_p = 2 J_eff w, K_i = J_eff w^2: critically damped at the bandwidth w;
-///           J_eff = J + I_spin (R/r_l)^2; off: T = 0, I held
+///           J_eff = J + I_spin (R/r_l)^2; F_par the rig's nominal parasitic loss; off: T = 0, I held
 /// Cylinder  F = load asked for - weight of carriage and wheel, so that the contact carries the load
 ///           asked for; damper c dz/dt
 /// Source    Assumed: gains; the load and weight from statics
@@ -38,7 +38,7 @@ class DrumActuators : public SimTK::Force::Custom::Implementation {
   bool motor_on() const { return motor_on_; }
   SimTK::ZIndex integral_z() const { return integral_z_; }
   /// Integral of the speed error at which the motor gives a torque at constant speed.
-  double find_integral_rad(double torque_Nm, double load_N) const;
+  double find_integral_rad(double torque_Nm, double speed_m_s, double load_N) const;
 
   /// At a state realized to Velocity; `acting` are the inputs that really act.
   ActuatorEvaluation evaluate(const SimTK::State& state, const models::InputPort<double>& acting) const;
@@ -51,6 +51,7 @@ class DrumActuators : public SimTK::Force::Custom::Implementation {
 
  private:
   double calc_effective_inertia_kg_m2(double load_N) const;
+  double calc_friction_feedforward_Nm(double speed_m_s) const;
   double drum_speed_rad_s(const SimTK::State& state) const;
 
   const SimTK::GeneralForceSubsystem& forces_;

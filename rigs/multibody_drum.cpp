@@ -77,7 +77,7 @@ class MultibodyDrum::Implementation {
         contact_(new ContactForceElement(
             forces_, matter_, {wheel_.getMobilizedBodyIndex(), drum_.getMobilizedBodyIndex()}, corner,
             [this](double time_s) {
-              return read_drum_inputs<double>(*segment_, time_s - segment_start_s_, surface_recorded_);
+              return read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_);
             })),
         actuators_(new DrumActuators(
             forces_, matter_,
@@ -113,7 +113,7 @@ class MultibodyDrum::Implementation {
   const models::Inflation<double>& inflation() const { return contact_->inflation(); }
 
   void initialize(const sim::Segment& first, double time_s, double* y) {
-    segment_ = &first;
+    segment_ = first;
     segment_start_s_ = time_s;
     actuators_->set_motor(true);
     contact_->set_inflation(start_.inflation());
@@ -142,7 +142,7 @@ class MultibodyDrum::Implementation {
   }
 
   void begin_segment(const sim::Segment& segment, double time_s) {
-    segment_ = &segment;
+    segment_ = segment;
     segment_start_s_ = time_s;
     state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
   }
@@ -169,7 +169,7 @@ class MultibodyDrum::Implementation {
 
   void observe(double time_s, const double* y, double* values) const {
     const models::InputPort<double> inputs =
-        read_drum_inputs<double>(*segment_, time_s - segment_start_s_, surface_recorded_);
+        read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_);
     *values++ = actuators_->motor_on() ? inputs.speed_m_s : y[kSpeeds] / corner_.context().surface_curvature_per_m;
     *values++ = inputs.load_N;
     *values++ = inputs.ambient_K;
@@ -251,7 +251,8 @@ class MultibodyDrum::Implementation {
     contact_->evaluate(state_, at);
     const double torque_Nm = radius_m * (at.now.rolling_resistance_N + at.now.parasitic_N);
     forces_.updZ(state_)[contact_->first_z()] = at.couple_Nm / loaded_radius_m / slip_spring_N_per_m();
-    forces_.updZ(state_)[actuators_->integral_z()] = actuators_->find_integral_rad(torque_Nm, now.acting.load_N);
+    forces_.updZ(state_)[actuators_->integral_z()] =
+        actuators_->find_integral_rad(torque_Nm, now.acting.speed_m_s, now.acting.load_N);
   }
 
   void fill_integrands(double* integrands) const {
@@ -289,7 +290,7 @@ class MultibodyDrum::Implementation {
   std::vector<sim::Integral> integrals_;
   std::vector<sim::Store> stores_;
   std::vector<sim::Channel> channels_;
-  const sim::Segment* segment_ = nullptr;
+  sim::Segment segment_;
   double segment_start_s_ = 0.0;
 
   SimTK::MultibodySystem system_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace rollrig::rigs {
 
@@ -26,7 +27,7 @@ std::vector<double> QuasiStaticDrum<S>::state_tolerances() const {
 
 template <class S>
 void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S* state) {
-  segment_ = &first;
+  segment_ = first;
   segment_start_s_ = time_s;
   motor_on_ = true;
   now_ = {};
@@ -54,7 +55,7 @@ template <class S>
 void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) {
   find_motion(time_s, state);
   const S before_J = calc_mechanical_J();
-  segment_ = &segment;
+  segment_ = segment;
   segment_start_s_ = time_s;
   if (motor_on_) state[kSpeedState] = S(segment.inputs[index_of(DrumInput::kSpeed)].start);
   find_motion(time_s, state);
@@ -65,7 +66,7 @@ void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_
 template <class S>
 void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   const S* x = state + kFirstCornerState;
-  now_.recorded = read_drum_inputs<S>(*segment_, time_s - segment_start_s_, surface_recorded_);
+  now_.recorded = read_drum_inputs<S>(segment_, time_s - segment_start_s_, surface_recorded_);
   corner_.apply_inputs(x, now_);
   models::Motion<S>& motion = now_.motion;
   motion.speed_m_s = motor_on_ ? now_.acting.speed_m_s : state[kSpeedState];
@@ -77,15 +78,17 @@ void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   const S resistance_N = now_.rolling_resistance_N + now_.parasitic_N;
   const S effective_mass_kg = calc_effective_mass_kg();
   motion.acceleration_m_s2 = motor_on_ ? now_.acting.acceleration_m_s2 : S(-resistance_N / effective_mass_kg);
-  motion.longitudinal_force_N =
-      now_.rolling_resistance_N / (S(1.0) + loaded_radius_m_ * context.surface_curvature_per_m) +
-      spin_mass_kg * motion.acceleration_m_s2;
-  const S slip_N = motion.longitudinal_force_N * motion.longitudinal_force_N * now_.contact.slip_compliance_per_N;
-  motion.slip_power_W = slip_N * motion.speed_m_s;
+  // Slip of the wheel's own making: rolling resistance and the wheel's inertia drag on the contact.
+  const S geometry = S(1.0) + loaded_radius_m_ * context.surface_curvature_per_m;
+  const S spin_force_N = spin_mass_kg * motion.acceleration_m_s2;
+  motion.longitudinal_force_N = now_.rolling_resistance_N / geometry + spin_force_N;
+  const S slip = motion.longitudinal_force_N * now_.contact.slip_compliance_per_N;
+  motion.slip_power_W = motion.longitudinal_force_N * slip * motion.speed_m_s;
+  motion.rolling_speed_m_s = motion.speed_m_s * (S(1.0) - slip / geometry);
   drum_torque_Nm_ = zero<S>();
   if (motor_on_) {
-    drum_torque_Nm_ =
-        (resistance_N + slip_N + effective_mass_kg * motion.acceleration_m_s2) / context.surface_curvature_per_m;
+    drum_torque_Nm_ = (resistance_N + effective_mass_kg * motion.acceleration_m_s2 + slip * spin_force_N) /
+                      context.surface_curvature_per_m;
   }
 }
 
@@ -129,7 +132,7 @@ void QuasiStaticDrum<S>::fill_integrands(S* integrands) const {
   put(DrumIntegral::kMotorWork, drum_torque_Nm_ * speed_m_s * corner_.context().surface_curvature_per_m);
   put(DrumIntegral::kLoadActuatorWork, zero<S>());
   put(DrumIntegral::kKnotWork, zero<S>());
-  put(DrumIntegral::kTireLoss, now_.rolling_resistance_N * speed_m_s);
+  put(DrumIntegral::kTireLoss, now_.rolling_resistance_N * now_.motion.rolling_speed_m_s);
   put(DrumIntegral::kSlipLoss, now_.motion.slip_power_W);
   put(DrumIntegral::kBearingLoss, now_.parasitic_N * speed_m_s);
   put(DrumIntegral::kTireDamperLoss, zero<S>());
@@ -169,6 +172,48 @@ void QuasiStaticDrum<S>::calc_stored(double time_s, const S* state, S* stored_J)
   stored_J[index_of(DrumStore::kGravity)] = zero<S>();
   stored_J[index_of(DrumStore::kSlipSpring)] = zero<S>();
   stored_J[index_of(DrumStore::kHeat)] = corner_.calc_stored_heat_J(state + kFirstCornerState);
+}
+
+namespace {
+
+/// The part of a segment from `from_s` to `to_s`.
+sim::Segment cut_segment(const sim::Segment& segment, double from_s, double to_s) {
+  sim::Segment part = segment;
+  part.duration_s = to_s - from_s;
+  for (sim::Ramp& ramp : part.inputs) ramp.start = ramp.at(from_s);
+  return part;
+}
+
+}  // namespace
+
+sim::Program refine_near_standstill(const sim::Program& program) {
+  constexpr double kBand_m_s = 0.4;   // where tanh(v / 0.05 m/s) is 1 to 1e-7
+  constexpr double kStep_m_s = 0.01;  // a fifth of the fade's width
+  sim::Program refined = program;
+  for (sim::Phase& phase : refined.phases) {
+    std::vector<sim::Segment> pieces;
+    for (const sim::Segment& segment : phase.segments) {
+      const sim::Ramp& speed = segment.inputs[index_of(DrumInput::kSpeed)];
+      std::vector<double> cuts_s{0.0};
+      if (speed.slope_per_s != 0.0) {
+        double first_s = (-kBand_m_s - speed.start) / speed.slope_per_s;
+        double second_s = (kBand_m_s - speed.start) / speed.slope_per_s;
+        if (first_s > second_s) std::swap(first_s, second_s);
+        for (const double cut_s : {first_s, second_s}) {
+          if (cut_s > 0.0 && cut_s < segment.duration_s) cuts_s.push_back(cut_s);
+        }
+      }
+      cuts_s.push_back(segment.duration_s);
+      for (std::size_t i = 0; i + 1 < cuts_s.size(); ++i) {
+        sim::Segment piece = cut_segment(segment, cuts_s[i], cuts_s[i + 1]);
+        const bool slow = std::abs(speed.at(0.5 * (cuts_s[i] + cuts_s[i + 1]))) < kBand_m_s;
+        if (slow && speed.slope_per_s != 0.0) piece.max_step_s = kStep_m_s / std::abs(speed.slope_per_s);
+        pieces.push_back(std::move(piece));
+      }
+    }
+    phase.segments = std::move(pieces);
+  }
+  return refined;
 }
 
 template class QuasiStaticDrum<double>;

@@ -10,9 +10,10 @@
 
 namespace rollrig::rigs {
 
-/// Equation  torque = R (F_rr + F_par + F_slip + m_eff dv/dt), m_eff = J/R^2 + I_spin/r_l^2
-///           spindle force = F_rr/(1 + r_l/R) + I_spin/r_l^2 dv/dt;  F_slip = Fx^2/C with slip_loss
-/// Symbols   R drum radius [m], J drum inertia, I_spin wheel inertia [kg m2], r_l loaded radius [m]
+/// Equation  torque = R (F_rr + F_par + m_eff dv/dt + s I_spin/r_l^2 dv/dt), m_eff = J/R^2 + I_spin/r_l^2
+///           spindle force Fx = F_rr/(1 + r_l/R) + I_spin/r_l^2 dv/dt;  slip s = Fx/C, 0 in the baseline
+/// Symbols   R drum radius [m], J drum inertia, I_spin wheel inertia [kg m2], r_l loaded radius [m],
+///           C slip stiffness [N]
 /// Validity  slow against the load cylinder's and the speed controller's settling (a few seconds)
 /// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
 ///           "load_changes" of the mechanical audit
@@ -56,13 +57,17 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   std::vector<sim::Store> stores_;
   std::vector<sim::Channel> channels_;
 
-  const sim::Segment* segment_ = nullptr;
+  sim::Segment segment_;
   double segment_start_s_ = 0.0;
   bool motor_on_ = true;
   models::Instant<S> now_;
   S loaded_radius_m_{};
   S drum_torque_Nm_{};
 };
+
+/// The same program with its segments cut where the speed enters or leaves the band around standstill in
+/// which forces fade (tanh(v / 0.05 m/s)), and a grid fine enough for the fade inside it.
+sim::Program refine_near_standstill(const sim::Program& program);
 
 extern template class QuasiStaticDrum<double>;
 extern template class QuasiStaticDrum<Jet>;

@@ -32,7 +32,7 @@ sim::Recording<double> run_quasi_static(const RunSpec& spec, models::Corner<doub
                                         const sim::Progress& progress) {
   rigs::QuasiStaticDrum<double> drum(corner, start, program.surface_recorded(), rigs::Detail::kFull);
   sim::FixedGridIntegrator<double> integrator(drum);
-  sim::Program on_grid = program.program();
+  sim::Program on_grid = rigs::refine_near_standstill(program.program());
   for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= spec.tolerance_factor;
   return sim::simulate<double>(drum, integrator, on_grid, progress);
 }

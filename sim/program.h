@@ -21,6 +21,7 @@ struct Ramp {
 struct Segment {
   double duration_s = 0.0;
   std::vector<Ramp> inputs;  // in the order that the system declares
+  double max_step_s = 0.0;   // of the fixed grid, where shorter than the phase's; 0 for none
 };
 
 /// Ends a phase before its time: the watched quantity crosses the threshold.

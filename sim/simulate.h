@@ -1,6 +1,7 @@
 #pragma once
 /// Runs a program on a system: phases, segments, events, samples, audits.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -205,7 +206,9 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
     for (const Segment& segment : phase.segments) {
       planned_end_s += segment.duration_s;
       system.begin_segment(segment, time_s, state.data(), integrals.data());
-      integrator.start(time_s, state.data(), integrals.data(), phase.max_step_s,
+      const double max_step_s =
+          segment.max_step_s > 0.0 ? std::min(segment.max_step_s, phase.max_step_s) : phase.max_step_s;
+      integrator.start(time_s, state.data(), integrals.data(), max_step_s,
                        phase.until.has_value() ? &*phase.until : nullptr);
       while (!stopped && integrator.time_s() < planned_end_s) {
         stopped = integrator.step(planned_end_s);

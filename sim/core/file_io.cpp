@@ -156,7 +156,10 @@ OutputFolder::OutputFolder(std::string path, bool force) : path_(std::move(path)
                        "an empty or new folder, or --force to overwrite files of the same name");
   }
   const fs::path parent = find_existing_ancestor(fs::absolute(path_).lexically_normal().parent_path());
-  if (::access(parent.c_str(), W_OK | X_OK) != 0) throw write_problem(path_, errno);
+  const fs::path probe = parent / fmt::format(".rollrig-probe-{}", ::getpid());
+  fs::create_directory(probe, code);
+  if (code) throw write_problem(path_, code.value());
+  fs::remove(probe, code);
 }
 
 void OutputFolder::add(const std::string& file_name, std::string content) { files_[file_name] = std::move(content); }

@@ -139,7 +139,7 @@ Unit unit_of_key(std::string_view key) {
   Unit unit{above.symbol, above.dimension, above.factor, 0.0};
   if (per < words.size()) {
     const Product below = multiply_tokens({at(per + 1), words.end()});
-    const bool compound = below.symbol.find_first_of(" /") != std::string::npos;
+    const bool compound = below.symbol.find_first_of(" /") != std::string::npos && below.symbol.front() != '(';
     unit.symbol =
         (above.symbol.empty() ? "1" : above.symbol) + "/" + (compound ? "(" + below.symbol + ")" : below.symbol);
     unit.dimension = above.dimension / below.dimension;

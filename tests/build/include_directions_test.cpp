@@ -1,0 +1,89 @@
+// Includes follow one direction: cli -> identification -> scenarios -> rigs -> models -> sim/core, and
+// rigs, scenarios -> sim -> sim/core. Third-party packages stay behind a few files.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path kSource = ROLLRIG_SOURCE_DIR;
+
+/// What each folder may include beside itself.
+const std::map<std::string, std::set<std::string>> kAllowed{
+    {"sim/core", {}},
+    {"sim", {"sim/core"}},
+    {"models", {"sim/core"}},
+    {"rigs", {"models", "sim", "sim/core"}},
+    {"scenarios", {"rigs", "models", "sim", "sim/core"}},
+    {"identification", {"scenarios", "rigs", "models", "sim", "sim/core"}},
+    {"cli", {"identification", "scenarios", "rigs", "models", "sim", "sim/core"}},
+};
+
+/// Files that may include a package's headers; a folder's name stands for all its files.
+const std::map<std::string, std::set<std::string>> kPackages{
+    {"cvodes/|nvector/|sunmatrix/|sunlinsol/", {"sim/cvodes_integrator.cpp"}},
+    {"toml\\+\\+/", {"sim/core/config.cpp"}},
+    {"Simbody.h", {"models/contact_force_element.h", "rigs/drum_actuators.h", "rigs/multibody_drum.cpp"}},
+    {"CLI/", {"cli"}},
+    {"nlohmann/", {"sim/core/json.h"}},
+    {"ceres/", {"sim/core/scalar.h", "identification/fit_tire.cpp"}},
+    {"edlib.h", {"sim/core/error.cpp"}},
+    {"tbb/", {"sim/core/parallel.cpp"}},
+    {"sha256.h", {"sim/core/file_io.cpp"}},
+};
+
+std::string folder_of(const std::string& path) {
+  if (path.rfind("sim/core/", 0) == 0) return "sim/core";
+  return path.substr(0, path.find('/'));
+}
+
+template <class Visit>
+void visit_includes(Visit&& visit) {
+  const std::regex include("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
+  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification", "cli"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kSource / top)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".h" && extension != ".cpp") continue;
+      std::ifstream in(entry.path());
+      const std::string file = fs::relative(entry.path(), kSource).string();
+      for (std::string line; std::getline(in, line);) {
+        std::smatch match;
+        if (std::regex_search(line, match, include)) visit(file, match[1].str());
+      }
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("folders include in one direction only", "[fast]") {
+  int checked = 0;
+  visit_includes([&](const std::string& file, const std::string& included) {
+    const std::string from = folder_of(file);
+    const std::string to = folder_of(included);
+    if (kAllowed.count(to) == 0) return;  // a package or the standard library
+    INFO(file << " includes " << included);
+    CHECK((from == to || kAllowed.at(from).count(to) == 1));
+    ++checked;
+  });
+  CHECK(checked > 100);  // the test looks at something
+}
+
+TEST_CASE("each package stays behind one or two files", "[fast]") {
+  std::map<std::string, int> seen;
+  visit_includes([&](const std::string& file, const std::string& included) {
+    for (const auto& [package, allowed] : kPackages) {
+      if (!std::regex_search(included, std::regex("^(" + package + ")"))) continue;
+      INFO(file << " includes " << included);
+      CHECK((allowed.count(file) == 1 || allowed.count(folder_of(file)) == 1));
+      ++seen[package];
+    }
+  });
+  CHECK(seen.size() == kPackages.size());
+}

@@ -1,0 +1,67 @@
+#include "sim/core/config.h"
+
+#include <catch2/catch.hpp>
+
+#include "sim/core/schema.h"
+
+using namespace rollrig;
+
+namespace {
+const char* kText = R"(name = "x"
+[table]
+number_m = 2.5
+whole = 7
+list_kPa = [1, 2.5]
+flag = true
+[[item]]
+a = 1
+[[item]]
+a = 2
+)";
+}
+
+TEST_CASE("a config remembers the line of each value", "[fast]") {
+  const ConfigTable config = parse_config(kText, "file.toml");
+  const ConfigTable& table = *config.find("table")->as_table();
+  CHECK(table.find("number_m")->origin.line == 3);
+  CHECK(table.find("number_m")->origin.file == "file.toml");
+  CHECK(table.origin.line == 2);
+}
+
+TEST_CASE("a table reader converts, checks ranges and refuses what nobody asked for", "[fast]") {
+  const ConfigTable config = parse_config(kText, "file.toml");
+  TableReader file(config, "");
+  CHECK(file.text("name") == "x");
+  CHECK(file.tables("item").size() == 2);
+  TableReader reader(*file.table("table"), "[table]");
+  CHECK(reader.number({"number_m", positive(), ""}) == 2.5);
+  CHECK(reader.count({"whole", positive(), ""}) == 7);
+  CHECK(reader.number({"absent_kPa", positive(), "", 3.0}) == 3000.0);
+  CHECK_FALSE(reader.number_or_none({"absent_m", positive(), ""}).has_value());
+  CHECK(reader.numbers_or({"list_kPa", positive(), ""}, {}) == std::vector<double>{1000.0, 2500.0});
+  CHECK_THROWS_WITH(reader.finish(), Catch::Contains("unknown key 'flag'") && Catch::Contains("line 6"));
+  CHECK(reader.flag_or("flag", false));
+  CHECK_NOTHROW(reader.finish());
+  CHECK_THROWS_WITH(reader.number({"number_m", between(3.0, 4.0), ""}),
+                    Catch::Contains("out of range") && Catch::Contains(">= 3 and <= 4") && Catch::Contains("line 3"));
+}
+
+TEST_CASE("dotted keys of --set make the tables on their way", "[fast]") {
+  ConfigTable config = parse_config(kText, "file.toml");
+  set_config_value(config, "table.number_m", "4", "--set");
+  set_config_value(config, "new.deep.word", "bare_word", "--set");
+  TableReader file(config, "");
+  TableReader table(*file.table("table"), "[table]");
+  CHECK(table.number({"number_m", positive(), ""}) == 4.0);
+  const ConfigTable& deep = *config.find("new")->as_table()->find("deep")->as_table();
+  CHECK(std::get<std::string>(deep.find("word")->data) == "bare_word");
+  CHECK_THROWS_AS(set_config_value(config, "name.part", "1", "--set"), InputError);
+  CHECK_THROWS_AS(set_config_value(config, "a..b", "1", "--set"), InputError);
+}
+
+TEST_CASE("the nearest known name is found, and nothing when none is near", "[fast]") {
+  const std::vector<std::string> known{"A0_N", "A1_N_s_per_m", "pressure_exponent"};
+  CHECK(nearest_name("pressure_exponnet", known) == "pressure_exponent");
+  CHECK(nearest_name("a0_n", known) == "A0_N");
+  CHECK(nearest_name("zzzzzzzzzz", known).empty());
+}

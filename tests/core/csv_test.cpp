@@ -1,0 +1,64 @@
+#include "sim/core/csv.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+using namespace rollrig;
+
+namespace {
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& content)
+      : path_(
+            (std::filesystem::temp_directory_path() / ("rollrig-csv-" + std::to_string(::rand()) + ".csv")).string()) {
+    std::ofstream(path_, std::ios::binary) << content;
+  }
+  ~TemporaryFile() { std::filesystem::remove(path_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+CsvTable parse(const std::string& content) { return CsvTable::read(TemporaryFile(content).path()); }
+}  // namespace
+
+TEST_CASE("quotes, line ends, byte order mark and blank last lines of RFC 4180", "[fast]") {
+  const CsvTable csv = parse("\xEF\xBB\xBFtime_s,\"a \"\"name\"\"\"\r\n0,\"x,y\"\r\n1,\"two\nlines\"\r\n\r\n");
+  CHECK(csv.columns() == std::vector<std::string>{"time_s", "a \"name\""});
+  CHECK(csv.row_count() == 2);
+  CHECK(csv.text("a \"name\"")[0] == "x,y");
+  CHECK(csv.text("a \"name\"")[1] == "two\nlines");
+}
+
+TEST_CASE("numbers come in SI units and empty cells as NaN where they may be empty", "[fast]") {
+  const CsvTable csv = parse("time_s,p_kPa\n0,1\n1,\n");
+  CHECK(csv.numbers({"p_kPa", any_number(), ""}, true)[0] == 1000.0);
+  CHECK(std::isnan(csv.numbers({"p_kPa", any_number(), ""}, true)[1]));
+  CHECK_THROWS_WITH(csv.numbers({"p_kPa", any_number(), ""}), Catch::Contains("empty") && Catch::Contains("line 3"));
+}
+
+TEST_CASE("what is written is read back", "[fast]") {
+  CsvWriter writer({"time_s", "text"});
+  writer.begin_row();
+  writer.add(1.0 / 3.0, 17);
+  writer.add("with \"quotes\", and comma");
+  writer.end_row();
+  const CsvTable csv = parse(writer.take());
+  CHECK(csv.numbers({"time_s", any_number(), ""})[0] == 1.0 / 3.0);
+  CHECK(csv.text("text")[0] == "with \"quotes\", and comma");
+}
+
+TEST_CASE("wrong files are refused with line and column", "[fast]") {
+  CHECK_THROWS_WITH(parse("a,b\n1\n"), Catch::Contains("ragged") && Catch::Contains("line 2"));
+  CHECK_THROWS_WITH(parse("a,a\n1,2\n"), Catch::Contains("stands twice"));
+  CHECK_THROWS_WITH(parse("a,\n1,2\n"), Catch::Contains("no name"));
+  CHECK_THROWS_WITH(parse("a\n\"1\n"), Catch::Contains("never ends"));
+  CHECK_THROWS_WITH(parse("a,b\n"), Catch::Contains("no rows"));
+  CHECK_THROWS_WITH(parse("time_s\n1\n1\n").increasing_times("time_s"), Catch::Contains("does not increase"));
+  CHECK_THROWS_WITH(parse("a_N\nx\n").numbers({"a_N", any_number(), ""}), Catch::Contains("not a number"));
+  CHECK_THROWS_WITH(parse("a_N\nnan\n").numbers({"a_N", any_number(), ""}), Catch::Contains("not finite"));
+}

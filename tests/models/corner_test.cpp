@@ -1,0 +1,115 @@
+#include "models/corner.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+using models::Corner;
+using models::Instant;
+using models::Node;
+
+namespace {
+
+/// A corner in steady rolling, evaluated once.
+template <class S>
+Instant<S> evaluate(const Corner<S>& corner, std::vector<S> x, double speed, double load, std::vector<S>& rates) {
+  const auto q = [](double value, Dimension d) { return quantity<S>(value, d); };
+  Instant<S> now;
+  now.inflation = {q(280e3, dimension::kPressure), q(298.15, dimension::kTemperature), q(101325, dimension::kPressure)};
+  now.recorded = {q(speed, dimension::kSpeed),       q(0.1, dimension::kAcceleration),
+                  q(load, dimension::kForce),        q(298.15, dimension::kTemperature),
+                  q(300.0, dimension::kTemperature), true,
+                  q(0.0, dimension::kForce),         S(0.0),
+                  q(0.0, dimension::kSpeed),         S(1.0)};
+  corner.apply_inputs(x.data(), now);
+  now.motion = {now.acting.speed_m_s,       now.acting.acceleration_m_s2, now.acting.load_N,
+                q(30.0, dimension::kForce), q(1.0, dimension::kPower),    now.acting.speed_m_s};
+  corner.calc_losses(x.data(), now);
+  rates.resize(corner.state_count());
+  corner.calc_rates(x.data(), now, rates.data());
+  return now;
+}
+
+std::vector<double> states_at(const Corner<double>& corner, double temperature_K) {
+  std::vector<double> x(corner.state_count());
+  corner.initialize(temperature_K, {}, x.data());
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("a tire at rest at ambient temperature stays as it is", "[fast]") {
+  const Corner<double> corner = tests::DrumFixture().corner();
+  std::vector<double> rates;
+  auto x = states_at(corner, 298.15);
+  Instant<double> now = evaluate(corner, x, 0.0, 5400.0, rates);
+  CHECK(now.rolling_resistance_N == 0.0);
+  CHECK(now.parasitic_N == 0.0);
+  CHECK(rates[corner.state_of(Node::kGas)] == 0.0);
+}
+
+TEST_CASE("all of the loss heats the rubber", "[fast]") {
+  const Corner<double> corner = tests::DrumFixture().corner();
+  std::vector<double> rates;
+  const Instant<double> now = evaluate(corner, states_at(corner, 298.15), 22.0, 5400.0, rates);
+  CHECK(now.heat.heat_in_W == Approx(now.rolling_resistance_N * 22.0));
+  CHECK(now.rolling_resistance_N > 0.0);
+}
+
+TEST_CASE("skim load leaves its share of the loss", "[fast]") {
+  // baseline.md: at 200 N it leaves 200/5400 of the loss
+  const Corner<double> corner = tests::DrumFixture().corner();
+  std::vector<double> rates;
+  const auto x = states_at(corner, 310.0);
+  const double loaded_N = evaluate(corner, x, 22.0, 5400.0, rates).rolling_resistance_N;
+  CHECK(evaluate(corner, x, 22.0, 200.0, rates).rolling_resistance_N == Approx(loaded_N * 200.0 / 5400.0));
+}
+
+TEST_CASE("the road's share of z acts on the surface's temperature", "[fast]") {
+  tests::DrumFixture fixture;
+  fixture.tire.rig_thermal.clear();
+  fixture.tire.values.thermal.z_W_per_K = 12.0;
+  fixture.tire.values.thermal.road_share_of_z = 0.25;
+  const Corner<double> corner = fixture.corner();
+  std::vector<double> rates;
+  const Instant<double> now = evaluate(corner, states_at(corner, 310.0), 0.0, 5400.0, rates);
+  CHECK(now.heat.to_road_W == Approx(0.25 * 12.0 * (310.0 - 300.0)));  // the recorded surface is at 300 K
+  CHECK(now.heat.to_air_W == Approx(0.75 * 12.0 * (310.0 - 298.15)));
+}
+
+TEST_CASE("a constant coefficient takes neither speed nor temperature nor pressure", "[fast]") {
+  tests::DrumFixture fixture;
+  fixture.baseline = models::Baseline::kConstantRrc;
+  fixture.tire.has_constant = true;
+  fixture.tire.values.constant.rrc = 0.008;
+  const Corner<double> corner = fixture.corner();
+  std::vector<double> rates;
+  CHECK(evaluate(corner, states_at(corner, 298.15), 10.0, 5000.0, rates).rolling_resistance_N == Approx(40.0));
+  CHECK(evaluate(corner, states_at(corner, 330.0), 30.0, 5000.0, rates).rolling_resistance_N == Approx(40.0));
+}
+
+TEST_CASE("dimensions are right through every port, with every effect on", "[fast]") {
+  using Q = DimensionedScalar;
+  std::vector<models::ActiveEffect> all;
+  for (const models::Effect* effect : models::all_effects()) {
+    std::vector<double> usual;
+    for (const auto& parameter : effect->info.parameters) usual.push_back(parameter.prior.centre());
+    all.push_back(tests::make_active(*effect, usual));
+  }
+  const Corner<Q> corner(models::convert_context<Q>(tests::DrumFixture().context()), all);
+  std::vector<Q> x(corner.state_count());
+  models::InitialPort<Q> initial;
+  initial.rest_before_s = Q(3600.0, dimension::kTime);
+  corner.initialize(Q(310.0, dimension::kTemperature), initial, x.data());
+  std::vector<Q> rates;
+  const Instant<Q> now = evaluate(corner, x, 22.0, 5400.0, rates);
+  CHECK(now.rolling_resistance_N.dimension() == dimension::kForce);
+  CHECK(now.parasitic_N.dimension() == dimension::kForce);
+  CHECK(now.heat.heat_in_W.dimension() == dimension::kPower);
+  CHECK(now.pressure_Pa.dimension() == dimension::kPressure);
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    INFO(corner.states()[i].key);
+    CHECK(rates[i].dimension() == x[i].dimension() / dimension::kTime);
+  }
+}

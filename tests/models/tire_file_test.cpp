@@ -1,0 +1,61 @@
+#include "models/tire_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+
+TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  tire.standard_uncertainties.rolling_resistance.A0_N = 0.5;
+  tire.values.load_map = {{5000.0, 30.0, 0.8, 0.010, 1e-4}, {7000.0, 44.0, 1.2, 0.012, 2e-4}};
+  tire.standard_uncertainties.load_map.resize(2);
+  tire.standard_uncertainties.load_map[1].B0_per_K = 1e-4;
+  tire.rig_thermal["other"].f_sd_W_s_per_m_K = 0.1;
+  const models::TireFile back = models::read_tire(parse_config(models::write_tire(tire), "written"));
+  std::vector<double> before, after;
+  const auto collect = [](std::vector<double>& into) {
+    return [&into](const char*, const Field&, const double& value) { into.push_back(value); };
+  };
+  models::TireParameters<double>::visit_all(tire.values, collect(before));
+  models::TireParameters<double>::visit_all(back.values, collect(after));
+  REQUIRE(before.size() == after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK(after[i] == Approx(before[i]).epsilon(1e-9));
+  CHECK(back.standard_uncertainties.rolling_resistance.A0_N == 0.5);
+  CHECK(back.values.load_map[1].A1_N_s_per_m == 1.2);
+  CHECK(back.standard_uncertainties.load_map[1].B0_per_K == 1e-4);
+  CHECK(back.rig_thermal.at("other").f_sd_W_s_per_m_K == 0.1);
+  CHECK(back.iso_28580->load_N == 6865.0);
+  CHECK(back.sweep_loads_N == tire.sweep_loads_N);
+}
+
+TEST_CASE("values of a rig's own stand in for the general ones on that rig only", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  tire.rig_thermal = {{"here", {5.0, {}, {}, {}}}};
+  const auto combined = models::Baseline::kCombined;
+  CHECK(tire.parameters_on("here", combined).thermal.z_W_per_K == 5.0);
+  CHECK(tire.parameters_on("here", combined).thermal.f_W_s_per_m_K == tire.values.thermal.f_W_s_per_m_K);
+  CHECK(tire.parameters_on("there", combined).thermal.z_W_per_K == tire.values.thermal.z_W_per_K);
+}
+
+TEST_CASE("tables that a use does not need may be absent, and what it needs is named", "[fast]") {
+  const char* text = R"(format = "rollrig-tire/1"
+name = "road"
+[geometry]
+outer_diameter_m = 0.7
+section_width_m = 0.2
+rim_diameter_m = 0.48
+mass_kg = 9.0
+wheel_mass_kg = 9.0
+spin_inertia_kg_m2 = 1.0
+[constant]
+rrc_N_per_kN = 9.0
+rrc_N_per_kN_sd = 2.5
+)";
+  const models::TireFile tire = models::read_tire(parse_config(text, "road.toml"));
+  CHECK(tire.values.constant.rrc == Approx(0.009));
+  CHECK(tire.standard_uncertainties.constant.rrc == Approx(0.0025));
+  CHECK_THROWS_WITH(tire.parameters_on("drum_2m", models::Baseline::kCombined),
+                    Catch::Contains("has no table") && Catch::Contains("road.toml"));
+}

@@ -1,0 +1,218 @@
+// What every effect must keep, from its declaration alone: see docs/add_an_effect.md.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+using models::Effect;
+using models::EffectInfo;
+using tests::DrumFixture;
+
+namespace {
+
+/// A campaign that shows every effect of a drum: cold start, two loads, two speeds, skims, rest.
+sim::Program campaign() {
+  const double v80 = 80.0 / 3.6;
+  const double v120 = 120.0 / 3.6;
+  sim::Program program;
+  sim::Phase up = tests::rolling("run-up", 60.0, 0.0, 200.0);
+  up.segments = {tests::drum_segment(60.0, 0.0, v80, 200.0)};
+  sim::Phase faster = tests::rolling("faster", 60.0, v80, 5400.0);
+  faster.segments = {tests::drum_segment(60.0, v80, v120, 5400.0)};
+  sim::Phase down = tests::rolling("run-down", 60.0, v120, 200.0);
+  down.segments = {tests::drum_segment(60.0, v120, 0.0, 200.0)};
+  program.phases = {up,
+                    tests::rolling("load", 600.0, v80, 5400.0),
+                    tests::rolling("skim", 180.0, v80, 200.0),
+                    tests::rolling("high load", 300.0, v80, 6865.0),
+                    tests::rolling("load again", 60.0, v80, 5400.0),
+                    faster,
+                    tests::rolling("fast", 300.0, v120, 5400.0),
+                    tests::rolling("fast skim", 120.0, v120, 200.0),
+                    down,
+                    tests::rolling("rest", 300.0, 0.0, 200.0)};
+  return program;
+}
+
+DrumFixture with_effect(const Effect& effect, const std::vector<double>& values) {
+  DrumFixture fixture;
+  fixture.effects = {tests::make_active(effect, values)};
+  return fixture;
+}
+
+std::vector<double> usual_values(const EffectInfo& info) {
+  std::vector<double> values;
+  for (const auto& parameter : info.parameters) values.push_back(parameter.prior.centre());
+  return values;
+}
+
+/// Every effect of the design's catalogue, done or not.
+const std::set<std::string>& catalogue() {
+  static const std::set<std::string> ids{
+      "bearing_warmup",     "tire_loss_in_skim", "bearing_load_friction", "windage",
+      "torque_zero_drift",  "torque_gain",       "load_cross_talk",       "load_exponent",
+      "pressure_exponent",  "standing_wave",     "rubber_memory",         "toe_camber_drag",
+      "flat_spot",          "slip_loss",         "tread_liner_lag",       "rim_heat",
+      "brake_heat",         "cell_air_warming",  "surface_warming",       "convection_law",
+      "curvature_exponent", "slow_leak",         "cavity_volume",         "gas_heat_transfer",
+      "brake_drag",         "tie_down_load",     "driveline_warming",     "inertia_error",
+      "wind_and_grade",     "clock_shift",       "tire_temperature",      "speed_record",
+      "load_record",        "pressure_record"};
+  return ids;
+}
+
+const std::set<std::string> kMeasured{"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+void check_declaration(const EffectInfo& info) {
+  CHECK(catalogue().count(info.id) == 1);
+  CHECK_FALSE(info.summary.empty());
+  CHECK_FALSE(info.equation.empty());
+  CHECK_FALSE(info.source.empty());
+  REQUIRE_FALSE(info.parameters.empty());
+  CHECK(info.parameters.front().off.has_value());
+  for (const auto& parameter : info.parameters) {
+    INFO(parameter.key);
+    CHECK(parameter.prior.low < parameter.prior.high);
+    CHECK(parameter.range.contains(parameter.prior.low));
+    CHECK(parameter.range.contains(parameter.prior.high));
+    CHECK_FALSE(std::string(parameter.doc).empty());
+    if (parameter.off.has_value()) CHECK(parameter.range.contains(*parameter.off));
+  }
+  CHECK_FALSE(info.visible_in.empty());
+  for (const auto& channel : info.visible_in) CHECK(kMeasured.count(channel) == 1);
+  for (const auto& channel : info.clean_in) CHECK(kMeasured.count(channel) == 1);
+  for (const auto& id : info.confused_with) CHECK(catalogue().count(id) == 1);
+  CHECK_FALSE(info.splitting_tests.empty());
+}
+
+/// Fills everything that a port may not yet read with NaN, so that whoever reads it betrays itself.
+void poison(models::Instant<double>& now) {
+  const double nan = std::nan("");
+  now.acting = {nan, nan, nan, nan, nan, false, nan, nan, nan, nan};
+  now.boundary = {nan, nan};
+  now.gas = {nan, nan};
+  now.pressure_Pa = nan;
+  now.contact = {nan, nan, nan};
+  now.loss = models::LossPort<double>{nan, nan, nan, nan};
+  now.parasitic = {nan, nan};
+  now.curvature_factor = now.rolling_resistance_N = now.heating_force_N = now.parasitic_N = nan;
+  now.heat.heat_in_W = nan;
+  now.thermal.heat_W.fill(nan);
+  now.thermal.air_W_per_K.fill(nan);
+}
+
+void check_reads_only_what_stands_before(const Effect& effect) {
+  const DrumFixture fixture = with_effect(effect, usual_values(effect.info));
+  const models::Corner<double> corner = fixture.corner();
+  std::vector<double> x(corner.state_count());
+  corner.initialize(310.0, {}, x.data());
+  models::Instant<double> now;
+  poison(now);
+  now.inflation = fixture.start().inflation();
+  now.recorded = rigs::read_drum_inputs<double>(tests::drum_segment(10.0, 20.0, 22.0, 5400.0), 5.0, false);
+  corner.apply_inputs(x.data(), now);
+  now.motion = {now.acting.speed_m_s, now.acting.acceleration_m_s2, now.acting.load_N, 30.0, 1.0, now.acting.speed_m_s};
+  corner.calc_losses(x.data(), now);
+  std::vector<double> rates(corner.state_count(), std::nan(""));
+  corner.calc_rates(x.data(), now, rates.data());
+  CHECK(std::isfinite(now.rolling_resistance_N + now.parasitic_N + now.pressure_Pa + now.heat.heat_in_W));
+  for (const double rate : rates) CHECK(std::isfinite(rate));
+}
+
+}  // namespace
+
+TEST_CASE("every effect keeps the contract", "[fast][contract]") {
+  const auto baseline = DrumFixture().run_quasi_static(campaign());
+  for (const Effect* effect : models::all_effects()) {
+    const EffectInfo& info = effect->info;
+    DYNAMIC_SECTION(info.id << ": declaration") {
+      check_declaration(info);
+      const std::filesystem::path file =
+          std::filesystem::path(ROLLRIG_SOURCE_DIR) / "models/effects" / (info.id + ".cpp");
+      CHECK(std::filesystem::exists(file));
+    }
+    DYNAMIC_SECTION(info.id << ": at its off value it is the baseline to the bit") {
+      std::vector<double> values = usual_values(info);
+      values[0] = *info.parameters[0].off;
+      const auto off = with_effect(*effect, values).run_quasi_static(campaign());
+      for (const std::string& channel : kMeasured) {
+        INFO(channel);
+        CHECK(off.channel(channel) == baseline.channel(channel));
+      }
+    }
+    DYNAMIC_SECTION(info.id << ": a step of its size shows where it says, and nowhere that it calls clean") {
+      std::vector<double> values = usual_values(info);
+      values[0] = info.parameters[0].prior.high;
+      const auto on = with_effect(*effect, values).run_quasi_static(campaign());
+      for (const std::string& channel : info.visible_in) {
+        INFO(channel);
+        const auto& former = baseline.channel(channel);
+        const double span =
+            *std::max_element(former.begin(), former.end()) - *std::min_element(former.begin(), former.end());
+        CHECK(largest_difference(on.channel(channel), former) > 1e-3 * span);
+      }
+      for (const std::string& channel : info.clean_in) {
+        INFO(channel);
+        CHECK(on.channel(channel) == baseline.channel(channel));
+      }
+    }
+    DYNAMIC_SECTION(info.id << ": both audits close with it on, and the fidelities agree") {
+      const DrumFixture fixture = with_effect(*effect, usual_values(info));
+      const auto multibody = fixture.run_multibody(campaign());
+      const auto quasi_static = fixture.run_quasi_static(campaign());
+      CHECK_NOTHROW(multibody.audit.require_closed(sim::kAuditLimit));
+      CHECK_NOTHROW(quasi_static.audit.require_closed(sim::kAuditLimit));
+      CHECK(largest_difference(multibody.channel("liner_temperature_degC"),
+                               quasi_static.channel("liner_temperature_degC")) < 0.02);
+    }
+    DYNAMIC_SECTION(info.id << ": it reads only what stands before its port") {
+      check_reads_only_what_stands_before(*effect);
+    }
+    DYNAMIC_SECTION(info.id << ": its derivative by size agrees with differences") {
+      const auto end_torque = [&](double size) {
+        std::vector<double> values = usual_values(info);
+        values[0] = size;
+        const auto recording = with_effect(*effect, values).run_quasi_static(campaign());
+        return recording.channel("drum_torque_Nm")[800];  // in the skim
+      };
+      const double centre = info.parameters[0].prior.centre();
+      const double step = 1e-4 * centre;
+      const double difference = (end_torque(centre + step) - end_torque(centre - step)) / (2.0 * step);
+      const DrumFixture fixture = with_effect(*effect, usual_values(info));
+      models::Corner<Jet> corner(models::convert_context<Jet>(fixture.context()), fixture.effects);
+      corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
+      rigs::DrumStart<Jet> start;
+      start.tire_temperature_K = Jet(fixture.initial_K);
+      start.cold_pressure_Pa = Jet(fixture.cold_pressure_Pa);
+      start.ambient_pressure_Pa = Jet(fixture.rig.environment.ambient_pressure_Pa);
+      rigs::QuasiStaticDrum<Jet> drum(corner, start, false, rigs::Detail::kMeasured);
+      sim::FixedGridIntegrator<Jet> integrator(drum);
+      const auto recording = sim::simulate<Jet>(drum, integrator, campaign());
+      const double to_file_unit = unit_of_key(info.parameters[0].key).factor;
+      CHECK(recording.channel("drum_torque_Nm")[800].v[0] * to_file_unit == Approx(difference).epsilon(1e-5));
+    }
+  }
+}
+
+TEST_CASE("the table of ports in the docs names all 34 effects", "[fast][contract]") {
+  std::ifstream in(std::filesystem::path(ROLLRIG_SOURCE_DIR) / "docs/ports.md");
+  std::stringstream text;
+  text << in.rdbuf();
+  CHECK(catalogue().size() == 34);
+  for (const std::string& id : catalogue()) {
+    INFO(id);
+    CHECK(text.str().find("`" + id + "`") != std::string::npos);
+  }
+}

@@ -1,0 +1,63 @@
+// Multibody and quasi-static, held together on every drum scenario: torque to 1e-4 relative (1 s means, from
+// 10 s after a load or speed knot), temperature to 0.02 K.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "scenarios/scenario.h"
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+
+namespace {
+
+/// Rows 10 s and more after the last knot of load or speed, and half a second before the next.
+std::vector<bool> find_comparable(const sim::Recording<double>& recording) {
+  std::vector<bool> comparable(recording.row_count(), true);
+  for (const sim::PhaseSpan& phase : recording.phases) {
+    for (std::size_t i = 0; i < recording.row_count(); ++i) {
+      const double since_s = recording.time_s[i] - phase.start_s;
+      if (since_s > -0.75 && since_s < 10.0) comparable[i] = false;
+    }
+  }
+  return comparable;
+}
+
+void compare(const std::string& scenario, const std::string& tire, const std::vector<std::string>& settings = {}) {
+  const scenarios::RunSpec multibody_spec = tests::make_spec(scenario, tire, settings, "multibody");
+  const scenarios::RunSpec quasi_static_spec = tests::make_spec(scenario, tire, settings, "quasi_static");
+  const auto multibody = multibody_spec.scenario->run(multibody_spec, {}).recording;
+  const auto quasi_static = quasi_static_spec.scenario->run(quasi_static_spec, {}).recording;
+  REQUIRE(multibody.time_s == quasi_static.time_s);
+  const std::vector<bool> comparable = find_comparable(multibody);
+  const auto& torque_m = multibody.channel("drum_torque_Nm");
+  const auto& torque_q = quasi_static.channel("drum_torque_Nm");
+  const auto& liner_m = multibody.channel("liner_temperature_degC");
+  const auto& liner_q = quasi_static.channel("liner_temperature_degC");
+  double worst_torque = 0.0, worst_K = 0.0;
+  std::size_t compared = 0;
+  for (std::size_t i = 0; i < comparable.size(); ++i) {
+    worst_K = std::max(worst_K, std::abs(liner_m[i] - liner_q[i]));
+    if (!comparable[i] || multibody.channel("speed_km_h")[i] == 0.0) continue;
+    worst_torque = std::max(worst_torque, std::abs(torque_m[i] / torque_q[i] - 1.0));
+    ++compared;
+  }
+  INFO(scenario << " " << tire << ": torque " << worst_torque << ", temperature " << worst_K << " K, " << compared
+                << " rows");
+  CHECK(compared > 100);
+  CHECK(worst_torque < 1e-4);
+  CHECK(worst_K < 0.02);
+}
+
+}  // namespace
+
+TEST_CASE("the two fidelities agree on every scenario", "[fast]") {
+  for (const std::string& name : scenarios::scenario_names()) compare(name, "a50");
+}
+
+TEST_CASE("they agree for the other tires and with all effects on", "[fast]") {
+  compare("iso_28580", "a40");
+  compare("iso_28580", "a60", {"measurement_cycles=2"});
+  compare("transient_skim", "a50",
+          {"effects.bearing_warmup.fall_per_K=0.02", "effects.load_exponent.exponent=1.1",
+           "effects.tire_loss_in_skim.force_N=2"});
+}

@@ -1,0 +1,70 @@
+#include "tests/support/drum_fixture.h"
+
+#include "scenarios/assets.h"
+
+namespace rollrig::tests {
+
+models::TireFile read_asset_tire(const std::string& name) {
+  return models::read_tire(read_config(scenarios::find_asset("tires", name)));
+}
+
+rigs::RigFile read_asset_rig() { return rigs::read_rig(read_config(scenarios::find_asset("rigs", "drum_2m"))); }
+
+rigs::DrumStart<double> DrumFixture::start() const {
+  rigs::DrumStart<double> at;
+  at.tire_temperature_K = initial_K;
+  at.cold_pressure_Pa = cold_pressure_Pa;
+  at.ambient_pressure_Pa = rig.environment.ambient_pressure_Pa;
+  return at;
+}
+
+sim::Recording<double> DrumFixture::run_multibody(const sim::Program& program) const {
+  models::Corner<double> at = corner();
+  rigs::MultibodyDrum drum(at, rig, start(), false);
+  sim::CvodesIntegrator integrator(drum, cvodes);
+  return sim::simulate<double>(drum, integrator, program);
+}
+
+sim::Recording<double> DrumFixture::run_quasi_static(const sim::Program& program) const {
+  models::Corner<double> at = corner();
+  rigs::QuasiStaticDrum<double> drum(at, start(), false, rigs::Detail::kFull);
+  sim::FixedGridIntegrator<double> integrator(drum);
+  return sim::simulate<double>(drum, integrator, rigs::refine_near_standstill(program));
+}
+
+sim::Segment drum_segment(double duration_s, double speed_start_m_s, double speed_end_m_s, double load_N,
+                          double ambient_K) {
+  sim::Segment segment{duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {speed_start_m_s,
+                                                             (speed_end_m_s - speed_start_m_s) / duration_s};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {load_N, 0.0};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = {ambient_K, 0.0};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kSurface)] = {ambient_K, 0.0};
+  return segment;
+}
+
+sim::Phase rolling(const std::string& name, double duration_s, double speed_m_s, double load_N) {
+  sim::Phase phase;
+  phase.name = name;
+  phase.segments = {drum_segment(duration_s, speed_m_s, speed_m_s, load_N)};
+  return phase;
+}
+
+models::ActiveEffect make_active(const models::Effect& effect, const std::vector<double>& values) {
+  models::ActiveEffect active{&effect, {}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    active.parameters.push_back(unit_of_key(effect.info.parameters[i].key).to_si(values[i]));
+  }
+  return active;
+}
+
+scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire,
+                             const std::vector<std::string>& settings, const std::string& fidelity) {
+  ConfigTable document = scenarios::make_run_document(scenario);
+  set_config_value(document, "tire", tire, "test");
+  set_config_value(document, "fidelity", fidelity, "test");
+  for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
+  return scenarios::read_run_spec(document, "");
+}
+
+}  // namespace rollrig::tests
