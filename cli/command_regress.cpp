@@ -82,7 +82,7 @@ void print_cases(const std::vector<Case>& cases) {
   scenarios::ResultTable table{"", {"run", "status", "values", "worst, share of tolerance"}, {}};
   for (const Case& each : cases) {
     const std::string worst =
-        each.comparison.worst_quantity.empty() ? "-" : fmt::format("{:.2f}", each.comparison.worst_share);
+        each.comparison.worst_quantity.empty() ? "-" : fmt::format("{:.2g}", each.comparison.worst_share);
     table.rows.push_back({each.name, each.status, fmt::format("{}", each.comparison.compared), worst});
   }
   std::cout << format_table(table);

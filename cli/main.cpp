@@ -3,8 +3,10 @@
 
 #include <exception>
 #include <iostream>
+#include <memory>
 
 #include "cli/command.h"
+#include "cli/help_formatter.h"
 #include "cli/typo.h"
 #include "sim/core/error.h"
 #include "sim/core/interrupt.h"
@@ -33,6 +35,7 @@ int report(const char* what, const std::string& text, int status) {
 int parse_and_run(int argc, char** argv) {
   CLI::App app{kDescription, "rollrig"};
   app.footer(kFooter);
+  app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("rollrig ") + ROLLRIG_VERSION);
   Action action;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "scenarios/run_spec.h"
@@ -51,14 +52,18 @@ std::string format_table(const scenarios::ResultTable& table) {
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], count_characters(row[i]));
   }
-  const auto format_row = [&widths](const std::vector<std::string>& cells) {
+  const bool names_first = std::any_of(table.rows.begin(), table.rows.end(), [](const std::vector<std::string>& row) {
+    return !row.empty() && !row[0].empty() && std::isalpha(static_cast<unsigned char>(row[0][0])) != 0;
+  });
+  const auto format_row = [&widths, names_first](const std::vector<std::string>& cells) {
     std::string line = " ";
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      line += fmt::format(" {:>{}}", cells[i], widths[i] + (cells[i].size() - count_characters(cells[i])));
+      const std::size_t width = widths[i] + (cells[i].size() - count_characters(cells[i]));
+      line += i == 0 && names_first ? fmt::format(" {:<{}}", cells[i], width) : fmt::format(" {:>{}}", cells[i], width);
     }
     return line + "\n";
   };
-  std::string text = "  " + table.title + "\n" + format_row(table.columns);
+  std::string text = (table.title.empty() ? "" : "  " + table.title + "\n") + format_row(table.columns);
   for (const auto& row : table.rows) text += format_row(row);
   return text;
 }

@@ -14,7 +14,7 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width 
 /// Label and value lines, values aligned.
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines);
 
-/// A table, columns aligned to the right, the first to the left.
+/// A table, columns aligned to the right, the first to the left where it holds names.
 std::string format_table(const scenarios::ResultTable& table);
 
 /// Header, lines, tables and warnings of a run.

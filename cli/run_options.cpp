@@ -32,7 +32,7 @@ void RunOptions::add_to(CLI::App& command) {
   command.add_option("--seed", seed, "Seed of the sensors' random numbers [1]");
   command
       .add_option("--set", assignments,
-                  "key=value: a setting of the scenario, or tire.<table>.<key>,\nrig.<table>.<key>, "
+                  "key=value: a setting of the scenario, or tire.<table>.<key>, rig.<table>.<key>, "
                   "effects.<id>.<parameter>; may be repeated")
       ->expected(1)
       ->take_all();

@@ -146,6 +146,7 @@ void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& 
   using std::abs;
   const TireThermalParameters<S>& thermal = context_.tire.thermal;
   const std::size_t rubber = index_of(Node::kRubber);
+  network.heat_capacity_J_per_K = {};  // of further nodes: theirs who ask for them
   network.heat_W = {};
   network.air_W_per_K = {};
   network.road_W_per_K = {};

@@ -7,6 +7,7 @@
 
 #include "models/contact_force_element.h"
 #include "rigs/drum_actuators.h"
+#include "sim/core/error.h"
 
 namespace rollrig::rigs {
 
@@ -40,6 +41,16 @@ models::ContactPort<double> find_contact_port(const Corner<double>& corner) {
   models::Instant<double> now;
   corner.apply_inputs(x.data(), now);
   return now.contact;
+}
+
+/// Runs `call`; what Simbody refuses (a state that is not finite, say) is a failed run.
+template <class Call>
+auto guarded(Call&& call) {
+  try {
+    return call();
+  } catch (const SimTK::Exception::Base& error) {
+    throw RunFailure(std::string("the multibody rig cannot go on: ") + error.getMessage());
+  }
 }
 
 // Errors that do not matter at a relative tolerance of 1e-6, for the integrator's control.
@@ -318,7 +329,7 @@ const std::vector<sim::Integral>& MultibodyDrum::integrals() const { return impl
 const std::vector<sim::Store>& MultibodyDrum::stores() const { return implementation_->stores(); }
 const std::vector<sim::Channel>& MultibodyDrum::channels() const { return implementation_->channels(); }
 void MultibodyDrum::initialize(const sim::Segment& first, double time_s, double* state) {
-  implementation_->initialize(first, time_s, state);
+  guarded([&] { implementation_->initialize(first, time_s, state); });
 }
 void MultibodyDrum::begin_phase(const sim::Phase& phase, double, double* state) {
   implementation_->begin_phase(phase, state);
@@ -327,7 +338,7 @@ void MultibodyDrum::begin_segment(const sim::Segment& segment, double time_s, do
   implementation_->begin_segment(segment, time_s);
 }
 void MultibodyDrum::evaluate(double time_s, const double* state, double* rates, double* integrands) {
-  implementation_->evaluate(time_s, state, rates, integrands);
+  guarded([&] { implementation_->evaluate(time_s, state, rates, integrands); });
 }
 double MultibodyDrum::watch(const std::string& name, double time_s, const double* state) {
   return implementation_->watch(name, time_s, state);
@@ -336,11 +347,11 @@ void MultibodyDrum::observe(double time_s, const double* state, double* values) 
   implementation_->observe(time_s, state, values);
 }
 void MultibodyDrum::calc_stored(double time_s, const double* state, double* stored_J) {
-  implementation_->calc_stored(time_s, state, stored_J);
+  guarded([&] { implementation_->calc_stored(time_s, state, stored_J); });
 }
 const models::Inflation<double>& MultibodyDrum::inflation() const { return implementation_->inflation(); }
 DrumForces MultibodyDrum::find_forces(double time_s, const double* state) {
-  return implementation_->find_forces(time_s, state);
+  return guarded([&] { return implementation_->find_forces(time_s, state); });
 }
 
 }  // namespace rollrig::rigs

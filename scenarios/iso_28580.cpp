@@ -73,8 +73,8 @@ void fill_lines(const Settings& settings, const RunSpec& spec, const Cycle& cycl
   add("Rolling resistance", fmt::format("{:.2f} N", cycle.rolling_resistance_N));
   add("  by the force method", fmt::format("{:.2f} N", cycle.force_method_N));
   add("RRc", fmt::format("{:.3f} N/kN", 1e3 * cycle.rrc));
-  add("RRc at 25 degC, 2 m drum", fmt::format("{:.3f} +- {:.3f} N/kN (k = 2, torque sensor, offset cancelled)",
-                                              1e3 * corrected, 1e3 * uncertainty.offset_cancelled));
+  add("RRc at 25 degC, 2 m drum",
+      fmt::format("{:.3f} +- {:.3f} N/kN (k = 2, torque)", 1e3 * corrected, 1e3 * uncertainty.offset_cancelled));
   if (spec.tire.iso_28580.has_value()) {
     const double reference = spec.tire.iso_28580->rrc;
     add("  tire file says",

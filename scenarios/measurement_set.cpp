@@ -186,7 +186,7 @@ namespace {
 
 /// Whether `next` continues every straight line of `before`, so that the two are one segment.
 bool continues(const sim::Segment& before, const sim::Segment& next) {
-  constexpr double kSame = 1e-12;
+  constexpr double kSame = 1e-7;  // files hold nine digits
   for (std::size_t i = 0; i < before.inputs.size(); ++i) {
     const sim::Ramp& a = before.inputs[i];
     const sim::Ramp& b = next.inputs[i];

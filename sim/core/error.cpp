@@ -42,7 +42,8 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   if (name.empty()) return {};
   const std::string lower = boost::algorithm::to_lower_copy(name);
   std::string best;
-  int best_distance = std::max(2, static_cast<int>(name.size()) / 2);  // Assumed: half the letters may differ
+  int best_distance =
+      std::max(3, static_cast<int>(name.size()) / 2 + 1);  // Assumed: half the letters may differ, or two
   for (const std::string& candidate : known) {
     const int distance = find_edit_distance(lower, boost::algorithm::to_lower_copy(candidate));
     if (distance < best_distance) {

@@ -1,0 +1,95 @@
+#include "scenarios/measurement_set.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/drum_fixture.h"
+
+namespace fs = std::filesystem;
+using namespace rollrig;
+
+namespace {
+/// A set of a run with ideal sensors, written to a folder of its own.
+struct WrittenSet {
+  scenarios::RunSpec spec;
+  scenarios::Outcome outcome;
+  fs::path folder = fs::temp_directory_path() / ("rollrig-set-" + std::to_string(::rand()));
+
+  WrittenSet(const std::string& scenario, const std::vector<std::string>& settings)
+      : spec(tests::make_spec(scenario, "a50", settings, "quasi_static")) {
+    spec.sensors = models::SensorSet{};
+    for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
+      (*spec.sensors)[channel] = {};
+    }
+    outcome = spec.scenario->run(spec, {});
+    fs::create_directories(folder);
+    for (const auto& [name, content] : scenarios::write_measurement_set(spec, outcome, "test")) {
+      std::ofstream(folder / name) << content;
+    }
+  }
+  ~WrittenSet() { fs::remove_all(folder); }
+};
+}  // namespace
+
+TEST_CASE("a run written as a set is read back and replayed to the same channels", "[fast]") {
+  const WrittenSet written("transient_skim", {"repeats=2"});
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.string());
+  REQUIRE(set.runs.size() == 1);
+  CHECK(set.kind == scenarios::SetKind::kDrum);
+  const scenarios::MeasuredRun& run = set.runs[0];
+  CHECK(run.time_s.front() == 0.0);
+  CHECK(run.initial_tire_temperature_K == Approx(298.15).margin(1e-4));
+
+  tests::DrumFixture fixture;
+  fixture.tire = set.tire;
+  fixture.rig = *set.rig;
+  fixture.initial_K = run.initial_tire_temperature_K;
+  fixture.cold_pressure_Pa = run.cold_pressure_Pa;
+  const auto replayed = fixture.run_quasi_static(scenarios::make_replay(run));
+  REQUIRE(replayed.time_s == run.time_s);
+  for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
+    double worst = 0.0;
+    const auto& measured = run.columns.at(channel);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      if (std::isnan(measured[i])) continue;
+      worst = std::max(worst, std::abs(replayed.channel(channel)[i] / measured[i] - 1.0));
+    }
+    INFO(channel);
+    CHECK(worst < 2e-5);
+  }
+}
+
+TEST_CASE("a replay joins rows that go on in a straight line", "[fast]") {
+  const WrittenSet written("transient_skim", {"repeats=2"});
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.string());
+  const sim::Program replay = scenarios::make_replay(set.runs[0]);
+  CHECK(replay.phases[0].segments.size() < 20);  // of about 1000 rows
+  CHECK(replay.duration_s() == Approx(set.runs[0].time_s.back()));
+}
+
+TEST_CASE("means that reach beyond the cut of a run are left empty", "[fast]") {
+  const WrittenSet written("pressure_sweep", {"warm_up_min=2"});
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.string());
+  REQUIRE(set.runs.size() == 3);
+  for (const auto& run : set.runs) {
+    CHECK(std::isnan(run.columns.at("drum_torque_Nm").front()));
+    CHECK_FALSE(std::isnan(run.columns.at("drum_torque_Nm")[1]));
+  }
+}
+
+TEST_CASE("the real road set of the shared data is read where it is present", "[fast]") {
+  const char* folder = std::getenv("ROLLRIG_MEASURED_DATA");
+  const fs::path set_folder =
+      fs::path(folder != nullptr ? folder : ROLLRIG_SOURCE_DIR "/../shared/data/measured") / "road_trips_i3";
+  if (!fs::exists(set_folder)) {
+    WARN("skipped: no measured data; ROLLRIG_MEASURED_DATA names their folder");
+    return;
+  }
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(set_folder.string());
+  CHECK(set.kind == scenarios::SetKind::kRoad);
+  CHECK(set.runs.size() == 20);
+  CHECK(set.vehicle->tires == 4);
+  CHECK(set.baseline == models::Baseline::kConstantRrc);
+}

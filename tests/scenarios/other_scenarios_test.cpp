@@ -1,0 +1,103 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "scenarios/sweep_evaluation.h"
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+using tests::make_spec;
+
+namespace {
+scenarios::Outcome run(const std::string& scenario, const std::string& tire,
+                       const std::vector<std::string>& settings = {}, const std::string& fidelity = "quasi_static") {
+  const scenarios::RunSpec spec = make_spec(scenario, tire, settings, fidelity);
+  return spec.scenario->run(spec, {});
+}
+double number(const scenarios::Outcome& outcome, const char* key) { return outcome.result[key].get<double>(); }
+}  // namespace
+
+TEST_CASE("a warm-up reads the law's B off the curve, plus what the rising pressure adds", "[fast]") {
+  const auto outcome = run("warm_up", "a50", {"load_N=5400", "pressure_kPa=280"});
+  const auto tire = tests::read_asset_tire().values.rolling_resistance;
+  const double law_B = tire.B0_per_K + tire.B1_s_per_m_K * 80.0 / 3.6;
+  // absolute pressure 381.3 kPa over 298 K, gauge about 288 kPa: the pressure adds 0.4 * 1.279 / 288 = 0.0018;
+  // that F_r lacks the skim share, which does not fall with it, adds 3 to 4 % of B
+  const double expected = 1.035 * (law_B + 0.0018);
+  CHECK(number(outcome, "band_B_per_degC") == Approx(expected).epsilon(0.02));
+  CHECK(number(outcome, "start_excess_percent") > 0.0);
+}
+
+TEST_CASE("a warm-up may end when the tire reaches a temperature", "[fast]") {
+  for (const char* fidelity : {"multibody", "quasi_static"}) {
+    const auto outcome = run("warm_up", "a50", {"until_tire_degC=36"}, fidelity);
+    const double end_s = number(outcome, "warm_up_s");
+    CHECK(end_s > 60.0);
+    CHECK(end_s < 1800.0);
+    const auto& recording = outcome.recording;
+    const auto row = static_cast<std::size_t>(
+        std::lower_bound(recording.time_s.begin(), recording.time_s.end(), end_s) - recording.time_s.begin());
+    CHECK(recording.channel("liner_temperature_degC")[row] == Approx(309.15).margin(0.03));
+  }
+  const double multibody_s = number(run("warm_up", "a50", {"until_tire_degC=36"}, "multibody"), "warm_up_s");
+  CHECK(multibody_s == Approx(number(run("warm_up", "a50", {"until_tire_degC=36"}), "warm_up_s")).margin(0.1));
+}
+
+TEST_CASE("a skim test parts into rig and tire", "[fast]") {
+  const auto outcome = run("skim", "a50");
+  CHECK(number(outcome, "rig_alone_N") + number(outcome, "tire_share_N") ==
+        Approx(number(outcome, "parasitic_N")).epsilon(1e-6));
+}
+
+TEST_CASE("a skim series extrapolates to the rig alone when the tire's loss goes with load", "[fast]") {
+  // On a tire that keeps its temperature the loss is proportional to load, and the straight line is exact.
+  const std::vector<std::string> isothermal{"tire.rolling_resistance.B0_per_degC=0",
+                                            "tire.rolling_resistance.B1_s_per_m_degC=0",
+                                            "tire.rolling_resistance.pressure_exponent=0"};
+  const auto exact = run("skim_series", "a50", isothermal);
+  CHECK(number(exact, "intercept_N") == Approx(number(exact, "rig_alone_N")).epsilon(1e-6));
+  std::vector<std::string> with_own_loss = isothermal;
+  with_own_loss.push_back("effects.tire_loss_in_skim.force_N=2");
+  with_own_loss.push_back("effects.tire_loss_in_skim.load_power=0");
+  with_own_loss.push_back("effects.tire_loss_in_skim.fall_per_degC=0");
+  const auto own = run("skim_series", "a50", with_own_loss);
+  CHECK(number(own, "intercept_N") - number(own, "rig_alone_N") == Approx(2.0).margin(0.05));
+}
+
+TEST_CASE("a transient skim test without effects falls only by the tire's own share", "[fast]") {
+  const auto outcome = run("transient_skim", "a50");
+  CHECK(number(outcome, "parasitic_fall_N") > 0.0);
+  CHECK(number(outcome, "parasitic_fall_N") < 0.2);
+  CHECK(number(outcome, "rolling_resistance_fall_N") > 1.0);
+}
+
+TEST_CASE("a pressure sweep weakens the law's exponent by the warmer tire at low pressure", "[fast]") {
+  const auto outcome = run("pressure_sweep", "a50");
+  CHECK(number(outcome, "steady_state_pressure_exponent") < -0.2);
+  CHECK(number(outcome, "steady_state_pressure_exponent") > -0.4);
+  REQUIRE(outcome.result["cycles"].size() == 3);
+  CHECK(outcome.set_runs.size() == 3);
+  for (const auto& run_of_set : outcome.set_runs) {
+    CHECK(run_of_set.initial_tire_temperature_K == Approx(298.15).margin(0.01));
+  }
+  CHECK(outcome.set_runs[2].cold_pressure_Pa == Approx(300e3).epsilon(1e-5));
+}
+
+TEST_CASE("a speed sweep averages its measurement cycles and rises with speed", "[fast]") {
+  const auto outcome = run("speed_sweep", "a50", {"speeds_km_h=[40, 80, 120]"});
+  REQUIRE(outcome.result["cycles"].size() == 3);
+  CHECK(outcome.result["cycles"][0]["rrc_N_per_kN"] < outcome.result["cycles"][2]["rrc_N_per_kN"]);
+  CHECK(outcome.result["cycles"][1]["speed_km_h"].get<double>() == Approx(80.0));
+}
+
+TEST_CASE("a load sweep takes the loads of the tire's own table", "[fast]") {
+  CHECK(run("load_sweep", "a40").result["cycles"].size() == 4);
+  const auto outcome = run("load_sweep", "a50");
+  REQUIRE(outcome.result["cycles"].size() == 3);
+  CHECK(outcome.result["cycles"][1]["load_N"].get<double>() == Approx(6100.0));
+  CHECK(number(outcome, "steady_state_load_exponent") < 1.0);  // (3.5) is proportional only at equal temperature
+}
+
+TEST_CASE("a power is fitted exactly to a power", "[fast]") {
+  CHECK(scenarios::fit_power({1.0, 2.0, 5.0}, {3.0, 3.0 * std::pow(2.0, -0.4), 3.0 * std::pow(5.0, -0.4)}) ==
+        Approx(-0.4));
+}

@@ -1,0 +1,74 @@
+#include "tests/support/fit_study.h"
+
+#include <boost/math/distributions/binomial.hpp>
+
+#include "identification/parameters.h"
+#include "scenarios/sensor_file.h"
+#include "tests/support/drum_fixture.h"
+
+namespace rollrig::tests {
+namespace {
+
+scenarios::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity) {
+  const scenarios::RunSpec spec = make_spec(
+      "warm_up", tire, {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
+  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::SetRun& cut = outcome.set_runs.front();
+  scenarios::MeasuredRun run;
+  run.id = cut.id;
+  run.session = "day";
+  run.initial_tire_temperature_K = cut.initial_tire_temperature_K;
+  run.cold_pressure_Pa = cut.cold_pressure_Pa;
+  const sim::Recording<double>& recording = outcome.recording;
+  for (std::size_t row = 0; row < recording.row_count(); ++row) {
+    if (recording.time_s[row] < cut.start_s - 1e-6) continue;
+    run.time_s.push_back(recording.time_s[row] - cut.start_s);
+    for (const char* column : {"speed_km_h", "load_N", "ambient_degC", "drum_torque_Nm", "liner_temperature_degC",
+                               "cavity_pressure_kPa", "gas_temperature_degC"}) {
+      run.columns[column].push_back(recording.channel(column)[row]);
+    }
+  }
+  return run;
+}
+
+}  // namespace
+
+scenarios::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
+                                           const std::string& fidelity) {
+  scenarios::MeasurementSet set;
+  set.path = "simulated";
+  set.name = "simulated";
+  set.tire = read_asset_tire(tire);
+  set.rig = read_asset_rig();
+  set.sensors = scenarios::read_sensor_asset(sensors);
+  for (const double speed_km_h : {80.0, 120.0}) {
+    set.runs.push_back(make_run(tire, speed_km_h, fidelity));
+    if (set.sensors.count("gas_temperature_degC") == 0) set.runs.back().columns.erase("gas_temperature_degC");
+  }
+  return set;
+}
+
+scenarios::MeasurementSet add_noise(const scenarios::MeasurementSet& set, std::uint64_t seed) {
+  scenarios::MeasurementSet noisy = set;
+  for (scenarios::MeasuredRun& run : noisy.runs) {
+    for (const auto& [channel, sensor] : set.sensors) {
+      models::apply_sensor(sensor, channel, {seed, run.session, run.id}, run.time_s, run.columns.at(channel));
+    }
+  }
+  return noisy;
+}
+
+double find_truth(const scenarios::MeasurementSet& set, const std::string& key) {
+  models::Context<double> context = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
+  const std::string name = key.substr(key.rfind('.') + 1);
+  return identification::find_parameter(context, key) / unit_of_key(name).factor;
+}
+
+bool is_rejected(int successes, int trials, double p, double level) {
+  const boost::math::binomial_distribution<double> distribution(trials, p);
+  const double at_most = boost::math::cdf(distribution, successes);
+  const double at_least = successes == 0 ? 1.0 : boost::math::cdf(boost::math::complement(distribution, successes - 1));
+  return std::min(at_most, at_least) < 0.5 * level;
+}
+
+}  // namespace rollrig::tests
