@@ -92,7 +92,7 @@ TEST_CASE("a folder that holds files is refused without --force, and nothing in 
   CHECK(fs::exists(folder.file("results/result.json")));
 }
 
-TEST_CASE("--json - prints JSON and nothing else", "[fast]") {
+TEST_CASE("with --json - a run prints JSON and nothing else", "[fast]") {
   const auto run = run_program("run iso_28580 --tire a50 --fidelity quasi_static --json -");
   CHECK(run.status == 0);
   CHECK(json::parse(run.out)["fidelity"] == "quasi_static");

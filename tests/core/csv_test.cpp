@@ -3,27 +3,17 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+
+#include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
 
 namespace {
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& content)
-      : path_(
-            (std::filesystem::temp_directory_path() / ("rollrig-csv-" + std::to_string(::rand()) + ".csv")).string()) {
-    std::ofstream(path_, std::ios::binary) << content;
-  }
-  ~TemporaryFile() { std::filesystem::remove(path_); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-CsvTable parse(const std::string& content) { return CsvTable::read(TemporaryFile(content).path()); }
+CsvTable parse(const std::string& content) {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("run.csv"), content);
+  return CsvTable::read(folder.file("run.csv"));
+}
 }  // namespace
 
 TEST_CASE("quotes, line ends, byte order mark and blank last lines of RFC 4180", "[fast]") {

@@ -6,23 +6,20 @@
 #include <fstream>
 
 #include "sim/core/error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
 
 namespace {
-fs::path fresh_folder() {
-  const fs::path folder = fs::temp_directory_path() / ("rollrig-io-" + std::to_string(::rand()));
-  fs::create_directories(folder);
-  return folder;
-}
 std::size_t count_files(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::recursive_directory_iterator(folder), {}));
 }
 }  // namespace
 
 TEST_CASE("an output folder appears whole, or not at all", "[fast]") {
-  const fs::path base = fresh_folder();
+  const tests::TemporaryFolder temporary;
+  const fs::path base = temporary.path();
   const std::string target = (base / "results").string();
   {
     OutputFolder folder(target, false);
@@ -36,11 +33,11 @@ TEST_CASE("an output folder appears whole, or not at all", "[fast]") {
   folder.commit();
   CHECK(read_text_file(target + "/deep/b.txt") == "2");
   CHECK(count_files(base) == 4);  // no staging folder is left
-  fs::remove_all(base);
 }
 
 TEST_CASE("a folder with files is refused, and with force only files of the same name go", "[fast]") {
-  const fs::path base = fresh_folder();
+  const tests::TemporaryFolder temporary;
+  const fs::path base = temporary.path();
   std::ofstream(base / "keep.txt") << "keep";
   std::ofstream(base / "a.txt") << "old";
   CHECK_THROWS_WITH(OutputFolder(base.string(), false), Catch::Contains("holds files") && Catch::Contains("--force"));
@@ -49,7 +46,6 @@ TEST_CASE("a folder with files is refused, and with force only files of the same
   folder.commit();
   CHECK(read_text_file((base / "a.txt").string()) == "new");
   CHECK(read_text_file((base / "keep.txt").string()) == "keep");
-  fs::remove_all(base);
 }
 
 TEST_CASE("a failed write keeps what stood there", "[fast]") {
@@ -59,7 +55,8 @@ TEST_CASE("a failed write keeps what stood there", "[fast]") {
 }
 
 TEST_CASE("text files are told from what is none", "[fast]") {
-  const fs::path base = fresh_folder();
+  const tests::TemporaryFolder temporary;
+  const fs::path base = temporary.path();
   std::ofstream(base / "empty") << "";
   std::ofstream(base / "binary", std::ios::binary) << std::string("\x00\x01", 2);
   std::ofstream(base / "latin1", std::ios::binary) << "caf\xE9";
@@ -68,7 +65,6 @@ TEST_CASE("text files are told from what is none", "[fast]") {
   CHECK_THROWS_WITH(read_text_file((base / "empty").string()), Catch::Contains("is empty"));
   CHECK_THROWS_WITH(read_text_file((base / "binary").string()), Catch::Contains("not a text file"));
   CHECK_THROWS_WITH(read_text_file((base / "latin1").string()), Catch::Contains("not a text file"));
-  fs::remove_all(base);
 }
 
 TEST_CASE("SHA-256 of the standard's example", "[fast]") {

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+
+#include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
 using scenarios::GoldenValue;
@@ -48,8 +48,8 @@ TEST_CASE("an update keeps the tolerances that were set by hand", "[fast]") {
 }
 
 TEST_CASE("a golden that is written is read back", "[fast]") {
-  const auto path = (std::filesystem::temp_directory_path() / ("rollrig-golden-" + std::to_string(::rand()))).string();
-  std::ofstream(path) << scenarios::write_golden(two_values());
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("golden.json");
+  tests::write_file(path, scenarios::write_golden(two_values()));
   CHECK(scenarios::compare_with_golden(scenarios::read_golden(path), two_values()).problems.empty());
-  std::filesystem::remove(path);
 }

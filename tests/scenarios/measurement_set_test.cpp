@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "tests/support/drum_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
@@ -15,7 +15,7 @@ namespace {
 struct WrittenSet {
   scenarios::RunSpec spec;
   scenarios::Outcome outcome;
-  fs::path folder = fs::temp_directory_path() / ("rollrig-set-" + std::to_string(::rand()));
+  tests::TemporaryFolder folder;
 
   WrittenSet(const std::string& scenario, const std::vector<std::string>& settings)
       : spec(tests::make_spec(scenario, "a50", settings, "quasi_static")) {
@@ -24,18 +24,16 @@ struct WrittenSet {
       (*spec.sensors)[channel] = {};
     }
     outcome = spec.scenario->run(spec, {});
-    fs::create_directories(folder);
     for (const auto& [name, content] : scenarios::write_measurement_set(spec, outcome, "test")) {
-      std::ofstream(folder / name) << content;
+      tests::write_file(folder.file(name), content);
     }
   }
-  ~WrittenSet() { fs::remove_all(folder); }
 };
 }  // namespace
 
 TEST_CASE("a run written as a set is read back and replayed to the same channels", "[fast]") {
   const WrittenSet written("transient_skim", {"repeats=2"});
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.string());
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.path());
   REQUIRE(set.runs.size() == 1);
   CHECK(set.kind == scenarios::SetKind::kDrum);
   const scenarios::MeasuredRun& run = set.runs[0];
@@ -63,7 +61,7 @@ TEST_CASE("a run written as a set is read back and replayed to the same channels
 
 TEST_CASE("a replay joins rows that go on in a straight line", "[fast]") {
   const WrittenSet written("transient_skim", {"repeats=2"});
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.string());
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.path());
   const sim::Program replay = scenarios::make_replay(set.runs[0]);
   CHECK(replay.phases[0].segments.size() < 20);  // of about 1000 rows
   CHECK(replay.duration_s() == Approx(set.runs[0].time_s.back()));
@@ -71,7 +69,7 @@ TEST_CASE("a replay joins rows that go on in a straight line", "[fast]") {
 
 TEST_CASE("means that reach beyond the cut of a run are left empty", "[fast]") {
   const WrittenSet written("pressure_sweep", {"warm_up_min=2"});
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.string());
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(written.folder.path());
   REQUIRE(set.runs.size() == 3);
   for (const auto& run : set.runs) {
     CHECK(std::isnan(run.columns.at("drum_torque_Nm").front()));
