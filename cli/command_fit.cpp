@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/print.h"
+#include "cli/progress.h"
 #include "identification/fit_tire.h"
 #include "sim/core/file_io.h"
 
@@ -64,6 +65,8 @@ int fit_tire_command(const Options& options) {
   fit_options.load_map = options.load_map;
   fit_options.threads = options.threads;
   if (options.free_H) fit_options.free_H = true;
+  ProgressLine progress("fit tire", options.quiet);
+  fit_options.progress = [&progress](int iteration) { progress.show(fmt::format("iteration {}", iteration)); };
   identification::TireFit fit = identification::fit_tire(set, fit_options);
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
   const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";

@@ -1,5 +1,7 @@
 /// rollrig: the command line.
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 
 #include <exception>
 #include <iostream>
@@ -37,6 +39,10 @@ int parse_and_run(int argc, char** argv) {
   app.footer(kFooter);
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
+  app.fallthrough();
+  app.add_option("--log", "What is said on standard error beside results: debug tells of files, phases and iterations")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
+      ->each([](const std::string& level) { spdlog::set_level(spdlog::level::from_str(level)); });
   app.set_version_flag("--version", std::string("rollrig ") + ROLLRIG_VERSION);
   Action action;
   add_run_command(app, action);
@@ -63,6 +69,8 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace rollrig::cli;
   rollrig::install_interrupt_handler();
+  spdlog::set_default_logger(spdlog::stderr_color_mt("rollrig"));
+  spdlog::set_pattern("%^%l%$: %v");
   try {
     return parse_and_run(argc, argv);
   } catch (const rollrig::InputError& error) {

@@ -20,17 +20,32 @@ ProgressLine::~ProgressLine() {
   if (shown_) fmt::print(stderr, "\r\033[K");
 }
 
+bool ProgressLine::is_due() {
+  const Clock::time_point now = Clock::now();
+  if (now - start_ < kQuietFor || now - last_ < kBetweenUpdates) return false;
+  last_ = now;
+  return true;
+}
+
+void ProgressLine::print(const std::string& text) {
+  shown_ = true;
+  fmt::print(stderr, "\r\033[K{}  {}", label_, text);
+  std::fflush(stderr);
+}
+
 void ProgressLine::update(double done) {
   if (!active_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  const Clock::time_point now = Clock::now();
-  if (now - start_ < kQuietFor || now - last_ < kBetweenUpdates) return;
-  last_ = now;
-  shown_ = true;
-  const double elapsed_s = std::chrono::duration<double>(now - start_).count();
+  if (!is_due()) return;
+  const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
   const double left_s = done > 0.0 ? elapsed_s * (1.0 - done) / done : 0.0;
-  fmt::print(stderr, "\r\033[K{}  {:3.0f} %  about {:.0f} s left", label_, 100.0 * done, left_s);
-  std::fflush(stderr);
+  print(fmt::format("{:3.0f} %  about {:.0f} s left", 100.0 * done, left_s));
+}
+
+void ProgressLine::show(const std::string& stage) {
+  if (!active_) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (is_due()) print(stage);
 }
 
 sim::Progress ProgressLine::callback() {

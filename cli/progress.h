@@ -19,11 +19,17 @@ class ProgressLine {
 
   /// `done` from 0 to 1. May be called from several threads.
   void update(double done);
+  /// For work whose length is not known: `stage` says how far it is.
+  void show(const std::string& stage);
   /// A callback for simulate().
   sim::Progress callback();
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// Whether it is time for another update; notes that one was made.
+  bool is_due();
+  void print(const std::string& text);
 
   std::string label_;
   bool active_;

@@ -20,8 +20,9 @@ const CLI::App& find_called(const CLI::App& app, int argc, char** argv, int& nex
   return *called;
 }
 
-std::string suggest(const CLI::App& called, int argc, char** argv, int next) {
-  const std::vector<std::string> options = list_options(called);
+std::string suggest(const CLI::App& app, const CLI::App& called, int argc, char** argv, int next) {
+  std::vector<std::string> options = list_options(called);
+  for (const std::string& option : list_options(app)) options.push_back(option);
   for (int i = next; i < argc; ++i) {
     const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
     const bool unknown_option =
@@ -64,7 +65,7 @@ std::string explain_usage_error(const CLI::App& app, const CLI::ParseError& erro
   std::string command = "rollrig";
   for (int i = 1; i < next; ++i) command += std::string(" ") + argv[i];
   std::string text = error.what();
-  const std::string nearest = suggest(called, argc, argv, next);
+  const std::string nearest = suggest(app, called, argc, argv, next);
   if (!nearest.empty()) text += fmt::format("\n  nearest  {}", nearest);
   return text + fmt::format("\n  allowed  see {} --help", command);
 }

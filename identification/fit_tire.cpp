@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,21 @@ class ResidualFunction : public ceres::CostFunction {
 
  private:
   const DrumResiduals& residuals_;
+};
+
+/// Tells the caller and the log of each iteration.
+class FollowIterations : public ceres::IterationCallback {
+ public:
+  explicit FollowIterations(std::function<void(int)> progress) : progress_(std::move(progress)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
+    spdlog::debug("fit: iteration {}, half chi2 {:.6g}, largest gradient {:.2g}", at.iteration, at.cost,
+                  at.gradient_max_norm);
+    if (progress_) progress_(at.iteration);
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  std::function<void(int)> progress_;
 };
 
 /// Loads at which the set rolls, each at least a minute; near ones (2 %) are one.
@@ -249,6 +265,8 @@ TireFit fit_tire(const scenarios::MeasurementSet& set, const FitOptions& options
   solver.max_num_iterations = 100;
   solver.function_tolerance = 1e-10;
   solver.logging_type = ceres::SILENT;
+  FollowIterations follow(options.progress);
+  solver.callbacks.push_back(&follow);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (summary.termination_type != ceres::CONVERGENCE) throw RunFailure("the fit does not converge: " + summary.message);

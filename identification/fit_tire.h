@@ -1,6 +1,7 @@
 #pragma once
 /// A tire from a user's own warm-up data (`rollrig fit tire`).
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@ struct FitOptions {
   bool load_map = false;       // A0, A1, B0, B1 at each load of the set (§3.3.1.3)
   std::optional<bool> free_H;  // default: where the gas temperature was measured (3.16)
   int threads = 0;
+  std::function<void(int iteration)> progress = {};  // called after each iteration
 };
 
 /// One fitted number, in the unit of its key.

@@ -58,4 +58,7 @@ struct Program {
   double duration_s() const;
 };
 
+/// Says in the log (level debug) that a phase begins.
+void log_phase(const Phase& phase, double start_s);
+
 }  // namespace rollrig::sim

@@ -201,6 +201,7 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
     const double phase_start_s = time_s;
     double planned_end_s = phase_start_s;
     bool stopped = false;
+    log_phase(phase, phase_start_s);
     system.begin_phase(phase, time_s, state.data());
     sampler.begin_phase(phase, out.phases.size(), phase_start_s + phase.duration_s());
     for (const Segment& segment : phase.segments) {

@@ -18,8 +18,8 @@ const std::vector<std::string> kVehicleConditions{"load_N=5400", "pressure_kPa=2
 Json run(const std::string& scenario, const std::string& tire, const std::vector<std::string>& settings = {},
          const char* fidelity = "quasi_static") {
   ConfigTable document = scenarios::make_run_document(scenario);
-  set_config_value(document, "tire", tire, "published_tables");
-  set_config_value(document, "fidelity", fidelity, "published_tables");
+  set_config_value(document, "tire", tire, "tools/published_tables");
+  set_config_value(document, "fidelity", fidelity, "tools/published_tables");
   for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
   const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
   return spec.scenario->run(spec, {}).result;
@@ -36,7 +36,7 @@ double find_root(const std::function<double(double)>& f, double low, double high
 
 std::string page_head() {
   return "# Virtual tests beside the source's published numbers\n\n"
-         "Written by `published_tables` (`cmake --build build --target published_page`); a test holds it to what the\n"
+         "Written by `cmake --build build/release --target docs_pages`; a test holds it to what the\n"
          "program gives now. What was fitted: for each tire a scale on A0 and A1, B0, and z on the drum rig, to three\n"
          "published numbers (`tools/calibrate_tires.cpp`, `tests/published/source.toml`). Those rows say \"fitted\".\n";
 }

@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <boost/locale/encoding_utf.hpp>
 #include <boost/locale/utf.hpp>
 #include <boost/scope_exit.hpp>
@@ -94,6 +95,7 @@ std::string read_text_file(const std::string& path) {
   if (status.type() == fs::file_type::directory) {
     throw file_problem(fmt::format("'{}' is a directory, not a file", path), path);
   }
+  spdlog::debug("reads {}", path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(errno)), path);
   std::ostringstream content;
@@ -173,6 +175,7 @@ void OutputFolder::move_into_existing(const std::string& staging) const {
 }
 
 void OutputFolder::commit() {
+  spdlog::debug("writes {} files to {}", files_.size(), path_);
   const std::string staging = staging_name(path_);
   try {
     fs::create_directories(staging);

@@ -7,7 +7,6 @@
 
 #include "sim/core/file_io.h"
 #include "tests/support/drum_fixture.h"
-#include "tools/published_tables.h"
 
 using namespace rollrig;
 using tests::make_spec;
@@ -21,24 +20,6 @@ double number(const std::string& scenario, const std::string& tire, const char* 
 }
 
 const std::vector<std::string> kVehicle{"load_N=5400", "pressure_kPa=280"};
-
-/// Numbers and words of a text, apart.
-void split(const std::string& text, std::vector<double>& numbers, std::string& words) {
-  std::istringstream in(text);
-  for (std::string word; in >> word;) {
-    try {
-      std::size_t used = 0;
-      const double value = std::stod(word, &used);
-      if (used == word.size()) {
-        numbers.push_back(value);
-        continue;
-      }
-    } catch (const std::exception&) {
-      // a word
-    }
-    words += word + " ";
-  }
-}
 
 }  // namespace
 
@@ -103,14 +84,4 @@ TEST_CASE("the tire warms with the air and with the road, by eight tenths in all
   CHECK(air_dK > 0.0);
   CHECK(road_dK > 0.0);
   CHECK(air_dK + road_dK == Approx(8.0).margin(1.0));  // Yokota: 1 to 2 and 6 to 7
-}
-
-TEST_CASE("docs/published.md says what the program gives", "[published]") {
-  std::vector<double> written, now;
-  std::string written_words, now_words;
-  split(read_text_file(ROLLRIG_SOURCE_DIR "/docs/published.md"), written, written_words);
-  split(tools::make_published_page(), now, now_words);
-  CHECK(written_words == now_words);
-  REQUIRE(written.size() == now.size());
-  for (std::size_t i = 0; i < now.size(); ++i) CHECK(now[i] == Approx(written[i]).epsilon(2e-3).margin(2e-3));
 }

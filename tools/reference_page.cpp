@@ -1,0 +1,124 @@
+#include "tools/reference_page.h"
+
+#include <fmt/format.h>
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
+
+#include "models/tire_file.h"
+#include "rigs/rig_file.h"
+#include "scenarios/drum_bench.h"
+#include "scenarios/scenario.h"
+
+namespace rollrig::tools {
+namespace {
+
+constexpr const char* kIntroduction =
+    "# Reference\n\n"
+    "Every scenario, setting, result, effect and file key. Written by `cmake --build build/release --target "
+    "docs_pages`\nfrom the declarations in the code; a test holds it to them.\n";
+
+/// A cell of a Markdown table.
+std::string cell(const std::string& text) { return boost::algorithm::replace_all_copy(text, "|", "\\|"); }
+
+std::string list_or_none(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : boost::algorithm::join(words, ", ");
+}
+
+std::string anchor_list(const std::vector<std::string>& names) {
+  std::vector<std::string> links;
+  for (const std::string& name : names) links.push_back(fmt::format("[`{0}`](#{0})", name));
+  return boost::algorithm::join(links, ", ") + "\n";
+}
+
+std::string describe(const scenarios::Scenario& scenario) {
+  const scenarios::ScenarioText& about = scenario.text;
+  std::string text = fmt::format("\n### {}\n\n{}\n\n*Procedure.* {}\n\n*Source.* {}\n", about.name, about.summary,
+                                 about.procedure, about.source);
+  text += "\n| setting | allowed | default | meaning |\n|---|---|---|---|\n";
+  for (const scenarios::SettingInfo& setting : scenario.settings) {
+    text += fmt::format("| `{}` | {} | {} | {} |\n", setting.key, cell(setting.range), setting.fallback,
+                        cell(setting.doc));
+  }
+  text += "\n| result | meaning |\n|---|---|\n";
+  for (const scenarios::ResultInfo& result : about.results) {
+    text += fmt::format("| `{}` | {} |\n", result.key, cell(result.doc));
+  }
+  return text;
+}
+
+std::string describe(const models::EffectInfo& effect) {
+  std::string text = fmt::format("\n### {}\n\n{}\n\n*Equation.* {}\n\n*Source.* {}\n", effect.id, effect.summary,
+                                 effect.equation, effect.source);
+  text += "\n| parameter | allowed | usual | off at | meaning |\n|---|---|---|---|---|\n";
+  for (const models::EffectParameter& parameter : effect.parameters) {
+    text += fmt::format("| `{}` | {} | {:.4g} to {:.4g} | {} | {} |\n", parameter.key,
+                        cell(parameter.range.to_string()), parameter.prior.low, parameter.prior.high,
+                        parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
+  }
+  text += fmt::format("\n*Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
+                      list_or_none(effect.visible_in), list_or_none(effect.clean_in),
+                      list_or_none(effect.confused_with), boost::algorithm::join(effect.splitting_tests, "; "));
+  return text;
+}
+
+template <class Group>
+std::string describe_table(const std::string& name) {
+  std::string text = fmt::format("\n`[{}]`\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", name);
+  for (const Field& field : list_fields<Group>()) {
+    text += fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.range.to_string()),
+                        field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required",
+                        cell(field.doc));
+  }
+  return text;
+}
+
+std::string describe_tire_file() {
+  using Tire = models::TireParameters<double>;
+  std::string text = "\n## Tire file\n\n`format = \"rollrig-tire/1\"`, `name`, `designation`, and the tables below. A "
+                     "number of `[rolling_resistance]`, `[thermal]`\nand `[constant]` may have its standard uncertainty "
+                     "beside it, under its key with `_sd`.\n";
+  text += describe_table<decltype(Tire::geometry)>("geometry");
+  text += describe_table<decltype(Tire::stiffness)>("stiffness");
+  text += describe_table<decltype(Tire::rolling_resistance)>("rolling_resistance");
+  text += describe_table<models::LoadMapEntry<double>>("[rolling_resistance.load_map]");
+  text += describe_table<decltype(Tire::thermal)>("thermal");
+  text += "\n`[thermal.rig.<rig name>]`: `z_W_per_K` and `f_W_s_per_m_K` as identified on that rig, in place of the "
+          "above.\n";
+  text += describe_table<decltype(Tire::constant)>("constant");
+  text += "\n`[iso_28580]` (`rrc_N_per_kN`, `load_N`, `pressure_kPa`): what the tire's own test says; load and pressure "
+          "are the\ndefaults of scenarios. `[load_sweep]` (`loads_N`): the loads of its load sweep.\n";
+  return text;
+}
+
+std::string describe_rig_file() {
+  std::string text = "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `flat`), and the "
+                     "tables below. A dyno has `[roller]` in place of\n`[drum]`; `[skim]` and `[carriage]` belong to a "
+                     "drum, `[parasitic]` and `[drive]` to a drum or a dyno.\n";
+  text += describe_table<rigs::DrumParameters>("drum");
+  text += describe_table<models::ParasiticParameters<double>>("parasitic");
+  text += describe_table<rigs::RigEnvironment>("environment");
+  text += describe_table<rigs::SkimParameters>("skim");
+  text += describe_table<rigs::CarriageParameters>("carriage");
+  text += describe_table<rigs::DriveParameters>("drive");
+  return text;
+}
+
+}  // namespace
+
+std::string make_reference_page() {
+  std::vector<std::string> effects;
+  for (const models::Effect* effect : models::all_effects()) effects.push_back(effect->info.id);
+  std::string text = kIntroduction;
+  text += "\n## Scenarios\n\n" + anchor_list(scenarios::scenario_names());
+  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) text += describe(*scenario);
+  text += "\n## Effects\n\n" + anchor_list(effects);
+  for (const models::Effect* effect : models::all_effects()) text += describe(effect->info);
+  text += describe_tire_file() + describe_rig_file();
+  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(scenarios::measured_drum_channels()) +
+          "\n(`[sensors.<channel>]`: `offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
+          "channel's unit).\n";
+  return text;
+}
+
+}  // namespace rollrig::tools
