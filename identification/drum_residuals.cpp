@@ -35,7 +35,8 @@ void store_derivatives(const Jet& value, std::size_t columns, double* out) {
 DrumResiduals::DrumResiduals(const scenarios::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
-  for (const scenarios::MeasuredRun& run : set_.runs) replays_.push_back(rigs::refine_near_standstill(scenarios::make_replay(run)));
+  for (const scenarios::MeasuredRun& run : set_.runs)
+    replays_.push_back(rigs::refine_near_standstill(scenarios::make_replay(run)));
   collect_series();
   std::size_t priors = 0;
   for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;

@@ -37,8 +37,8 @@ std::string describe(const scenarios::Scenario& scenario) {
                                  about.procedure, about.source);
   text += "\n| setting | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const scenarios::SettingInfo& setting : scenario.settings) {
-    text += fmt::format("| `{}` | {} | {} | {} |\n", setting.key, cell(setting.range), setting.fallback,
-                        cell(setting.doc));
+    text +=
+        fmt::format("| `{}` | {} | {} | {} |\n", setting.key, cell(setting.range), setting.fallback, cell(setting.doc));
   }
   text += "\n| result | meaning |\n|---|---|\n";
   for (const scenarios::ResultInfo& result : about.results) {
@@ -66,35 +66,39 @@ template <class Group>
 std::string describe_table(const std::string& name) {
   std::string text = fmt::format("\n`[{}]`\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", name);
   for (const Field& field : list_fields<Group>()) {
-    text += fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.range.to_string()),
-                        field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required",
-                        cell(field.doc));
+    text +=
+        fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.range.to_string()),
+                    field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required", cell(field.doc));
   }
   return text;
 }
 
 std::string describe_tire_file() {
   using Tire = models::TireParameters<double>;
-  std::string text = "\n## Tire file\n\n`format = \"rollrig-tire/1\"`, `name`, `designation`, and the tables below. A "
-                     "number of `[rolling_resistance]`, `[thermal]`\nand `[constant]` may have its standard uncertainty "
-                     "beside it, under its key with `_sd`.\n";
+  std::string text =
+      "\n## Tire file\n\n`format = \"rollrig-tire/1\"`, `name`, `designation`, and the tables below. A "
+      "number of `[rolling_resistance]`, `[thermal]`\nand `[constant]` may have its standard uncertainty "
+      "beside it, under its key with `_sd`.\n";
   text += describe_table<decltype(Tire::geometry)>("geometry");
   text += describe_table<decltype(Tire::stiffness)>("stiffness");
   text += describe_table<decltype(Tire::rolling_resistance)>("rolling_resistance");
   text += describe_table<models::LoadMapEntry<double>>("[rolling_resistance.load_map]");
   text += describe_table<decltype(Tire::thermal)>("thermal");
-  text += "\n`[thermal.rig.<rig name>]`: `z_W_per_K` and `f_W_s_per_m_K` as identified on that rig, in place of the "
-          "above.\n";
+  text +=
+      "\n`[thermal.rig.<rig name>]`: `z_W_per_K` and `f_W_s_per_m_K` as identified on that rig, in place of the "
+      "above.\n";
   text += describe_table<decltype(Tire::constant)>("constant");
-  text += "\n`[iso_28580]` (`rrc_N_per_kN`, `load_N`, `pressure_kPa`): what the tire's own test says; load and pressure "
-          "are the\ndefaults of scenarios. `[load_sweep]` (`loads_N`): the loads of its load sweep.\n";
+  text +=
+      "\n`[iso_28580]` (`rrc_N_per_kN`, `load_N`, `pressure_kPa`): what the tire's own test says; load and pressure "
+      "are the\ndefaults of scenarios. `[load_sweep]` (`loads_N`): the loads of its load sweep.\n";
   return text;
 }
 
 std::string describe_rig_file() {
-  std::string text = "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `flat`), and the "
-                     "tables below. A dyno has `[roller]` in place of\n`[drum]`; `[skim]` and `[carriage]` belong to a "
-                     "drum, `[parasitic]` and `[drive]` to a drum or a dyno.\n";
+  std::string text =
+      "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `flat`), and the "
+      "tables below. A dyno has `[roller]` in place of\n`[drum]`; `[skim]` and `[carriage]` belong to a "
+      "drum, `[parasitic]` and `[drive]` to a drum or a dyno.\n";
   text += describe_table<rigs::DrumParameters>("drum");
   text += describe_table<models::ParasiticParameters<double>>("parasitic");
   text += describe_table<rigs::RigEnvironment>("environment");

@@ -131,78 +131,97 @@ void check_reads_only_what_stands_before(const Effect& effect) {
   for (const double rate : rates) CHECK(std::isfinite(rate));
 }
 
+void check_declared_file(const EffectInfo& info) {
+  check_declaration(info);
+  CHECK(std::filesystem::exists(std::filesystem::path(ROLLRIG_SOURCE_DIR) / "models/effects" / (info.id + ".cpp")));
+}
+
+/// The campaign with the effect's size at `value` (in the unit of its key), everything else as usual.
+sim::Recording<double> run_at_size(const Effect& effect, double value) {
+  std::vector<double> values = usual_values(effect.info);
+  values[0] = value;
+  return with_effect(effect, values).run_quasi_static(campaign());
+}
+
+void check_off_is_baseline(const Effect& effect, const sim::Recording<double>& baseline) {
+  const auto off = run_at_size(effect, *effect.info.parameters[0].off);
+  for (const std::string& channel : kMeasured) {
+    INFO(channel);
+    CHECK(off.channel(channel) == baseline.channel(channel));
+  }
+}
+
+void check_shows_where_it_says(const Effect& effect, const sim::Recording<double>& baseline) {
+  const auto on = run_at_size(effect, effect.info.parameters[0].prior.high);
+  for (const std::string& channel : effect.info.visible_in) {
+    INFO(channel);
+    const auto& former = baseline.channel(channel);
+    const double span =
+        *std::max_element(former.begin(), former.end()) - *std::min_element(former.begin(), former.end());
+    CHECK(largest_difference(on.channel(channel), former) > 1e-3 * span);
+  }
+  for (const std::string& channel : effect.info.clean_in) {
+    INFO(channel);
+    CHECK(on.channel(channel) == baseline.channel(channel));
+  }
+}
+
+void check_audits_and_fidelities(const Effect& effect) {
+  const DrumFixture fixture = with_effect(effect, usual_values(effect.info));
+  const auto multibody = fixture.run_multibody(campaign());
+  const auto quasi_static = fixture.run_quasi_static(campaign());
+  CHECK_NOTHROW(multibody.audit.require_closed(sim::kAuditLimit));
+  CHECK_NOTHROW(quasi_static.audit.require_closed(sim::kAuditLimit));
+  CHECK(largest_difference(multibody.channel("liner_temperature_degC"),
+                           quasi_static.channel("liner_temperature_degC")) < 0.02);
+}
+
+constexpr std::size_t kRowInSkim = 800;
+
+/// The torque in the skim phase, with its derivative by the size.
+Jet calc_torque_by_size(const Effect& effect) {
+  const DrumFixture fixture = with_effect(effect, usual_values(effect.info));
+  models::Corner<Jet> corner(models::convert_context<Jet>(fixture.context()), fixture.effects);
+  corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
+  rigs::DrumStart<Jet> start;
+  start.tire_temperature_K = Jet(fixture.initial_K);
+  start.cold_pressure_Pa = Jet(fixture.cold_pressure_Pa);
+  start.ambient_pressure_Pa = Jet(fixture.rig.environment.ambient_pressure_Pa);
+  rigs::QuasiStaticDrum<Jet> drum(corner, start, false, rigs::Detail::kMeasured);
+  sim::FixedGridIntegrator<Jet> integrator(drum);
+  return sim::simulate<Jet>(drum, integrator, campaign()).channel("drum_torque_Nm")[kRowInSkim];
+}
+
+void check_derivative(const Effect& effect) {
+  const models::EffectParameter& size = effect.info.parameters[0];
+  const double centre = size.prior.centre();
+  const double step = 1e-4 * centre;
+  const auto torque_Nm = [&](double value) { return run_at_size(effect, value).channel("drum_torque_Nm")[kRowInSkim]; };
+  const double difference = (torque_Nm(centre + step) - torque_Nm(centre - step)) / (2.0 * step);
+  const double to_file_unit = unit_of_key(size.key).factor;
+  CHECK(calc_torque_by_size(effect).v[0] * to_file_unit == Approx(difference).epsilon(1e-5));
+}
+
 }  // namespace
 
 TEST_CASE("every effect keeps the contract", "[fast][contract]") {
   const auto baseline = DrumFixture().run_quasi_static(campaign());
   for (const Effect* effect : models::all_effects()) {
-    const EffectInfo& info = effect->info;
-    DYNAMIC_SECTION(info.id << ": declaration") {
-      check_declaration(info);
-      const std::filesystem::path file =
-          std::filesystem::path(ROLLRIG_SOURCE_DIR) / "models/effects" / (info.id + ".cpp");
-      CHECK(std::filesystem::exists(file));
+    const std::string& id = effect->info.id;
+    DYNAMIC_SECTION(id << ": declaration") { check_declared_file(effect->info); }
+    DYNAMIC_SECTION(id << ": at its off value it is the baseline to the bit") {
+      check_off_is_baseline(*effect, baseline);
     }
-    DYNAMIC_SECTION(info.id << ": at its off value it is the baseline to the bit") {
-      std::vector<double> values = usual_values(info);
-      values[0] = *info.parameters[0].off;
-      const auto off = with_effect(*effect, values).run_quasi_static(campaign());
-      for (const std::string& channel : kMeasured) {
-        INFO(channel);
-        CHECK(off.channel(channel) == baseline.channel(channel));
-      }
+    DYNAMIC_SECTION(id << ": a step of its size shows where it says, and nowhere that it calls clean") {
+      check_shows_where_it_says(*effect, baseline);
     }
-    DYNAMIC_SECTION(info.id << ": a step of its size shows where it says, and nowhere that it calls clean") {
-      std::vector<double> values = usual_values(info);
-      values[0] = info.parameters[0].prior.high;
-      const auto on = with_effect(*effect, values).run_quasi_static(campaign());
-      for (const std::string& channel : info.visible_in) {
-        INFO(channel);
-        const auto& former = baseline.channel(channel);
-        const double span =
-            *std::max_element(former.begin(), former.end()) - *std::min_element(former.begin(), former.end());
-        CHECK(largest_difference(on.channel(channel), former) > 1e-3 * span);
-      }
-      for (const std::string& channel : info.clean_in) {
-        INFO(channel);
-        CHECK(on.channel(channel) == baseline.channel(channel));
-      }
+    DYNAMIC_SECTION(id << ": both audits close with it on, and the fidelities agree") {
+      check_audits_and_fidelities(*effect);
     }
-    DYNAMIC_SECTION(info.id << ": both audits close with it on, and the fidelities agree") {
-      const DrumFixture fixture = with_effect(*effect, usual_values(info));
-      const auto multibody = fixture.run_multibody(campaign());
-      const auto quasi_static = fixture.run_quasi_static(campaign());
-      CHECK_NOTHROW(multibody.audit.require_closed(sim::kAuditLimit));
-      CHECK_NOTHROW(quasi_static.audit.require_closed(sim::kAuditLimit));
-      CHECK(largest_difference(multibody.channel("liner_temperature_degC"),
-                               quasi_static.channel("liner_temperature_degC")) < 0.02);
-    }
-    DYNAMIC_SECTION(info.id << ": it reads only what stands before its port") {
+    DYNAMIC_SECTION(id << ": it reads only what stands before its port") {
       check_reads_only_what_stands_before(*effect);
     }
-    DYNAMIC_SECTION(info.id << ": its derivative by size agrees with differences") {
-      const auto end_torque = [&](double size) {
-        std::vector<double> values = usual_values(info);
-        values[0] = size;
-        const auto recording = with_effect(*effect, values).run_quasi_static(campaign());
-        return recording.channel("drum_torque_Nm")[800];  // in the skim
-      };
-      const double centre = info.parameters[0].prior.centre();
-      const double step = 1e-4 * centre;
-      const double difference = (end_torque(centre + step) - end_torque(centre - step)) / (2.0 * step);
-      const DrumFixture fixture = with_effect(*effect, usual_values(info));
-      models::Corner<Jet> corner(models::convert_context<Jet>(fixture.context()), fixture.effects);
-      corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
-      rigs::DrumStart<Jet> start;
-      start.tire_temperature_K = Jet(fixture.initial_K);
-      start.cold_pressure_Pa = Jet(fixture.cold_pressure_Pa);
-      start.ambient_pressure_Pa = Jet(fixture.rig.environment.ambient_pressure_Pa);
-      rigs::QuasiStaticDrum<Jet> drum(corner, start, false, rigs::Detail::kMeasured);
-      sim::FixedGridIntegrator<Jet> integrator(drum);
-      const auto recording = sim::simulate<Jet>(drum, integrator, campaign());
-      const double to_file_unit = unit_of_key(info.parameters[0].key).factor;
-      CHECK(recording.channel("drum_torque_Nm")[800].v[0] * to_file_unit == Approx(difference).epsilon(1e-5));
-    }
+    DYNAMIC_SECTION(id << ": its derivative by size agrees with differences") { check_derivative(*effect); }
   }
 }
 
