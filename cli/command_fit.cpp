@@ -61,6 +61,7 @@ int fit_tire_command(const Options& options) {
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
+  require_writable(options.json);
   identification::FitOptions fit_options;
   fit_options.load_map = options.load_map;
   fit_options.threads = options.threads;

@@ -33,7 +33,7 @@ struct Case {
   std::string run_file;
   std::string golden_file;
   std::string golden_text;  // as it would be written now
-  std::string status;       // "same", "differs", "no golden", "failed", "updated"
+  std::string status;       // "same", "differs", "no golden", "bad golden", "bad run file", "failed", "updated"
   scenarios::GoldenComparison comparison;
 };
 
@@ -56,26 +56,69 @@ std::vector<Case> find_cases(const std::string& folder) {
   return cases;
 }
 
-void run_case(Case& each) {
-  const scenarios::RunSpec spec =
-      scenarios::read_run_spec(read_config(each.run_file), fs::path(each.run_file).parent_path().string());
-  std::vector<scenarios::GoldenValue> now;
-  try {
-    now = scenarios::make_golden(spec.scenario->run(spec, {}));
-  } catch (const RunFailure& failure) {
-    each.status = "failed";
-    each.comparison.problems = {failure.what()};
-    return;
-  }
+void set_problem(Case& each, const char* status, const std::exception& error) {
+  each.status = status;
+  each.comparison.problems = {error.what()};
+}
+
+void compare_case(Case& each, std::vector<scenarios::GoldenValue>& now) {
   if (!fs::exists(each.golden_file)) {
     each.status = "no golden";
-  } else {
+    return;
+  }
+  try {
     const std::vector<scenarios::GoldenValue> golden = scenarios::read_golden(each.golden_file);
     scenarios::keep_tolerances(golden, now);
     each.comparison = scenarios::compare_with_golden(golden, now);
     each.status = each.comparison.problems.empty() ? "same" : "differs";
+  } catch (const InputError& error) {
+    set_problem(each, "bad golden", error);
   }
-  each.golden_text = scenarios::write_golden(now);
+}
+
+/// One bad file must not hide how the others fare: it is a status of its case.
+void run_case(Case& each) {
+  try {
+    const scenarios::RunSpec spec =
+        scenarios::read_run_spec(read_config(each.run_file), fs::path(each.run_file).parent_path().string());
+    std::vector<scenarios::GoldenValue> now = scenarios::make_golden(spec.scenario->run(spec, {}));
+    compare_case(each, now);
+    each.golden_text = scenarios::write_golden(now);
+  } catch (const RunFailure& failure) {
+    set_problem(each, "failed", failure);
+  } catch (const InputError& error) {
+    set_problem(each, "bad run file", error);
+  }
+}
+
+/// Goldens whose run file is gone are listed, lest a renamed run goes unchecked.
+void add_orphans(const std::string& folder, std::vector<Case>& cases) {
+  constexpr const char* kGolden = ".golden.csv";
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string file = entry.path().filename().string();
+    const std::size_t at = file.find(kGolden);
+    if (at == std::string::npos) continue;
+    const std::string name = file.substr(0, at);
+    if (std::any_of(cases.begin(), cases.end(), [&](const Case& each) { return each.name == name; })) continue;
+    Case orphan;
+    orphan.name = name;
+    orphan.status = "no run file";
+    cases.push_back(orphan);
+  }
+}
+
+/// Writes new goldens where wanted; the exit status of the whole.
+int settle_cases(std::vector<Case>& cases, bool update) {
+  int status = kDone;
+  for (Case& each : cases) {
+    if (update && !each.golden_text.empty() && each.status != "same") {
+      write_file_atomically(each.golden_file, each.golden_text);
+      each.status = "updated";
+    }
+    if (each.status == "same" || each.status == "updated") continue;
+    status = std::max<int>(status, each.status.rfind("bad", 0) == 0 ? kInputError : kDiffers);
+  }
+  return status;
 }
 
 void print_cases(const std::vector<Case>& cases) {
@@ -124,18 +167,11 @@ int regress_command(const Options& options) {
       progress.update(static_cast<double>(++done) / static_cast<double>(cases.size()));
     });
   }
-  bool good = true;
-  for (Case& each : cases) {
-    const bool to_update = options.update && (each.status == "differs" || each.status == "no golden");
-    if (to_update) {
-      write_file_atomically(each.golden_file, each.golden_text);
-      each.status = "updated";
-    }
-    good = good && (each.status == "same" || each.status == "updated");
-  }
+  add_orphans(folder, cases);
+  const int status = settle_cases(cases, options.update);
   if (!options.json.empty()) write_output(options.json, cases_to_json(cases).dump(2) + "\n");
   if (!options.quiet && options.json != "-") print_cases(cases);
-  return good ? kDone : kDiffers;
+  return status;
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ int run_command(const Options& options) {
   std::optional<OutputFolder> out;
   std::optional<OutputFolder> set;
   if (!options.out.empty()) out.emplace(options.out, options.force);
+  require_writable(options.json);
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.force);
   ProgressLine progress(spec.scenario->text.name, options.quiet);
   const scenarios::Outcome outcome = spec.scenario->run(spec, progress.callback());

@@ -163,6 +163,7 @@ int sweep_command(const Options& options) {
   }
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
+  require_writable(options.json);
   std::vector<Json> results(specs.size());
   std::vector<std::string> manifests(specs.size());
   ProgressLine progress("sweep", options.quiet);

@@ -56,11 +56,14 @@ int parse_and_run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
-    return app.exit(wanted);
+    const int status = app.exit(wanted);
+    return std::cout.flush() ? status : report("error", "standard output cannot be written to", kInputError);
   } catch (const CLI::ParseError& error) {
     return report("error", explain_usage_error(app, error, argc, argv), kInputError);
   }
-  return action();
+  const int status = action();
+  if (!std::cout.flush()) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
+  return status;
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
     for (std::size_t k = 0; k < n; ++k) {
       const S& at = simulated[series.rows[k]];
       difference[k] = measured[series.rows[k]] - value_of(at);
-      store_derivatives(at, columns, &derivatives[k * columns]);
+      store_derivatives(at, columns, derivatives.data() + k * columns);
     }
     series.whitener.apply(difference.data(), 1, residuals + series.first_residual);
     if (columns == 0) continue;

@@ -11,6 +11,7 @@ constexpr double kForceTime_N_s = 1e-3;
 constexpr double kTemperatureTime_K_s = 1e-3;
 constexpr double kPressureTime_Pa_s = 10.0;
 constexpr double kEnergy_J = 5e-3;
+constexpr double kYardstick_J = 1e3;  // has a kink where the motor turns to braking; wanted to a few digits
 
 }  // namespace
 
@@ -26,6 +27,7 @@ std::vector<sim::Integral> make_drum_integrals(Detail detail) {
       {"spindle_force", Role::kChannel, kForceTime_N_s},
       {"contact_load", Role::kChannel, kForceTime_N_s},
       {sim::kMotorWork, Role::kWorkIn, kEnergy_J},
+      {"motor_throughput", Role::kThroughput, kYardstick_J},
       {"load_actuator", Role::kWorkIn, kEnergy_J},
       {"load_changes", Role::kWorkIn, kEnergy_J},
       {"tire_loss", Role::kDissipated, kEnergy_J},

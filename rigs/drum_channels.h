@@ -32,6 +32,7 @@ enum class DrumIntegral : std::size_t {
   kSpindleForce,
   kContactLoad,
   kMotorWork,
+  kMotorThroughput,
   kLoadActuatorWork,
   kKnotWork,
   kTireLoss,

@@ -178,9 +178,10 @@ class MultibodyDrum::Implementation {
     return y[kSpeeds] / corner_.context().surface_curvature_per_m;
   }
 
-  void observe(double time_s, const double* y, double* values) const {
+  void observe(double time_s, const double* y, double* values) {
     const models::InputPort<double> inputs =
         read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_);
+    if (actuators_->motor_on()) require_speed_held(time_s, y);
     *values++ = actuators_->motor_on() ? inputs.speed_m_s : y[kSpeeds] / corner_.context().surface_curvature_per_m;
     *values++ = inputs.load_N;
     *values++ = inputs.ambient_K;
@@ -241,6 +242,20 @@ class MultibodyDrum::Implementation {
     std::copy(y, y + all.size(), &all[0]);
   }
 
+  /// The recorded speed is the set point; a motor that does not follow it is a failed run, not a result.
+  void require_speed_held(double time_s, const double* y) {
+    constexpr double kShare = 0.02;  // Assumed: a rig would trip
+    constexpr double kFloor_m_s = 0.2;
+    set_state(time_s, y);
+    models::Instant<double> now;
+    contact_->evaluate_inputs(state_, now);
+    const double set_m_s = now.acting.speed_m_s;
+    const double is_m_s = y[kSpeeds] / corner_.context().surface_curvature_per_m;
+    if (std::abs(is_m_s - set_m_s) <= kFloor_m_s + kShare * std::abs(set_m_s)) return;
+    throw RunFailure("at t = " + std::to_string(time_s) + " s the motor does not hold the speed: set " +
+                     std::to_string(set_m_s) + " m/s, is " + std::to_string(is_m_s) + " m/s");
+  }
+
   double slip_spring_N_per_m() const {
     return models::make_contact_parameters(corner_.context().tire, contact_port_.slip_compliance_per_N)
         .slip_spring_N_per_m;
@@ -280,6 +295,7 @@ class MultibodyDrum::Implementation {
     put(DrumIntegral::kSpindleForce, at.slip.force_N);
     put(DrumIntegral::kContactLoad, at.normal_N);
     put(DrumIntegral::kMotorWork, drive.motor_torque_Nm * at.surface_speed_rad_s);
+    put(DrumIntegral::kMotorThroughput, std::abs(drive.motor_torque_Nm * at.surface_speed_rad_s));
     put(DrumIntegral::kLoadActuatorWork, -drive.cylinder_force_N * carriage_m_s);
     put(DrumIntegral::kKnotWork, 0.0);
     put(DrumIntegral::kTireLoss, at.couple_Nm * (at.wheel_speed_rad_s + at.surface_speed_rad_s));

@@ -129,7 +129,9 @@ void QuasiStaticDrum<S>::fill_integrands(S* integrands) const {
   put(DrumIntegral::kParasitic, now_.parasitic_N);
   put(DrumIntegral::kSpindleForce, now_.motion.longitudinal_force_N);
   put(DrumIntegral::kContactLoad, now_.motion.load_N);
-  put(DrumIntegral::kMotorWork, drum_torque_Nm_ * speed_m_s * corner_.context().surface_curvature_per_m);
+  const S motor_W = drum_torque_Nm_ * speed_m_s * corner_.context().surface_curvature_per_m;
+  put(DrumIntegral::kMotorWork, motor_W);
+  put(DrumIntegral::kMotorThroughput, value_of(motor_W) < 0.0 ? S(-motor_W) : motor_W);
   put(DrumIntegral::kLoadActuatorWork, zero<S>());
   put(DrumIntegral::kKnotWork, zero<S>());
   put(DrumIntegral::kTireLoss, now_.rolling_resistance_N * now_.motion.rolling_speed_m_s);

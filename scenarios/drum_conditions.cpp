@@ -15,12 +15,42 @@ InputError missing_condition(const RunSpec& spec, const char* key) {
 
 }  // namespace
 
+double calc_skim_limit_N(const rigs::RigFile& rig) { return 1.5 * rig.skim.load_N; }
+
+void check_test_load(const RunSpec& spec, const char* key, double load_N) {
+  const auto refuse = [&](const std::string& what, const std::string& allowed) {
+    const ConfigValue* set = spec.settings.find(key);
+    InputProblem problem;
+    problem.what = what;
+    problem.file = set != nullptr ? set->origin.file : spec.tire.path;
+    problem.line = set != nullptr ? set->origin.line : 0;
+    problem.key = key;
+    problem.value = fmt::format("{}", load_N);
+    problem.allowed = allowed;
+    throw InputError(problem);
+  };
+  const double skim_limit_N = calc_skim_limit_N(spec.rig);
+  if (load_N <= skim_limit_N) {
+    refuse(fmt::format("a load of {} N counts as skimming on rig '{}'", load_N, spec.rig.name),
+           fmt::format("more than {} N (1.5 x the rig's skim load)", skim_limit_N));
+  }
+  if (!spec.tire.has_stiffness) return;
+  const models::TireGeometry<double>& geometry = spec.tire.values.geometry;
+  const double sidewall_m = (geometry.outer_diameter_m - geometry.rim_diameter_m) / 2.0;
+  const double most_N = spec.tire.values.stiffness.vertical_N_per_m * sidewall_m;
+  if (load_N >= most_N) {
+    refuse(fmt::format("a load of {} N presses tire '{}' onto its rim", load_N, spec.tire.name),
+           fmt::format("less than {:.0f} N (vertical stiffness x height of the sidewall)", most_N));
+  }
+}
+
 void DrumConditions::complete(const RunSpec& spec) {
   const auto& reference = spec.tire.iso_28580;
   if (!load_N.has_value()) {
     if (!reference.has_value()) throw missing_condition(spec, "load_N");
     load_N = reference->load_N;
   }
+  check_test_load(spec, "load_N", *load_N);
   if (!pressure_Pa.has_value()) {
     if (!reference.has_value()) throw missing_condition(spec, "pressure_kPa");
     pressure_Pa = reference->pressure_Pa;

@@ -50,6 +50,15 @@ struct DrumConditions {
   void complete(const RunSpec& spec);
 };
 
+constexpr double kShortestRange_s = 20.0;  // Assumed: shorter stretches of a load signal are transitions
+
+/// Load at or below which the tire counts as skimming.
+/// Source    formats.md: the rig's skim load x 1.5
+double calc_skim_limit_N(const rigs::RigFile& rig);
+
+/// Throws InputError when a load could not be told from a skim test, or would press the tire flat.
+void check_test_load(const RunSpec& spec, const char* key, double load_N);
+
 /// Load and skim times of the source's cycles (§3.2.1 items 7 and 8).
 struct CycleTimes {
   double warm_up_s = 0.0;

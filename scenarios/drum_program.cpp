@@ -1,5 +1,7 @@
 #include "scenarios/drum_program.h"
 
+#include <algorithm>
+
 namespace rollrig::scenarios {
 namespace {
 
@@ -64,7 +66,25 @@ void DrumProgram::change_speed(const std::string& name, double duration_s, doubl
   append(name, duration_s, speed_m_s);
 }
 
+void DrumProgram::mark_time_zero() {
+  if (!zero_marked_) before_zero_s_ = program_.duration_s();
+  zero_marked_ = true;
+}
+
+void DrumProgram::check_readable(const std::string& name, double duration_s) const {
+  const double sample_s = program_.sample_interval_s;
+  const double window_s = std::min(conditions_.window_s, duration_s - 2.0 * conditions_.margin_s);
+  if (window_s >= 2.0 * sample_s && duration_s >= kShortestRange_s + sample_s) return;
+  InputProblem problem;
+  problem.what = fmt::format("phase '{}' of {} s is too short to be read: margin_s {}, window_s {}, samples every {} s",
+                             name, duration_s, conditions_.margin_s, conditions_.window_s, sample_s);
+  problem.key = "margin_s, window_s, sample_interval_s";
+  problem.allowed = fmt::format("two samples in the window, phases of {} s and a sample at least", kShortestRange_s);
+  throw InputError(problem);
+}
+
 void DrumProgram::roll(const std::string& name, double duration_s, double load_N) {
+  check_readable(name, duration_s);
   load_N_ = load_N;
   append(name, duration_s, speed_m_s_);
 }
@@ -78,6 +98,10 @@ void DrumProgram::open_set_run(const std::string& id) {
   close_set_run();
   SetRun run;
   run.id = id;
+  const auto is_taken = [this](const std::string& wanted) {
+    return std::any_of(set_runs_.begin(), set_runs_.end(), [&](const SetRun& other) { return other.id == wanted; });
+  };
+  for (int repeat = 2; is_taken(run.id); ++repeat) run.id = fmt::format("{}-{}", id, repeat);
   run.start_s = program_.duration_s();
   set_runs_.push_back(run);
   set_run_open_ = true;

@@ -23,12 +23,12 @@ class DrumProgram {
   void end_test();
   /// Speed changes evenly, load stays.
   void change_speed(const std::string& name, double duration_s, double speed_m_s);
-  /// Constant speed under a load.
+  /// Constant speed under a load. Throws InputError when the phase is too short to be found and averaged.
   void roll(const std::string& name, double duration_s, double load_N);
   /// Ends the phase appended last when the tire reaches a temperature from below.
   void end_at_tire_temperature(double temperature_K);
-  /// The time at this point of the program becomes 0.
-  void mark_time_zero() { before_zero_s_ = program_.duration_s(); }
+  /// The time at this point of the program becomes 0; the first call counts.
+  void mark_time_zero();
 
   /// The program so far, with its start time.
   sim::Program program() const;
@@ -38,6 +38,7 @@ class DrumProgram {
 
  private:
   sim::Phase& append(const std::string& name, double duration_s, double end_speed_m_s);
+  void check_readable(const std::string& name, double duration_s) const;
   void open_set_run(const std::string& id);
   void close_set_run();
 
@@ -47,6 +48,7 @@ class DrumProgram {
   double speed_m_s_ = 0.0;
   double load_N_;
   double before_zero_s_ = 0.0;
+  bool zero_marked_ = false;
   std::vector<SetRun> set_runs_;  // times from the start of the program
   bool set_run_open_ = false;
 };

@@ -41,6 +41,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   program.begin_test("load-sweep", *conditions.pressure_Pa, conditions.speed_m_s);
   program.mark_time_zero();
   for (const double load_N : loads_of(settings, spec)) {
+    check_test_load(spec, "loads_N", load_N);
     program.roll(fmt::format("warm-up {:.0f} N", load_N), settings.times.warm_up_s, load_N);
     program.roll(fmt::format("warm-up skim {:.0f} N", load_N), settings.times.skim_s, skim_N);
     program.roll(fmt::format("measurement {:.0f} N", load_N), settings.measurement_s, load_N);
@@ -50,6 +51,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+  const std::vector<double> loads_N = loads_of(settings, spec);
   const std::vector<Cycle> all = find_cycles(outcome.recording, spec, settings.conditions, 0.0);
   std::vector<Cycle> points;  // of each load, the cycle after its warm-up cycle
   for (std::size_t i = 1; i < all.size(); i += 2) points.push_back(all[i]);
@@ -63,7 +65,7 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const auto [low, high] = std::minmax_element(rrc.begin(), rrc.end());
   outcome.result["rrc_span_N_per_kN"] = 1e3 * (*high - *low);
   outcome.lines.push_back({"RRc, largest less smallest", fmt::format("{:.3f} N/kN", 1e3 * (*high - *low))});
-  if (points.size() > 1) {
+  if (has_two_values(loads_N)) {
     const double exponent = fit_power(load_N, loss_N);
     outcome.result["steady_state_load_exponent"] = exponent;
     outcome.lines.push_back({"F_r goes with load to the power", fmt::format("{:.3f} (steady state)", exponent)});

@@ -22,9 +22,9 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   const DrumConditions& conditions = settings.conditions;
   DrumProgram program(conditions, spec.rig, spec.sample_interval_s);
   for (const double pressure_Pa : settings.pressures_Pa) {
-    const std::string at = fmt::format("{:.0f} kPa", pressure_Pa / 1e3);
-    program.begin_test(fmt::format("pressure-{:.0f}", pressure_Pa / 1e3), pressure_Pa, conditions.speed_m_s);
-    if (pressure_Pa == settings.pressures_Pa.front()) program.mark_time_zero();
+    const std::string at = fmt::format("{:.6g} kPa", pressure_Pa / 1e3);
+    program.begin_test(fmt::format("pressure-{:.6g}", pressure_Pa / 1e3), pressure_Pa, conditions.speed_m_s);
+    program.mark_time_zero();
     program.roll("warm-up " + at, settings.times.warm_up_s, *conditions.load_N);
     program.roll("skim " + at, settings.times.skim_s, spec.rig.skim.load_N);
     program.end_test();
@@ -40,7 +40,7 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
     outcome.result["cycles"][i]["pressure_set_kPa"] = settings.pressures_Pa[i] / 1e3;
     loss_N.push_back(cycles[i].rolling_resistance_N);
   }
-  if (cycles.size() < 2) return;
+  if (!has_two_values(settings.pressures_Pa)) return;
   const double exponent = fit_power(settings.pressures_Pa, loss_N);
   outcome.result["steady_state_pressure_exponent"] = exponent;
   outcome.result["first_to_second_ratio"] = loss_N[0] / loss_N[1];

@@ -12,8 +12,6 @@ constexpr double kTemperatureCoefficient_per_K = 0.008;  // K_t of ISO 28580 for
 constexpr double kReferenceAmbient_K = kZeroCelsius_K + 25.0;
 constexpr double kReferenceRadius_m = 1.0;
 constexpr double kCoverageFactor = 2.0;
-constexpr double kSkimLimitFactor = 1.5;   // formats.md: at or below the rig's skim load x 1.5
-constexpr double kShortestRange_s = 20.0;  // Assumed: shorter stretches are transitions
 
 double radius_of(const RunSpec& spec) { return spec.rig.drum.diameter_m / 2.0; }
 
@@ -52,8 +50,7 @@ Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& 
   return cycle;
 }
 
-std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const RunSpec& spec,
-                               const DrumConditions& conditions, double from_s) {
+std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec, double from_s) {
   std::vector<double> time_s;
   std::vector<double> load_N;
   std::vector<double> speed_m_s;
@@ -63,8 +60,12 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
     load_N.push_back(recording.channel("load_N")[i]);
     speed_m_s.push_back(recording.channel("speed_km_h")[i]);
   }
-  const std::vector<LoadRange> ranges =
-      find_load_ranges(time_s, load_N, speed_m_s, kSkimLimitFactor * spec.rig.skim.load_N, kShortestRange_s);
+  return find_load_ranges(time_s, load_N, speed_m_s, calc_skim_limit_N(spec.rig), kShortestRange_s);
+}
+
+std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const RunSpec& spec,
+                               const DrumConditions& conditions, double from_s) {
+  const std::vector<LoadRange> ranges = find_test_ranges(recording, spec, from_s);
   const auto read = [&](const LoadRange& range) {
     return take_reading(recording, find_last_window(range, conditions.window_s, conditions.margin_s),
                         spec.sample_interval_s);
@@ -75,6 +76,7 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
       cycles.push_back(evaluate_cycle(read(ranges[i]), read(ranges[i + 1]), spec));
     }
   }
+  if (cycles.empty()) throw RunFailure("the run ended before a load and a skim test could be averaged");
   return cycles;
 }
 
@@ -96,7 +98,7 @@ models::SensorParameters find_torque_sensor(const RunSpec& spec) {
 
 RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec) {
   const models::SensorParameters sensor = find_torque_sensor(spec);
-  const double to_rrc = 1.0 / (radius_of(spec) * cycle.loaded.load_N);
+  const double to_rrc = correct_rrc(1.0 / (radius_of(spec) * cycle.loaded.load_N), cycle.loaded.ambient_K, spec);
   const double variance = models::calc_difference_variance(sensor, cycle.loaded.samples, spec.sample_interval_s,
                                                            cycle.skim.window.start_s - cycle.loaded.window.start_s);
   RrcUncertainty uncertainty;

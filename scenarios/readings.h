@@ -40,7 +40,10 @@ struct Cycle {
 /// Source    §3.2.3.2; the force method from ISO 28580 (source [2]), with the loaded radius of each reading
 Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& spec);
 
-/// Every load that a skim test follows, from `from_s` on, found from the load signal (B.2).
+/// Ranges of constant load and speed from `from_s` on, found from the load signal (B.2).
+std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec, double from_s);
+
+/// Every load that a skim test follows, from `from_s` on, at least one. Throws RunFailure when there is none.
 std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const RunSpec& spec,
                                const DrumConditions& conditions, double from_s);
 
@@ -51,7 +54,7 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec);
 bool is_correction_valid(double ambient_K);
 
-/// Expanded uncertainty (k = 2) of a cycle's RRc from the torque sensor.
+/// Expanded uncertainty (k = 2) of a cycle's RRc, corrected as correct_rrc does, from the torque sensor.
 struct RrcUncertainty {
   double offset_cancelled = 0.0;  // load minus skim in one session: the offset drops out
   double offset_kept = 0.0;       // as if each torque stood alone: +-0.9 N m, as the source judges (§4.1.1)

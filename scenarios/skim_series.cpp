@@ -24,6 +24,14 @@ struct Settings {
 };
 
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
+  constexpr double kDistinct = 0.02;  // twice what the range finder takes for a change of load
+  for (std::size_t i = 0; i < settings.skim_loads_N.size(); ++i) {
+    const double former_N = i > 0 ? settings.skim_loads_N[i - 1] : *settings.conditions.load_N;
+    if (std::abs(settings.skim_loads_N[i] - former_N) >= kDistinct * former_N) continue;
+    throw TableReader(spec.settings, "[settings]")
+        .problem("skim_loads_N", "a load follows one that it cannot be told from",
+                 "neighbours that differ by 2 %, from the warm-up's load on");
+  }
   if (settings.skim_loads_N.size() < 2) {
     throw TableReader(spec.settings, "[settings]")
         .problem("skim_loads_N", "a straight line needs two loads at least", "two or more different loads");
@@ -34,7 +42,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   program.mark_time_zero();
   program.roll("warm-up", settings.times.warm_up_s, *conditions.load_N);
   for (const double load_N : settings.skim_loads_N) {
-    program.roll(fmt::format("skim {:.0f} N", load_N), settings.times.skim_s, load_N);
+    program.roll(fmt::format("skim {:.6g} N", load_N), settings.times.skim_s, load_N);
   }
   return program;
 }
@@ -67,10 +75,14 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   ResultTable table{"Skim series", {"load N", "torque Nm", "force N", "tire N (simulated)", "liner C"}, {}};
   outcome.result["points"] = Json::array();
   double rig_alone_N = 0.0;
-  for (const double load_N : settings.skim_loads_N) {
-    const sim::PhaseSpan& phase = outcome.recording.phase_named(fmt::format("skim {:.0f} N", load_N));
-    const Window window = find_last_window({false, load_N, phase.start_s, phase.end_s}, settings.conditions.window_s,
-                                           settings.conditions.margin_s);
+  const std::vector<LoadRange> ranges = find_test_ranges(outcome.recording, spec, 0.0);
+  if (ranges.size() != settings.skim_loads_N.size() + 1) {
+    throw RunFailure(fmt::format("{} ranges of load were found, {} were run", ranges.size(),
+                                 settings.skim_loads_N.size() + 1));
+  }
+  for (std::size_t i = 1; i < ranges.size(); ++i) {
+    const double load_N = ranges[i].load_N;
+    const Window window = find_last_window(ranges[i], settings.conditions.window_s, settings.conditions.margin_s);
     const Reading reading = take_reading(outcome.recording, window, spec.sample_interval_s);
     const auto simulated = [&](const char* channel) {
       return calc_window_mean(outcome.recording.time_s, outcome.recording.channel(channel), window,

@@ -34,9 +34,9 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   const double skim_N = spec.rig.skim.load_N;
   DrumProgram program(conditions, spec.rig, spec.sample_interval_s);
   for (const double speed_m_s : settings.speeds_m_s) {
-    const std::string at = fmt::format("{:.0f} km/h", 3.6 * speed_m_s);
-    program.begin_test(fmt::format("speed-{:.0f}", 3.6 * speed_m_s), *conditions.pressure_Pa, speed_m_s);
-    if (speed_m_s == settings.speeds_m_s.front()) program.mark_time_zero();
+    const std::string at = fmt::format("{:.6g} km/h", 3.6 * speed_m_s);
+    program.begin_test(fmt::format("speed-{:.6g}", 3.6 * speed_m_s), *conditions.pressure_Pa, speed_m_s);
+    program.mark_time_zero();
     program.roll("warm-up " + at, settings.times.warm_up_s, *conditions.load_N);
     program.roll("skim " + at, settings.times.skim_s, skim_N);
     for (int i = 1; i <= settings.measurement_cycles; ++i) {

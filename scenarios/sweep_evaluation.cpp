@@ -1,8 +1,14 @@
 #include "scenarios/sweep_evaluation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace rollrig::scenarios {
+
+bool has_two_values(const std::vector<double>& x) {
+  return std::adjacent_find(x.begin(), x.end(), std::not_equal_to<>()) != x.end();
+}
 
 double fit_power(const std::vector<double>& x, const std::vector<double>& y) {
   double mean_x = 0.0;

@@ -7,6 +7,9 @@
 
 namespace rollrig::scenarios {
 
+/// Whether a line can be drawn over these values: two of them differ.
+bool has_two_values(const std::vector<double>& x);
+
 /// Slope of ln y over ln x by least squares; both positive, two points at least.
 double fit_power(const std::vector<double>& x, const std::vector<double>& y);
 

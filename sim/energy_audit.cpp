@@ -31,8 +31,7 @@ double EnergyAudit::find_term_J(const std::string& name) const {
 }
 
 double EnergyAudit::calc_closure(EnergyTerm::Ledger ledger) const {
-  const double motor_J = std::abs(find_term_J(kMotorWork));
-  const double scale_J = motor_J > 0.0 ? motor_J : find_largest_J();
+  const double scale_J = throughput_J > 0.0 ? throughput_J : find_largest_J();
   return scale_J > 0.0 ? std::abs(find_residual_J(ledger)) / scale_J : 0.0;
 }
 

@@ -19,6 +19,7 @@ struct EnergyTerm {
 /// Checked   tests/sim/energy_audit_test.cpp
 struct EnergyAudit {
   std::vector<EnergyTerm> terms;
+  double throughput_J = 0.0;  // work of the motor, driving and braking alike: the integral of |power|
 
   /// What is left over in a ledger [J].
   double find_residual_J(EnergyTerm::Ledger ledger) const;
@@ -26,13 +27,14 @@ struct EnergyAudit {
   double find_largest_J() const;
   /// The work of the named term [J]; 0 when there is none.
   double find_term_J(const std::string& name) const;
-  /// |residual| / scale, where scale is the work of the motor, or the largest term when it did none.
+  /// |residual| / scale, where scale is the throughput of the motor (its net work would vanish for a
+  /// lossless wheel that is run up and down again), or the largest term when it did nothing.
   double calc_closure(EnergyTerm::Ledger ledger) const;
   /// Throws RunFailure, naming the ledger and every term of it, when a closure is above the limit.
   void require_closed(double limit) const;
 };
 
-/// The term whose work is the yardstick of the audits.
+/// The motor's term.
 constexpr const char* kMotorWork = "motor";
 /// Limit of the issue and of baseline.md.
 constexpr double kAuditLimit = 1e-6;

@@ -12,7 +12,7 @@ namespace rollrig::sim {
 
 /// A quantity that is integrated over the run: an energy, or a channel whose mean is recorded.
 struct Integral {
-  enum class Role { kChannel, kWorkIn, kDissipated, kHeatIn, kHeatOut };
+  enum class Role { kChannel, kWorkIn, kDissipated, kHeatIn, kHeatOut, kThroughput };
   std::string name;
   Role role = Role::kChannel;
   double tolerance_SI = 1.0;  // error that does not matter

@@ -156,6 +156,9 @@ EnergyAudit make_audit(const OdeSystem<S>& system, const std::vector<S>& stored_
     switch (integral.role) {
       case Integral::Role::kChannel:
         break;
+      case Integral::Role::kThroughput:
+        audit.throughput_J = total_J;
+        break;
       case Integral::Role::kWorkIn:
         audit.terms.push_back({integral.name, Ledger::kMechanical, total_J});
         break;

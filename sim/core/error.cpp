@@ -45,7 +45,10 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   int best_distance =
       std::max(3, static_cast<int>(name.size()) / 2 + 1);  // Assumed: half the letters may differ, or two
   for (const std::string& candidate : known) {
-    const int distance = find_edit_distance(lower, boost::algorithm::to_lower_copy(candidate));
+    const std::string other = boost::algorithm::to_lower_copy(candidate);
+    // A name without its unit, or cut short, is nearer than any edit.
+    const bool cut_short = lower.size() >= 3 && other.rfind(lower, 0) == 0;
+    const int distance = cut_short ? 0 : find_edit_distance(lower, other);
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -114,6 +114,18 @@ std::string calc_sha256(const std::string& content) {
   return hex.data();
 }
 
+void require_writable(const std::string& path) {
+  if (path.empty() || path == "-") return;
+  if (fs::is_directory(path)) {
+    throw file_problem(fmt::format("'{}' is a directory, not a file", path), path, "a file name");
+  }
+  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+  if (!fs::is_directory(folder)) throw file_problem(fmt::format("no such folder '{}'", folder.string()), path);
+  if (::access(folder.c_str(), W_OK) != 0 && ::access(path.c_str(), W_OK) != 0) {
+    throw file_problem(fmt::format("cannot write '{}': {}", path, std::strerror(errno)), path);
+  }
+}
+
 void write_file_atomically(const std::string& path, const std::string& content) {
   if (fs::is_directory(path)) {
     throw file_problem(fmt::format("'{}' is a directory, not a file", path), path, "a file name");

@@ -22,6 +22,10 @@ void write_file_atomically(const std::string& path, const std::string& content);
 /// written to in place.
 void write_output(const std::string& path, const std::string& content);
 
+/// Throws InputError when write_output() could not write there: no such folder, no permission, a directory.
+/// To be called before work whose result would else be lost.
+void require_writable(const std::string& path);
+
 /// A result folder that appears whole or not at all: files are collected and written by commit(), into
 /// a folder beside the final one which is then renamed.
 class OutputFolder {
