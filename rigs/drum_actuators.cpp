@@ -17,6 +17,7 @@ DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, const S
       radius_m_(rig.drum.diameter_m / 2.0),
       bandwidth_rad_s_(rig.drive.bandwidth_rad_s),
       damping_N_s_per_m_(rig.carriage.damping_N_s_per_m),
+      load_time_constant_s_(rig.carriage.load_time_constant_s),
       weight_N_(kStandardGravity_m_s2 *
                 (rig.carriage.mass_kg + context.tire.geometry.mass_kg + context.tire.geometry.wheel_mass_kg)),
       contact_(contact),
@@ -43,7 +44,9 @@ double DrumActuators::drum_speed_rad_s(const State& state) const {
 
 ActuatorEvaluation DrumActuators::evaluate(const State& state, const models::InputPort<double>& acting) const {
   ActuatorEvaluation at;
-  at.cylinder_force_N = acting.load_N - weight_N_;
+  const double lag_N = forces_.getZ(state)[lag_z()];
+  at.cylinder_force_N = acting.load_N + lag_N - weight_N_;
+  at.lag_rate_N_s = -lag_N / load_time_constant_s_;
   at.damper_force_N = -damping_N_s_per_m_ * matter_.getMobilizedBody(bodies_.carriage).getOneU(state, 0);
   if (!motor_on_) return at;
   const double inertia_kg_m2 = calc_effective_inertia_kg_m2(acting.load_N);
@@ -57,7 +60,7 @@ ActuatorEvaluation DrumActuators::evaluate(const State& state, const models::Inp
 }
 
 void DrumActuators::realizeTopology(State& state) const {
-  integral_z_ = forces_.allocateZ(state, SimTK::Vector(1, 0.0));
+  integral_z_ = forces_.allocateZ(state, SimTK::Vector(2, 0.0));
 }
 
 void DrumActuators::calcForce(const State& state, SimTK::Vector_<SpatialVec>& body_forces, SimTK::Vector_<Vec3>&,
@@ -72,7 +75,9 @@ void DrumActuators::calcForce(const State& state, SimTK::Vector_<SpatialVec>& bo
 void DrumActuators::realizeAcceleration(const State& state) const {
   models::Instant<double> now;
   contact_.evaluate_inputs(state, now);
-  forces_.updZDot(state)[integral_z_] = evaluate(state, now.acting).speed_error_rad_s;
+  const ActuatorEvaluation at = evaluate(state, now.acting);
+  forces_.updZDot(state)[integral_z_] = at.speed_error_rad_s;
+  forces_.updZDot(state)[lag_z()] = at.lag_rate_N_s;
 }
 
 }  // namespace rollrig::rigs

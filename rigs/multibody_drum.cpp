@@ -61,6 +61,7 @@ constexpr double kCarriageSpeed_m_s = 1e-8;
 constexpr double kSlipForce_N = 1e-4;
 constexpr double kStateShare = 1e-7;  // of a corner state's scale
 constexpr double kSpeedIntegral_rad = 1e-8;
+constexpr double kCylinderLag_N = 1e-3;
 
 }  // namespace
 
@@ -115,6 +116,7 @@ class MultibodyDrum::Implementation {
                                    kSlipForce_N / spring_N_per_m};
     for (const models::CornerState& state : corner_.states()) tolerances.push_back(kStateShare * state.scale_SI);
     tolerances.push_back(kSpeedIntegral_rad);
+    tolerances.push_back(kCylinderLag_N);
     return tolerances;
   }
 
@@ -152,10 +154,13 @@ class MultibodyDrum::Implementation {
     state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
   }
 
-  void begin_segment(const sim::Segment& segment, double time_s) {
+  void begin_segment(const sim::Segment& segment, double time_s, double* y) {
+    const double former_N = find_acting(time_s, y).load_N;
     segment_ = segment;
     segment_start_s_ = time_s;
     state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
+    y[kSlipState + static_cast<std::size_t>(actuators_->lag_z() - contact_->first_z())] +=
+        former_N - find_acting(time_s, y).load_N;
   }
 
   void evaluate(double time_s, const double* y, double* rates, double* integrands) {
@@ -242,14 +247,19 @@ class MultibodyDrum::Implementation {
     std::copy(y, y + all.size(), &all[0]);
   }
 
+  /// Inputs as they really act.
+  models::InputPort<double> find_acting(double time_s, const double* y) {
+    set_state(time_s, y);
+    models::Instant<double> now;
+    contact_->evaluate_inputs(state_, now);
+    return now.acting;
+  }
+
   /// The recorded speed is the set point; a motor that does not follow it is a failed run, not a result.
   void require_speed_held(double time_s, const double* y) {
     constexpr double kShare = 0.02;  // Assumed: a rig would trip
     constexpr double kFloor_m_s = 0.2;
-    set_state(time_s, y);
-    models::Instant<double> now;
-    contact_->evaluate_inputs(state_, now);
-    const double set_m_s = now.acting.speed_m_s;
+    const double set_m_s = find_acting(time_s, y).speed_m_s;
     const double is_m_s = y[kSpeeds] / corner_.context().surface_curvature_per_m;
     if (std::abs(is_m_s - set_m_s) <= kFloor_m_s + kShare * std::abs(set_m_s)) return;
     throw RunFailure("at t = " + std::to_string(time_s) + " s the motor does not hold the speed: set " +
@@ -350,8 +360,8 @@ void MultibodyDrum::initialize(const sim::Segment& first, double time_s, double*
 void MultibodyDrum::begin_phase(const sim::Phase& phase, double, double* state) {
   implementation_->begin_phase(phase, state);
 }
-void MultibodyDrum::begin_segment(const sim::Segment& segment, double time_s, double*, double*) {
-  implementation_->begin_segment(segment, time_s);
+void MultibodyDrum::begin_segment(const sim::Segment& segment, double time_s, double* state, double*) {
+  implementation_->begin_segment(segment, time_s, state);
 }
 void MultibodyDrum::evaluate(double time_s, const double* state, double* rates, double* integrands) {
   guarded([&] { implementation_->evaluate(time_s, state, rates, integrands); });

@@ -49,6 +49,7 @@ struct SkimParameters {
 struct CarriageParameters {
   double mass_kg = 0.0;
   double damping_N_s_per_m = 0.0;
+  double load_time_constant_s = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -57,6 +58,11 @@ struct CarriageParameters {
     visit(Field{"damping_N_s_per_m", non_negative(), "Damper of the load cylinder. Assumed: 9 kN s/m, 0.7 of critical",
                 9000.0},
           p.damping_N_s_per_m);
+    visit(Field{"load_time_constant_s", between(0.01, 2.0),
+                "Of the cylinder after a change of load (first order). Assumed: 0.05 s, so that the wheel does not "
+                "bounce off the drum",
+                0.05},
+          p.load_time_constant_s);
   }
 };
 

@@ -77,8 +77,8 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   double rig_alone_N = 0.0;
   const std::vector<LoadRange> ranges = find_test_ranges(outcome.recording, spec, 0.0);
   if (ranges.size() != settings.skim_loads_N.size() + 1) {
-    throw RunFailure(fmt::format("{} ranges of load were found, {} were run", ranges.size(),
-                                 settings.skim_loads_N.size() + 1));
+    throw RunFailure(
+        fmt::format("{} ranges of load were found, {} were run", ranges.size(), settings.skim_loads_N.size() + 1));
   }
   for (std::size_t i = 1; i < ranges.size(); ++i) {
     const double load_N = ranges[i].load_N;
