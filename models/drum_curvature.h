@@ -11,7 +11,7 @@ namespace rollrig::models {
 /// Symbols   k_1, k_2 curvature of drum 1 and 2 [1/m]; r_T half the nominal tire diameter [m]
 /// Validity  k >= 0
 /// Source    (3.1)
-/// Checked   tests/models/drum_curvature_test.cpp
+/// Checked   tests/models/small_laws_test.cpp
 template <class S>
 S calc_drum_correction(const S& curvature_1_per_m, const S& curvature_2_per_m, const S& tire_radius_m) {
   using std::sqrt;

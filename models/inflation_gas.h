@@ -18,7 +18,7 @@ struct Inflation {
 /// Symbols   p, p_cold gauge pressure [Pa]; p_amb ambient pressure [Pa]; T_gas, T_0 [K];
 ///           m/m_0 gas left [1]; V/V_0 volume of the cavity [1]; both 1 in the baseline
 /// Source    (3.14), with absolute pressure
-/// Checked   tests/models/inflation_gas_test.cpp
+/// Checked   tests/models/small_laws_test.cpp
 template <class S>
 S calc_gauge_pressure_Pa(const Inflation<S>& inflation, const S& gas_temperature_K, const S& mass_ratio,
                          const S& volume_ratio) {

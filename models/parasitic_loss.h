@@ -25,7 +25,7 @@ struct ParasiticParameters {
 /// Equation  F_par = c0 + c1 v + c2 v^2
 /// Symbols   v surface speed [m/s], not negative
 /// Source    definition of parasitic loss: §3.2.1 item 5. Assumed: the quadratic form (baseline.md)
-/// Checked   tests/models/parasitic_loss_test.cpp
+/// Checked   tests/models/small_laws_test.cpp
 template <class S>
 S calc_parasitic_N(const ParasiticParameters<S>& p, const S& speed_m_s) {
   return p.c0_N + p.c1_N_s_per_m * speed_m_s + p.c2_N_s2_per_m2 * speed_m_s * speed_m_s;

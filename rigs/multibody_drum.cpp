@@ -61,7 +61,7 @@ constexpr double kCarriageSpeed_m_s = 1e-8;
 constexpr double kSlipForce_N = 1e-4;
 constexpr double kStateShare = 1e-7;  // of a corner state's scale
 constexpr double kSpeedIntegral_rad = 1e-8;
-constexpr double kCylinderLag_N = 1e-3;
+constexpr double kCylinderLag_N = 1e-5;
 
 }  // namespace
 

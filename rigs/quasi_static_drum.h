@@ -18,7 +18,7 @@ namespace rollrig::rigs {
 /// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
 ///           "load_changes" of the mechanical audit
 /// Source    baseline.md, "Rig"
-/// Checked   tests/rigs/quasi_static_drum_test.cpp, tests/rigs/fidelities_test.cpp
+/// Checked   tests/rigs/fidelities_test.cpp, tests/rigs/fidelities_test.cpp
 template <class S>
 class QuasiStaticDrum : public sim::OdeSystem<S> {
  public:

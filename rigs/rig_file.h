@@ -58,10 +58,10 @@ struct CarriageParameters {
     visit(Field{"damping_N_s_per_m", non_negative(), "Damper of the load cylinder. Assumed: 9 kN s/m, 0.7 of critical",
                 9000.0},
           p.damping_N_s_per_m);
-    visit(Field{"load_time_constant_s", between(0.01, 2.0),
-                "Of the cylinder after a change of load (first order). Assumed: 0.05 s, so that the wheel does not "
-                "bounce off the drum",
-                0.05},
+    visit(Field{"load_time_constant_s", between(0.005, 2.0),
+                "Of the cylinder after a change of load (first order). Assumed: 0.015 s, a servo valve: a step "
+                "would throw the wheel off the drum",
+                0.015},
           p.load_time_constant_s);
   }
 };

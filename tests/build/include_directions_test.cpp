@@ -75,6 +75,25 @@ TEST_CASE("folders include in one direction only", "[fast]") {
   CHECK(checked > 100);  // the test looks at something
 }
 
+TEST_CASE("tests that doc comments name are there", "[fast]") {
+  const std::regex named("tests/[a-z_0-9/]+\\.cpp");
+  int checked = 0;
+  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(kSource / top)) {
+      if (entry.path().extension() != ".h") continue;
+      std::ifstream in(entry.path());
+      for (std::string line; std::getline(in, line);) {
+        for (std::sregex_iterator at(line.begin(), line.end(), named), end; at != end; ++at) {
+          INFO(entry.path() << ": " << at->str());
+          CHECK(fs::exists(kSource / at->str()));
+          ++checked;
+        }
+      }
+    }
+  }
+  CHECK(checked > 10);
+}
+
 TEST_CASE("each package stays behind one or two files", "[fast]") {
   std::map<std::string, int> seen;
   visit_includes([&](const std::string& file, const std::string& included) {

@@ -38,6 +38,7 @@ void compare(const std::string& scenario, const std::string& tire, const std::ve
   for (std::size_t i = 0; i < comparable.size(); ++i) {
     worst_K = std::max(worst_K, std::abs(liner_m[i] - liner_q[i]));
     if (!comparable[i] || multibody.channel("speed_km_h")[i] == 0.0) continue;
+    REQUIRE(torque_q[i] != 0.0);  // a motor that is off would be compared with nothing
     worst_torque = std::max(worst_torque, std::abs(torque_m[i] / torque_q[i] - 1.0));
     ++compared;
   }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <set>
 
 #include "scenarios/sweep_evaluation.h"
 #include "tests/support/drum_fixture.h"
@@ -100,4 +101,48 @@ TEST_CASE("a load sweep takes the loads of the tire's own table", "[fast]") {
 TEST_CASE("a power is fitted exactly to a power", "[fast]") {
   CHECK(scenarios::fit_power({1.0, 2.0, 5.0}, {3.0, 3.0 * std::pow(2.0, -0.4), 3.0 * std::pow(5.0, -0.4)}) ==
         Approx(-0.4));
+}
+
+TEST_CASE("a value that a sweep repeats is measured again, each from a soaked tire", "[fast]") {
+  const auto speeds = run("speed_sweep", "a50", {"speeds_km_h=[80,120,80]"});
+  REQUIRE(speeds.result["cycles"].size() == 3);
+  const auto loss_N = [&](std::size_t i) { return speeds.result["cycles"][i]["rolling_resistance_N"].get<double>(); };
+  CHECK(loss_N(0) == Approx(loss_N(2)).epsilon(2e-3));
+  CHECK(loss_N(1) > loss_N(0));
+  std::set<std::string> ids;
+  for (const auto& set_run : speeds.set_runs) ids.insert(set_run.id);
+  CHECK(ids.size() == 3);
+  CHECK(run("pressure_sweep", "a50", {"pressures_kPa=[250,300,250]"}).result["cycles"].size() == 3);
+  const auto alike = run("load_sweep", "a50", {"loads_N=[5000,5000]"});
+  CHECK(alike.result["cycles"].size() == 2);
+  CHECK(alike.result.count("steady_state_load_exponent") == 0);  // no line through one value
+}
+
+TEST_CASE("a skim series reads each load where it was run, a repeated one as well", "[fast]") {
+  const auto outcome = run("skim_series", "a50", {"skim_loads_N=[200,100,200,50]"});
+  const auto force_N = [&](std::size_t i) { return outcome.result["points"][i]["force_N"].get<double>(); };
+  REQUIRE(outcome.result["points"].size() == 4);
+  CHECK(force_N(2) > force_N(0));  // the tire has cooled down between
+  CHECK(force_N(3) < force_N(1));
+}
+
+TEST_CASE("a lossless wheel that is run up and down closes its audits", "[fast]") {
+  for (const char* fidelity : {"multibody", "quasi_static"}) {
+    scenarios::RunSpec spec = make_spec("speed_sweep", "a50",
+                                        {"tire.constant.rrc_N_per_kN=0.0", "rig.parasitic.c0_N=0.0",
+                                         "rig.parasitic.c1_N_s_per_m=0.0", "rig.parasitic.c2_N_s2_per_m2=0.0"},
+                                        fidelity);
+    spec.baseline = models::Baseline::kConstantRrc;
+    const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+    for (const auto& cycle : outcome.result["cycles"]) CHECK(std::abs(cycle["rrc_N_per_kN"].get<double>()) < 1e-6);
+  }
+}
+
+TEST_CASE("the step from load to skim does not throw the wheel off the drum", "[fast]") {
+  const std::vector<std::string> hard{"speed_km_h=250", "load_N=20000", "rig.drum.diameter_m=20.0",
+                                      "rig.carriage.damping_N_s_per_m=2000.0"};
+  for (const std::string& setting : hard) {
+    INFO(setting);
+    CHECK_NOTHROW(run("iso_28580", "a50", {setting, "soak_h=0"}, "multibody"));
+  }
 }

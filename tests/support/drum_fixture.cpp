@@ -1,5 +1,6 @@
 #include "tests/support/drum_fixture.h"
 
+#include "rigs/trace_effects.h"
 #include "scenarios/assets.h"
 
 namespace rollrig::tests {
@@ -22,14 +23,18 @@ sim::Recording<double> DrumFixture::run_multibody(const sim::Program& program) c
   models::Corner<double> at = corner();
   rigs::MultibodyDrum drum(at, rig, start(), false);
   sim::CvodesIntegrator integrator(drum, cvodes);
-  return sim::simulate<double>(drum, integrator, program);
+  sim::Recording<double> recording = sim::simulate<double>(drum, integrator, program);
+  rigs::apply_trace_effects(at, recording);
+  return recording;
 }
 
 sim::Recording<double> DrumFixture::run_quasi_static(const sim::Program& program) const {
   models::Corner<double> at = corner();
   rigs::QuasiStaticDrum<double> drum(at, start(), false, rigs::Detail::kFull);
   sim::FixedGridIntegrator<double> integrator(drum);
-  return sim::simulate<double>(drum, integrator, rigs::refine_near_standstill(program));
+  sim::Recording<double> recording = sim::simulate<double>(drum, integrator, rigs::refine_near_standstill(program));
+  rigs::apply_trace_effects(at, recording);
+  return recording;
 }
 
 sim::Segment drum_segment(double duration_s, double speed_start_m_s, double speed_end_m_s, double load_N,
