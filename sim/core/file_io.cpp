@@ -95,6 +95,9 @@ std::string read_text_file(const std::string& path) {
   if (status.type() == fs::file_type::directory) {
     throw file_problem(fmt::format("'{}' is a directory, not a file", path), path);
   }
+  if (status.type() == fs::file_type::character || status.type() == fs::file_type::block) {
+    throw file_problem(fmt::format("'{}' is a device, not a file", path), path);  // /dev/zero never ends
+  }
   spdlog::debug("reads {}", path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(errno)), path);
