@@ -86,7 +86,7 @@ models::Context<double> make_start_context(const scenarios::MeasurementSet& set,
   context.tire.load_map.clear();
   for (const double load_N : map_loads_N) {
     const double share = load_N / rr.reference_load_N;
-    context.tire.load_map.push_back({load_N, share * rr.A0_N, share * rr.A1_N_s_per_m, rr.B0_per_K, rr.B1_s_per_m_K});
+    context.tire.load_map.push_back({{share * rr.A0_N, share * rr.A1_N_s_per_m, rr.B0_per_K, rr.B1_s_per_m_K}, load_N});
   }
   return context;
 }

@@ -62,6 +62,16 @@ void Corner<S>::initialize(const S& temperature_K, const InitialPort<S>& initial
 }
 
 template <class S>
+void Corner<S>::inflate(const S& pressure_Pa, S* x, Inflation<S>& inflation) const {
+  inflation.cold_pressure_Pa = pressure_Pa;
+  inflation.temperature_K = x[state_of(Node::kGas)];
+  for (const Installed& on : effects_) {
+    S* states = x + on.first_state;
+    if (on.hooks->inflated != nullptr) on.hooks->inflated(EffectView<S>(on.parameters.data(), states), states);
+  }
+}
+
+template <class S>
 void Corner<S>::apply_inputs(const S* x, Instant<S>& now) const {
   now.context = &context_;
   fill_temperatures(x, now.thermal);

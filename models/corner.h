@@ -42,6 +42,10 @@ class Corner {
   /// States of a tire whose nodes all have one temperature.
   void initialize(const S& temperature_K, const InitialPort<S>& initial, S* x) const;
 
+  /// Sets the pressure to `pressure_Pa` (gauge) at the gas's present temperature: the cavity is filled anew,
+  /// which effects that remember its gas are told (`inflated`).
+  void inflate(const S& pressure_Pa, S* x, Inflation<S>& inflation) const;
+
   /// Fills `now` from `recorded` up to what the actuators need: ports input and contact.
   void apply_inputs(const S* x, Instant<S>& now) const;
   /// From now.motion (speed and load): ports boundary, gas, loss, parasitic.

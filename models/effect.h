@@ -79,6 +79,7 @@ struct EffectHooks {
   void (*thermal)(const EffectView<S>&, const Instant<S>&, ThermalPort<S>&) = nullptr;
   void (*rates)(const EffectView<S>&, const Instant<S>&, S* state_rates) = nullptr;
   void (*initial)(const EffectView<S>&, const InitialPort<S>&, S* states) = nullptr;
+  void (*inflated)(const EffectView<S>&, S* states) = nullptr;
   void (*trace)(const EffectView<S>&, TracePort<S>&) = nullptr;
 };
 
@@ -127,6 +128,7 @@ ROLLRIG_FIND_HOOK(parasitic)
 ROLLRIG_FIND_HOOK(thermal)
 ROLLRIG_FIND_HOOK(rates)
 ROLLRIG_FIND_HOOK(initial)
+ROLLRIG_FIND_HOOK(inflated)
 ROLLRIG_FIND_HOOK(trace)
 #undef ROLLRIG_FIND_HOOK
 
@@ -142,6 +144,7 @@ EffectHooks<S> find_hooks() {
   hooks.thermal = find_thermal<E, S>(0);
   hooks.rates = find_rates<E, S>(0);
   hooks.initial = find_initial<E, S>(0);
+  hooks.inflated = find_inflated<E, S>(0);
   hooks.trace = find_trace<E, S>(0);
   return hooks;
 }

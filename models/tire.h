@@ -52,17 +52,30 @@ struct TireStiffness {
   }
 };
 
-/// Coefficients of the rolling-resistance law (source (3.4), (3.6)); see models/rolling_resistance.h.
+/// Coefficients of loss and of its fall with temperature, each a line over speed (source (3.4), (3.6)).
 template <class S>
-struct RollingResistanceParameters {
-  S reference_load_N{};
-  S reference_pressure_Pa{};  // gauge
-  S reference_drum_diameter_m{};
-  S pressure_exponent{};
+struct SpeedLines {
   S A0_N{};
   S A1_N_s_per_m{};
   S B0_per_K{};
   S B1_s_per_m_K{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"A0_N", non_negative(), "Loss at standstill and 0 degC"}, p.A0_N);
+    visit(Field{"A1_N_s_per_m", any_number(), "Its rise with speed"}, p.A1_N_s_per_m);
+    visit(Field{"B0_per_degC", any_number(), "Its relative fall with tire temperature at standstill"}, p.B0_per_K);
+    visit(Field{"B1_s_per_m_degC", any_number(), "The rise of that fall with speed"}, p.B1_s_per_m_K);
+  }
+};
+
+/// Parameters of the rolling-resistance law; see models/rolling_resistance.h.
+template <class S>
+struct RollingResistanceParameters : SpeedLines<S> {
+  S reference_load_N{};
+  S reference_pressure_Pa{};  // gauge
+  S reference_drum_diameter_m{};
+  S pressure_exponent{};
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -71,29 +84,19 @@ struct RollingResistanceParameters {
           p.reference_pressure_Pa);
     visit(Field{"reference_drum_diameter_m", positive(), "Drum on which A0 and A1 hold"}, p.reference_drum_diameter_m);
     visit(Field{"pressure_exponent", between(0.0, 2.0), "a of (p/p_ref)^-a"}, p.pressure_exponent);
-    visit(Field{"A0_N", any_number(), "Loss at standstill and 0 degC"}, p.A0_N);
-    visit(Field{"A1_N_s_per_m", any_number(), "Its rise with speed"}, p.A1_N_s_per_m);
-    visit(Field{"B0_per_degC", any_number(), "Its relative fall with tire temperature at standstill"}, p.B0_per_K);
-    visit(Field{"B1_s_per_m_degC", any_number(), "The rise of that fall with speed"}, p.B1_s_per_m_K);
+    SpeedLines<S>::visit(p, visit);
   }
 };
 
 /// Coefficients fitted at one load; a map of them over load is the second load compensation of §3.3.1.3.
 template <class S>
-struct LoadMapEntry {
+struct LoadMapEntry : SpeedLines<S> {
   S load_N{};
-  S A0_N{};
-  S A1_N_s_per_m{};
-  S B0_per_K{};
-  S B1_s_per_m_K{};
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"load_N", positive(), "Load at which the entry was fitted"}, p.load_N);
-    visit(Field{"A0_N", any_number(), "Loss at standstill and 0 degC"}, p.A0_N);
-    visit(Field{"A1_N_s_per_m", any_number(), "Its rise with speed"}, p.A1_N_s_per_m);
-    visit(Field{"B0_per_degC", any_number(), "Its relative fall with tire temperature at standstill"}, p.B0_per_K);
-    visit(Field{"B1_s_per_m_degC", any_number(), "The rise of that fall with speed"}, p.B1_s_per_m_K);
+    SpeedLines<S>::visit(p, visit);
   }
 };
 

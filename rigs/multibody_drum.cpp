@@ -138,12 +138,11 @@ class MultibodyDrum::Implementation {
     std::copy(&all[0], &all[0] + all.size(), y);
   }
 
-  void begin_phase(const sim::Phase& phase, const double* y) {
+  void begin_phase(const sim::Phase& phase, double* y) {
     for (const sim::Command& command : phase.commands) {
       if (command.name == kSetPressure) {
         models::Inflation<double> inflation = contact_->inflation();
-        inflation.cold_pressure_Pa = command.value_SI;
-        inflation.temperature_K = y[corner_offset() + corner_.state_of(Node::kGas)];
+        corner_.inflate(command.value_SI, y + corner_offset(), inflation);
         contact_->set_inflation(inflation);
       } else if (command.name == kMotor) {
         actuators_->set_motor(command.value_SI != 0.0);

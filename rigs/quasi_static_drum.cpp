@@ -41,8 +41,7 @@ template <class S>
 void QuasiStaticDrum<S>::begin_phase(const sim::Phase& phase, double, S* state) {
   for (const sim::Command& command : phase.commands) {
     if (command.name == kSetPressure) {
-      now_.inflation.cold_pressure_Pa = S(command.value_SI);
-      now_.inflation.temperature_K = state[kFirstCornerState + corner_.state_of(Node::kGas)];
+      corner_.inflate(S(command.value_SI), state + kFirstCornerState, now_.inflation);
     } else if (command.name == kMotor) {
       motor_on_ = command.value_SI != 0.0;
     } else {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include <boost/math/statistics/linear_regression.hpp>
+
 namespace rollrig::scenarios {
 
 bool has_two_values(const std::vector<double>& x) {
@@ -11,21 +13,11 @@ bool has_two_values(const std::vector<double>& x) {
 }
 
 double fit_power(const std::vector<double>& x, const std::vector<double>& y) {
-  double mean_x = 0.0;
-  double mean_y = 0.0;
-  const auto n = static_cast<double>(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += std::log(x[i]) / n;
-    mean_y += std::log(y[i]) / n;
-  }
-  double above = 0.0;
-  double below = 0.0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double dx = std::log(x[i]) - mean_x;
-    above += dx * (std::log(y[i]) - mean_y);
-    below += dx * dx;
-  }
-  return above / below;
+  const auto logarithms = [](std::vector<double> values) {
+    for (double& value : values) value = std::log(value);
+    return values;
+  };
+  return boost::math::statistics::simple_ordinary_least_squares(logarithms(x), logarithms(y)).second;
 }
 
 Cycle average_cycles(const std::vector<Cycle>& cycles) {

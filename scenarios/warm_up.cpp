@@ -1,12 +1,15 @@
 /// Warm-up of a cold tire at constant speed, as in §3.2.6, and what the source reads off it (§4.1.6, §6).
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <boost/math/statistics/linear_regression.hpp>
 
 #include "scenarios/drum_bench.h"
 #include "scenarios/readings.h"
 
 namespace rollrig::scenarios {
+
+using boost::math::statistics::simple_ordinary_least_squares;
+
 namespace {
 
 struct Settings {
@@ -45,21 +48,6 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   return program;
 }
 
-/// Value at x = 0 and slope of the straight line through points.
-struct Line {
-  double value = 0.0;
-  double slope = 0.0;
-};
-
-Line fit_line(const std::vector<double>& x, const std::vector<double>& y) {
-  Eigen::MatrixXd design(static_cast<Eigen::Index>(x.size()), 2);
-  design.col(0).setOnes();
-  design.col(1) = Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
-  const Eigen::Map<const Eigen::VectorXd> observed(y.data(), static_cast<Eigen::Index>(y.size()));
-  const Eigen::Vector2d solution = design.colPivHouseholderQr().solve(observed);
-  return {solution[0], solution[1]};
-}
-
 /// Loss over the load phase, and what the source reads off the curve.
 struct WarmUpCurve {
   double start_N = 0.0;
@@ -90,13 +78,13 @@ WarmUpCurve read_curve(const Settings& settings, const RunSpec& spec, const Cycl
     }
   }
   WarmUpCurve curve;
-  curve.start_N = fit_line(start_times_s, start_N).value;
+  curve.start_N = simple_ordinary_least_squares(start_times_s, start_N).first;
   curve.has_band = band_dK.size() >= kEnoughRows;
   if (curve.has_band) {
-    const Line line = fit_line(band_dK, band_log);
-    curve.B_per_K = -line.slope;
-    curve.band_low_N = std::exp(line.value);
-    curve.band_high_N = std::exp(line.value + line.slope * (settings.band_high_K - settings.band_low_K));
+    const auto [intercept, slope] = simple_ordinary_least_squares(band_dK, band_log);
+    curve.B_per_K = -slope;
+    curve.band_low_N = std::exp(intercept);
+    curve.band_high_N = std::exp(intercept + slope * (settings.band_high_K - settings.band_low_K));
   }
   return curve;
 }

@@ -19,7 +19,7 @@ TEST_CASE("without noise the fit finds the truth, H as well, from multibody data
     REQUIRE(fit.estimates.size() == 7);
     for (const auto& estimate : fit.estimates) {
       INFO(tire << " " << estimate.key);
-      // The load cylinder takes 0.05 s that the fit's model does not have: 0.1 standard deviations of H.
+      // The load cylinder takes 0.06 s that the fit's model does not have; it shows in H.
       CHECK(std::abs(estimate.value - find_truth(set, estimate.key)) < 0.15 * estimate.sd);
     }
     CHECK(fit.chi2_per_sample < 1e-5);

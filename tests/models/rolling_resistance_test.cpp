@@ -70,7 +70,7 @@ TEST_CASE("the pressure ratio of (4.1) at equal temperature", "[fast]") {
 
 TEST_CASE("a map over load meets its entries and is straight between them", "[fast]") {
   auto tire = figure_3_13();
-  tire.load_map = {{5000.0, 30.0, 0.8, 0.010, 1e-4}, {7000.0, 44.0, 1.2, 0.012, 2e-4}};
+  tire.load_map = {{{30.0, 0.8, 0.010, 1e-4}, 5000.0}, {{44.0, 1.2, 0.012, 2e-4}, 7000.0}};
   const double v = 20.0;
   CHECK(loss(tire, v, 5000.0, kReferencePressure_Pa, 0.0) == Approx(30.0 + 0.8 * v));
   CHECK(loss(tire, v, 7000.0, kReferencePressure_Pa, 0.0) == Approx(44.0 + 1.2 * v));
@@ -82,7 +82,7 @@ TEST_CASE("a map over load meets its entries and is straight between them", "[fa
 
 TEST_CASE("outside the map the loss goes on in proportion to the load, without a jump", "[fast]") {
   auto tire = figure_3_13();
-  tire.load_map = {{5000.0, 30.0, 0.8, 0.010, 1e-4}, {7000.0, 44.0, 1.2, 0.012, 2e-4}};
+  tire.load_map = {{{30.0, 0.8, 0.010, 1e-4}, 5000.0}, {{44.0, 1.2, 0.012, 2e-4}, 7000.0}};
   const auto at = [&](double load_N) { return loss(tire, 20.0, load_N, kReferencePressure_Pa, 30.0); };
   CHECK(at(2500.0) == Approx(0.5 * at(5000.0)));
   CHECK(at(14000.0) == Approx(2.0 * at(7000.0)));

@@ -9,7 +9,7 @@ using namespace rollrig;
 TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
   models::TireFile tire = tests::read_asset_tire();
   tire.standard_uncertainties.rolling_resistance.A0_N = 0.5;
-  tire.values.load_map = {{5000.0, 30.0, 0.8, 0.010, 1e-4}, {7000.0, 44.0, 1.2, 0.012, 2e-4}};
+  tire.values.load_map = {{{30.0, 0.8, 0.010, 1e-4}, 5000.0}, {{44.0, 1.2, 0.012, 2e-4}, 7000.0}};
   tire.standard_uncertainties.load_map.resize(2);
   tire.standard_uncertainties.load_map[1].B0_per_K = 1e-4;
   tire.rig_thermal["other"].f_sd_W_s_per_m_K = 0.1;

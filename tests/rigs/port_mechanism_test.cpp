@@ -94,6 +94,27 @@ struct InsideTheTire {
 };
 
 /// Trace port.
+/// A leak: gas port with an own state that filling sets back.
+struct Leak {
+  static EffectInfo info() {
+    EffectInfo info = plain_info("leak", {kSize});
+    info.states = {{"gas_lost", 1.0, "share of the gas"}};
+    return info;
+  }
+  template <class S>
+  static void gas(const EffectView<S>& self, const Instant<S>&, models::GasPort<S>& port) {
+    port.mass_ratio *= S(1.0) - self.state(0);
+  }
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>&, S* state_rates) {
+    state_rates[0] = self.parameter(0) / quantity<S>(1000.0, dimension::kTime);
+  }
+  template <class S>
+  static void inflated(const EffectView<S>&, S* states) {
+    states[0] = S(0.0);
+  }
+};
+
 struct Logger {
   static EffectInfo info() { return plain_info("logger", {kSize}); }
   template <class S>
@@ -177,6 +198,19 @@ TEST_CASE("a force that heats in part leaves the rest of its work out of the rub
   // 2 N, of which a quarter heats: 1.5 N over the distance of the test. The run-up covers 600 m.
   const double distance_m = 600.0 + 20.0 * 660.0;
   CHECK(lost_J - heat_J == Approx(1.5 * distance_m).epsilon(1e-3));
+}
+
+TEST_CASE("a tire that leaks has the set pressure again once it is set", "[fast]") {
+  const DrumFixture fixture = with<Leak>(0.1);
+  sim::Program program;
+  sim::Phase filled = tests::rolling("filled", 60.0, 0.0, 200.0);
+  filled.commands = {{rigs::kSetPressure, 250e3}};
+  program.phases = {tests::rolling("leaking", 600.0, 0.0, 200.0), filled};
+  for (const auto& recording : {fixture.run_multibody(program), fixture.run_quasi_static(program)}) {
+    const auto& pressure_Pa = recording.channel("cavity_pressure_kPa");
+    CHECK(pressure_Pa[590] < 0.95 * pressure_Pa[1]);
+    CHECK(pressure_Pa[602] == Approx(250e3).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("the trace port changes a channel after the run", "[fast]") {

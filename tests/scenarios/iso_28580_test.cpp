@@ -7,15 +7,8 @@
 
 using namespace rollrig;
 using tests::make_spec;
-
-namespace {
-scenarios::Outcome run(const std::string& scenario, const std::string& tire,
-                       const std::vector<std::string>& settings = {}, const std::string& fidelity = "quasi_static") {
-  const scenarios::RunSpec spec = make_spec(scenario, tire, settings, fidelity);
-  return spec.scenario->run(spec, {});
-}
-double number(const scenarios::Outcome& outcome, const char* key) { return outcome.result[key].get<double>(); }
-}  // namespace
+using tests::number;
+using tests::run;
 
 TEST_CASE("torque method and force method of the standard agree to the last digit", "[fast]") {
   for (const char* fidelity : {"multibody", "quasi_static"}) {

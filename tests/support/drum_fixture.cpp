@@ -72,4 +72,12 @@ scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tir
   return scenarios::read_run_spec(document, "");
 }
 
+scenarios::Outcome run(const std::string& scenario, const std::string& tire, const std::vector<std::string>& settings,
+                       const std::string& fidelity) {
+  const scenarios::RunSpec spec = make_spec(scenario, tire, settings, fidelity);
+  return spec.scenario->run(spec, {});
+}
+
+double number(const scenarios::Outcome& outcome, const char* key) { return outcome.result[key].get<double>(); }
+
 }  // namespace rollrig::tests

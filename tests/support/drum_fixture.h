@@ -48,4 +48,10 @@ models::ActiveEffect make_active(const models::Effect& effect, const std::vector
 scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire,
                              const std::vector<std::string>& settings = {}, const std::string& fidelity = "multibody");
 
+/// Runs it, in the fast fidelity unless said.
+scenarios::Outcome run(const std::string& scenario, const std::string& tire,
+                       const std::vector<std::string>& settings = {}, const std::string& fidelity = "quasi_static");
+/// A number of its result.
+double number(const scenarios::Outcome& outcome, const char* key);
+
 }  // namespace rollrig::tests
