@@ -47,6 +47,7 @@ struct EffectInfo {
   std::string source;
   std::vector<EffectParameter> parameters;  // the size first
   std::vector<EffectState> states;
+  std::vector<RigKind> acts_on{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};  // elsewhere it changes nothing
   NodeSet nodes{};                           // thermal nodes that it needs beside the baseline's
   std::vector<std::string> visible_in;       // measured channels that a finite size changes
   std::vector<std::string> clean_in;         // measured channels that it leaves bit-identical

@@ -19,11 +19,15 @@ namespace rollrig::models {
 /// Which law gives the loss before any effect acts (formats.md, `baseline`).
 enum class Baseline { kCombined, kConstantRrc };
 
+/// What a tire rolls on: a test drum, a roller of a dynamometer under a vehicle, or the road.
+enum class RigKind { kDrum, kDyno, kFlat };
+
 /// What does not change in a run: the tire, the machine under it, and the baseline.
 template <class S>
 struct Context {
   TireParameters<S> tire;
   ParasiticParameters<S> parasitic;
+  RigKind rig_kind = RigKind::kDrum;
   Baseline baseline = Baseline::kCombined;
   S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
   S machine_inertia_kg_m2{};    // drum or roller, about its axis
@@ -39,7 +43,8 @@ struct InputPort {
   S ambient_K{};
   S surface_K{};  // used where surface_recorded
   bool surface_recorded = false;
-  S longitudinal_force_N{};  // wheel on roller, positive when it drives; zero on a drum rig
+  S longitudinal_force_N{};  // wheel on roller or road, positive when it drives; zero on a drum rig
+  S brake_force_N{};         // of this wheel's friction brake, at the surface, not negative; zero on a drum rig
   S slope{};                 // rise over run; zero on rigs
   S wind_m_s{};              // along the road, positive against the vehicle; zero on rigs
   S air_density_ratio{};     // to the reference density; 1 in the baseline

@@ -88,6 +88,7 @@ models::InputPort<S> read_drum_inputs(const sim::Segment& segment, double elapse
   inputs.surface_recorded = surface_recorded;
   inputs.surface_K = surface_recorded ? value(DrumInput::kSurface) : inputs.ambient_K;
   inputs.longitudinal_force_N = S(0.0);
+  inputs.brake_force_N = S(0.0);
   inputs.slope = S(0.0);
   inputs.wind_m_s = S(0.0);
   inputs.air_density_ratio = S(1.0);

@@ -100,6 +100,7 @@ models::Context<double> make_context(const models::TireFile& tire, const RigFile
   models::Context<double> context;
   context.tire = tire.parameters_on(rig.name, baseline);
   context.parasitic = rig.parasitic;
+  context.rig_kind = rig.kind;
   context.baseline = baseline;
   context.surface_curvature_per_m = rig.kind == RigKind::kFlat ? 0.0 : 2.0 / rig.drum.diameter_m;
   context.machine_inertia_kg_m2 = rig.drum.inertia_kg_m2;

@@ -9,7 +9,7 @@
 
 namespace rollrig::rigs {
 
-enum class RigKind { kDrum, kDyno, kFlat };
+using models::RigKind;
 
 /// A drum, or a roller of a dynamometer.
 struct DrumParameters {

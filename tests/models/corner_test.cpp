@@ -17,11 +17,17 @@ Instant<S> evaluate(const Corner<S>& corner, std::vector<S> x, double speed, dou
   const auto q = [](double value, Dimension d) { return quantity<S>(value, d); };
   Instant<S> now;
   now.inflation = {q(280e3, dimension::kPressure), q(298.15, dimension::kTemperature), q(101325, dimension::kPressure)};
-  now.recorded = {q(speed, dimension::kSpeed),       q(0.1, dimension::kAcceleration),
-                  q(load, dimension::kForce),        q(298.15, dimension::kTemperature),
-                  q(300.0, dimension::kTemperature), true,
-                  q(0.0, dimension::kForce),         S(0.0),
-                  q(0.0, dimension::kSpeed),         S(1.0)};
+  now.recorded = {q(speed, dimension::kSpeed),
+                  q(0.1, dimension::kAcceleration),
+                  q(load, dimension::kForce),
+                  q(298.15, dimension::kTemperature),
+                  q(300.0, dimension::kTemperature),
+                  true,
+                  q(0.0, dimension::kForce),
+                  q(0.0, dimension::kForce),
+                  S(0.0),
+                  q(0.0, dimension::kSpeed),
+                  S(1.0)};
   corner.apply_inputs(x.data(), now);
   now.motion = {now.acting.speed_m_s,       now.acting.acceleration_m_s2, now.acting.load_N,
                 q(30.0, dimension::kForce), q(1.0, dimension::kPower),    now.acting.speed_m_s};

@@ -104,7 +104,7 @@ void check_declaration(const EffectInfo& info) {
 /// Fills everything that a port may not yet read with NaN, so that whoever reads it betrays itself.
 void poison(models::Instant<double>& now) {
   const double nan = std::nan("");
-  now.acting = {nan, nan, nan, nan, nan, false, nan, nan, nan, nan};
+  now.acting = {nan, nan, nan, nan, nan, false, nan, nan, nan, nan, nan};
   now.boundary = {nan, nan};
   now.gas = {nan, nan};
   now.pressure_Pa = nan;
