@@ -20,7 +20,8 @@ Json list_everything() {
   for (const models::Effect* effect : models::all_effects()) {
     json["effects"].push_back({{"name", effect->info.id}, {"summary", effect->info.summary}});
   }
-  for (const char* folder : {"tires", "rigs", "sensors"}) json[folder] = scenarios::list_assets(folder);
+  for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"})
+    json[folder] = scenarios::list_assets(folder);
   return json;
 }
 
@@ -34,7 +35,7 @@ int list_command(const std::string& json_file) {
       std::cout << "  " << item["name"].get<std::string>() << '\n' << wrap(item["summary"].get<std::string>(), 6);
     }
   }
-  for (const char* kind : {"tires", "rigs", "sensors"}) {
+  for (const char* kind : {"tires", "rigs", "vehicles", "cycles", "sensors"}) {
     std::cout << kind << '\n' << wrap(fmt::format("{}", fmt::join(all[kind].get<std::vector<std::string>>(), "  ")), 2);
   }
   return kDone;
@@ -92,7 +93,7 @@ int describe_command(const std::string& name) {
     }
     known.push_back(effect->info.id);
   }
-  for (const char* folder : {"tires", "rigs", "sensors"}) {
+  for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"}) {
     for (const std::string& asset : scenarios::list_assets(folder)) {
       if (asset == name) {
         describe_file(scenarios::find_asset(folder, name));
@@ -107,14 +108,15 @@ int describe_command(const std::string& name) {
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("list", "List scenarios, effects, tires, rigs, sensors");
+  CLI::App* command = app.add_subcommand("list", "List scenarios, effects, tires, rigs, vehicles, cycles, sensors");
   auto json = std::make_shared<std::string>();
   command->add_option("--json", *json, "File for the list, - for standard output");
   command->callback([json, &action] { action = [json] { return list_command(*json); }; });
 }
 
 void add_describe_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("describe", "Explain a scenario, an effect, a tire, a rig or sensors");
+  CLI::App* command =
+      app.add_subcommand("describe", "Explain a scenario, an effect, a tire, a rig, a vehicle or sensors");
   auto name = std::make_shared<std::string>();
   command->add_option("name", *name, "Scenario, effect or asset")->required();
   command->callback([name, &action] { action = [name] { return describe_command(*name); }; });

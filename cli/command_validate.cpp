@@ -39,7 +39,7 @@ std::string validate_toml(const std::string& path) {
   if (kind == "rollrig-rig") return fmt::format("rig '{}'", rigs::read_rig(config).name);
   if (kind == "rollrig-sensors") return fmt::format("sensors: {} channels", scenarios::read_sensor_file(config).size());
   if (kind == "rollrig-measurements") return validate_set(path);
-  if (kind == "rollrig-vehicle") return fmt::format("vehicle '{}'", scenarios::read_vehicle(config).name);
+  if (kind == "rollrig-vehicle") return fmt::format("vehicle '{}'", rigs::read_vehicle(config).name);
   if (kind == "rollrig-run") {
     const scenarios::RunSpec spec = scenarios::read_run_spec(config, fs::path(path).parent_path().string());
     spec.scenario->check(spec);

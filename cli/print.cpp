@@ -70,8 +70,9 @@ std::string format_table(const scenarios::ResultTable& table) {
 
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   using Ledger = sim::EnergyTerm::Ledger;
-  std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name, spec.tire.name,
-                                 spec.tire.designation, spec.rig.name, scenarios::name_of(spec.fidelity));
+  const std::string vehicle = spec.vehicle.has_value() ? fmt::format("   vehicle {}", spec.vehicle->name) : "";
+  std::string text = fmt::format("{}   tire {} ({})   rig {}{}   {}\n", spec.scenario->text.name, spec.tire.name,
+                                 spec.tire.designation, spec.rig.name, vehicle, scenarios::name_of(spec.fidelity));
   if (!spec.effects.empty()) {
     std::string names;
     for (const models::ActiveEffect& active : spec.effects) names += " " + active.effect->info.id;
@@ -80,7 +81,7 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
   text += format_lines(outcome.lines);
   for (const scenarios::ResultTable& table : outcome.tables) text += format_table(table);
   const sim::EnergyAudit& audit = outcome.recording.audit;
-  text += fmt::format("  energy closes to {:.1e} (mechanical) and {:.1e} (thermal) of the motor work\n",
+  text += fmt::format("  energy closes to {:.1e} (mechanical) and {:.1e} (thermal) of the work\n",
                       audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));
   for (const std::string& warning : outcome.warnings) text += wrap("warning: " + warning, 2);
   return text;

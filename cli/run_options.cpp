@@ -25,7 +25,8 @@ void set_text(ConfigTable& document, const std::string& key, const std::string& 
 void RunOptions::add_to(CLI::App& command) {
   command.add_option("scenario", scenario_or_file, "Scenario name, or a run file (.toml)")->required();
   command.add_option("--tire", tire, "Name under assets/tires, or a path");
-  command.add_option("--rig", rig, "Name under assets/rigs, or a path [drum_2m]");
+  command.add_option("--rig", rig, "Name under assets/rigs, or a path [the scenario's]");
+  command.add_option("--vehicle", vehicle, "Name under assets/vehicles, or a path [source_car]");
   command.add_option("--fidelity", fidelity, "multibody or quasi_static [multibody]");
   command.add_option("--baseline", baseline, "combined or constant_rrc [combined]");
   command.add_option("--sensors", sensors, "Virtual sensors: a name under assets/sensors, a path, or none");
@@ -33,7 +34,7 @@ void RunOptions::add_to(CLI::App& command) {
   command
       .add_option("--set", assignments,
                   "key=value: a setting of the scenario, or tire.<table>.<key>, rig.<table>.<key>, "
-                  "effects.<id>.<parameter>; may be repeated")
+                  "vehicle.<table>.<key>, effects.<id>.<parameter>; may be repeated")
       ->expected(1)
       ->take_all();
 }
@@ -43,6 +44,7 @@ ConfigTable RunOptions::make_document() const {
       is_file_name(scenario_or_file) ? read_config(scenario_or_file) : scenarios::make_run_document(scenario_or_file);
   set_text(document, "tire", absolute_if_path(tire));
   set_text(document, "rig", absolute_if_path(rig));
+  set_text(document, "vehicle", absolute_if_path(vehicle));
   set_text(document, "fidelity", fidelity);
   set_text(document, "baseline", baseline);
   set_text(document, "sensors", absolute_if_path(sensors));

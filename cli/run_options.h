@@ -14,6 +14,7 @@ struct RunOptions {
   std::string scenario_or_file;
   std::string tire;
   std::string rig;
+  std::string vehicle;
   std::string fidelity;
   std::string baseline;
   std::string sensors;

@@ -53,6 +53,7 @@ RigFile read_rig(const ConfigTable& config) {
   } else if (file.has("skim")) {
     read_table(file, "skim", rig.skim, false);
   }
+  if (rig.kind == RigKind::kDyno) read_table(file, "tie_down", rig.tie_down, true);
   if (rig.kind != RigKind::kFlat) read_table(file, "drive", rig.drive, true);
   file.finish();
   return rig;
@@ -92,6 +93,7 @@ std::string write_rig(const RigFile& rig) {
   text += write_group("environment", rig.environment);
   if (rig.skim.load_N > 0.0) text += write_group("skim", rig.skim);
   if (rig.kind == RigKind::kDrum) text += write_group("carriage", rig.carriage);
+  if (rig.kind == RigKind::kDyno) text += write_group("tie_down", rig.tie_down);
   if (rig.kind != RigKind::kFlat) text += write_group("drive", rig.drive);
   return text;
 }

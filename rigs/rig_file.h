@@ -66,7 +66,21 @@ struct CarriageParameters {
   }
 };
 
-/// The speed controller of the drum's motor: proportional and integral, with feedforward of inertia.
+/// What holds a vehicle on the rollers of a dynamometer, at its tow points (§3.4.2).
+struct TieDownParameters {
+  double stiffness_N_per_m = 0.0;
+  double damping_N_s_per_m = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"stiffness_N_per_m", positive(), "Along the vehicle, in all. Assumed: 2 MN/m", 2e6},
+          p.stiffness_N_per_m);
+    visit(Field{"damping_N_s_per_m", positive(), "Likewise. Assumed: 20 kN s/m", 2e4}, p.damping_N_s_per_m);
+  }
+};
+
+/// The speed controller of the drum's motor: proportional and integral, with feedforward of inertia. On a
+/// dynamometer, that of the rollers' common speed, and of the driver.
 struct DriveParameters {
   double bandwidth_rad_s = 0.0;
 
@@ -90,6 +104,7 @@ struct RigFile {
   SkimParameters skim;
   CarriageParameters carriage;
   DriveParameters drive;
+  TieDownParameters tie_down;
 };
 
 /// Reads a rig from parsed TOML. Throws InputError.

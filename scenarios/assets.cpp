@@ -13,10 +13,11 @@ namespace fs = std::filesystem;
 namespace rollrig::scenarios {
 namespace {
 
-constexpr const char* kExtension = ".toml";
+/// Cycles are time series, everything else is TOML.
+std::string extension_of(const std::string& folder) { return folder == "cycles" ? ".csv" : ".toml"; }
 
-bool is_path(const std::string& name) {
-  return name.find('/') != std::string::npos || fs::path(name).extension() == kExtension;
+bool is_path(const std::string& folder, const std::string& name) {
+  return name.find('/') != std::string::npos || fs::path(name).extension() == extension_of(folder);
 }
 
 }  // namespace
@@ -34,7 +35,7 @@ std::vector<std::string> list_assets(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(fs::path(find_assets_folder()) / folder, code)) {
-    if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
+    if (entry.path().extension() == extension_of(folder)) names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -42,11 +43,11 @@ std::vector<std::string> list_assets(const std::string& folder) {
 
 std::string find_asset_from(const std::string& base_folder, const std::string& folder,
                             const std::string& name_or_path) {
-  if (is_path(name_or_path)) return (fs::path(base_folder) / name_or_path).lexically_normal().string();
-  const fs::path file = fs::path(find_assets_folder()) / folder / (name_or_path + kExtension);
+  if (is_path(folder, name_or_path)) return (fs::path(base_folder) / name_or_path).lexically_normal().string();
+  const fs::path file = fs::path(find_assets_folder()) / folder / (name_or_path + extension_of(folder));
   if (fs::exists(file)) return file.string();
   InputProblem problem = unknown_name(folder.substr(0, folder.size() - 1), name_or_path, list_assets(folder));
-  problem.allowed += fmt::format("; or a path to a {} file", kExtension);
+  problem.allowed += fmt::format("; or a path to a {} file", extension_of(folder));
   throw InputError(problem);
 }
 

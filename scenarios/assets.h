@@ -1,5 +1,5 @@
 #pragma once
-/// Finding files by name or path: tires, rigs, sensors.
+/// Finding files by name or path: tires, rigs, vehicles, cycles, sensors.
 
 #include <string>
 #include <vector>
@@ -10,14 +10,15 @@ namespace rollrig::scenarios {
 /// source tree from which the program was built.
 std::string find_assets_folder();
 
-/// The file of an asset: `name_or_path` is a path when it holds a '/' or ends in ".toml", else a name
-/// under assets/<folder>. Throws InputError with the nearest known name.
+/// The file of an asset: `name_or_path` is a path when it holds a '/' or ends as the folder's files do
+/// (".csv" for cycles, ".toml" for the rest), else a name under assets/<folder>. Throws InputError with the nearest
+/// known name.
 std::string find_asset(const std::string& folder, const std::string& name_or_path);
 
 /// The same, with paths taken relative to `base_folder` (for names inside a file).
 std::string find_asset_from(const std::string& base_folder, const std::string& folder, const std::string& name_or_path);
 
-/// Names under assets/<folder>, without ".toml", sorted.
+/// Names under assets/<folder>, without their ending, sorted.
 std::vector<std::string> list_assets(const std::string& folder);
 
 }  // namespace rollrig::scenarios

@@ -66,7 +66,7 @@ void read_machine(TableReader& reader, const std::string& folder, MeasurementSet
   const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
   if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
     set.kind = SetKind::kRoad;
-    set.vehicle = read_vehicle(read_config(find_asset_from(folder, "vehicles", reader.text("vehicle"))));
+    set.vehicle = rigs::read_vehicle(read_config(find_asset_from(folder, "vehicles", reader.text("vehicle"))));
     return;
   }
   const std::string path = find_asset_from(folder, "rigs", reader.text("rig"));
@@ -99,23 +99,6 @@ void check_runs(const TableReader& reader, const MeasurementSet& set) {
 }
 
 }  // namespace
-
-VehicleFile read_vehicle(const ConfigTable& config) {
-  TableReader reader(config, "");
-  check_format(reader, "rollrig-vehicle", 1);
-  VehicleFile vehicle;
-  vehicle.path = config.origin.file;
-  vehicle.name = reader.text("name");
-  vehicle.mass_kg = reader.number({"mass_kg", positive(), ""});
-  vehicle.mass_sd_kg = reader.number_or_none({"mass_kg_sd", positive(), ""}).value_or(0.0);
-  vehicle.rotating_mass_kg = reader.number({"rotating_mass_kg", non_negative(), ""});
-  vehicle.rotating_mass_sd_kg = reader.number_or_none({"rotating_mass_kg_sd", positive(), ""}).value_or(0.0);
-  vehicle.drag_area_m2 = reader.number({"drag_area_m2", non_negative(), ""});
-  vehicle.drag_area_sd_m2 = reader.number_or_none({"drag_area_m2_sd", positive(), ""}).value_or(0.0);
-  vehicle.tires = reader.count({"tires", between(1.0, 20.0), ""});
-  reader.finish();
-  return vehicle;
-}
 
 const SetColumns& columns_of(SetKind kind) {
   static const std::vector<Field> temperatures_and_pressure{

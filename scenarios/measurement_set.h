@@ -24,19 +24,6 @@ const SetColumns& columns_of(SetKind kind);
 /// Names of the measured columns of a kind.
 std::vector<std::string> measured_channels(SetKind kind);
 
-/// A vehicle of a road set ("rollrig-vehicle/1"); uncertainties are 0 where none was given.
-struct VehicleFile {
-  std::string path;
-  std::string name;
-  double mass_kg = 0.0, mass_sd_kg = 0.0;
-  double rotating_mass_kg = 0.0, rotating_mass_sd_kg = 0.0;
-  double drag_area_m2 = 0.0, drag_area_sd_m2 = 0.0;
-  int tires = 4;
-};
-
-/// Reads a vehicle from parsed TOML. Throws InputError.
-VehicleFile read_vehicle(const ConfigTable& config);
-
 struct MeasuredRun {
   std::string id;
   std::string file;  // path
@@ -57,8 +44,8 @@ struct MeasurementSet {
   SetKind kind = SetKind::kDrum;
   models::Baseline baseline = models::Baseline::kCombined;
   models::TireFile tire;
-  std::optional<rigs::RigFile> rig;    // drum and dyno
-  std::optional<VehicleFile> vehicle;  // road
+  std::optional<rigs::RigFile> rig;          // drum and dyno
+  std::optional<rigs::VehicleFile> vehicle;  // road
   models::SensorSet sensors;
   std::vector<MeasuredRun> runs;
 };

@@ -36,7 +36,8 @@ ConfigTable read_with_overrides(const std::string& path, const std::string& cont
 
 const ConfigTable* find_override(TableReader& overrides, const char* what) { return overrides.table(what); }
 
-std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std::string& base_folder) {
+std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std::string& base_folder,
+                                                  const Scenario& scenario) {
   if (!reader.has("sensors")) {
     reader.accept("sensors");
     return std::nullopt;
@@ -46,6 +47,10 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
   }
   const std::string name = reader.text("sensors");
   if (name == "none") return std::nullopt;
+  if (scenario.has_vehicle) {
+    throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", scenario.text.name),
+                         "no sensors, or none");
+  }
   return read_sensor_file(read_config(find_asset_from(base_folder, "sensors", name)));
 }
 
@@ -70,15 +75,35 @@ Json tire_to_json(const models::TireFile& tire, const models::TireParameters<dou
 }
 
 Json rig_to_json(const rigs::RigFile& rig) {
-  return {{"name", rig.name},
-          {"file", rig.path},
-          {"sha256", calc_sha256(rig.content)},
-          {"drum", parameters_to_json(rig.drum)},
-          {"parasitic", parameters_to_json(rig.parasitic)},
-          {"environment", parameters_to_json(rig.environment)},
-          {"skim", parameters_to_json(rig.skim)},
-          {"carriage", parameters_to_json(rig.carriage)},
-          {"drive", parameters_to_json(rig.drive)}};
+  using rigs::RigKind;
+  Json json = {{"name", rig.name}, {"file", rig.path}, {"sha256", calc_sha256(rig.content)}};
+  if (rig.kind != RigKind::kFlat) {
+    json[rig.kind == RigKind::kDrum ? "drum" : "roller"] = parameters_to_json(rig.drum);
+    json["parasitic"] = parameters_to_json(rig.parasitic);
+    json["drive"] = parameters_to_json(rig.drive);
+  }
+  json["environment"] = parameters_to_json(rig.environment);
+  if (rig.kind == RigKind::kDrum) {
+    json["skim"] = parameters_to_json(rig.skim);
+    json["carriage"] = parameters_to_json(rig.carriage);
+  }
+  if (rig.kind == RigKind::kDyno) json["tie_down"] = parameters_to_json(rig.tie_down);
+  return json;
+}
+
+Json vehicle_to_json(const rigs::VehicleFile& vehicle) {
+  Json json = {{"name", vehicle.name},
+               {"file", vehicle.path},
+               {"sha256", calc_sha256(vehicle.content)},
+               {"body", parameters_to_json(vehicle.body)},
+               {"tires", vehicle.tires},
+               {"geometry", parameters_to_json(vehicle.geometry)},
+               {"suspension", parameters_to_json(vehicle.suspension)},
+               {"powertrain", parameters_to_json(vehicle.powertrain)},
+               {"brakes", parameters_to_json(vehicle.brakes)}};
+  json["powertrain"]["driven_axle"] = rigs::name_of(vehicle.driven_axle);
+  if (vehicle.road_load.has_value()) json["road_load"] = parameters_to_json(*vehicle.road_load);
+  return json;
 }
 
 Json effects_to_json(const std::vector<models::ActiveEffect>& effects) {
@@ -107,11 +132,34 @@ Json sensors_to_json(const std::optional<models::SensorSet>& sensors) {
   return json;
 }
 
+const char* name_of(rigs::RigKind kind) {
+  return kind == rigs::RigKind::kDrum ? "drum" : kind == rigs::RigKind::kDyno ? "dyno" : "flat";
+}
+
 void check_rig_kind(const RunSpec& spec) {
-  if (spec.rig.kind == rigs::RigKind::kDrum) return;
-  throw InputError(
-      {fmt::format("scenario '{}' runs on a drum rig, and '{}' is none", spec.scenario->text.name, spec.rig.name),
-       spec.rig.path, 0, "kind", "", "a rig with kind = \"drum\"", ""});
+  std::vector<std::string> kinds;
+  for (const rigs::RigKind kind : spec.scenario->rig_kinds) {
+    if (spec.rig.kind == kind) return;
+    kinds.push_back(fmt::format("\"{}\"", name_of(kind)));
+  }
+  throw InputError({fmt::format("scenario '{}' cannot be carried out on rig '{}', which is of kind \"{}\"",
+                                spec.scenario->text.name, spec.rig.name, name_of(spec.rig.kind)),
+                    spec.rig.path, 0, "kind", "", fmt::format("a rig of kind {}", fmt::join(kinds, " or ")), ""});
+}
+
+/// The vehicle of a scenario that has one.
+void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
+  if (!spec.scenario->has_vehicle) {
+    if (reader.has("vehicle")) {
+      throw reader.problem("vehicle", fmt::format("scenario '{}' has no vehicle", spec.scenario->text.name),
+                           "no vehicle, or another scenario");
+    }
+    return;
+  }
+  const std::string path = find_asset_from(base_folder, "vehicles", reader.text_or("vehicle", "source_car"));
+  const std::string content = read_text_file(path);
+  spec.vehicle = rigs::read_vehicle(read_with_overrides(path, content, find_override(overrides, "vehicle")));
+  spec.vehicle->content = content;
 }
 
 }  // namespace
@@ -141,7 +189,7 @@ void set_run_value(ConfigTable& document, const std::string& assignment) {
   std::string key = assignment.substr(0, equals);
   const std::string first = key.substr(0, key.find('.'));
   const bool has_parts = key.find('.') != std::string::npos;
-  if (has_parts && (first == "tire" || first == "rig")) {
+  if (has_parts && (first == "tire" || first == "rig" || first == "vehicle")) {
     key = "override." + key;
   } else if (!(has_parts && (first == "effects" || first == "sensors" || first == "settings"))) {
     key = "settings." + key;
@@ -161,10 +209,11 @@ RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folde
   const std::string tire_content = read_text_file(tire_path);
   spec.tire = models::read_tire(read_with_overrides(tire_path, tire_content, find_override(overrides, "tire")));
   spec.tire.content = tire_content;
-  const std::string rig_path = find_asset_from(base_folder, "rigs", reader.text_or("rig", "drum_2m"));
+  const std::string rig_path = find_asset_from(base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
   const std::string rig_content = read_text_file(rig_path);
   spec.rig = rigs::read_rig(read_with_overrides(rig_path, rig_content, find_override(overrides, "rig")));
   spec.rig.content = rig_content;
+  read_run_vehicle(reader, overrides, base_folder, spec);
   overrides.finish();
   const std::vector<std::string> fidelities{"multibody", "quasi_static"};
   spec.fidelity = reader.text_or("fidelity", "multibody", fidelities) == "multibody" ? Fidelity::kMultibody
@@ -175,7 +224,7 @@ RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folde
   spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 2147483647.0), "random seed", 1.0}));
   spec.sample_interval_s = reader.number({"sample_interval_s", between(0.01, 60.0), "between rows", 1.0});
   spec.tolerance_factor = reader.number({"tolerance_factor", between(1e-3, 1e3), "on all tolerances", 1.0});
-  spec.sensors = read_run_sensors(reader, base_folder);
+  spec.sensors = read_run_sensors(reader, base_folder, *spec.scenario);
   if (const ConfigTable* effects = reader.table("effects")) spec.effects = models::read_effects(*effects);
   if (const ConfigTable* settings = reader.table("settings")) spec.settings = *settings;
   reader.finish();
@@ -199,6 +248,7 @@ Json make_manifest(const RunSpec& spec, const Outcome& outcome) {
   manifest["settings"] = outcome.settings;
   manifest["tire"] = tire_to_json(spec.tire, spec.tire.parameters_on(spec.rig.name, spec.baseline));
   manifest["rig"] = rig_to_json(spec.rig);
+  if (spec.vehicle.has_value()) manifest["vehicle"] = vehicle_to_json(*spec.vehicle);
   manifest["effects"] = effects_to_json(spec.effects);
   manifest["sensors"] = sensors_to_json(spec.sensors);
   manifest["integrator"] = outcome.statistics;
@@ -212,6 +262,7 @@ Json make_result_json(const RunSpec& spec, const Outcome& outcome) {
   json["scenario"] = spec.scenario->text.name;
   json["tire"] = spec.tire.name;
   json["rig"] = spec.rig.name;
+  if (spec.vehicle.has_value()) json["vehicle"] = spec.vehicle->name;
   json["fidelity"] = name_of(spec.fidelity);
   json["result"] = outcome.result;
   json["phases"] = Json::array();

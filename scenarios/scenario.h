@@ -11,6 +11,7 @@
 #include "models/effect.h"
 #include "models/sensor.h"
 #include "rigs/rig_file.h"
+#include "rigs/vehicle_file.h"
 #include "sim/core/json.h"
 #include "sim/recording.h"
 #include "sim/simulate.h"
@@ -26,6 +27,7 @@ struct RunSpec {
   const Scenario* scenario = nullptr;
   models::TireFile tire;
   rigs::RigFile rig;
+  std::optional<rigs::VehicleFile> vehicle;  // where the scenario has one
   Fidelity fidelity = Fidelity::kMultibody;
   models::Baseline baseline = models::Baseline::kCombined;
   std::vector<models::ActiveEffect> effects;
@@ -94,6 +96,9 @@ struct ScenarioText {
 
 struct Scenario {
   ScenarioText text;
+  std::vector<rigs::RigKind> rig_kinds{rigs::RigKind::kDrum};  // on which it can be carried out
+  std::string default_rig = "drum_2m";
+  bool has_vehicle = false;
   std::vector<SettingInfo> settings;
   /// Reads spec.settings and plans, without running. Throws InputError.
   std::function<void(const RunSpec& spec)> check;

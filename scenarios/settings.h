@@ -25,10 +25,21 @@ inline std::string show_default(const Field& field, const int&) {
 inline std::string show_default(const Field& field, const std::optional<double>& member) {
   return member.has_value() ? show_in_unit(field, *member) : "see text";
 }
+inline std::string show_default(const Field&, const Choice& member) {
+  return member.value.empty() ? "see text" : member.value;
+}
 inline std::string show_default(const Field& field, const std::vector<double>& member) {
   std::vector<std::string> items;
   for (const double item : member) items.push_back(show_in_unit(field, item));
   return items.empty() ? "see text" : "[" + boost::algorithm::join(items, ", ") + "]";
+}
+
+template <class Member>
+std::string show_range(const Field& field, const Member&) {
+  return field.range.to_string();
+}
+inline std::string show_range(const Field&, const Choice& member) {
+  return boost::algorithm::join(member.allowed, " or ");
 }
 
 inline Json to_json(const Field& field, double member) { return unit_of_key(field.key).from_si(member); }
@@ -36,6 +47,7 @@ inline Json to_json(const Field&, int member) { return member; }
 inline Json to_json(const Field& field, const std::optional<double>& member) {
   return member.has_value() ? Json(unit_of_key(field.key).from_si(*member)) : Json();
 }
+inline Json to_json(const Field&, const Choice& member) { return member.value; }
 inline Json to_json(const Field& field, const std::vector<double>& member) {
   Json list = Json::array();
   for (const double item : member) list.push_back(unit_of_key(field.key).from_si(item));
@@ -49,7 +61,7 @@ std::vector<SettingInfo> list_settings() {
   std::vector<SettingInfo> list;
   Settings settings;
   Settings::visit(settings, [&list](const Field& field, auto& member) {
-    list.push_back({field.key, field.range.to_string(), detail::show_default(field, member), field.doc});
+    list.push_back({field.key, detail::show_range(field, member), detail::show_default(field, member), field.doc});
   });
   return list;
 }

@@ -22,6 +22,7 @@ template <class S>
 struct Recording {
   std::vector<Channel> channels;
   std::vector<PhaseSpan> phases;
+  std::vector<std::vector<S>> phase_integrals;  // of each phase: what its time added to every integral
   std::vector<double> time_s;
   std::vector<std::size_t> phase;      // index into phases, one a row
   std::vector<std::vector<S>> values;  // one column a channel, SI units

@@ -144,6 +144,13 @@ class Sampler {
   std::size_t phase_index_ = 0;
 };
 
+template <class S>
+std::vector<S> subtract(const std::vector<S>& a, const std::vector<S>& b) {
+  std::vector<S> difference(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) difference[i] = a[i] - b[i];
+  return difference;
+}
+
 /// The two ledgers from what was stored before and after, and what was integrated.
 template <class S>
 EnergyAudit make_audit(const OdeSystem<S>& system, const std::vector<S>& stored_before,
@@ -202,6 +209,7 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
   sampler.begin_run(integrals);
   for (const Phase& phase : program.phases) {
     const double phase_start_s = time_s;
+    const std::vector<S> integrals_before = integrals;
     double planned_end_s = phase_start_s;
     bool stopped = false;
     log_phase(phase, phase_start_s);
@@ -226,6 +234,7 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
       if (stopped) break;
     }
     out.phases.push_back({phase.name, phase_start_s, time_s});
+    out.phase_integrals.push_back(detail::subtract(integrals, integrals_before));
   }
   sampler.finish(state, integrals, time_s);
   system.calc_stored(time_s, state.data(), stored_after.data());

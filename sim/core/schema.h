@@ -87,6 +87,12 @@ class TableReader {
 /// Checks the `format` key: present, of the wanted kind and of a version that this program reads.
 void check_format(TableReader& reader, const std::string& kind, int version);
 
+/// A text of a file that is one of a few.
+struct Choice {
+  std::string value;
+  std::vector<std::string> allowed;
+};
+
 /// Reads one declared member: a number, an optional number, a whole number or a list of numbers. What is
 /// absent keeps the field's fallback; a list or an optional keeps the member's value.
 inline void read_member(TableReader& reader, const Field& field, double& member) { member = reader.number(field); }
@@ -95,6 +101,9 @@ inline void read_member(TableReader& reader, const Field& field, std::optional<d
   if (given.has_value()) member = given;
 }
 inline void read_member(TableReader& reader, const Field& field, int& member) { member = reader.count(field); }
+inline void read_member(TableReader& reader, const Field& field, Choice& member) {
+  member.value = reader.text_or(field.key, member.value, member.allowed);
+}
 inline void read_member(TableReader& reader, const Field& field, std::vector<double>& member) {
   member = reader.numbers_or(field, member);
 }

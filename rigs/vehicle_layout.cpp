@@ -1,0 +1,88 @@
+#include "rigs/vehicle_layout.h"
+
+#include "models/vehicle.h"
+
+namespace rollrig::rigs {
+namespace {
+
+bool is_driven(const VehicleFile& vehicle, bool front) {
+  return vehicle.driven_axle == DrivenAxle::kAll || (vehicle.driven_axle == DrivenAxle::kFront) == front;
+}
+
+/// A wheel of the whole vehicle; both wheels of an axle are alike.
+WheelPlace make_wheel(const VehicleFile& vehicle, bool front, const std::string& position) {
+  const double axle_share = front ? vehicle.geometry.front_load_share : 1.0 - vehicle.geometry.front_load_share;
+  const double brake_share = front ? vehicle.brakes.front_share : 1.0 - vehicle.brakes.front_share;
+  const double driven_wheels = vehicle.driven_axle == DrivenAxle::kAll ? 4.0 : 2.0;
+  WheelPlace wheel;
+  wheel.position = position;
+  wheel.is_front = front;
+  wheel.is_driven = is_driven(vehicle, front);
+  wheel.static_load_N = vehicle.body.mass_kg * kStandardGravity_m_s2 * axle_share / 2.0;
+  wheel.motor_share = wheel.is_driven ? 1.0 / driven_wheels : 0.0;
+  wheel.friction_share = brake_share / 2.0;
+  wheel.axle_x_m = vehicle.geometry.wheelbase_m *
+                   (front ? 1.0 - vehicle.geometry.front_load_share : -vehicle.geometry.front_load_share);
+  return wheel;
+}
+
+models::RoadLoad<double> scale(const models::RoadLoad<double>& load, double factor) {
+  return {factor * load.A_N, factor * load.B_N_s_per_m, factor * load.C_N_s2_per_m2};
+}
+
+/// All but the wheels, for a share of the vehicle.
+VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
+                        double share) {
+  VehicleLayout layout;
+  layout.rig_kind = rig.kind;
+  layout.share = share;
+  layout.mass_kg = share * vehicle.body.mass_kg;
+  layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;
+  layout.air_density_kg_per_m3 =
+      models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, rig.environment.ambient_K);
+  layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
+  layout.regeneration_fade_m_s = vehicle.powertrain.regeneration_fade_m_s;
+  if (rig.kind == RigKind::kDyno) {
+    layout.resistance = scale(set_load, share);
+  } else if (vehicle.road_load.has_value()) {
+    layout.resistance = scale(*vehicle.road_load, share);
+  } else {
+    layout.drag_area_m2 = share * vehicle.body.drag_area_m2;
+  }
+  return layout;
+}
+
+}  // namespace
+
+VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
+                               const models::RoadLoad<double>& set_load) {
+  VehicleLayout layout = make_body(vehicle, rig, set_load, 1.0);
+  for (const char* position : {"front_left", "front_right", "rear_left", "rear_right"}) {
+    layout.wheels.push_back(make_wheel(vehicle, position[0] == 'f', position));
+  }
+  return layout;
+}
+
+VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
+                           QuarterWheel which) {
+  WheelPlace wheel = make_wheel(vehicle, which == QuarterWheel::kFront, "");
+  const double share = wheel.static_load_N / (vehicle.body.mass_kg * kStandardGravity_m_s2);
+  VehicleLayout layout = make_body(vehicle, rig, set_load, share);
+  wheel.motor_share /= share;
+  wheel.friction_share /= share;
+  wheel.axle_x_m = 0.0;
+  layout.wheels = {wheel};
+  return layout;
+}
+
+models::Context<double> make_vehicle_context(const models::TireFile& tire, const RigFile& rig,
+                                             const VehicleFile& vehicle, models::Baseline baseline) {
+  models::Context<double> context = make_context(tire, rig, baseline);
+  if (rig.kind == RigKind::kFlat && vehicle.road_load.has_value()) {
+    context.baseline = models::Baseline::kConstantRrc;
+    context.tire.constant.rrc = 0.0;
+  }
+  return context;
+}
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,57 @@
+#pragma once
+/// A vehicle on its rollers or on the road as the equations take it: the wheels that are simulated, and what
+/// of the vehicle each of them stands for.
+
+#include <string>
+#include <vector>
+
+#include "models/corner.h"
+#include "rigs/rig_file.h"
+#include "rigs/vehicle_file.h"
+
+namespace rollrig::rigs {
+
+/// One simulated wheel. Shares are of the force that acts on all that is simulated.
+struct WheelPlace {
+  std::string position;  // "front_left"; empty when it is the only one
+  bool is_front = true;
+  bool is_driven = false;
+  double static_load_N = 0.0;
+  double motor_share = 0.0;     // of the motor's force
+  double friction_share = 0.0;  // of the friction brakes' force
+  double axle_x_m = 0.0;        // from the centre of gravity, forwards
+};
+
+/// The whole vehicle on four wheels, or a quarter: one wheel with its share of the mass. What a quarter's
+/// own wheel does not drive or brake reaches it through the roller or the body, as the force of the other
+/// wheels would.
+struct VehicleLayout {
+  RigKind rig_kind = RigKind::kDyno;
+  double share = 1.0;  // of the vehicle that is simulated
+  double mass_kg = 0.0;
+  double rotating_mass_kg = 0.0;
+  double drag_area_m2 = 0.0;
+  double air_density_kg_per_m3 = 0.0;
+  double motor_limit_N = 0.0;  // most that the motor brakes
+  double regeneration_fade_m_s = 0.0;
+  /// Force of the rollers against the vehicle (§3.4.3, (3.20)); on the flat, the road load of a vehicle
+  /// that is given by it alone.
+  models::RoadLoad<double> resistance;
+  std::vector<WheelPlace> wheels;
+};
+
+enum class QuarterWheel { kFront, kRear };
+
+/// The layout of a vehicle with four wheels, or of a quarter. On the flat, `resistance` is the vehicle's
+/// road load where it has one, else nothing: drag and tires act by themselves. On a dynamometer it is `set_load`.
+VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
+                               const models::RoadLoad<double>& set_load);
+VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
+                           QuarterWheel wheel);
+
+/// What the equations take of a tire under a vehicle on a rig. A vehicle that is given by its road load rolls
+/// on the flat without any loss in its tires, since that load contains them. Throws InputError.
+models::Context<double> make_vehicle_context(const models::TireFile& tire, const RigFile& rig,
+                                             const VehicleFile& vehicle, models::Baseline baseline);
+
+}  // namespace rollrig::rigs

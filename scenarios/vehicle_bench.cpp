@@ -1,0 +1,43 @@
+#include "scenarios/vehicle_bench.h"
+
+#include "rigs/quasi_static_vehicle.h"
+#include "rigs/trace_effects.h"
+#include "sim/fixed_grid_integrator.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+using Corners = std::vector<models::Corner<double>>;
+
+rigs::VehicleStart<double> make_start(const RunSpec& spec, const VehicleConditions& conditions) {
+  rigs::VehicleStart<double> start;
+  start.tire_temperature_K = *conditions.initial_tire_K;
+  start.cold_pressure_Pa = conditions.pressure_Pa;
+  start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
+  return start;
+}
+
+sim::Recording<double> run_quasi_static(const RunSpec& spec, Corners& corners, const rigs::VehicleLayout& layout,
+                                        const rigs::VehicleStart<double>& start, const VehicleProgram& program,
+                                        const sim::Progress& progress) {
+  rigs::QuasiStaticVehicle<double> vehicle(corners, layout, start, program.surface_recorded());
+  sim::FixedGridIntegrator<double> integrator(vehicle);
+  sim::Program on_grid = program.program();
+  for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= spec.tolerance_factor;
+  return sim::simulate<double>(vehicle, integrator, on_grid, progress);
+}
+
+}  // namespace
+
+void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, const VehicleProgram& program,
+                      const sim::Progress& progress, Outcome& outcome) {
+  const rigs::VehicleLayout layout = conditions.make_layout(spec);
+  const models::Context<double> context = rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
+  Corners corners(layout.wheels.size(), models::Corner<double>(context, spec.effects));
+  const rigs::VehicleStart<double> start = make_start(spec, conditions);
+  outcome.recording = run_quasi_static(spec, corners, layout, start, program, progress);
+  outcome.recording.audit.require_closed(kDriveAuditLimit);
+  rigs::apply_trace_effects(corners.front(), outcome.recording);
+}
+
+}  // namespace rollrig::scenarios

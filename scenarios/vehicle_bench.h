@@ -1,0 +1,69 @@
+#pragma once
+/// Runs a vehicle's program in the fidelity asked for, with effects and audits.
+
+#include "scenarios/scenario.h"
+#include "scenarios/vehicle_program.h"
+
+namespace rollrig::scenarios {
+
+/// Limit of the audits on a drive, where a hundred times the kinetic energy goes through the hubs.
+constexpr double kDriveAuditLimit = 1e-5;
+
+/// Simulates `program` from soaked tires, checks both audits, applies trace effects, and puts recording and
+/// statistics into `outcome`.
+void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, const VehicleProgram& program,
+                      const sim::Progress& progress, Outcome& outcome);
+
+/// What one phase of a drive came to, for the whole vehicle or for one tire, from its integrals.
+class SectionReader {
+ public:
+  SectionReader(const sim::Recording<double>& recording, const rigs::VehicleLayout& layout, std::size_t phase)
+      : integrals_(recording.phase_integrals[phase]), layout_(layout) {}
+
+  /// Of the whole vehicle, where a quarter was simulated as well.
+  double vehicle(rigs::VehicleIntegral integral) const { return integrals_[rigs::index_of(integral)] / layout_.share; }
+  /// Of what does not go with the vehicle's size: distance, time.
+  double common(rigs::VehicleIntegral integral) const { return integrals_[rigs::index_of(integral)]; }
+  double wheel(rigs::WheelIntegral integral, std::size_t wheel) const {
+    return integrals_[rigs::index_of(integral, wheel)];
+  }
+
+ private:
+  const std::vector<double>& integrals_;
+  const rigs::VehicleLayout& layout_;
+};
+
+/// A scenario with a vehicle: settings (with a member `conditions`) are read and completed, `plan` makes the
+/// program, it is simulated, `evaluate` fills result, lines and tables.
+template <class Settings>
+Scenario make_vehicle_scenario(ScenarioText text, std::vector<rigs::RigKind> rig_kinds, std::string default_rig,
+                               VehicleProgram (*plan)(const Settings&, const RunSpec&),
+                               void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
+  const auto read = [](const RunSpec& spec) {
+    Settings settings = read_settings<Settings>(spec);
+    settings.conditions.complete(spec);
+    return settings;
+  };
+  Scenario scenario;
+  scenario.text = std::move(text);
+  scenario.settings = list_settings<Settings>();
+  scenario.rig_kinds = std::move(rig_kinds);
+  scenario.default_rig = std::move(default_rig);
+  scenario.has_vehicle = true;
+  scenario.check = [read, plan](const RunSpec& spec) {
+    const Settings settings = read(spec);
+    plan(settings, spec);
+    rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
+  };
+  scenario.run = [read, plan, evaluate](const RunSpec& spec, const sim::Progress& progress) {
+    const Settings settings = read(spec);
+    Outcome outcome;
+    outcome.settings = settings_to_json(settings);
+    simulate_vehicle(spec, settings.conditions, plan(settings, spec), progress, outcome);
+    evaluate(settings, spec, outcome);
+    return outcome;
+  };
+  return scenario;
+}
+
+}  // namespace rollrig::scenarios

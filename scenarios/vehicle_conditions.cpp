@@ -1,0 +1,59 @@
+#include "scenarios/vehicle_conditions.h"
+
+#include "models/vehicle.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+/// Where the wheels' own inertia is above what the vehicle says of all that turns, one of the two is wrong.
+void check_rotating_mass(const RunSpec& spec) {
+  const auto& geometry = spec.tire.values.geometry;
+  const double radius_m = geometry.outer_diameter_m / 2.0;
+  const double wheels_kg = 4.0 * geometry.spin_inertia_kg_m2 / (radius_m * radius_m);
+  if (spec.vehicle->body.rotating_mass_kg >= wheels_kg) return;
+  InputProblem problem;
+  problem.what =
+      fmt::format("the four wheels of tire '{}' alone have an equivalent mass of {:.1f} kg", spec.tire.name, wheels_kg);
+  problem.file = spec.vehicle->path;
+  problem.key = "rotating_mass_kg";
+  problem.value = fmt::format("{}", spec.vehicle->body.rotating_mass_kg);
+  problem.allowed = fmt::format("at least {:.1f} kg, or a smaller spin_inertia_kg_m2 of the tire", wheels_kg);
+  throw InputError(problem);
+}
+
+}  // namespace
+
+void VehicleConditions::complete(const RunSpec& spec) {
+  if (wheels != 1 && wheels != 4) {
+    const ConfigValue* set = spec.settings.find("wheels");
+    InputProblem problem;
+    problem.what = "a vehicle is simulated whole or as a quarter";
+    if (set != nullptr) {
+      problem.file = set->origin.file;
+      problem.line = set->origin.line;
+    }
+    problem.key = "wheels";
+    problem.value = fmt::format("{}", wheels);
+    problem.allowed = "4 or 1";
+    throw InputError(problem);
+  }
+  check_rotating_mass(spec);
+  if (!ambient_K.has_value()) ambient_K = spec.rig.environment.ambient_K;
+  if (!initial_tire_K.has_value()) initial_tire_K = ambient_K;
+  if (!set_A_N.has_value()) set_A_N = 0.0;
+  if (!set_B_N_s_per_m.has_value()) set_B_N_s_per_m = 0.0;
+  if (!set_C_N_s2_per_m2.has_value()) {
+    const double density_kg_per_m3 =
+        models::calc_air_density_kg_per_m3(spec.rig.environment.ambient_pressure_Pa, *ambient_K);
+    set_C_N_s2_per_m2 = models::calc_drag_N(density_kg_per_m3, spec.vehicle->body.drag_area_m2, 1.0, 0.0);
+  }
+}
+
+rigs::VehicleLayout VehicleConditions::make_layout(const RunSpec& spec) const {
+  const models::RoadLoad<double> set_load{*set_A_N, *set_B_N_s_per_m, *set_C_N_s2_per_m2};
+  if (wheels == 4) return rigs::make_four_wheels(*spec.vehicle, spec.rig, set_load);
+  const auto wheel = quarter.value == "front" ? rigs::QuarterWheel::kFront : rigs::QuarterWheel::kRear;
+  return rigs::make_quarter(*spec.vehicle, spec.rig, set_load, wheel);
+}
+
+}  // namespace rollrig::scenarios
