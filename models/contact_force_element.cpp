@@ -33,25 +33,40 @@ const ContactEvaluation& ContactForceElement::evaluation(const State& state) con
 }
 
 void ContactForceElement::evaluate_inputs(const State& state, Instant<double>& now) const {
-  now.recorded = inputs_(state.getTime());
+  now.recorded = inputs_(state);
+  apply_inputs(state, now);
+}
+
+void ContactForceElement::apply_inputs(const State& state, Instant<double>& now) const {
   now.inflation = inflation_;
   corner_.apply_inputs(z_of(state) + 1, now);
+}
+
+/// Where the tire touches, and the directions there.
+void ContactForceElement::find_surface(const Vec3& wheel_centre_m, const Vec3& surface_origin_m,
+                                       ContactEvaluation& out) const {
+  const double curvature_per_m = corner_.context().surface_curvature_per_m;
+  const Vec3 between_m = wheel_centre_m - surface_origin_m;
+  out.axis = Vec3(0, 0, 1);
+  if (curvature_per_m == 0.0) {
+    out.normal = Vec3(0, 1, 0);
+    out.loaded_radius_m = between_m[1];
+    out.contact_point_m = wheel_centre_m - out.loaded_radius_m * out.normal;
+  } else {
+    const double radius_m = 1.0 / curvature_per_m;
+    const double distance_m = between_m.norm();
+    out.normal = between_m / distance_m;
+    out.loaded_radius_m = distance_m - radius_m;
+    out.contact_point_m = surface_origin_m + radius_m * out.normal;
+  }
+  out.tangent = SimTK::cross(out.axis, out.normal);
 }
 
 void ContactForceElement::find_geometry(const State& state, ContactEvaluation& out) const {
   const SimTK::MobilizedBody& wheel = matter_.getMobilizedBody(bodies_.wheel);
   const SimTK::MobilizedBody& surface = matter_.getMobilizedBody(bodies_.surface);
-  const double curvature_per_m = corner_.context().surface_curvature_per_m;
-  const double radius_m = 1.0 / curvature_per_m;
-  const Vec3& wheel_centre_m = wheel.getBodyOriginLocation(state);
   const Vec3& drum_centre_m = surface.getBodyOriginLocation(state);
-  const Vec3 between_m = wheel_centre_m - drum_centre_m;
-  const double distance_m = between_m.norm();
-  out.axis = Vec3(0, 0, 1);
-  out.normal = between_m / distance_m;
-  out.tangent = SimTK::cross(out.axis, out.normal);
-  out.contact_point_m = drum_centre_m + radius_m * out.normal;
-  out.loaded_radius_m = distance_m - radius_m;
+  find_surface(wheel.getBodyOriginLocation(state), drum_centre_m, out);
   out.deflection_m = corner_.context().tire.geometry.outer_diameter_m / 2.0 - out.loaded_radius_m;
 
   const SpatialVec& wheel_velocity = wheel.getBodyVelocity(state);
@@ -95,12 +110,18 @@ void ContactForceElement::calcForce(const State& state, SimTK::Vector_<SpatialVe
   const Vec3 couple_on_surface_Nm = -at.couple_Nm * at.axis;
   const Vec3& wheel_centre_m = matter_.getMobilizedBody(bodies_.wheel).getBodyOriginLocation(state);
   const Vec3& drum_centre_m = matter_.getMobilizedBody(bodies_.surface).getBodyOriginLocation(state);
-  const double radius_m = 1.0 / corner_.context().surface_curvature_per_m;
-  const Vec3 bearing_Nm = -at.now.parasitic_N * radius_m * at.axis;
   body_forces[bodies_.wheel] +=
       SpatialVec(SimTK::cross(at.contact_point_m - wheel_centre_m, on_wheel_N) - couple_on_surface_Nm, on_wheel_N);
-  body_forces[bodies_.surface] += SpatialVec(
-      SimTK::cross(at.contact_point_m - drum_centre_m, -on_wheel_N) + couple_on_surface_Nm + bearing_Nm, -on_wheel_N);
+  body_forces[bodies_.surface] +=
+      SpatialVec(SimTK::cross(at.contact_point_m - drum_centre_m, -on_wheel_N) + couple_on_surface_Nm, -on_wheel_N);
+  const double curvature_per_m = corner_.context().surface_curvature_per_m;
+  if (curvature_per_m > 0.0) {
+    body_forces[bodies_.surface][0] -= at.now.parasitic_N / curvature_per_m * at.axis;
+  } else {
+    const Vec3 on_hub_Nm = at.now.parasitic_N * at.loaded_radius_m * at.axis;  // the wheel turns about -axis
+    body_forces[bodies_.wheel][0] += on_hub_Nm;
+    body_forces[bodies_.carrier][0] -= on_hub_Nm;
+  }
 }
 
 void ContactForceElement::realizeAcceleration(const State& state) const {

@@ -12,8 +12,8 @@
 
 namespace rollrig::models {
 
-/// Recorded inputs at a time.
-using InputSource = std::function<InputPort<double>(double time_s)>;
+/// Recorded inputs at a state, realized to Velocity where the source needs it.
+using InputSource = std::function<InputPort<double>(const SimTK::State& state)>;
 
 /// Everything that the element knows at one state.
 struct ContactEvaluation {
@@ -34,10 +34,12 @@ struct ContactEvaluation {
   SimTK::Vec3 axis;     // about which the surface then turns
 };
 
-/// The tire of one wheel on one surface: a drum or roller that turns about the ground's z axis.
+/// The tire of one wheel on one surface: a drum or roller that turns about the ground's z axis, or, where the
+/// corner's surface has no curvature, the plane y = 0 of the surface's body.
 ///
 /// Forces    on the wheel at the contact: Fz n + Fx t; on the surface the opposite; the couple
-///           M of rolling resistance on both; the parasitic loss F_par as a torque on the surface
+///           M of rolling resistance on both; the parasitic loss F_par as a torque on the drum, or on the flat,
+///           where no drum has bearings, as a torque between the wheel and the body that carries it
 /// States    slip deflection, then the corner's states (auxiliary variables z of the force subsystem)
 /// Energy    calcPotentialEnergy: tire and slip spring
 class ContactForceElement : public SimTK::Force::Custom::Implementation {
@@ -45,6 +47,7 @@ class ContactForceElement : public SimTK::Force::Custom::Implementation {
   struct Bodies {
     SimTK::MobilizedBodyIndex wheel;
     SimTK::MobilizedBodyIndex surface;
+    SimTK::MobilizedBodyIndex carrier;  // in which the wheel's bearing is
   };
 
   ContactForceElement(const SimTK::GeneralForceSubsystem& forces, const SimTK::SimbodyMatterSubsystem& matter,
@@ -64,8 +67,10 @@ class ContactForceElement : public SimTK::Force::Custom::Implementation {
   void evaluate(const SimTK::State& state, ContactEvaluation& out) const;
   /// What evaluate() gave when this state was last realized to Dynamics.
   const ContactEvaluation& evaluation(const SimTK::State& state) const;
-  /// Inputs that really act at the state's time, for the actuators; needs no stage.
+  /// Inputs that really act at the state's time, for the actuators; needs what the input source needs.
   void evaluate_inputs(const SimTK::State& state, Instant<double>& now) const;
+  /// The same for inputs that the caller has put into now.recorded; needs no stage.
+  void apply_inputs(const SimTK::State& state, Instant<double>& now) const;
   double calc_tire_spring_J(const ContactEvaluation& at) const;
   double calc_slip_spring_J(const SimTK::State& state) const;
 
@@ -77,6 +82,8 @@ class ContactForceElement : public SimTK::Force::Custom::Implementation {
 
  private:
   void find_geometry(const SimTK::State& state, ContactEvaluation& out) const;
+  void find_surface(const SimTK::Vec3& wheel_centre_m, const SimTK::Vec3& surface_origin_m,
+                    ContactEvaluation& out) const;
   const double* z_of(const SimTK::State& state) const;
   ContactEvaluation& upd_evaluation(const SimTK::State& state) const;
 

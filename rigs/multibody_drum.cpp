@@ -7,6 +7,7 @@
 
 #include "models/contact_force_element.h"
 #include "rigs/drum_actuators.h"
+#include "rigs/multibody_guard.h"
 #include "sim/core/error.h"
 
 namespace rollrig::rigs {
@@ -32,25 +33,6 @@ SimTK::Body::Rigid make_rotor(double mass_kg, double spin_inertia_kg_m2) {
 
 SimTK::Body::Rigid make_block(double mass_kg) {
   return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, Vec3(0), SimTK::Inertia(mass_kg)));
-}
-
-/// Port "contact and inertia" of a corner. The bodies are built with it, so on this rig it may depend on
-/// parameters only, not on time or state.
-models::ContactPort<double> find_contact_port(const Corner<double>& corner) {
-  const std::vector<double> x(corner.state_count(), 0.0);
-  models::Instant<double> now;
-  corner.apply_inputs(x.data(), now);
-  return now.contact;
-}
-
-/// Runs `call`; what Simbody refuses (a state that is not finite, say) is a failed run.
-template <class Call>
-auto guarded(Call&& call) {
-  try {
-    return call();
-  } catch (const SimTK::Exception::Base& error) {
-    throw RunFailure(std::string("the multibody rig cannot go on: ") + error.getMessage());
-  }
 }
 
 // Errors that do not matter at a relative tolerance of 1e-6, for the integrator's control.
@@ -87,9 +69,10 @@ class MultibodyDrum::Implementation {
                           corner.context().tire.geometry.spin_inertia_kg_m2),
                kReversed),
         contact_(new ContactForceElement(
-            forces_, matter_, {wheel_.getMobilizedBodyIndex(), drum_.getMobilizedBodyIndex()}, corner,
-            [this](double time_s) {
-              return read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_);
+            forces_, matter_,
+            {wheel_.getMobilizedBodyIndex(), drum_.getMobilizedBodyIndex(), carriage_.getMobilizedBodyIndex()}, corner,
+            [this](const SimTK::State& state) {
+              return read_drum_inputs<double>(segment_, state.getTime() - segment_start_s_, surface_recorded_);
             })),
         actuators_(new DrumActuators(
             forces_, matter_,

@@ -5,6 +5,7 @@
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
+#include "scenarios/integrator_statistics.h"
 #include "sim/cvodes_integrator.h"
 #include "sim/fixed_grid_integrator.h"
 
@@ -19,11 +20,7 @@ sim::Recording<double> run_multibody(const RunSpec& spec, models::Corner<double>
   options.tolerance_factor = spec.tolerance_factor;
   sim::CvodesIntegrator integrator(drum, options);
   sim::Recording<double> recording = sim::simulate<double>(drum, integrator, program.program(), progress);
-  const sim::CvodesStatistics counted = integrator.statistics();
-  statistics = {{"steps", counted.steps},
-                {"rate_evaluations", counted.rate_evaluations},
-                {"jacobian_evaluations", counted.jacobian_evaluations},
-                {"error_test_failures", counted.error_test_failures}};
+  statistics = to_json(integrator.statistics());
   return recording;
 }
 

@@ -1,7 +1,10 @@
 #include "scenarios/vehicle_bench.h"
 
+#include "rigs/multibody_vehicle.h"
 #include "rigs/quasi_static_vehicle.h"
 #include "rigs/trace_effects.h"
+#include "scenarios/integrator_statistics.h"
+#include "sim/cvodes_integrator.h"
 #include "sim/fixed_grid_integrator.h"
 
 namespace rollrig::scenarios {
@@ -15,6 +18,18 @@ rigs::VehicleStart<double> make_start(const RunSpec& spec, const VehicleConditio
   start.cold_pressure_Pa = conditions.pressure_Pa;
   start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
   return start;
+}
+
+sim::Recording<double> run_multibody(const RunSpec& spec, Corners& corners, const rigs::VehicleLayout& layout,
+                                     const rigs::VehicleStart<double>& start, const VehicleProgram& program,
+                                     const sim::Progress& progress, Json& statistics) {
+  rigs::MultibodyVehicle vehicle(corners, layout, *spec.vehicle, spec.rig, start, program.surface_recorded());
+  sim::CvodesOptions options;
+  options.tolerance_factor = spec.tolerance_factor;
+  sim::CvodesIntegrator integrator(vehicle, options);
+  sim::Recording<double> recording = sim::simulate<double>(vehicle, integrator, program.program(), progress);
+  statistics = to_json(integrator.statistics());
+  return recording;
 }
 
 sim::Recording<double> run_quasi_static(const RunSpec& spec, Corners& corners, const rigs::VehicleLayout& layout,
@@ -35,7 +50,9 @@ void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, 
   const models::Context<double> context = rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
   Corners corners(layout.wheels.size(), models::Corner<double>(context, spec.effects));
   const rigs::VehicleStart<double> start = make_start(spec, conditions);
-  outcome.recording = run_quasi_static(spec, corners, layout, start, program, progress);
+  outcome.recording = spec.fidelity == Fidelity::kMultibody
+                          ? run_multibody(spec, corners, layout, start, program, progress, outcome.statistics)
+                          : run_quasi_static(spec, corners, layout, start, program, progress);
   outcome.recording.audit.require_closed(kDriveAuditLimit);
   rigs::apply_trace_effects(corners.front(), outcome.recording);
 }

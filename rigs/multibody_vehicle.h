@@ -1,0 +1,48 @@
+#pragma once
+/// A vehicle on rollers or on the road as a multibody system in Simbody: sled along the road, body on it with
+/// heave (and pitch on the road), an upright on its suspension for each wheel, wheel and roller on pins, contact
+/// elements between them.
+
+#include <memory>
+#include <vector>
+
+#include "rigs/vehicle_channels.h"
+
+namespace rollrig::rigs {
+
+/// Bodies   dynamometer, whole: sled held by the tie-downs, body with heave; no pitch, which the mounting
+///          prevents (§3.4.2); a quarter: no sled. Road: sled free along it, body with heave, and pitch
+///          when whole. No roll: both sides of the vehicle are alike
+/// Rollers  carry the simulated inertia as their own, R^2 (m + m_rot - sum I_spin/r_l^2) in proportion to the
+///          loads, as an ideal dynamometer would; on the road, what turns beside the wheels moves with the sled
+/// State    q, u of all joints, then z: slip deflection and corner states of each wheel, the driver's integral
+/// Energy   both audits of baseline.md; work of the rollers counts against the simulated inertia's energy
+/// Checked  tests/rigs/multibody_vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
+class MultibodyVehicle : public sim::OdeSystem<double> {
+ public:
+  MultibodyVehicle(std::vector<models::Corner<double>>& corners, const VehicleLayout& layout,
+                   const VehicleFile& vehicle, const RigFile& rig, VehicleStart<double> start, bool surface_recorded);
+  ~MultibodyVehicle() override;
+  MultibodyVehicle(const MultibodyVehicle&) = delete;
+  MultibodyVehicle& operator=(const MultibodyVehicle&) = delete;
+
+  std::size_t state_count() const override;
+  std::vector<double> state_tolerances() const override;
+  const std::vector<sim::Integral>& integrals() const override;
+  const std::vector<sim::Store>& stores() const override;
+  const std::vector<sim::Channel>& channels() const override;
+
+  void initialize(const sim::Segment& first, double time_s, double* state) override;
+  void begin_phase(const sim::Phase& phase, double time_s, double* state) override;
+  void begin_segment(const sim::Segment& segment, double time_s, double* state, double* integrals) override;
+  void evaluate(double time_s, const double* state, double* rates, double* integrands) override;
+  double watch(const std::string& name, double time_s, const double* state) override;
+  void observe(double time_s, const double* state, double* values) override;
+  void calc_stored(double time_s, const double* state, double* stored_J) override;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,39 @@
+#pragma once
+/// Bodies and joints of a multibody vehicle; no forces.
+
+#include <Simbody.h>
+
+#include <vector>
+
+#include "rigs/rig_file.h"
+#include "rigs/vehicle_layout.h"
+
+namespace rollrig::rigs {
+
+struct VehicleBodies {
+  struct Wheel {
+    SimTK::MobilizedBody::Slider upright;
+    SimTK::MobilizedBody::Pin wheel;
+    SimTK::MobilizedBody::Pin roller;  // empty handle on the flat
+    double roller_mass_kg = 0.0;       // its inertia over R^2
+    double preload_N = 0.0;            // of the suspension when the upright is at its middle
+    double loaded_radius_m = 0.0;      // under the static load
+  };
+  SimTK::MobilizedBody::Slider sled;  // empty handle for a quarter on a dynamometer
+  SimTK::MobilizedBody::Slider heave;
+  SimTK::MobilizedBody body;  // the heave's, or on the road the pitch's
+  std::vector<Wheel> wheels;
+
+  bool has_sled() const { return !sled.isEmptyHandle(); }
+};
+
+/// Adds them to `matter`. All coordinates are 0 with every wheel under its static load and no restraint.
+/// `mass_factor` is on all that the vehicle's longitudinal motion accelerates (effect inertia_error).
+VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout,
+                                 const VehicleFile& vehicle, const RigFile& rig,
+                                 const models::TireParameters<double>& tire, double mass_factor);
+
+/// Height of the body's origin, the centre of gravity, above rollers or road when all coordinates are 0 [m].
+double calc_body_height_m(const VehicleFile& vehicle);
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,116 @@
+#pragma once
+/// Everything that pushes a multibody vehicle but its tires: driver, motor, brakes, rollers, drag, suspension
+/// and tie-downs, as one force element of Simbody.
+
+#include <Simbody.h>
+
+#include <vector>
+
+#include "models/contact_force_element.h"
+#include "models/vehicle.h"
+#include "rigs/vehicle_layout.h"
+
+namespace rollrig::rigs {
+
+/// What the drive does at one state.
+struct DriveEvaluation {
+  models::InputPort<double> acting;  // on the first wheel
+  double speed_m_s = 0.0;            // of the rollers on a dynamometer, of the body on the flat
+  double speed_error_m_s = 0.0;
+  double demand_N = 0.0;
+  double motor_N = 0.0;   // of the whole demand
+  double assist_N = 0.0;  // of the rest of the vehicle
+  double grade_N = 0.0;
+  double drag_N = 0.0;        // of the body, road load included
+  double drag_power_W = 0.0;  // what it takes
+  double absorbed_N = 0.0;    // by the rollers, less what makes up for their own bearings
+
+  struct Wheel {
+    double motor_Nm = 0.0;
+    double brake_Nm = 0.0;   // against the wheel's turning
+    double roller_Nm = 0.0;  // on the roller
+    double suspension_N = 0.0;
+    double suspension_damper_N = 0.0;
+    double restraint_N = 0.0;  // of the tie-downs, downwards on the body (effect tie_down_load)
+  };
+  std::vector<Wheel> wheels;
+  double tie_down_N = 0.0;  // along the vehicle
+  double tie_down_damper_N = 0.0;
+};
+
+/// Driver    D = F_ff(v_set) + m (a_set + 2 w e + w^2 I), dI/dt = e, e = v_set - v: critically damped at w;
+///           F_ff the rollers' force or drag, grade and a rolling loss of 1 % of the weight; coasting: D = 0
+/// Brakes    D shared by blend_brakes; a friction brake's torque fades with tanh(v_rim / 0.05 m/s)
+/// Rollers   T = R (-(A + B v + C v^2) s + F_par(v)) + R m_i w_s (v_mean - v_i): each bears its share s of the
+///           set force, makes up for its own nominal bearings, and keeps pace with the others
+/// Source    (3.20), §3.4.2, §3.4.3. Assumed: gains, 20 rad/s for w_s
+/// Checked   tests/rigs/multibody_vehicle_test.cpp
+class VehicleDrive : public SimTK::Force::Custom::Implementation {
+ public:
+  struct Wheel {
+    const models::ContactForceElement* contact = nullptr;
+    SimTK::MobilizedBodyIndex wheel;
+    SimTK::MobilizedBodyIndex upright;
+    SimTK::MobilizedBodyIndex roller;  // invalid on the flat
+    double roller_mass_kg = 0.0;       // inertia over R^2
+    double preload_N = 0.0;            // of the suspension at its middle
+  };
+  struct Bodies {
+    SimTK::MobilizedBodyIndex body;
+    SimTK::MobilizedBodyIndex sled;  // moves along the road under the body; invalid where it cannot
+    std::vector<Wheel> wheels;
+  };
+
+  VehicleDrive(const SimTK::GeneralForceSubsystem& forces, const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies,
+               const VehicleLayout& layout, const VehicleFile& vehicle, const RigFile& rig,
+               const models::Context<double>& context);
+
+  void set_driver(bool on) { driver_on_ = on; }
+  bool driver_on() const { return driver_on_; }
+  SimTK::ZIndex integral_z() const { return integral_z_; }
+  /// Integral at which the driver asks for a force at steady speed.
+  double find_integral_m(double force_N, const models::InputPort<double>& acting) const;
+
+  /// What the vehicle's program gives at a state's time, without forces; set before the first use.
+  std::function<models::InputPort<double>(double time_s)> program_inputs;
+  /// Inputs of one wheel with its longitudinal and brake force, as the contact element asks for them.
+  models::InputPort<double> find_recorded(const SimTK::State& state, std::size_t wheel) const;
+
+  /// At a state realized to Velocity.
+  const DriveEvaluation& evaluation(const SimTK::State& state) const;
+
+  void realizeTopology(SimTK::State& state) const override;
+  void realizeAcceleration(const SimTK::State& state) const override;
+  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
+                 SimTK::Vector_<SimTK::Vec3>& particle_forces, SimTK::Vector& mobility_forces) const override;
+  /// Springs of suspension and tie-down.
+  SimTK::Real calcPotentialEnergy(const SimTK::State& state) const override;
+
+ private:
+  bool is_flat() const { return layout_.rig_kind == RigKind::kFlat; }
+  void evaluate(const SimTK::State& state, DriveEvaluation& at) const;
+  void find_speed(const SimTK::State& state, DriveEvaluation& at) const;
+  void find_demand(const SimTK::State& state, DriveEvaluation& at) const;
+  void find_wheel(const SimTK::State& state, std::size_t i, const models::ForceDemand<double>& demand,
+                  DriveEvaluation& at) const;
+  void find_suspension(const SimTK::State& state, std::size_t i, DriveEvaluation& at) const;
+  double calc_feedforward_N(const models::InputPort<double>& acting) const;
+  double calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const;
+  double rim_radius_m(std::size_t wheel) const;
+
+  const SimTK::GeneralForceSubsystem& forces_;
+  const SimTK::SimbodyMatterSubsystem& matter_;
+  Bodies bodies_;
+  VehicleLayout layout_;
+  VehicleSuspension suspension_;
+  TieDownParameters tie_down_;
+  double bandwidth_rad_s_;
+  double roller_radius_m_;
+  const models::Context<double>& context_;
+  double total_mass_kg_;
+  bool driver_on_ = true;
+  mutable SimTK::ZIndex integral_z_;
+  mutable SimTK::CacheEntryIndex cache_;
+};
+
+}  // namespace rollrig::rigs
