@@ -24,15 +24,13 @@ BinConditions make_conditions(const CoastdownRun& run, const RoadLoadFitOptions&
   const CoastdownConditions& given = run.conditions;
   const int h = run.heading;
   BinConditions at;
-  const double reference_density =
-      options.reference_pressure_Pa / (kGasConstantAir_J_kgK * options.reference_temperature_K);
   const double ambient_K =
       given.ambient_K.empty() ? options.reference_temperature_K : mean_of(given.ambient_K, first, end);
   const double pressure_Pa = given.ambient_pressure_Pa.empty() ? options.reference_pressure_Pa
                                                                : mean_of(given.ambient_pressure_Pa, first, end);
   const double density = pressure_Pa / (kGasConstantAir_J_kgK * ambient_K);
   at.rolling = 1.0 / (1.0 + options.rolling_fall_per_K * (ambient_K - options.reference_temperature_K));
-  at.density = density / reference_density;
+  at.density = density / calc_reference_density_kg_m3(options);
   const double wind_m_s = given.wind_m_s.empty() ? 0.0 : h * mean_of(given.wind_m_s, first, end);
   const double slope = given.slope.empty() ? 0.0 : h * mean_of(given.slope, first, end);
   const double per_unit = options.mass_kg.has_value() ? *options.mass_kg : effective_mass_kg / kDefaultEffectiveRatio;
@@ -83,6 +81,10 @@ void add_bins(const CoastdownRun& run, const RoadLoadFitOptions& options, double
 
 }  // namespace
 
+double calc_reference_density_kg_m3(const RoadLoadFitOptions& options) {
+  return options.reference_pressure_Pa / (kGasConstantAir_J_kgK * options.reference_temperature_K);
+}
+
 std::vector<FitRun> make_fit_runs(const CoastdownData& data, const RoadLoadFitOptions& options,
                                   double effective_mass_kg) {
   std::vector<FitRun> runs;
@@ -101,26 +103,45 @@ std::vector<FitRun> make_fit_runs(const CoastdownData& data, const RoadLoadFitOp
   return runs;
 }
 
-Eigen::VectorXd CoastdownModel::factors(const FitRun& run, const FitBin& bin, double speed_m_s) const {
+double CoastdownModel::wind_m_s(const FitRun& run, const Eigen::VectorXd& coefficients) const {
+  constexpr double kMostWind_m_s = 15.0;  // Assumed: nobody coasts down in more
+  if (run.wind_column < 0) return 0.0;
+  const double drag = drag_N_s2_per_m2_.value_or(coefficients(2));
+  const double twice = coefficients(run.wind_column);
+  return std::abs(twice) < 2.0 * kMostWind_m_s * drag ? twice / (2.0 * drag) : 0.0;
+}
+
+// The wind w that d_1 = 2 C w means adds C w^2 = d_1^2/(4 C) to both headings.
+Eigen::VectorXd CoastdownModel::factors(const FitRun& run, const FitBin& bin, double speed_m_s, double wind_m_s) const {
   Eigen::VectorXd factors = Eigen::VectorXd::Zero(count_);
-  const double air_m_s = speed_m_s + (drag_area_given_ ? 0.0 : bin.at.wind_m_s);
+  const double air_m_s = air_speed_m_s(bin, speed_m_s);
   factors(0) = bin.at.rolling;
   factors(1) = bin.at.rolling * speed_m_s;
   factors(2) = bin.at.density * air_m_s * std::abs(air_m_s);
   if (uses_headings_) factors(3) = run.heading;
-  if (run.wind_column >= 0) factors(run.wind_column) = run.heading * speed_m_s;
+  if (run.wind_column < 0) return factors;
+  factors(run.wind_column) = run.heading * speed_m_s + wind_m_s;
+  if (!drag_N_s2_per_m2_.has_value()) factors(2) -= wind_m_s * wind_m_s;
   return factors;
+}
+
+double CoastdownModel::rest_N(const FitRun& run, const FitBin& bin, const Eigen::VectorXd& coefficients,
+                              double speed_m_s, double wind_m_s) const {
+  double rest = bin.at.offset_N + bin.at.offset_N_s_per_m * speed_m_s;
+  if (drag_N_s2_per_m2_.has_value() && run.wind_column >= 0) rest -= 0.5 * wind_m_s * coefficients(run.wind_column);
+  return rest;
 }
 
 double CoastdownModel::force_N(const FitRun& run, const FitBin& bin, const Eigen::VectorXd& coefficients,
                                double speed_m_s) const {
-  return factors(run, bin, speed_m_s).dot(coefficients) + bin.at.offset_N + bin.at.offset_N_s_per_m * speed_m_s;
+  const double wind = wind_m_s(run, coefficients);
+  return factors(run, bin, speed_m_s, wind).dot(coefficients) + rest_N(run, bin, coefficients, speed_m_s, wind);
 }
 
 DecelerationCurve CoastdownModel::deceleration(const FitRun& run, const FitBin& bin,
                                                const Eigen::VectorXd& coefficients, double speed_m_s) const {
   DecelerationCurve curve;
-  const double air_m_s = speed_m_s + (drag_area_given_ ? 0.0 : bin.at.wind_m_s);
+  const double air_m_s = air_speed_m_s(bin, speed_m_s);
   curve.value_m_s2 = force_N(run, bin, coefficients, speed_m_s) / mass_kg_;
   double slope = bin.at.rolling * coefficients(1) + 2.0 * bin.at.density * coefficients(2) * std::abs(air_m_s) +
                  bin.at.offset_N_s_per_m;
@@ -137,10 +158,11 @@ CoastdownModel::Passage CoastdownModel::pass(const FitRun& run, const FitBin& bi
   passage.gradient = Eigen::VectorXd::Zero(count_);
   const double middle = 0.5 * (bin.high_m_s + bin.low_m_s);
   const double half = 0.5 * (bin.high_m_s - bin.low_m_s);
+  const double wind = wind_m_s(run, coefficients);
   const auto add = [&](double node, double weight) {
     const double speed = middle + half * node;
-    const Eigen::VectorXd phi = factors(run, bin, speed);
-    const double force = phi.dot(coefficients) + bin.at.offset_N + bin.at.offset_N_s_per_m * speed;
+    const Eigen::VectorXd phi = factors(run, bin, speed, wind);
+    const double force = phi.dot(coefficients) + rest_N(run, bin, coefficients, speed, wind);
     passage.possible = passage.possible && force > 0.0;
     const double time = weight * half * mass_kg_ / force;
     passage.duration_s += time;

@@ -1,6 +1,7 @@
 #pragma once
 /// The equation of motion of a coastdown, bin by bin, for fit_road_load().
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -46,13 +47,14 @@ std::vector<FitRun> make_fit_runs(const CoastdownData& data, const RoadLoadFitOp
 /// Coefficients: A, B, C, then d_0 (where headings are used) and one d_1 a session.
 class CoastdownModel {
  public:
-  CoastdownModel(double mass_kg, bool uses_headings, Eigen::Index coefficients, bool drag_area_given)
-      : mass_kg_(mass_kg), uses_headings_(uses_headings), count_(coefficients), drag_area_given_(drag_area_given) {}
+  /// `drag_N_s2_per_m2` is what the wind acts on where a drag area is given; without, C.
+  CoastdownModel(double mass_kg, bool uses_headings, Eigen::Index coefficients, std::optional<double> drag_N_s2_per_m2)
+      : mass_kg_(mass_kg), uses_headings_(uses_headings), count_(coefficients), drag_N_s2_per_m2_(drag_N_s2_per_m2) {}
 
   Eigen::Index count() const { return count_; }
   double mass_kg() const { return mass_kg_; }
-  /// Factors of the coefficients in the force at a speed.
-  Eigen::VectorXd factors(const FitRun& run, const FitBin& bin, double speed_m_s) const;
+  /// Wind that d_1 of the run's session means, beyond the measured one; 0 where the drag does not tell.
+  double wind_m_s(const FitRun& run, const Eigen::VectorXd& coefficients) const;
   double force_N(const FitRun& run, const FitBin& bin, const Eigen::VectorXd& coefficients, double speed_m_s) const;
   DecelerationCurve deceleration(const FitRun& run, const FitBin& bin, const Eigen::VectorXd& coefficients,
                                  double speed_m_s) const;
@@ -66,10 +68,19 @@ class CoastdownModel {
   Passage pass(const FitRun& run, const FitBin& bin, const Eigen::VectorXd& coefficients) const;
 
  private:
+  /// Derivatives of the force by the coefficients.
+  Eigen::VectorXd factors(const FitRun& run, const FitBin& bin, double speed_m_s, double wind_m_s) const;
+  /// What the derivatives times the coefficients leave of the force.
+  double rest_N(const FitRun& run, const FitBin& bin, const Eigen::VectorXd& coefficients, double speed_m_s,
+                double wind_m_s) const;
+  double air_speed_m_s(const FitBin& bin, double speed_m_s) const {
+    return speed_m_s + (drag_N_s2_per_m2_.has_value() ? 0.0 : bin.at.wind_m_s);
+  }
+
   double mass_kg_;
   bool uses_headings_;
   Eigen::Index count_;
-  bool drag_area_given_;
+  std::optional<double> drag_N_s2_per_m2_;
 };
 
 }  // namespace rollrig::scenarios

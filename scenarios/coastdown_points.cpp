@@ -53,6 +53,7 @@ SpeedCell make_cell(const CoastdownRun& run, std::size_t first, std::size_t end,
   cell.end_sample = end;
   cell.samples = static_cast<int>(end - first);
   const double n = cell.samples;
+  cell.length_s = (run.time_s[end - 1] - run.time_s[first]) * n / (n - 1.0);
   for (std::size_t i = first; i < end; ++i) {
     cell.mean_time_s += (run.time_s[i] - run.time_s[first]) / n;
     cell.mean_speed_m_s += run.speed_m_s[i] / n;

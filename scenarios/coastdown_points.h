@@ -18,6 +18,7 @@ struct DecelerationCurve {
 struct SpeedCell {
   double nominal_speed_m_s = 0.0;  // exact: no sample enters it
   int samples = 0;
+  double length_s = 0.0;
   double mean_time_s = 0.0;
   double mean_speed_m_s = 0.0;
   double time_moment_2_s2 = 0.0;  // central moments of the sample times

@@ -39,6 +39,12 @@ bool has_both_headings(const std::vector<FitRun>& runs) {
   return any(+1) && any(-1);
 }
 
+/// Drag per square of speed at the reference density, from a given drag area.
+std::optional<double> given_drag(const RoadLoadFitOptions& options) {
+  if (!options.drag_area_m2.has_value()) return std::nullopt;
+  return 0.5 * calc_reference_density_kg_m3(options) * *options.drag_area_m2;
+}
+
 Problem make_problem(const CoastdownData& data, const RoadLoadFitOptions& options, double mass_kg) {
   std::vector<FitRun> runs = make_fit_runs(data, options, mass_kg);
   const bool uses_headings = has_both_headings(runs);
@@ -55,7 +61,7 @@ Problem make_problem(const CoastdownData& data, const RoadLoadFitOptions& option
     if (it != sessions.end()) run.wind_column = 4 + static_cast<int>(it - sessions.begin());
   }
   const Index count = 3 + (uses_headings ? 1 + static_cast<Index>(sessions.size()) : 0);
-  return {std::move(runs), CoastdownModel(mass_kg, uses_headings, count, options.drag_area_m2.has_value()), sessions};
+  return {std::move(runs), CoastdownModel(mass_kg, uses_headings, count, given_drag(options)), sessions};
 }
 
 /// Time through every bin, by the present coefficients where a trace is condensed.
@@ -75,6 +81,28 @@ std::vector<double> find_durations_s(const CoastdownModel& model, const FitRun& 
   return durations;
 }
 
+/// Covariance of mean forces under white force of unit density. Through bins as given, 1/T. Between means over
+/// cells the weight of the force rises over one cell and falls over the next, so that neighbours share a cell.
+MatrixXd make_gust_pattern(const FitRun& run, const std::vector<double>& durations_s) {
+  const auto n = static_cast<Index>(run.bins.size());
+  MatrixXd pattern = MatrixXd::Zero(n, n);
+  for (Index k = 0; k < n; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const int upper = run.bins[at].upper_cell;
+    if (upper < 0) {
+      pattern(k, k) = 1.0 / durations_s[at];
+      continue;
+    }
+    const auto cell = static_cast<std::size_t>(upper);
+    const double square = durations_s[at] * durations_s[at];
+    pattern(k, k) = (run.cells[cell].length_s + run.cells[cell + 1].length_s) / (3.0 * square);
+    if (k == 0) continue;
+    pattern(k, k - 1) = run.cells[cell].length_s / (6.0 * durations_s[at] * durations_s[at - 1]);
+    pattern(k - 1, k) = pattern(k, k - 1);
+  }
+  return pattern;
+}
+
 /// Mean forces of a run as observations of a linear model about the present coefficients.
 LinearBlock linearise(const Problem& problem, const FitRun& run, const VectorXd& coefficients,
                       const VectorXd& components) {
@@ -83,7 +111,7 @@ LinearBlock linearise(const Problem& problem, const FitRun& run, const VectorXd&
   const std::vector<double> durations = find_durations_s(model, run, coefficients);
   LinearBlock block{VectorXd(n), MatrixXd(n, model.count()), {}};
   MatrixXd passing = MatrixXd::Zero(n, n);
-  VectorXd gust(n), speed(n), force_per_s(n), lower_variance(n);
+  VectorXd speed(n), force_per_s(n), lower_variance(n);
   for (Index k = 0; k < n; ++k) {
     const FitBin& bin = run.bins[static_cast<std::size_t>(k)];
     const CoastdownModel::Passage passage = model.pass(run, bin, coefficients);
@@ -99,7 +127,6 @@ LinearBlock linearise(const Problem& problem, const FitRun& run, const VectorXd&
       passing(k, k - 1) = -force_per_s(k) * force_per_s(k - 1) * lower_variance(k - 1);
       passing(k - 1, k) = passing(k, k - 1);
     }
-    gust(k) = 1.0 / passage.duration_s;
     speed(k) = passage.mean_speed_m_s / kRunSpeedScale_m_s;
     block.X.row(k) = -force_per_s(k) * passage.gradient.transpose();
     // 1/dt of a noisy dt is on average too large by its relative variance
@@ -107,7 +134,7 @@ LinearBlock linearise(const Problem& problem, const FitRun& run, const VectorXd&
     const double measured = impulse / durations[static_cast<std::size_t>(k)] * (1.0 - std::min(relative_variance, 0.5));
     block.y(k) = measured - force + block.X.row(k).dot(coefficients);
   }
-  block.patterns = {passing, gust.asDiagonal(), MatrixXd::Ones(n, n), speed * speed.transpose()};
+  block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose()};
   return block;
 }
 
@@ -159,7 +186,7 @@ VectorXd start_coefficients(const Problem& problem) {
 
 /// Least components: a speed resolution far below any sensor's, so that data without noise keep weights.
 VectorXd make_floors() {
-  constexpr double kLeastSpeedSd_m_s = 1e-6;  // Assumed
+  constexpr double kLeastSpeedSd_m_s = 1e-4;  // Assumed
   VectorXd floors = VectorXd::Zero(kComponents);
   floors(kPassing) = kLeastSpeedSd_m_s * kLeastSpeedSd_m_s;
   return floors;
@@ -187,6 +214,7 @@ VectorXd bound(const std::array<double, 3>& values) { return Eigen::Map<const Ei
 LinearEstimate iterate(const Problem& problem, const RoadLoadFitOptions& options, VectorXd& coefficients,
                        VectorXd& components, bool fixed, int& iterations) {
   constexpr int kMostIterations = 100;
+  constexpr int kUndampedIterations = 10;
   constexpr double kStep = 1e-4;  // of a standard deviation, and of a component
   const VectorXd floors = make_floors();
   LinearEstimate estimate;
@@ -204,12 +232,18 @@ LinearEstimate iterate(const Problem& problem, const RoadLoadFitOptions& options
       settled = settled && std::abs(coefficients(i) - before(i)) <= kStep * sd(i) + 1e-9 * std::abs(coefficients(i));
     }
     const double scale = (components - estimate.components).cwiseAbs().maxCoeff();
-    for (Index i = 0; i < components.size(); ++i) {
+    const bool held = iterations > kMostIterations / 2;
+    for (Index i = 0; i < components.size() && !held; ++i) {
       const double change = std::abs(estimate.components(i) - components(i));
       settled = settled && (change <= 10.0 * kStep * std::max(components(i), estimate.components(i)) ||
                             change <= 1e-12 * scale || estimate.components(i) == floors(i));
     }
-    components = estimate.components;
+    // a component that comes and goes across its floor would go on for ever: halve its steps, then hold it
+    if (iterations <= kUndampedIterations) {
+      components = estimate.components;
+    } else if (iterations <= kMostIterations / 2) {
+      components = 0.5 * (components + estimate.components);
+    }
     if (settled) return estimate;
   }
   throw RunFailure(fmt::format("the fit of the road load does not converge within {} iterations", kMostIterations));
@@ -297,7 +331,7 @@ void put_wind_and_slope(const Problem& problem, const RoadLoadFitOptions& option
 void put_headings(const Problem& problem, const RoadLoadFitOptions& options, const VectorXd& coefficients,
                   const VectorXd& components, RoadLoadFit& fit) {
   for (const int heading : {+1, -1}) {
-    Problem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, options.drag_area_m2.has_value()), {}};
+    Problem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}};
     for (const FitRun& run : problem.runs) {
       if (run.heading != heading) continue;
       part.runs.push_back(run);

@@ -37,6 +37,9 @@ struct RoadLoadFitOptions {
   std::optional<RoadLoadBounds> bounds;
 };
 
+/// Air density at the reference conditions: p/(R T), 1.167 kg/m3 by default (40 CFR 1066.310: 1.17).
+double calc_reference_density_kg_m3(const RoadLoadFitOptions& options);
+
 /// One point of the residual plot: the mean force over a speed bin. Forces per unit of mass where no mass is given.
 struct RoadLoadPoint {
   std::size_t run = 0;
@@ -105,12 +108,12 @@ struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
 
 /// Generalised least squares on mean forces over speed bins.
 /// Equation  time through a bin T = int m dv / F(v);  force of the bin f = m (v_hi - v_lo) / dt;
-///           F(v) = k (A + B v) + q C (v + h w)^2 + h (m g s + d_0 + d_1 v)
+///           F(v) = k (A + B v) + q C (v + h w)^2 + h (m g s + d_0 + d_1 v) + d_1^2/(4 C)
 ///           k = 1/(1 + K_0 (T_amb - T_0)), q = rho/rho_0, rho = p/(R T)
 ///           covariance: passing times shared by neighbouring bins, gusts, run to run (constant, in
 ///           proportion to speed), by restricted maximum likelihood
 /// Symbols   m effective mass [kg]; h heading +1 or -1; w wind against + [m/s]; s slope; d_0 [N], d_1 [N s/m]
-///           what slope and wind remain, one d_1 a session; K_0 [1/K]; rho air density [kg/m3]
+///           what slope and wind remain, d_1 = 2 C times the wind of a session; K_0 [1/K]; rho air density [kg/m3]
 /// Validity  F > 0 at every speed of the data; coasting throughout, no braking; wind below the speed
 /// Errors    InputError: fewer than four bins, or no mass where one is needed; RunFailure: A, B, C not decided
 ///           by the speeds, no convergence
