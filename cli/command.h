@@ -21,6 +21,8 @@ void add_validate_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_fit_command(CLI::App& app, Action& action);
+/// Below `fit`.
+void add_fit_road_load(CLI::App& fit, Action& action);
 void add_completion_command(CLI::App& app, Action& action);
 
 }  // namespace rollrig::cli

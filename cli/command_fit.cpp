@@ -89,6 +89,7 @@ int fit_tire_command(const Options& options) {
 void add_fit_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("fit", "Fit a model to measurements");
   command->require_subcommand(1);
+  add_fit_road_load(*command, action);
   CLI::App* tire = command->add_subcommand("tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds");
   auto options = std::make_shared<Options>();
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();

@@ -22,6 +22,8 @@ class CsvTable {
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t row_count() const { return rows_.size(); }
   bool has(const std::string& column) const;
+  /// Line of the file on which a row begins.
+  int line_of(std::size_t row) const { return rows_[row].line; }
   /// Throws InputError, with the nearest known name, for a column that is not among `known`.
   void require_known(const std::vector<std::string>& known) const;
 
