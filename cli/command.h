@@ -19,6 +19,7 @@ void add_sweep_command(CLI::App& app, Action& action);
 void add_regress_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);
+void add_convert_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_fit_command(CLI::App& app, Action& action);
 /// Below `fit`.

@@ -52,6 +52,7 @@ int parse_and_run(int argc, char** argv) {
   add_list_command(app, action);
   add_describe_command(app, action);
   add_fit_command(app, action);
+  add_convert_command(app, action);
   add_completion_command(app, action);
   try {
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 #pragma once
 /// Rolling resistance of one tire as a function of speed, temperature, pressure and load.
 
+#include "models/pressure_factor.h"
 #include "models/tire.h"
 
 namespace rollrig::models {
@@ -48,11 +49,10 @@ template <class S>
 S calc_rolling_resistance_N(const TireParameters<S>& tire, const S& speed_m_s, const S& load_N, const S& pressure_Pa,
                             const S& temperature_K) {
   using std::exp;
-  using std::pow;
   const RollingResistanceParameters<S>& rr = tire.rolling_resistance;
   const S temperature_above_0degC_dK = temperature_K - quantity<S>(kZeroCelsius_K, dimension::kTemperature);
   const LossCoefficients<S> c = calc_loss_coefficients(tire, speed_m_s, load_N);
-  return pow(pressure_Pa / rr.reference_pressure_Pa, -rr.pressure_exponent) * c.A_N *
+  return calc_pressure_factor(pressure_Pa, rr.reference_pressure_Pa, rr.pressure_exponent) * c.A_N *
          exp(-c.B_per_K * temperature_above_0degC_dK);
 }
 

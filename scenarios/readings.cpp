@@ -2,14 +2,13 @@
 
 #include <cmath>
 
+#include "models/ambient_correction.h"
 #include "models/drum_curvature.h"
 #include "scenarios/sensor_file.h"
 
 namespace rollrig::scenarios {
 namespace {
 
-constexpr double kTemperatureCoefficient_per_K = 0.008;  // K_t of ISO 28580 for car tires
-constexpr double kReferenceAmbient_K = kZeroCelsius_K + 25.0;
 constexpr double kReferenceRadius_m = 1.0;
 constexpr double kCoverageFactor = 2.0;
 
@@ -83,12 +82,10 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec) {
   const double tire_radius_m = spec.tire.values.geometry.outer_diameter_m / 2.0;
   const double to_2m = models::calc_drum_correction(1.0 / radius_of(spec), 1.0 / kReferenceRadius_m, tire_radius_m);
-  return rrc * to_2m * (1.0 + kTemperatureCoefficient_per_K * (ambient_K - kReferenceAmbient_K));
+  return rrc * to_2m * models::calc_ambient_correction(ambient_K);
 }
 
-bool is_correction_valid(double ambient_K) {
-  return ambient_K >= kZeroCelsius_K + 20.0 - 1e-9 && ambient_K <= kZeroCelsius_K + 30.0 + 1e-9;
-}
+bool is_correction_valid(double ambient_K) { return models::is_ambient_correction_valid(ambient_K); }
 
 models::SensorParameters find_torque_sensor(const RunSpec& spec) {
   constexpr const char* kTorque = "drum_torque_Nm";
