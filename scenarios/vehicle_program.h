@@ -26,8 +26,8 @@ class VehicleProgram {
   void change_speed(const std::string& name, double duration_s, double speed_m_s);
   /// Neutral until the speed falls to `end_m_s`, at most for `longest_s`; slope and wind as given.
   void coast(const std::string& name, double end_m_s, double longest_s, double slope, double wind_m_s);
-  /// Slope and wind from here on, for all but coasting.
   sim::Program program() const { return program_; }
+  double speed_m_s() const { return speed_m_s_; }
   bool surface_recorded() const { return conditions_.surface_K.has_value(); }
 
  private:
