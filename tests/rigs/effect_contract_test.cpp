@@ -190,8 +190,7 @@ void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, c
   }
 }
 
-void check_audits_and_fidelities(const Campaign& campaign, const Effect& effect) {
-  const Effects effects{tests::make_active(effect, usual_values(effect.info))};
+void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects) {
   const auto multibody = campaign.run_multibody(effects);
   const auto quasi_static = campaign.run_quasi_static(effects);
   CHECK_NOTHROW(multibody.audit.require_closed(sim::kAuditLimit));
@@ -257,7 +256,7 @@ void check_on_campaign(const Campaign& campaign, const Effect& effect, const sim
     check_shows_where_it_says(campaign, effect, baseline);
   }
   DYNAMIC_SECTION(name << ": both audits close with it on, and the fidelities agree") {
-    check_audits_and_fidelities(campaign, effect);
+    check_audits_and_fidelities(campaign, {tests::make_active(effect, usual_values(info))});
   }
   if (is_faint(info, campaign.kind)) return;  // a derivative as small as rounding
   DYNAMIC_SECTION(name << ": its derivative by size agrees with differences") { check_derivative(campaign, effect); }
@@ -280,6 +279,16 @@ TEST_CASE("every effect keeps the contract", "[fast][contract]") {
   for (const Campaign& campaign : tests::campaigns()) {
     const auto baseline = campaign.run_quasi_static({});
     for (const Effect* effect : models::all_effects()) check_on_campaign(campaign, *effect, baseline);
+  }
+}
+
+TEST_CASE("both audits close with every effect on at once, and the fidelities agree", "[fast][contract]") {
+  for (const Campaign& campaign : tests::campaigns()) {
+    Effects all;
+    for (const Effect* effect : models::all_effects()) {
+      all.push_back(tests::make_active(*effect, usual_values(effect->info)));
+    }
+    check_audits_and_fidelities(campaign, all);
   }
 }
 
