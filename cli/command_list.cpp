@@ -59,16 +59,25 @@ std::string join_or_none(const std::vector<std::string>& words) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 
+std::string list_kinds(const std::vector<models::RigKind>& kinds) {
+  std::vector<std::string> names;
+  for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
+  return join_or_none(names);
+}
+
 void describe_effect(const models::EffectInfo& info) {
   std::cout << info.id << ": effect\n" << wrap(info.summary, 2) << '\n';
   std::cout << "Equation\n" << wrap(info.equation, 2) << "Source\n" << wrap(info.source, 2);
   std::cout << fmt::format("Parameters ([effects.{}])\n", info.id);
   for (const models::EffectParameter& parameter : info.parameters) {
     const std::string off = parameter.off.has_value() ? fmt::format(", off at {}", *parameter.off) : "";
-    std::cout << fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}; {}{}]\n", parameter.key, parameter.prior.centre(),
-                             parameter.prior.low, parameter.prior.high, parameter.range.to_string(), off)
+    std::cout << fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]\n", parameter.key, parameter.prior.centre(),
+                             parameter.prior.low, parameter.prior.high,
+                             parameter.prior.either_sign ? ", either sign" : "", parameter.range.to_string(), off)
               << wrap(parameter.doc, 6);
   }
+  std::cout << "Acts on\n" << wrap(list_kinds(info.acts_on), 2);
+  if (!info.faint_on.empty()) std::cout << "Too faint to be seen on\n" << wrap(list_kinds(info.faint_on), 2);
   std::cout << "Shows in\n" << wrap(join_or_none(info.visible_in), 2);
   std::cout << "Leaves clean\n" << wrap(join_or_none(info.clean_in), 2);
   std::cout << "Confused with\n" << wrap(join_or_none(info.confused_with), 2);

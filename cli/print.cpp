@@ -75,7 +75,11 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
                                  spec.tire.designation, spec.rig.name, vehicle, scenarios::name_of(spec.fidelity));
   if (!spec.effects.empty()) {
     std::string names;
-    for (const models::ActiveEffect& active : spec.effects) names += " " + active.effect->info.id;
+    for (const models::ActiveEffect& active : spec.effects) {
+      const models::EffectInfo& info = active.effect->info;
+      names += " " + info.id;
+      if (!models::acts_on(info, spec.rig.kind)) names += fmt::format(" (does not act on {})", name_of(spec.rig.kind));
+    }
     text += wrap("effects on:" + names, 2);
   }
   text += format_lines(outcome.lines);

@@ -25,11 +25,19 @@ S calc_curvature_factor(const Context<S>& context) {
   return calc_drum_correction(reference_per_m, context.surface_curvature_per_m, tire_radius_m);
 }
 
+/// The functions of an effect on this kind of rig: none where it does not act.
+template <class S>
+const EffectHooks<S>* find_hooks(const Effect& effect, RigKind kind) {
+  static const EffectHooks<S> none;
+  return acts_on(effect.info, kind) ? &effect.hooks<S>() : &none;
+}
+
 }  // namespace
 
 template <class S>
 Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects) : context_(std::move(context)) {
   for (const ActiveEffect& active : effects) {
+    if (!acts_on(active.effect->info, context_.rig_kind)) continue;
     for (std::size_t i = 0; i < kNodeCount; ++i) nodes_[i] = nodes_[i] || active.effect->info.nodes[i];
   }
   for (std::size_t i = 0; i < kNodeCount; ++i) {
@@ -38,7 +46,8 @@ Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects) 
     states_.push_back({fmt::format("{}_temperature_degC", kNodeNames[i]), kTemperatureScale_K});
   }
   for (const ActiveEffect& active : effects) {
-    effects_.push_back({active.effect, &active.effect->hooks<S>(), convert_parameters<S>(active), states_.size()});
+    effects_.push_back({active.effect, find_hooks<S>(*active.effect, context_.rig_kind), convert_parameters<S>(active),
+                        states_.size()});
     for (const EffectState& state : active.effect->info.states) {
       states_.push_back({fmt::format("{}.{}", active.effect->info.id, state.key), state.scale_SI});
     }
@@ -124,8 +133,15 @@ void Corner<S>::calc_rates(const S* x, Instant<S>& now, S* rates) const {
     if (nodes_[i]) rates[node_state_[i]] = now.heat.temperature_rate_K_s[i];
   }
   for (const Installed& on : effects_) {
-    if (on.hooks->rates == nullptr) continue;
-    on.hooks->rates(EffectView<S>(on.parameters.data(), x + on.first_state), now, rates + on.first_state);
+    const S* states = x + on.first_state;
+    if (on.hooks->rates != nullptr) {
+      on.hooks->rates(EffectView<S>(on.parameters.data(), states), now, rates + on.first_state);
+    } else {  // on a rig on which it does not act
+      const S second = quantity<S>(1.0, dimension::kTime);
+      for (std::size_t i = 0; i < on.effect->info.states.size(); ++i) {
+        rates[on.first_state + i] = S(0.0) * states[i] / second;
+      }
+    }
   }
 }
 
@@ -136,7 +152,7 @@ S Corner<S>::calc_stored_heat_J(const S* x) const {
   fill_temperatures(x, at_rest.thermal);
   fill_baseline_network(at_rest, at_rest.thermal);
   run_port(&EffectHooks<S>::thermal, x, at_rest, at_rest.thermal);
-  S stored_J = zero<S>();
+  S stored_J = at_rest.thermal.under_way_J;
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (nodes_[i]) stored_J += at_rest.thermal.heat_capacity_J_per_K[i] * at_rest.thermal.temperature_K[i];
   }
@@ -161,6 +177,8 @@ void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& 
   network.air_W_per_K = {};
   network.road_W_per_K = {};
   network.link_W_per_K = {};
+  network.under_way_J = zero<S>();
+  network.under_way_W = zero<S>();
   network.heat_capacity_J_per_K[rubber] = thermal.heat_capacity_J_per_K;
   network.heat_capacity_J_per_K[index_of(Node::kGas)] = thermal.gas_heat_capacity_J_per_K;
   network.heat_W[rubber] = now.heating_force_N * now.motion.rolling_speed_m_s;

@@ -19,7 +19,8 @@ struct CornerState {
 template <class S>
 class Corner {
  public:
-  /// An effect with its parameters in scalar S and the place of its states.
+  /// An effect with its parameters in scalar S and the place of its states. Where it does not act on this
+  /// kind of rig, its states stay and its hooks are empty.
   struct Installed {
     const Effect* effect;
     const EffectHooks<S>* hooks;
@@ -53,7 +54,7 @@ class Corner {
   /// From all of now.motion: port thermal, and the rates of all states.
   void calc_rates(const S* x, Instant<S>& now, S* rates) const;
 
-  /// Heat stored in all nodes, from 0 K [J].
+  /// Heat stored in all nodes, from 0 K, and on its way into them [J].
   S calc_stored_heat_J(const S* x) const;
 
  private:

@@ -1,5 +1,6 @@
 #include "models/effect.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,22 @@
 namespace rollrig::models {
 
 double Prior::centre() const { return scale == Scale::kLog ? std::sqrt(low * high) : 0.5 * (low + high); }
+
+const char* name_of(RigKind kind) {
+  switch (kind) {
+    case RigKind::kDrum:
+      return "drum";
+    case RigKind::kDyno:
+      return "dyno";
+    case RigKind::kFlat:
+      return "flat";
+  }
+  return "";
+}
+
+bool acts_on(const EffectInfo& info, RigKind kind) {
+  return std::find(info.acts_on.begin(), info.acts_on.end(), kind) != info.acts_on.end();
+}
 
 std::vector<std::string> effect_ids() {
   std::vector<std::string> ids;

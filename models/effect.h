@@ -21,6 +21,7 @@ struct Prior {
   double low = 0.0;
   double high = 0.0;
   Scale scale = Scale::kLinear;
+  bool either_sign = false;  // low and high are of the magnitude; the sign is as likely minus as plus
 
   double centre() const;
 };
@@ -47,13 +48,20 @@ struct EffectInfo {
   std::string source;
   std::vector<EffectParameter> parameters;  // the size first
   std::vector<EffectState> states;
-  std::vector<RigKind> acts_on{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};  // elsewhere it changes nothing
+  std::vector<RigKind> acts_on{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};  // elsewhere a corner leaves it out
+  std::vector<RigKind> faint_on{};           // of these, where it changes too little to be seen
   NodeSet nodes{};                           // thermal nodes that it needs beside the baseline's
-  std::vector<std::string> visible_in;       // measured channels that a finite size changes
-  std::vector<std::string> clean_in;         // measured channels that it leaves bit-identical
+  std::vector<std::string> visible_in;       // measured channels, of any rig kind, that a finite size changes
+  std::vector<std::string> clean_in;         // measured channels, of any rig kind, that it leaves bit-identical
   std::vector<std::string> confused_with;    // ids
   std::vector<std::string> splitting_tests;  // tests that tell it from those
 };
+
+/// The word for a rig kind in files and on pages.
+const char* name_of(RigKind kind);
+
+/// Whether the effect changes anything on such a rig.
+bool acts_on(const EffectInfo& info, RigKind kind);
 
 /// An effect's own numbers at one instant.
 template <class S>

@@ -32,6 +32,8 @@ struct ThermalNetwork {
   PerNode<S> air_W_per_K{};            // conductance to the ambient air
   PerNode<S> road_W_per_K{};           // conductance to the surface
   PerNode<PerNode<S>> link_W_per_K{};  // between nodes, for a < b
+  S under_way_J{};                     // heat generated that an effect's own state still holds back from a node
+  S under_way_W{};                     // its rate of change
 
   S& link(Node a, Node b) {
     const std::size_t i = index_of(a);
@@ -44,7 +46,7 @@ struct ThermalNetwork {
 template <class S>
 struct HeatFlows {
   std::array<S, kNodeCount> temperature_rate_K_s{};
-  S heat_in_W{};  // generated, all nodes
+  S heat_in_W{};  // generated: into all nodes, and what is put under way
   S to_air_W{};
   S to_road_W{};
 };
@@ -53,12 +55,13 @@ struct HeatFlows {
 /// Equation  C_i dT_i/dt = Q_i - a_i (T_i - T_amb) - r_i (T_i - T_surface) - sum_j G_ij (T_i - T_j)
 /// Symbols   C heat capacity [J/K], Q heat generated [W], a, r conductance to air and road [W/K],
 ///           G conductance between nodes [W/K], T temperatures [K]
-/// Energy    sum C_i dT_i/dt = heat_in - to_air - to_road, exactly
+/// Energy    sum C_i dT_i/dt + dE/dt = heat_in - to_air - to_road, exactly; E heat under way [J]
 /// Source    (3.12), (3.13), (3.19)
 /// Checked   tests/models/thermal_network_test.cpp
 template <class S>
 HeatFlows<S> calc_heat_flows(const ThermalNetwork<S>& network, const S& ambient_K, const S& surface_K) {
   HeatFlows<S> flows;
+  flows.heat_in_W = network.under_way_W;
   std::array<S, kNodeCount> net_W{};
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (!network.active[i]) continue;

@@ -47,16 +47,25 @@ std::string describe(const scenarios::Scenario& scenario) {
   return text;
 }
 
+std::string list_kinds(const std::vector<models::RigKind>& kinds) {
+  std::vector<std::string> names;
+  for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
+  return boost::algorithm::join(names, ", ");
+}
+
 std::string describe(const models::EffectInfo& effect) {
   std::string text = fmt::format("\n### {}\n\n{}\n\n*Equation.* {}\n\n*Source.* {}\n", effect.id, effect.summary,
                                  effect.equation, effect.source);
   text += "\n| parameter | allowed | usual | off at | meaning |\n|---|---|---|---|---|\n";
   for (const models::EffectParameter& parameter : effect.parameters) {
-    text += fmt::format("| `{}` | {} | {:.4g} to {:.4g} | {} | {} |\n", parameter.key,
-                        cell(parameter.range.to_string()), parameter.prior.low, parameter.prior.high,
-                        parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
+    text +=
+        fmt::format("| `{}` | {} | {:.4g} to {:.4g}{} | {} | {} |\n", parameter.key, cell(parameter.range.to_string()),
+                    parameter.prior.low, parameter.prior.high, parameter.prior.either_sign ? ", either sign" : "",
+                    parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
   }
-  text += fmt::format("\n*Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
+  text += fmt::format("\n*Acts on* {}", list_kinds(effect.acts_on));
+  if (!effect.faint_on.empty()) text += fmt::format(", too little to be seen on {}", list_kinds(effect.faint_on));
+  text += fmt::format(". *Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
                       list_or_none(effect.visible_in), list_or_none(effect.clean_in),
                       list_or_none(effect.confused_with), boost::algorithm::join(effect.splitting_tests, "; "));
   return text;

@@ -34,7 +34,8 @@ struct BearingWarmup {
          {0.5, 1.5},
          "r: c0, c1, c2 hold at the rise r D; 1 = on a warm rig, 0 = cold"}};
     info.states = {{"bearing_rise_dK", 10.0, "theta, bearing temperature over ambient"}};
-    info.visible_in = {"drum_torque_Nm"};
+    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
+    info.visible_in = {"drum_torque_Nm", "loss_force_N"};
     info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
     info.confused_with = {"torque_zero_drift", "tire_loss_in_skim"};
     info.splitting_tests = {"drum alone for 30 min, then a cold tire on the hot drum",

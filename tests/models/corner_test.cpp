@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/drum_fixture.h"
+#include "tests/support/hand_fed_corner.h"
 
 using namespace rollrig;
 using models::Corner;
@@ -95,27 +95,29 @@ TEST_CASE("a constant coefficient takes neither speed nor temperature nor pressu
   CHECK(evaluate(corner, states_at(corner, 330.0), 30.0, 5000.0, rates).rolling_resistance_N == Approx(40.0));
 }
 
-TEST_CASE("dimensions are right through every port, with every effect on", "[fast]") {
+TEST_CASE("dimensions are right through every port, with every effect on, on every kind of rig", "[fast]") {
   using Q = DimensionedScalar;
   std::vector<models::ActiveEffect> all;
-  for (const models::Effect* effect : models::all_effects()) {
-    std::vector<double> usual;
-    for (const auto& parameter : effect->info.parameters) usual.push_back(parameter.prior.centre());
-    all.push_back(tests::make_active(*effect, usual));
-  }
-  const Corner<Q> corner(models::convert_context<Q>(tests::DrumFixture().context()), all);
-  std::vector<Q> x(corner.state_count());
+  for (const std::string& id : models::effect_ids()) all.push_back(tests::switch_on(id));
   models::InitialPort<Q> initial;
+  initial.soaked = GENERATE(true, false);
   initial.rest_before_s = Q(3600.0, dimension::kTime);
-  corner.initialize(Q(310.0, dimension::kTemperature), initial, x.data());
-  std::vector<Q> rates;
-  const Instant<Q> now = evaluate(corner, x, 22.0, 5400.0, rates);
+  const auto kind = GENERATE(models::RigKind::kDrum, models::RigKind::kDyno, models::RigKind::kFlat);
+  tests::HandFedCorner<Q> at(tests::make_context_on(kind), all, initial, 310.0);
+  at.inputs.speed_m_s = 36.0;  // where everything acts that acts at some speeds only
+  at.inputs.acceleration_m_s2 = 0.1;
+  at.inputs.surface_recorded = GENERATE(true, false);
+  at.inputs.drive_force_N = -900.0;
+  at.inputs.brake_force_N = 700.0;
+  at.inputs.slip_power_W = 30.0;
+  const Instant<Q>& now = at.evaluate();
   CHECK(now.rolling_resistance_N.dimension() == dimension::kForce);
   CHECK(now.parasitic_N.dimension() == dimension::kForce);
   CHECK(now.heat.heat_in_W.dimension() == dimension::kPower);
   CHECK(now.pressure_Pa.dimension() == dimension::kPressure);
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    INFO(corner.states()[i].key);
-    CHECK(rates[i].dimension() == x[i].dimension() / dimension::kTime);
+  CHECK(at.corner.calc_stored_heat_J(at.x.data()).dimension() == dimension::kPower * dimension::kTime);
+  for (std::size_t i = 0; i < at.rates.size(); ++i) {
+    INFO(at.corner.states()[i].key);
+    CHECK(at.rates[i].dimension() == at.x[i].dimension() / dimension::kTime);
   }
 }

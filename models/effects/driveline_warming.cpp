@@ -1,0 +1,66 @@
+/// Oil and bearings of the vehicle run easier as they warm.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct DrivelineWarming {
+  enum Parameter { kForce, kTimeConstant, kFall };
+  enum State { kRise };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "driveline_warming";
+    info.summary = "Cold oil and bearings of the vehicle cost a force that falls as they warm; force of one wheel";
+    info.equation =
+        "F_par <- F_par + F_c exp(-k w), tau dw/dt = v/v_ref - w; w rise of the oil over ambient, relative to that "
+        "in steady driving at v_ref = 80 km/h";
+    info.source =
+        "viscosity of oil falls exponentially with temperature (Reynolds); 3 to 25 N, 15 to 60 min: effects.md. "
+        "Assumed: k, heating in proportion to speed. Not soaked: warm before the rest";
+    info.parameters = {
+        {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold", 0.0},
+        {"time_constant_min", between(0.5, 600.0), {15.0, 60.0, Prior::Scale::kLog}, "tau, of the oil's warm-up"},
+        {"fall", between(0.0, 10.0), {0.7, 2.5, Prior::Scale::kLog}, "k, exponent of the fall by w = 1"}};
+    info.states = {{"oil_rise", 1.0, "w, rise of the oil's temperature over ambient, relative"}};
+    info.acts_on = {RigKind::kDyno, RigKind::kFlat};
+    info.visible_in = {"loss_force_N", "traction_force_N"};
+    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.confused_with = {"bearing_warmup"};
+    info.splitting_tests = {"rollers alone, warm, then the cold vehicle on them",
+                            "vehicle with warm oil on cold tires"};
+    return info;
+  }
+
+  template <class S>
+  static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
+    using std::exp;
+    if (port.started_warm) {
+      states[kRise] = S(1.0);
+    } else if (!port.soaked) {
+      states[kRise] = exp(-port.rest_before_s / self.parameter(kTimeConstant));
+    }
+  }
+
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>&, ParasiticPort<S>& port) {
+    using std::exp;
+    port.extra_force_N += self.parameter(kForce) * exp(-self.parameter(kFall) * self.state(kRise));
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
+    using std::abs;
+    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    rates[kRise] = (abs(now.motion.speed_m_s) / reference_m_s - self.state(kRise)) / self.parameter(kTimeConstant);
+  }
+};
+
+}  // namespace
+
+const Effect& effect_driveline_warming() {
+  static const Effect effect = make_effect<DrivelineWarming>();
+  return effect;
+}
+
+}  // namespace rollrig::models

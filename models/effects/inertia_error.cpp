@@ -1,0 +1,45 @@
+/// The inertia that is reckoned with is not the one that turns.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct InertiaError {
+  enum Parameter { kError };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "inertia_error";
+    info.summary =
+        "The true inertia of drum or roller and the true effective mass of the vehicle differ from the files'";
+    info.equation = "J <- J (1 + s), m <- m (1 + s)";
+    info.source = "0.3 to 4 %: effects.md. Assumed: one s for machine and vehicle, either sign";
+    info.parameters = {{"error_percent",
+                        between(-30.0, 30.0),
+                        {0.3, 4.0, Prior::Scale::kLog, true},
+                        "s, true over reckoned, less one",
+                        0.0}};
+    info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N"};
+    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.confused_with = {"slip_loss"};
+    info.splitting_tests = {"ramps of several accelerations with the tire lifted",
+                            "ramps up and down: slip has one sign"};
+    return info;
+  }
+
+  template <class S>
+  static void contact(const EffectView<S>& self, const Instant<S>&, ContactPort<S>& port) {
+    const S factor = S(1.0) + self.parameter(kError);
+    port.machine_inertia_factor *= factor;
+    port.vehicle_mass_factor *= factor;
+  }
+};
+
+}  // namespace
+
+const Effect& effect_inertia_error() {
+  static const Effect effect = make_effect<InertiaError>();
+  return effect;
+}
+
+}  // namespace rollrig::models

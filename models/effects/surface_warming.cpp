@@ -1,0 +1,76 @@
+/// Drum or roller warms under the tire.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct SurfaceWarming {
+  enum Parameter { kRise, kTimeConstant, kPower };
+  enum State { kSurfaceRise };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "surface_warming";
+    info.summary =
+        "The surface of drum or roller warms above ambient as the tire rolls on it loaded; where its temperature is "
+        "recorded, the record holds and this does nothing";
+    info.equation =
+        "T_surface <- T_surface + theta, tau d(theta)/dt = D (v Fz/(v_ref Fz_ref))^n - theta; v_ref = 80 km/h";
+    info.source =
+        "source §3.3.2.1 (heat to the road in z); 2 to 15 K, 10 to 40 min: effects.md. A road is new under every "
+        "turn, so it acts on drums and rollers. Assumed: n, a power of load times speed. Not soaked: warm before "
+        "the rest";
+    info.parameters = {
+        {"rise_dK",
+         between(-30.0, 60.0),
+         {2.0, 15.0, Prior::Scale::kLog},
+         "D, in steady rolling at 80 km/h and the reference load",
+         0.0},
+        {"time_constant_min", between(0.5, 600.0), {10.0, 40.0, Prior::Scale::kLog}, "tau, of the surface's warm-up"},
+        {"power", between(0.1, 2.0), {0.5, 1.0}, "n, of load times speed"}};
+    info.states = {{"surface_rise_dK", 10.0, "theta, surface temperature over ambient"}};
+    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
+    info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.confused_with = {"cell_air_warming"};
+    info.splitting_tests = {"thermometer on the drum's surface", "cold tire on the hot drum",
+                            "air temperature read beside the tire"};
+    return info;
+  }
+
+  template <class S>
+  static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
+    using std::exp;
+    if (port.started_warm) {
+      states[kSurfaceRise] = self.parameter(kRise);
+    } else if (!port.soaked) {
+      states[kSurfaceRise] = self.parameter(kRise) * exp(-port.rest_before_s / self.parameter(kTimeConstant));
+    }
+  }
+
+  template <class S>
+  static void boundary(const EffectView<S>& self, const Instant<S>& now, BoundaryPort<S>& port) {
+    if (!now.acting.surface_recorded) port.surface_K += self.state(kSurfaceRise);
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
+    using std::abs;
+    using std::pow;
+    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S& reference_N = now.context->tire.rolling_resistance.reference_load_N;
+    const S work_ratio = abs(now.motion.speed_m_s) / reference_m_s * (positive_part(now.motion.load_N) / reference_N);
+    const bool rolls = value_of(work_ratio) > 0.0;
+    const S aim_dK =
+        rolls ? S(self.parameter(kRise) * pow(work_ratio, self.parameter(kPower))) : S(0.0 * self.parameter(kRise));
+    rates[kSurfaceRise] = (aim_dK - self.state(kSurfaceRise)) / self.parameter(kTimeConstant);
+  }
+};
+
+}  // namespace
+
+const Effect& effect_surface_warming() {
+  static const Effect effect = make_effect<SurfaceWarming>();
+  return effect;
+}
+
+}  // namespace rollrig::models

@@ -1,0 +1,76 @@
+// What holds for every effect at one corner, on every kind of rig, whether a campaign runs there or not.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/support/hand_fed_corner.h"
+
+using namespace rollrig;
+using models::Effect;
+using models::Node;
+using models::RigKind;
+using tests::HandFedCorner;
+
+namespace {
+
+/// Everything that an effect may change, after ten minutes of fast driving and some braking.
+std::vector<double> drive(RigKind kind, const std::vector<models::ActiveEffect>& effects) {
+  HandFedCorner<double> at(tests::make_context_on(kind), effects);
+  at.inputs.speed_m_s = 36.0;
+  at.inputs.load_N = 5000.0;
+  at.inputs.drive_force_N = kind == RigKind::kDrum ? 0.0 : -400.0;
+  at.inputs.brake_force_N = kind == RigKind::kDrum ? 0.0 : 400.0;
+  at.inputs.slip_power_W = 20.0;
+  at.advance(600.0, 200);
+  return {at.now.rolling_resistance_N,
+          at.now.parasitic_N,
+          at.now.pressure_Pa,
+          at.now.heat.heat_in_W,
+          at.now.contact.slip_compliance_per_N,
+          at.now.contact.machine_inertia_factor,
+          at.temperature_K(Node::kRubber),
+          at.temperature_K(Node::kGas)};
+}
+
+std::vector<double> drive_at_size(RigKind kind, const Effect& effect, double size) {
+  return drive(kind, {tests::switch_on(effect.info.id, {size})});
+}
+
+/// Whether some quantity moves further and further off as the size grows.
+bool something_grows(RigKind kind, const Effect& effect) {
+  const models::EffectParameter& size = effect.info.parameters[0];
+  const double reach = size.prior.high - *size.off;
+  const auto baseline = drive(kind, {});
+  const auto small = drive_at_size(kind, effect, *size.off + 0.25 * reach);
+  const auto middle = drive_at_size(kind, effect, *size.off + 0.5 * reach);
+  const auto large = drive_at_size(kind, effect, *size.off + reach);
+  for (std::size_t i = 0; i < baseline.size(); ++i) {
+    const double by_small = std::abs(small[i] - baseline[i]);
+    const double by_middle = std::abs(middle[i] - baseline[i]);
+    if (by_small > 0.0 && by_middle > 1.1 * by_small && std::abs(large[i] - baseline[i]) > 1.1 * by_middle) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("every effect is the baseline to the bit at its off value, and where it does not act", "[fast]") {
+  for (const Effect* effect : models::all_effects()) {
+    for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
+      INFO(effect->info.id << " on " << models::name_of(kind));
+      const models::EffectParameter& size = effect->info.parameters[0];
+      const bool acts = models::acts_on(effect->info, kind);
+      CHECK(drive_at_size(kind, *effect, acts ? *size.off : size.prior.high) == drive(kind, {}));
+    }
+  }
+}
+
+TEST_CASE("every effect grows with its size", "[fast]") {
+  for (const Effect* effect : models::all_effects()) {
+    if (effect->on_double.trace != nullptr) continue;  // not at the corner
+    for (const RigKind kind : effect->info.acts_on) {
+      if (effect->info.id == "curvature_exponent" && kind == RigKind::kDrum) continue;  // the reference drum
+      INFO(effect->info.id << " on " << models::name_of(kind));
+      CHECK(something_grows(kind, *effect));
+    }
+  }
+}

@@ -1,0 +1,119 @@
+// Effects that act by a force, a factor or a load at once: limits, signs, and what of them heats the tire.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/support/hand_fed_corner.h"
+
+using namespace rollrig;
+using models::ActiveEffect;
+using models::RigKind;
+using tests::HandFedCorner;
+using tests::make_context_on;
+using tests::switch_on;
+
+namespace {
+
+const std::vector<RigKind> kKinds{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};
+
+/// Loss at a speed and a load, at 25 degC.
+double find_loss_N(RigKind kind, const std::vector<ActiveEffect>& effects, double speed_m_s, double load_N) {
+  HandFedCorner<double> at(make_context_on(kind), effects);
+  at.inputs.speed_m_s = speed_m_s;
+  at.inputs.load_N = load_N;
+  return at.evaluate().rolling_resistance_N;
+}
+
+/// What the effect adds to the loss.
+double find_added_N(const ActiveEffect& effect, double speed_m_s, double load_N, RigKind kind = RigKind::kDrum) {
+  return find_loss_N(kind, {effect}, speed_m_s, load_N) - find_loss_N(kind, {}, speed_m_s, load_N);
+}
+
+}  // namespace
+
+TEST_CASE("toe and camber drag by the given force at the reference load, more with load, none when lifted", "[fast]") {
+  const ActiveEffect drag = switch_on("toe_camber_drag", {6.0});
+  CHECK(find_added_N(drag, 20.0, 5400.0) == Approx(6.0));
+  CHECK(find_added_N(drag, 35.0, 5400.0) == Approx(6.0));  // whatever the speed
+  CHECK(find_added_N(drag, 20.0, 200.0) < 6.0);
+  CHECK(find_added_N(drag, 20.0, 200.0) > 0.0);
+  CHECK(find_added_N(drag, 20.0, 0.0) == 0.0);
+  CHECK(find_added_N(switch_on("toe_camber_drag", {6.0, 0.5, 1.0}), 20.0, 2700.0) == Approx(3.0));
+  CHECK(find_added_N(drag, 20.0, 5400.0, RigKind::kDyno) == Approx(6.0));
+}
+
+TEST_CASE("of toe and camber drag the rubber gets its share, and no more", "[fast]") {
+  for (const double share : {0.0, 0.3, 1.0}) {
+    HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("toe_camber_drag", {6.0, share})});
+    HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+    CHECK(with.evaluate().heat.heat_in_W - without.evaluate().heat.heat_in_W ==
+          Approx(share * 6.0 * 80.0 / 3.6).margin(1e-9));
+  }
+}
+
+TEST_CASE("the standing wave starts at its critical speed, grows with the square, and heats the rubber", "[fast]") {
+  const ActiveEffect wave = switch_on("standing_wave", {2.0, 28.0});
+  CHECK(find_added_N(wave, 20.0, 5400.0) == 0.0);
+  CHECK(find_added_N(wave, 28.0, 5400.0) == 0.0);
+  const double by_one_N = find_added_N(wave, 29.0, 5400.0);
+  CHECK(find_added_N(wave, 30.0, 5400.0) == Approx(4.0 * by_one_N));
+  CHECK(find_added_N(wave, 31.0, 5400.0) == Approx(9.0 * by_one_N));
+  CHECK(find_added_N(wave, 120.0 / 3.6, 5400.0) ==
+        Approx(2.0).epsilon(0.04));  // well below 120 km/h, F_w is that force
+  CHECK(find_added_N(wave, 33.0, 200.0) < 0.2 * find_added_N(wave, 33.0, 5400.0));
+  CHECK(find_added_N(wave, 33.0, 0.0) == 0.0);
+  CHECK(find_added_N(switch_on("standing_wave", {2.0, 120.0 / 3.6}), 120.0 / 3.6, 5400.0) == 0.0);  // no 0/0
+  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {wave});
+  with.inputs.speed_m_s = 33.0;
+  const auto& now = with.evaluate();
+  CHECK(now.heat.heat_in_W == Approx(now.rolling_resistance_N * 33.0));
+}
+
+TEST_CASE("loss goes with a power of the correction factor from one surface to another", "[fast]") {
+  const double v = 20.0;
+  const double roller_N = find_loss_N(RigKind::kDyno, {}, v, 5400.0);
+  const double road_N = find_loss_N(RigKind::kFlat, {}, v, 5400.0);
+  for (const double exponent : {0.6, 1.4}) {
+    const std::vector<ActiveEffect> with{switch_on("curvature_exponent", {exponent})};
+    const double ratio = find_loss_N(RigKind::kDyno, with, v, 5400.0) / find_loss_N(RigKind::kFlat, with, v, 5400.0);
+    CHECK(ratio == Approx(std::pow(roller_N / road_N, exponent)));
+    CHECK(find_loss_N(RigKind::kDrum, with, v, 5400.0) == find_loss_N(RigKind::kDrum, {}, v, 5400.0));
+  }
+  // to the power 0 there is no correction: the roller is like the drum
+  CHECK(find_loss_N(RigKind::kDyno, {switch_on("curvature_exponent", {0.0})}, v, 5400.0) ==
+        Approx(find_loss_N(RigKind::kDrum, {}, v, 5400.0)));
+}
+
+TEST_CASE("tie-downs press the wheel onto its roller, and only there", "[fast]") {
+  for (const RigKind kind : kKinds) {
+    HandFedCorner<double> at(make_context_on(kind), {switch_on("tie_down_load", {300.0})});
+    CHECK(at.evaluate().acting.load_N == (kind == RigKind::kDyno ? 5700.0 : 5400.0));
+    CHECK(at.now.recorded.load_N == 5400.0);
+  }
+  // the loss goes with the load
+  CHECK(find_loss_N(RigKind::kDyno, {switch_on("tie_down_load", {300.0})}, 20.0, 5400.0) ==
+        Approx(find_loss_N(RigKind::kDyno, {}, 20.0, 5700.0)));
+}
+
+TEST_CASE("an error of inertia is on the machine and on the vehicle alike", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("inertia_error", {-2.5})});
+  CHECK(at.evaluate().contact.machine_inertia_factor == Approx(0.975));
+  CHECK(at.now.contact.vehicle_mass_factor == Approx(0.975));
+  HandFedCorner<double> off(make_context_on(RigKind::kDyno), {switch_on("inertia_error", {0.0})});
+  CHECK(off.evaluate().contact.machine_inertia_factor == 1.0);
+  CHECK(off.now.contact.vehicle_mass_factor == 1.0);
+}
+
+TEST_CASE("more drum inertia asks for torque by its share of J a/R, and none at constant speed", "[fast]") {
+  tests::DrumFixture fixture;
+  sim::Program program;
+  sim::Phase up = tests::rolling("up", 60.0, 5.0, 5400.0);
+  up.segments = {tests::drum_segment(60.0, 5.0, 20.0, 5400.0)};
+  program.phases = {up, tests::rolling("steady", 60.0, 20.0, 5400.0)};
+  const auto plain = fixture.run_quasi_static(program);
+  fixture.effects = {switch_on("inertia_error", {4.0})};
+  const auto with = fixture.run_quasi_static(program);
+  const double radius_m = 1.0;
+  const double added_Nm = 0.04 * fixture.rig.drum.inertia_kg_m2 / radius_m * (15.0 / 60.0);
+  CHECK(with.channel("drum_torque_Nm")[30] - plain.channel("drum_torque_Nm")[30] == Approx(added_Nm));
+  CHECK(with.channel("drum_torque_Nm")[100] == Approx(plain.channel("drum_torque_Nm")[100]).epsilon(1e-10));
+}

@@ -1,0 +1,34 @@
+#pragma once
+/// Campaigns on which every effect must keep its contract: one for each kind of rig that has both
+/// fidelities. A rig comes into the contract by one more entry in campaigns().
+
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "models/effect.h"
+#include "sim/recording.h"
+
+namespace rollrig::tests {
+
+using Effects = std::vector<models::ActiveEffect>;
+
+/// Runs on one kind of rig that show every effect that can be seen there.
+struct Campaign {
+  models::RigKind kind;
+  std::string force_channel;                // the fidelities are compared in it, and in temperature
+  std::vector<std::string> settled_phases;  // at whose end force and temperature hold still
+  std::function<sim::Recording<double>(const Effects&)> run_quasi_static;
+  std::function<sim::Recording<double>(const Effects&)> run_multibody;
+  /// With derivatives by the first parameter of the only effect, in place 0.
+  std::function<sim::Recording<Jet>(const Effects&)> run_with_derivatives;
+};
+
+/// Measured channels of a rig kind (formats.md).
+const std::set<std::string>& measured_on(models::RigKind kind);
+
+/// One campaign for each kind of rig that has a fast and a multibody fidelity.
+const std::vector<Campaign>& campaigns();
+
+}  // namespace rollrig::tests
