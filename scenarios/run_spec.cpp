@@ -132,10 +132,6 @@ Json sensors_to_json(const std::optional<models::SensorSet>& sensors) {
   return json;
 }
 
-const char* name_of(rigs::RigKind kind) {
-  return kind == rigs::RigKind::kDrum ? "drum" : kind == rigs::RigKind::kDyno ? "dyno" : "flat";
-}
-
 void check_rig_kind(const RunSpec& spec) {
   std::vector<std::string> kinds;
   for (const rigs::RigKind kind : spec.scenario->rig_kinds) {
