@@ -91,6 +91,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   command->require_subcommand(1);
   add_fit_road_load(*command, action);
   CLI::App* tire = command->add_subcommand("tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds");
+  add_fit_drum_coastdown_command(*command, action);
   auto options = std::make_shared<Options>();
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();
   tire->add_option("--name", options->name, "Name of the fitted tire [<tire>_fit]");

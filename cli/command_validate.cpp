@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "identification/coast_set.h"
 #include "scenarios/measurement_set.h"
 #include "scenarios/run_spec.h"
 #include "scenarios/sensor_file.h"
@@ -40,14 +41,18 @@ std::string validate_toml(const std::string& path) {
   if (kind == "rollrig-sensors") return fmt::format("sensors: {} channels", scenarios::read_sensor_file(config).size());
   if (kind == "rollrig-measurements") return validate_set(path);
   if (kind == "rollrig-vehicle") return fmt::format("vehicle '{}'", rigs::read_vehicle(config).name);
+  if (kind == "rollrig-drum-coastdown") {
+    const identification::CoastSet set = identification::read_coast_set(path);
+    return fmt::format("set of drum coast-downs '{}': {} runs", set.name, set.runs.size());
+  }
   if (kind == "rollrig-run") {
     const scenarios::RunSpec spec = scenarios::read_run_spec(config, fs::path(path).parent_path().string());
     spec.scenario->check(spec);
     return fmt::format("run of scenario '{}'", spec.scenario->text.name);
   }
-  InputProblem problem = unknown_name(
-      "format", kind,
-      {"rollrig-tire", "rollrig-rig", "rollrig-run", "rollrig-sensors", "rollrig-measurements", "rollrig-vehicle"});
+  InputProblem problem = unknown_name("format", kind,
+                                      {"rollrig-tire", "rollrig-rig", "rollrig-run", "rollrig-sensors",
+                                       "rollrig-measurements", "rollrig-vehicle", "rollrig-drum-coastdown"});
   problem.file = path;
   problem.key = "format";
   throw InputError(problem);

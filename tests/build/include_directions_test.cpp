@@ -29,7 +29,9 @@ const std::map<std::string, std::set<std::string>> kAllowed{
 const std::map<std::string, std::set<std::string>> kPackages{
     {"cvodes/|nvector/|sunmatrix/|sunlinsol/", {"sim/cvodes_integrator.cpp"}},
     {"toml\\+\\+/", {"sim/core/config.cpp"}},
-    {"Simbody.h", {"models/contact_force_element.h", "rigs/drum_actuators.h", "rigs/multibody_drum.cpp"}},
+    {"Simbody.h",
+     {"models/contact_force_element.h", "rigs/drum_actuators.h", "rigs/multibody_drum.cpp", "rigs/multibody_guard.h",
+      "rigs/multibody_vehicle.cpp", "rigs/vehicle_bodies.h", "rigs/vehicle_drive.h"}},
     {"CLI/", {"cli"}},
     {"nlohmann/", {"sim/core/json.h"}},
     {"ceres/", {"sim/core/scalar.h", "identification/fit_tire.cpp"}},
