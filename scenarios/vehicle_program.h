@@ -16,6 +16,8 @@ class VehicleProgram {
   /// Stretches above `count_from_m_s` are counted; a trace is cut where it crosses that speed.
   VehicleProgram(const VehicleConditions& conditions, double sample_interval_s, double count_from_m_s);
 
+  /// Speed at which the program begins, instead of standstill; before the first phase.
+  void start_at(double speed_m_s) { speed_m_s_ = speed_m_s; }
   /// Standstill.
   void rest(const std::string& name, double duration_s);
   /// A trace as one phase.

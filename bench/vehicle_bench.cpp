@@ -1,0 +1,85 @@
+/// CPU time of vehicles on rollers and on the road: city cycle, the source's whole multi-cycle test, coastdown.
+/// Timed figures belong here, not in tests.
+#include <benchmark/benchmark.h>
+
+#include "rigs/multibody_vehicle.h"
+#include "rigs/quasi_static_vehicle.h"
+#include "scenarios/coastdown_evaluation.h"
+#include "scenarios/run_spec.h"
+#include "scenarios/vehicle_bench.h"
+
+namespace {
+
+using namespace rollrig;
+
+scenarios::RunSpec make_spec(const char* scenario, const char* fidelity, const std::vector<std::string>& settings) {
+  ConfigTable document = scenarios::make_run_document(scenario);
+  set_config_value(document, "tire", "a50", "bench");
+  set_config_value(document, "fidelity", fidelity, "bench");
+  for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
+  return scenarios::read_run_spec(document, "");
+}
+
+void run_scenario(benchmark::State& state, const char* scenario, const char* fidelity,
+                  const std::vector<std::string>& settings) {
+  const scenarios::RunSpec spec = make_spec(scenario, fidelity, settings);
+  scenarios::Outcome outcome;
+  for (auto _ : state) outcome = spec.scenario->run(spec, {});
+  state.counters["mechanical_closure"] = outcome.recording.audit.calc_closure(sim::EnergyTerm::Ledger::kMechanical);
+}
+
+/// Conditions of the source's test on a rig.
+scenarios::VehicleConditions make_conditions(const scenarios::RunSpec& spec, int wheels) {
+  scenarios::VehicleConditions conditions;
+  conditions.wheels = wheels;
+  conditions.pressure_Pa = 280e3;
+  conditions.complete(spec);
+  return conditions;
+}
+
+void drive(benchmark::State& state, const scenarios::RunSpec& spec, const scenarios::VehicleConditions& conditions,
+           const scenarios::VehicleProgram& program) {
+  scenarios::Outcome outcome;
+  for (auto _ : state) scenarios::simulate_vehicle(spec, conditions, program, {}, outcome);
+  state.counters["mechanical_closure"] = outcome.recording.audit.calc_closure(sim::EnergyTerm::Ledger::kMechanical);
+}
+
+void city_cycle(benchmark::State& state, const char* fidelity) {
+  const scenarios::RunSpec spec = make_spec("sae_j1634", fidelity, {});
+  const scenarios::VehicleConditions conditions = make_conditions(spec, 1);
+  scenarios::VehicleProgram program(conditions, 1.0, 20.0 / 3.6);
+  program.drive(scenarios::read_speed_trace("udds"), "city");
+  drive(state, spec, conditions, program);
+}
+
+/// One coastdown from 130 km/h to standstill, four wheels, tires at 23 degC.
+void coastdown(benchmark::State& state, const char* fidelity, const char* scenario) {
+  const scenarios::RunSpec spec = make_spec(scenario, fidelity, {});
+  const scenarios::VehicleConditions conditions = make_conditions(spec, 4);
+  scenarios::VehicleProgram program(conditions, 1.0, 0.0);
+  program.start_at(130.0 / 3.6);
+  program.coast("coastdown", 0.05, 3600.0, 0.0, 0.0);
+  drive(state, spec, conditions, program);
+}
+
+const std::vector<std::string> kSource{"variant=source", "wheels=1"};
+
+void city_cycle_quarter_multibody(benchmark::State& state) { city_cycle(state, "multibody"); }
+void city_cycle_quarter_quasi_static(benchmark::State& state) { city_cycle(state, "quasi_static"); }
+void multi_cycle_quarter_multibody(benchmark::State& state) { run_scenario(state, "sae_j1634", "multibody", kSource); }
+void multi_cycle_quarter_quasi_static(benchmark::State& state) {
+  run_scenario(state, "sae_j1634", "quasi_static", kSource);
+}
+void coastdown_rollers_multibody(benchmark::State& state) { coastdown(state, "multibody", "dyno_setting"); }
+void coastdown_road_multibody(benchmark::State& state) { coastdown(state, "multibody", "coastdown"); }
+
+BENCHMARK(city_cycle_quarter_multibody)->Unit(benchmark::kMillisecond);
+BENCHMARK(city_cycle_quarter_quasi_static)->Unit(benchmark::kMillisecond);
+BENCHMARK(multi_cycle_quarter_multibody)->Unit(benchmark::kMillisecond);
+BENCHMARK(multi_cycle_quarter_quasi_static)->Unit(benchmark::kMillisecond);
+BENCHMARK(coastdown_rollers_multibody)->Unit(benchmark::kMillisecond);
+BENCHMARK(coastdown_road_multibody)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();
