@@ -22,7 +22,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-enum Component : Index { kPassing, kGust, kRunForce, kRunSpeed, kComponents };
+enum Component : Index { kPassing, kGust, kRunForce, kRunSpeed, kSession, kComponents };
 constexpr double kRunSpeedScale_m_s = 20.0;  // makes the two run components alike in size
 
 /// The problem in one place: runs, model, and the sessions behind the wind columns.
@@ -30,6 +30,7 @@ struct Problem {
   std::vector<FitRun> runs;
   CoastdownModel model;
   std::vector<std::string> wind_sessions;
+  std::vector<std::vector<std::size_t>> groups;  // runs that share scatter: those of a session, if there are several
 };
 
 bool has_both_headings(const std::vector<FitRun>& runs) {
@@ -61,7 +62,7 @@ Problem make_problem(const CoastdownData& data, const RoadLoadFitOptions& option
     if (it != sessions.end()) run.wind_column = 4 + static_cast<int>(it - sessions.begin());
   }
   const Index count = 3 + (uses_headings ? 1 + static_cast<Index>(sessions.size()) : 0);
-  return {std::move(runs), CoastdownModel(mass_kg, uses_headings, count, given_drag(options)), sessions};
+  return {std::move(runs), CoastdownModel(mass_kg, uses_headings, count, given_drag(options)), sessions, {}};
 }
 
 /// Time through every bin, by the present coefficients where a trace is condensed.
@@ -134,7 +135,9 @@ LinearBlock linearise(const Problem& problem, const FitRun& run, const VectorXd&
     const double measured = impulse / durations[static_cast<std::size_t>(k)] * (1.0 - std::min(relative_variance, 0.5));
     block.y(k) = measured - force + block.X.row(k).dot(coefficients);
   }
-  block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose()};
+  // of the session's component, nothing: a run alone in its session, or the only session
+  block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose(),
+                    MatrixXd::Zero(n, n)};
   return block;
 }
 
@@ -192,11 +195,48 @@ VectorXd make_floors() {
   return floors;
 }
 
+/// The blocks of several runs as one, with a force that they all share.
+LinearBlock join(const std::vector<LinearBlock>& parts) {
+  Index n = 0;
+  for (const LinearBlock& part : parts) n += part.y.size();
+  LinearBlock joined{VectorXd(n), MatrixXd(n, parts.front().X.cols()), {}};
+  joined.patterns.assign(kComponents, MatrixXd::Zero(n, n));
+  Index row = 0;
+  for (const LinearBlock& part : parts) {
+    const Index rows = part.y.size();
+    joined.y.segment(row, rows) = part.y;
+    joined.X.middleRows(row, rows) = part.X;
+    for (std::size_t i = 0; i < part.patterns.size(); ++i) {
+      joined.patterns[i].block(row, row, rows, rows) = part.patterns[i];
+    }
+    row += rows;
+  }
+  joined.patterns[kSession].setOnes();
+  return joined;
+}
+
 std::vector<LinearBlock> linearise_all(const Problem& problem, const VectorXd& coefficients,
                                        const VectorXd& components) {
   std::vector<LinearBlock> blocks;
-  for (const FitRun& run : problem.runs) blocks.push_back(linearise(problem, run, coefficients, components));
+  for (const std::vector<std::size_t>& group : problem.groups) {
+    std::vector<LinearBlock> parts;
+    for (const std::size_t i : group) parts.push_back(linearise(problem, problem.runs[i], coefficients, components));
+    blocks.push_back(parts.size() == 1 ? parts.front() : join(parts));
+  }
   return blocks;
+}
+
+/// Several sessions: a group each. One session, whose common force A takes: a group a run.
+void group_runs(const CoastdownData& data, Problem& problem) {
+  std::map<std::string, std::vector<std::size_t>> sessions;
+  for (std::size_t i = 0; i < problem.runs.size(); ++i) sessions[data.runs[problem.runs[i].index].session].push_back(i);
+  for (const auto& [session, runs] : sessions) {
+    if (sessions.size() > 1) {
+      problem.groups.push_back(runs);
+    } else {
+      for (const std::size_t i : runs) problem.groups.push_back({i});
+    }
+  }
 }
 
 /// Moves towards `wanted`, less far where the force would not stay positive.
@@ -224,6 +264,8 @@ LinearEstimate iterate(const Problem& problem, const RoadLoadFitOptions& options
     if (options.bounds.has_value()) {
       apply_bounds(estimate, bound(options.bounds->lower), bound(options.bounds->upper));
     }
+    // without scatter of passing times the covariance has no inverse: a first guess must not take it all away
+    estimate.components(kPassing) = std::max(estimate.components(kPassing), 0.1 * components(kPassing));
     const VectorXd before = coefficients;
     const double share = step_to(problem, estimate.coefficients, coefficients);
     const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
@@ -294,6 +336,7 @@ void put_scatter(const Problem& problem, const LinearEstimate& linear, RoadLoadF
   fit.scatter.gust_N_sqrt_s = sd(kGust);
   fit.scatter.run_force_N = sd(kRunForce);
   fit.scatter.run_speed_N_s_per_m = sd(kRunSpeed);
+  fit.scatter.session_force_N = sd(kSession);
   if (fit.scatter.run_speed_N_s_per_m.has_value()) *fit.scatter.run_speed_N_s_per_m /= kRunSpeedScale_m_s;
   double squares = 0.0;
   double freedom = 0.0;
@@ -331,11 +374,12 @@ void put_wind_and_slope(const Problem& problem, const RoadLoadFitOptions& option
 void put_headings(const Problem& problem, const RoadLoadFitOptions& options, const VectorXd& coefficients,
                   const VectorXd& components, RoadLoadFit& fit) {
   for (const int heading : {+1, -1}) {
-    Problem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}};
+    Problem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}, {}};
     for (const FitRun& run : problem.runs) {
       if (run.heading != heading) continue;
       part.runs.push_back(run);
       part.runs.back().wind_column = -1;
+      part.groups.push_back({part.runs.size() - 1});
     }
     if (part.runs.empty()) continue;
     try {
@@ -379,6 +423,15 @@ void require_enough(const Problem& problem, const RoadLoadFitOptions& options) {
                     "", 0, "", "", fmt::format("at least {} bins in which the speed falls", kLeastBins), ""});
 }
 
+void put_range(const Problem& problem, RoadLoadFit& fit) {
+  fit.low_m_s = std::numeric_limits<double>::infinity();
+  for (const FitRun& run : problem.runs) {
+    const bool trace = !run.cells.empty();
+    fit.high_m_s = std::max(fit.high_m_s, trace ? run.cells.front().high_m_s : run.bins.front().high_m_s);
+    fit.low_m_s = std::min(fit.low_m_s, trace ? run.cells.back().low_m_s : run.bins.back().low_m_s);
+  }
+}
+
 void warn(const Problem& problem, const CoastdownData& data, const RoadLoadFitOptions& options, RoadLoadFit& fit) {
   const std::size_t left_out = data.runs.size() - problem.runs.size();
   if (left_out > 0) fit.warnings.push_back(fmt::format("{} runs have no whole speed bin and are left out", left_out));
@@ -391,6 +444,13 @@ void warn(const Problem& problem, const CoastdownData& data, const RoadLoadFitOp
   if (!fit.scatter.run_force_N.has_value() || !fit.scatter.run_speed_N_s_per_m.has_value()) {
     fit.warnings.push_back(
         "too few runs to tell how they differ from run to run: the standard deviations hold noise along the runs only");
+  }
+  if (fit.scatter.session_force_N.value_or(0.0) > 0.0) {
+    const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);
+    fit.warnings.push_back(fmt::format(
+        "the sessions differ by a standard deviation of {:.1f} % of the force at {:.0f} km/h, more than their noise "
+        "explains; where they cover different speeds this bends the curve",
+        100.0 * *fit.scatter.session_force_N / fit.force_N(middle), 3.6 * middle));
   }
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");
@@ -430,7 +490,8 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
     fit.effective_mass_kg =
         *options.mass_kg + options.rotating_mass_kg.value_or((kDefaultEffectiveRatio - 1.0) * *options.mass_kg);
   }
-  const Problem problem = make_problem(data, options, fit.effective_mass_kg);
+  Problem problem = make_problem(data, options, fit.effective_mass_kg);
+  group_runs(data, problem);
   require_enough(problem, options);
   VectorXd coefficients = start_coefficients(problem);
   VectorXd components = VectorXd::Zero(kComponents);
@@ -452,6 +513,7 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
   fit.ambient_corrected = measured(&CoastdownConditions::ambient_K);
   fit.wind_corrected = measured(&CoastdownConditions::wind_m_s);
   fit.as_tested = at_test_weather(problem, fit.load);
+  put_range(problem, fit);
   put_scatter(problem, linear, fit);
   put_wind_and_slope(problem, options, linear, fit);
   put_points(problem, coefficients, components, fit);
