@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
 #include <iostream>
@@ -29,6 +30,7 @@ struct Options {
   std::string out;
   std::string json;
   std::string bounds;
+  std::vector<std::string> sessions;
   std::optional<double> mass_kg;
   std::optional<double> rotating_mass_kg;
   std::optional<double> effective_mass_kg;
@@ -147,17 +149,11 @@ std::string format_coefficients(const RoadLoadFit& fit) {
 }
 
 std::string format_forces(const RoadLoadFit& fit) {
-  double top = 0.0;
-  double low = 1e9;
-  for (const scenarios::RoadLoadPoint& point : fit.points) {
-    top = std::max(top, point.high_m_s);
-    low = std::min(low, point.low_m_s);
-  }
   const std::string unit = fit.per_mass ? "m/s2" : "N";
   scenarios::ResultTable table{"", {"speed, km/h", "force, " + unit, "sd, " + unit, ""}, {}};
   for (const double km_h : {20.0, 50.0, 80.0, 100.0, 130.0}) {
     const double speed = kPerKmh * km_h;
-    const bool outside = speed < low - 1e-6 || speed > top + 1e-6;
+    const bool outside = speed < fit.low_m_s - 0.1 || speed > fit.high_m_s + 0.1;
     table.rows.push_back({fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", fit.force_N(speed)),
                           fmt::format("{:.2g}", fit.force_sd_N(speed)), outside ? "outside the data" : ""});
   }
@@ -174,6 +170,9 @@ std::string format_scatter(const RoadLoadFit& fit) {
   add("scatter along a run", fit.scatter.gust_N_sqrt_s, unit + " sqrt(s)");
   add("scatter from run to run", fit.scatter.run_force_N, unit);
   add("  in proportion to speed", fit.scatter.run_speed_N_s_per_m, unit + " s/m");
+  if (fit.scatter.session_force_N.has_value()) {
+    add("scatter from session to session", fit.scatter.session_force_N, unit);
+  }
   if (fit.slope.has_value()) {
     lines.push_back({"slope, from the headings",
                      fmt::format("{:.3f} +- {:.3f} % uphill in +", 100.0 * *fit.slope, 100.0 * fit.slope_sd)});
@@ -181,7 +180,7 @@ std::string format_scatter(const RoadLoadFit& fit) {
   for (const scenarios::SessionWind& wind : fit.winds) {
     lines.push_back(
         {"wind, from the headings", fmt::format("{:.2f} +- {:.2f} m/s against +{}", wind.wind_m_s, wind.sd_m_s,
-                                                wind.session.empty() ? "" : "  " + wind.session.substr(0, 24))});
+                                                wind.session.empty() ? "" : " '" + wind.session.substr(0, 10) + "'")});
   }
   return format_lines(lines);
 }
@@ -219,6 +218,27 @@ std::string format_fit(const Options& options, const CoastdownFile& file, const 
   return text;
 }
 
+/// Keeps the runs of the sessions that were asked for.
+void select_sessions(const std::vector<std::string>& wanted, CoastdownFile& file) {
+  if (wanted.empty()) return;
+  std::vector<std::string> known;
+  for (const scenarios::CoastdownRun& run : file.data.runs) {
+    if (std::find(known.begin(), known.end(), run.session) == known.end()) known.push_back(run.session);
+  }
+  for (const std::string& session : wanted) {
+    if (std::find(known.begin(), known.end(), session) != known.end()) continue;
+    InputProblem problem = unknown_name("session", session, known);
+    problem.file = "command line";
+    problem.key = "--session";
+    throw InputError(problem);
+  }
+  auto& runs = file.data.runs;
+  const auto unwanted = [&wanted](const scenarios::CoastdownRun& run) {
+    return std::find(wanted.begin(), wanted.end(), run.session) == wanted.end();
+  };
+  runs.erase(std::remove_if(runs.begin(), runs.end(), unwanted), runs.end());
+}
+
 /// The fit, its InputErrors with the file's name.
 RoadLoadFit fit_file(const CoastdownFile& file, const Options& options, const RoadLoadFitOptions& fit_options) {
   try {
@@ -232,7 +252,8 @@ RoadLoadFit fit_file(const CoastdownFile& file, const Options& options, const Ro
 
 int fit_road_load_command(const Options& options) {
   const RoadLoadFitOptions fit_options = make_fit_options(options);
-  const CoastdownFile file = identification::read_coastdowns(options.csv);
+  CoastdownFile file = identification::read_coastdowns(options.csv);
+  select_sessions(options.sessions, file);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   require_writable(options.json);
@@ -276,6 +297,7 @@ void add_method_options(CLI::App& command, Options& options) {
   command.add_option("--speed-to", options.speed_to_km_h, "Highest speed used, km/h")->check(CLI::Range(1.0, 500.0));
   command.add_option("--bin-width", options.bin_width_km_h, "Of the bins that a trace is cut into, km/h [5]")
       ->check(CLI::Range(1.0, 50.0));
+  command.add_option("--session", options.sessions, "Sessions used [all]");
   command.add_option("--bounds", options.bounds, "not-negative, or as A=0:300,B=-1:,C=0: in N and km/h [none]");
 }
 

@@ -6,20 +6,45 @@
 namespace rollrig::scenarios {
 namespace {
 
-/// Means over a second to either side: enough to say which cell a sample belongs to.
+/// Sums over neighbouring samples, for a line through them.
+struct LineSums {
+  double n = 0.0, t = 0.0, v = 0.0, tt = 0.0, tv = 0.0;
+
+  void add(double time, double speed, double sign) {
+    n += sign;
+    t += sign * time;
+    v += sign * speed;
+    tt += sign * time * time;
+    tv += sign * time * speed;
+  }
+  double at(double time) const {
+    const double spread = tt - t * t / n;
+    const double mean = v / n;
+    return spread > 1e-9 ? mean + (tv - t * v / n) / spread * (time - t / n) : mean;
+  }
+};
+
+/// Lines through some seconds to either side, to say which cell a sample belongs to. Shorter ones would sort
+/// samples by their noise.
 std::vector<double> smooth(const CoastdownRun& run) {
-  constexpr double kHalfWindow_s = 1.0;
+  constexpr double kHalfWindow_s = 3.0;  // Assumed
   const std::size_t n = run.time_s.size();
   std::vector<double> smoothed(n);
+  LineSums sums;
   std::size_t first = 0;
   std::size_t end = 0;
-  double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double reach_s = std::min({kHalfWindow_s, run.time_s[i] - run.time_s[0], run.time_s[n - 1] - run.time_s[i]});
-    while (end < n && run.time_s[end] <= run.time_s[i] + reach_s + 1e-9) sum += run.speed_m_s[end++];
-    while (run.time_s[first] < run.time_s[i] - reach_s - 1e-9) sum -= run.speed_m_s[first++];
-    while (end > i + 1 && run.time_s[end - 1] > run.time_s[i] + reach_s + 1e-9) sum -= run.speed_m_s[--end];
-    smoothed[i] = sum / static_cast<double>(end - first);
+    const double now = run.time_s[i];
+    const auto time = [&](std::size_t k) { return run.time_s[k] - run.time_s[0]; };
+    while (end < n && run.time_s[end] <= now + kHalfWindow_s) {
+      sums.add(time(end), run.speed_m_s[end], 1.0);
+      ++end;
+    }
+    while (run.time_s[first] < now - kHalfWindow_s) {
+      sums.add(time(first), run.speed_m_s[first], -1.0);
+      ++first;
+    }
+    smoothed[i] = sums.at(time(i));
   }
   return smoothed;
 }
@@ -98,6 +123,8 @@ std::vector<SpeedCell> cut_into_cells(const CoastdownRun& run, const CellOptions
       const bool centred = covered > 0.9 * width;
       const double nominal = centred ? centre : std::round(0.5 * (upper + lower) / kNominal_m_s) * kNominal_m_s;
       cells.push_back(make_cell(run, first, end, nominal));
+      cells.back().high_m_s = upper;
+      cells.back().low_m_s = lower;
     }
     first = end;
   }

@@ -17,6 +17,8 @@ struct DecelerationCurve {
 /// Neighbouring samples of a trace, as what their mean needs.
 struct SpeedCell {
   double nominal_speed_m_s = 0.0;  // exact: no sample enters it
+  double high_m_s = 0.0;           // where it begins and ends
+  double low_m_s = 0.0;
   int samples = 0;
   double length_s = 0.0;
   double mean_time_s = 0.0;

@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <set>
 
 #include <fmt/format.h>
-#include <Eigen/QR>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "scenarios/coastdown_model.h"
-#include "scenarios/variance_components.h"
+#include "scenarios/coastdown_problem.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
@@ -19,170 +15,7 @@ namespace rollrig::scenarios {
 namespace {
 
 using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-enum Component : Index { kPassing, kGust, kRunForce, kRunSpeed, kComponents };
-constexpr double kRunSpeedScale_m_s = 20.0;  // makes the two run components alike in size
-
-/// The problem in one place: runs, model, and the sessions behind the wind columns.
-struct Problem {
-  std::vector<FitRun> runs;
-  CoastdownModel model;
-  std::vector<std::string> wind_sessions;
-};
-
-bool has_both_headings(const std::vector<FitRun>& runs) {
-  const auto any = [&runs](int heading) {
-    return std::any_of(runs.begin(), runs.end(), [heading](const FitRun& run) { return run.heading == heading; });
-  };
-  return any(+1) && any(-1);
-}
-
-/// Drag per square of speed at the reference density, from a given drag area.
-std::optional<double> given_drag(const RoadLoadFitOptions& options) {
-  if (!options.drag_area_m2.has_value()) return std::nullopt;
-  return 0.5 * calc_reference_density_kg_m3(options) * *options.drag_area_m2;
-}
-
-Problem make_problem(const CoastdownData& data, const RoadLoadFitOptions& options, double mass_kg) {
-  std::vector<FitRun> runs = make_fit_runs(data, options, mass_kg);
-  const bool uses_headings = has_both_headings(runs);
-  std::vector<std::string> sessions;
-  if (uses_headings) {
-    std::map<std::string, std::vector<FitRun>> by_session;
-    for (const FitRun& run : runs) by_session[data.runs[run.index].session].push_back(run);
-    for (const auto& [session, of_session] : by_session) {
-      if (has_both_headings(of_session)) sessions.push_back(session);
-    }
-  }
-  for (FitRun& run : runs) {
-    const auto it = std::find(sessions.begin(), sessions.end(), data.runs[run.index].session);
-    if (it != sessions.end()) run.wind_column = 4 + static_cast<int>(it - sessions.begin());
-  }
-  const Index count = 3 + (uses_headings ? 1 + static_cast<Index>(sessions.size()) : 0);
-  return {std::move(runs), CoastdownModel(mass_kg, uses_headings, count, given_drag(options)), sessions};
-}
-
-/// Time through every bin, by the present coefficients where a trace is condensed.
-std::vector<double> find_durations_s(const CoastdownModel& model, const FitRun& run, const VectorXd& coefficients) {
-  std::vector<double> durations;
-  for (const FitBin& bin : run.bins) {
-    if (bin.upper_cell < 0) {
-      durations.push_back(bin.duration_s);
-      continue;
-    }
-    const auto upper = static_cast<std::size_t>(bin.upper_cell);
-    const auto passing_s = [&](const SpeedCell& cell) {
-      return calc_passing_time_s(cell, model.deceleration(run, bin, coefficients, cell.nominal_speed_m_s));
-    };
-    durations.push_back(passing_s(run.cells[upper + 1]) - passing_s(run.cells[upper]));
-  }
-  return durations;
-}
-
-/// Covariance of mean forces under white force of unit density. Through bins as given, 1/T. Between means over
-/// cells the weight of the force rises over one cell and falls over the next, so that neighbours share a cell.
-MatrixXd make_gust_pattern(const FitRun& run, const std::vector<double>& durations_s) {
-  const auto n = static_cast<Index>(run.bins.size());
-  MatrixXd pattern = MatrixXd::Zero(n, n);
-  for (Index k = 0; k < n; ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const int upper = run.bins[at].upper_cell;
-    if (upper < 0) {
-      pattern(k, k) = 1.0 / durations_s[at];
-      continue;
-    }
-    const auto cell = static_cast<std::size_t>(upper);
-    const double square = durations_s[at] * durations_s[at];
-    pattern(k, k) = (run.cells[cell].length_s + run.cells[cell + 1].length_s) / (3.0 * square);
-    if (k == 0) continue;
-    pattern(k, k - 1) = run.cells[cell].length_s / (6.0 * durations_s[at] * durations_s[at - 1]);
-    pattern(k - 1, k) = pattern(k, k - 1);
-  }
-  return pattern;
-}
-
-/// Mean forces of a run as observations of a linear model about the present coefficients.
-LinearBlock linearise(const Problem& problem, const FitRun& run, const VectorXd& coefficients,
-                      const VectorXd& components) {
-  const CoastdownModel& model = problem.model;
-  const auto n = static_cast<Index>(run.bins.size());
-  const std::vector<double> durations = find_durations_s(model, run, coefficients);
-  LinearBlock block{VectorXd(n), MatrixXd(n, model.count()), {}};
-  MatrixXd passing = MatrixXd::Zero(n, n);
-  VectorXd speed(n), force_per_s(n), lower_variance(n);
-  for (Index k = 0; k < n; ++k) {
-    const FitBin& bin = run.bins[static_cast<std::size_t>(k)];
-    const CoastdownModel::Passage passage = model.pass(run, bin, coefficients);
-    const double impulse = model.mass_kg() * (bin.high_m_s - bin.low_m_s);
-    const double force = impulse / passage.duration_s;
-    force_per_s(k) = force / passage.duration_s;
-    const double upper_a = model.force_N(run, bin, coefficients, bin.high_m_s) / model.mass_kg();
-    const double lower_a = model.force_N(run, bin, coefficients, bin.low_m_s) / model.mass_kg();
-    const double upper_variance = 1.0 / (bin.upper_samples * upper_a * upper_a);
-    lower_variance(k) = 1.0 / (bin.lower_samples * lower_a * lower_a);
-    passing(k, k) = force_per_s(k) * force_per_s(k) * (upper_variance + lower_variance(k));
-    if (bin.follows) {
-      passing(k, k - 1) = -force_per_s(k) * force_per_s(k - 1) * lower_variance(k - 1);
-      passing(k - 1, k) = passing(k, k - 1);
-    }
-    speed(k) = passage.mean_speed_m_s / kRunSpeedScale_m_s;
-    block.X.row(k) = -force_per_s(k) * passage.gradient.transpose();
-    // 1/dt of a noisy dt is on average too large by its relative variance
-    const double relative_variance = components(kPassing) * passing(k, k) / (force * force);
-    const double measured = impulse / durations[static_cast<std::size_t>(k)] * (1.0 - std::min(relative_variance, 0.5));
-    block.y(k) = measured - force + block.X.row(k).dot(coefficients);
-  }
-  block.patterns = {passing, make_gust_pattern(run, durations), MatrixXd::Ones(n, n), speed * speed.transpose()};
-  return block;
-}
-
-bool all_possible(const Problem& problem, const VectorXd& coefficients) {
-  for (const FitRun& run : problem.runs) {
-    for (const FitBin& bin : run.bins) {
-      if (!problem.model.pass(run, bin, coefficients).possible) return false;
-      if (problem.model.force_N(run, bin, coefficients, bin.high_m_s) <= 0.0) return false;
-      if (problem.model.force_N(run, bin, coefficients, bin.low_m_s) <= 0.0) return false;
-    }
-  }
-  return true;
-}
-
-/// A, B, C by ordinary least squares on plain differences; a constant where that gives a force below zero.
-VectorXd start_coefficients(const Problem& problem) {
-  std::vector<std::array<double, 2>> points;  // speed, force
-  for (const FitRun& run : problem.runs) {
-    for (const FitBin& bin : run.bins) {
-      double dv = bin.high_m_s - bin.low_m_s;
-      double dt = bin.duration_s;
-      double speed = 0.5 * (bin.high_m_s + bin.low_m_s);
-      if (bin.upper_cell >= 0) {
-        const SpeedCell& upper = run.cells[static_cast<std::size_t>(bin.upper_cell)];
-        const SpeedCell& lower = run.cells[static_cast<std::size_t>(bin.upper_cell) + 1];
-        dv = upper.mean_speed_m_s - lower.mean_speed_m_s;
-        dt = lower.mean_time_s - upper.mean_time_s;
-        speed = 0.5 * (upper.mean_speed_m_s + lower.mean_speed_m_s);
-      }
-      points.push_back({speed, problem.model.mass_kg() * dv / dt});
-    }
-  }
-  const auto n = static_cast<Index>(points.size());
-  MatrixXd X(n, 3);
-  VectorXd y(n);
-  for (Index i = 0; i < n; ++i) {
-    const auto& [speed, force] = points[static_cast<std::size_t>(i)];
-    X.row(i) << 1.0, speed, speed * speed;
-    y(i) = force;
-  }
-  VectorXd coefficients = VectorXd::Zero(problem.model.count());
-  coefficients.head(3) = X.colPivHouseholderQr().solve(y);
-  if (all_possible(problem, coefficients)) return coefficients;
-  coefficients.setZero();
-  coefficients(0) = y.mean();
-  if (coefficients(0) > 0.0) return coefficients;
-  throw RunFailure("the speed does not fall: no force to fit");
-}
 
 /// Least components: a speed resolution far below any sensor's, so that data without noise keep weights.
 VectorXd make_floors() {
@@ -192,15 +25,8 @@ VectorXd make_floors() {
   return floors;
 }
 
-std::vector<LinearBlock> linearise_all(const Problem& problem, const VectorXd& coefficients,
-                                       const VectorXd& components) {
-  std::vector<LinearBlock> blocks;
-  for (const FitRun& run : problem.runs) blocks.push_back(linearise(problem, run, coefficients, components));
-  return blocks;
-}
-
 /// Moves towards `wanted`, less far where the force would not stay positive.
-double step_to(const Problem& problem, const VectorXd& wanted, VectorXd& coefficients) {
+double step_to(const CoastdownProblem& problem, const VectorXd& wanted, VectorXd& coefficients) {
   double share = 1.0;
   while (share > 1e-3 && !all_possible(problem, coefficients + share * (wanted - coefficients))) share *= 0.5;
   if (share <= 1e-3) throw RunFailure("the fitted road load is not positive at every speed of the data");
@@ -211,7 +37,7 @@ double step_to(const Problem& problem, const VectorXd& wanted, VectorXd& coeffic
 VectorXd bound(const std::array<double, 3>& values) { return Eigen::Map<const Eigen::Vector3d>(values.data()); }
 
 /// Iterates coefficients and components together; `fixed` components are kept.
-LinearEstimate iterate(const Problem& problem, const RoadLoadFitOptions& options, VectorXd& coefficients,
+LinearEstimate iterate(const CoastdownProblem& problem, const RoadLoadFitOptions& options, VectorXd& coefficients,
                        VectorXd& components, bool fixed, int& iterations) {
   constexpr int kMostIterations = 100;
   constexpr int kUndampedIterations = 10;
@@ -224,6 +50,8 @@ LinearEstimate iterate(const Problem& problem, const RoadLoadFitOptions& options
     if (options.bounds.has_value()) {
       apply_bounds(estimate, bound(options.bounds->lower), bound(options.bounds->upper));
     }
+    // without scatter of passing times the covariance has no inverse: a first guess must not take it all away
+    estimate.components(kPassing) = std::max(estimate.components(kPassing), 0.1 * components(kPassing));
     const VectorXd before = coefficients;
     const double share = step_to(problem, estimate.coefficients, coefficients);
     const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
@@ -256,7 +84,8 @@ RoadLoadEstimate to_estimate(const LinearEstimate& linear) {
   return estimate;
 }
 
-void put_points(const Problem& problem, const VectorXd& coefficients, const VectorXd& components, RoadLoadFit& fit) {
+void put_points(const CoastdownProblem& problem, const VectorXd& coefficients, const VectorXd& components,
+                RoadLoadFit& fit) {
   for (const FitRun& run : problem.runs) {
     const LinearBlock block = linearise(problem, run, coefficients, components);
     const std::vector<double> durations = find_durations_s(problem.model, run, coefficients);
@@ -285,8 +114,8 @@ void put_points(const Problem& problem, const VectorXd& coefficients, const Vect
   }
 }
 
-void put_scatter(const Problem& problem, const LinearEstimate& linear, RoadLoadFit& fit) {
-  const auto sd = [&linear](Component i) -> std::optional<double> {
+void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, RoadLoadFit& fit) {
+  const auto sd = [&linear](CoastdownScatter i) -> std::optional<double> {
     if (!linear.decided[static_cast<std::size_t>(i)]) return std::nullopt;
     return std::sqrt(linear.components(i));
   };
@@ -294,6 +123,7 @@ void put_scatter(const Problem& problem, const LinearEstimate& linear, RoadLoadF
   fit.scatter.gust_N_sqrt_s = sd(kGust);
   fit.scatter.run_force_N = sd(kRunForce);
   fit.scatter.run_speed_N_s_per_m = sd(kRunSpeed);
+  fit.scatter.session_force_N = sd(kSession);
   if (fit.scatter.run_speed_N_s_per_m.has_value()) *fit.scatter.run_speed_N_s_per_m /= kRunSpeedScale_m_s;
   double squares = 0.0;
   double freedom = 0.0;
@@ -308,8 +138,8 @@ void put_scatter(const Problem& problem, const LinearEstimate& linear, RoadLoadF
 }
 
 /// Wind and slope from what differs between the headings.
-void put_wind_and_slope(const Problem& problem, const RoadLoadFitOptions& options, const LinearEstimate& linear,
-                        RoadLoadFit& fit) {
+void put_wind_and_slope(const CoastdownProblem& problem, const RoadLoadFitOptions& options,
+                        const LinearEstimate& linear, RoadLoadFit& fit) {
   if (problem.model.count() < 4) return;
   const double weight_N =
       (options.mass_kg.has_value() ? *options.mass_kg : fit.effective_mass_kg / kDefaultEffectiveRatio) *
@@ -328,14 +158,15 @@ void put_wind_and_slope(const Problem& problem, const RoadLoadFitOptions& option
 }
 
 /// A, B, C of each heading alone, with the scatter of the whole.
-void put_headings(const Problem& problem, const RoadLoadFitOptions& options, const VectorXd& coefficients,
+void put_headings(const CoastdownProblem& problem, const RoadLoadFitOptions& options, const VectorXd& coefficients,
                   const VectorXd& components, RoadLoadFit& fit) {
   for (const int heading : {+1, -1}) {
-    Problem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}};
+    CoastdownProblem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}, {}};
     for (const FitRun& run : problem.runs) {
       if (run.heading != heading) continue;
       part.runs.push_back(run);
       part.runs.back().wind_column = -1;
+      part.groups.push_back({part.runs.size() - 1});
     }
     if (part.runs.empty()) continue;
     try {
@@ -352,7 +183,7 @@ void put_headings(const Problem& problem, const RoadLoadFitOptions& options, con
 }
 
 /// The coefficients at the mean weather of the runs.
-models::RoadLoad<double> at_test_weather(const Problem& problem, const models::RoadLoad<double>& load) {
+models::RoadLoad<double> at_test_weather(const CoastdownProblem& problem, const models::RoadLoad<double>& load) {
   double rolling = 0.0;
   double density = 0.0;
   double bins = 0.0;
@@ -366,7 +197,7 @@ models::RoadLoad<double> at_test_weather(const Problem& problem, const models::R
   return {load.A_N * rolling / bins, load.B_N_s_per_m * rolling / bins, load.C_N_s2_per_m2 * density / bins};
 }
 
-void require_enough(const Problem& problem, const RoadLoadFitOptions& options) {
+void require_enough(const CoastdownProblem& problem, const RoadLoadFitOptions& options) {
   constexpr std::size_t kLeastBins = 4;  // one more than coefficients
   std::size_t bins = 0;
   for (const FitRun& run : problem.runs) bins += run.bins.size();
@@ -379,7 +210,17 @@ void require_enough(const Problem& problem, const RoadLoadFitOptions& options) {
                     "", 0, "", "", fmt::format("at least {} bins in which the speed falls", kLeastBins), ""});
 }
 
-void warn(const Problem& problem, const CoastdownData& data, const RoadLoadFitOptions& options, RoadLoadFit& fit) {
+void put_range(const CoastdownProblem& problem, RoadLoadFit& fit) {
+  fit.low_m_s = std::numeric_limits<double>::infinity();
+  for (const FitRun& run : problem.runs) {
+    const bool trace = !run.cells.empty();
+    fit.high_m_s = std::max(fit.high_m_s, trace ? run.cells.front().high_m_s : run.bins.front().high_m_s);
+    fit.low_m_s = std::min(fit.low_m_s, trace ? run.cells.back().low_m_s : run.bins.back().low_m_s);
+  }
+}
+
+void warn(const CoastdownProblem& problem, const CoastdownData& data, const RoadLoadFitOptions& options,
+          RoadLoadFit& fit) {
   const std::size_t left_out = data.runs.size() - problem.runs.size();
   if (left_out > 0) fit.warnings.push_back(fmt::format("{} runs have no whole speed bin and are left out", left_out));
   if (problem.model.count() == 3) {
@@ -391,6 +232,13 @@ void warn(const Problem& problem, const CoastdownData& data, const RoadLoadFitOp
   if (!fit.scatter.run_force_N.has_value() || !fit.scatter.run_speed_N_s_per_m.has_value()) {
     fit.warnings.push_back(
         "too few runs to tell how they differ from run to run: the standard deviations hold noise along the runs only");
+  }
+  if (fit.scatter.session_force_N.value_or(0.0) > 0.0) {
+    const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);
+    fit.warnings.push_back(fmt::format(
+        "the sessions differ by a standard deviation of {:.1f} % of the force at {:.0f} km/h, more than their noise "
+        "explains; where they cover different speeds this bends the curve",
+        100.0 * *fit.scatter.session_force_N / fit.force_N(middle), 3.6 * middle));
   }
   if (!options.mass_kg.has_value()) {
     fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");
@@ -430,7 +278,7 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
     fit.effective_mass_kg =
         *options.mass_kg + options.rotating_mass_kg.value_or((kDefaultEffectiveRatio - 1.0) * *options.mass_kg);
   }
-  const Problem problem = make_problem(data, options, fit.effective_mass_kg);
+  const CoastdownProblem problem = make_problem(data, options, fit.effective_mass_kg);
   require_enough(problem, options);
   VectorXd coefficients = start_coefficients(problem);
   VectorXd components = VectorXd::Zero(kComponents);
@@ -452,6 +300,7 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
   fit.ambient_corrected = measured(&CoastdownConditions::ambient_K);
   fit.wind_corrected = measured(&CoastdownConditions::wind_m_s);
   fit.as_tested = at_test_weather(problem, fit.load);
+  put_range(problem, fit);
   put_scatter(problem, linear, fit);
   put_wind_and_slope(problem, options, linear, fit);
   put_points(problem, coefficients, components, fit);

@@ -60,6 +60,7 @@ struct RoadLoadScatter {
   std::optional<double> gust_N_sqrt_s;        // white force along a run: sd of its mean over T is this / sqrt(T)
   std::optional<double> run_force_N;          // force from run to run
   std::optional<double> run_speed_N_s_per_m;  // force in proportion to speed, from run to run
+  std::optional<double> session_force_N;      // force from session to session
 };
 
 struct RoadLoadEstimate {
@@ -98,6 +99,8 @@ struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
   RoadLoadScatter scatter;
   std::vector<HeadingFit> headings;
   std::vector<RoadLoadPoint> points;
+  double high_m_s = 0.0;  // speeds that the data cover
+  double low_m_s = 0.0;
   double chi2_per_dof = 0.0;
   int iterations = 0;
   std::vector<std::string> warnings;

@@ -18,9 +18,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MatrixXd invert(const MatrixXd& matrix) {
+  constexpr double kLeastPivot = 1e-14;  // of a matrix with a unit diagonal
   const VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<MatrixXd> factor(scale.asDiagonal() * matrix * scale.asDiagonal());
-  if (!scale.allFinite() || factor.info() != Eigen::Success || !factor.isPositive() || factor.rcond() < 1e-15) {
+  if (!scale.allFinite() || factor.info() != Eigen::Success || factor.vectorD().minCoeff() < kLeastPivot) {
     throw RunFailure("the coastdowns do not decide the coefficients: wider or more speeds are needed");
   }
   return scale.asDiagonal() * factor.solve(MatrixXd::Identity(matrix.rows(), matrix.cols())) * scale.asDiagonal();

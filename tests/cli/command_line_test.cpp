@@ -231,8 +231,8 @@ TEST_CASE("describe explains scenarios, effects and assets within 80 columns", "
 }
 
 TEST_CASE("help stands everywhere and completion scripts parse", "[fast]") {
-  for (const char* command :
-       {"", "run", "sweep", "regress", "validate", "list", "describe", "fit", "fit tire", "completion"}) {
+  for (const char* command : {"", "run", "sweep", "regress", "validate", "list", "describe", "fit", "fit tire",
+                              "fit road-load", "completion"}) {
     const auto run = run_program(std::string(command) + " --help");
     INFO(command);
     CHECK(run.status == 0);

@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "sim/core/csv.h"
+#include "sim/core/json.h"
+#include "tests/support/coastdown_study.h"
+#include "tests/support/run_program.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace rollrig;
+using Catch::Contains;
+using tests::read_file;
+using tests::run_program;
+using tests::TemporaryFolder;
+
+namespace {
+
+std::string write_trace(const tests::CoastdownStudy& study) {
+  CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
+  for (const auto& run : tests::simulate_coastdowns(study, 1).runs) {
+    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+      csv.begin_row();
+      csv.add(run.time_s[i]);
+      csv.add(3.6 * run.speed_m_s[i]);
+      csv.add(run.id);
+      csv.add(std::string(run.heading > 0 ? "+" : "-"));
+      csv.add(20.0);
+      csv.end_row();
+    }
+  }
+  return csv.take();
+}
+
+std::size_t longest_line(const std::string& text) {
+  std::size_t longest = 0;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) longest = std::max(longest, line.size());
+  return longest;
+}
+
+}  // namespace
+
+TEST_CASE("fit road-load: table of 80 columns, JSON and residuals", "[fast]") {
+  const TemporaryFolder folder;
+  tests::write_file(folder.file("coast.csv"), write_trace({}));
+  const auto run = run_program("fit road-load coast.csv --mass 2100 --out fitted", folder.path());
+  INFO(run.err << run.out);
+  REQUIRE(run.status == 0);
+  CHECK(longest_line(run.out) <= 80);
+  CHECK_THAT(run.out, Contains("N/(km/h)2") && Contains("runs each way") && Contains("not checked") &&
+                          Contains("3 % of the test mass") && Contains("drift of coast times"));
+  const Json json = Json::parse(read_file(folder.file("fitted/road_load.json")));
+  CHECK(json["format"] == "rollrig-road-load/1");
+  CHECK(json["A_N"].get<double>() == Approx(120.0).epsilon(0.01));
+  CHECK(json["B_N_per_km_h"].get<double>() == Approx(0.5).epsilon(0.1));
+  CHECK(json["C_N_per_km_h2"].get<double>() == Approx(0.03).epsilon(0.01));
+  for (const char* key : {"A_N_sd", "B_N_per_km_h_sd", "C_N_per_km_h2_sd"}) CHECK(json[key].get<double>() > 0.0);
+  CHECK(json["correlation"][0][0].get<double>() == Approx(1.0));
+  CHECK(std::abs(json["correlation"][0][1].get<double>()) < 1.0);
+  CHECK(json["headings"].size() == 2);
+  CHECK(json["session_drift"].size() == 1);
+  CHECK(json["corrected"]["ambient"] == true);
+  for (const Json& check : json["checks"]) {
+    for (const char* key : {"name", "status", "found", "limit", "clause"}) CHECK(check[key].is_string());
+  }
+  const CsvTable residuals = CsvTable::read(folder.file("fitted/residuals.csv"));
+  CHECK(residuals.row_count() == json["residuals"].size());
+  CHECK(residuals.has("residual_N"));
+  // what is left is centred, in proportion to its standard deviation
+  double sum = 0.0;
+  for (const Json& point : json["residuals"]) {
+    CHECK(point["force_N"].get<double>() - point["fit_N"].get<double>() ==
+          Approx(point["residual_N"].get<double>()).margin(1e-9));
+    sum += point["residual_N"].get<double>() * std::sqrt(point["weight"].get<double>());
+  }
+  CHECK(std::abs(sum / static_cast<double>(json["residuals"].size())) < 0.3);
+}
+
+TEST_CASE("fit road-load: per unit of mass, bounds, one heading, JSON alone", "[fast]") {
+  const TemporaryFolder folder;
+  tests::CoastdownStudy study;
+  study.pairs = 1;
+  tests::write_file(folder.file("coast.csv"), write_trace(study));
+  const auto json_of = [&](const std::string& options) {
+    const auto run = run_program("fit road-load coast.csv --json - " + options, folder.path());
+    INFO(run.err);
+    REQUIRE(run.status == 0);
+    return Json::parse(run.out);
+  };
+  const Json per_mass = json_of("--per-mass");
+  CHECK(per_mass["A_m_s2"].get<double>() == Approx(120.0 / 2163.0).epsilon(0.01));
+  const Json bounded = json_of("--mass 2100 --bounds A=:,B=0.6:,C=:");
+  CHECK(bounded["B_N_per_km_h"].get<double>() == Approx(0.6));
+  CHECK(bounded["B_N_per_km_h_sd"].is_null());
+  CHECK(bounded["on_bound"][0] == "B_N_per_km_h");
+  CHECK_THAT(bounded["warnings"].dump(), Contains("bounds are on"));
+  CHECK(json_of("--mass 2100 --effective-mass 2200")["A_N"].get<double>() == Approx(120.0 * 2200 / 2163).epsilon(0.01));
+  const std::string text = read_file(folder.file("coast.csv"));
+  std::string single;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find(",-,") == std::string::npos) single += line + "\n";
+  }
+  tests::write_file(folder.file("single.csv"), single);
+  const auto run = run_program("fit road-load single.csv --mass 2100", folder.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("warning: not both headings"));
+  CHECK(longest_line(run.out) <= 80);
+  CHECK(run_program("fit road-load single.csv --mass 2100 --quiet", folder.path()).out.empty());
+}
