@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -7,6 +8,7 @@
 #include "cli/print.h"
 #include "scenarios/assets.h"
 #include "scenarios/run_spec.h"
+#include "scenarios/speed_trace.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::cli {
@@ -87,6 +89,24 @@ void describe_effect(const models::EffectInfo& info) {
 /// Source comments of an asset are part of what it says: the file itself is shown.
 void describe_file(const std::string& path) { std::cout << path << "\n\n" << read_text_file(path); }
 
+/// A trace is read best in a plot; here what it comes to.
+void describe_cycle(const std::string& path) {
+  const scenarios::SpeedTrace trace = scenarios::read_speed_trace(path);
+  double distance_m = 0.0;
+  double standing_s = 0.0;
+  for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
+    const double step_s = trace.time_s[i] - trace.time_s[i - 1];
+    distance_m += 0.5 * (trace.speed_m_s[i] + trace.speed_m_s[i - 1]) * step_s;
+    if (trace.speed_m_s[i] == 0.0 && trace.speed_m_s[i - 1] == 0.0) standing_s += step_s;
+  }
+  const double fastest_m_s = *std::max_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
+  std::cout << path << "\n\n"
+            << fmt::format(
+                   "{}: drive cycle, {} rows, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill\n",
+                   trace.name, trace.time_s.size(), trace.duration_s(), distance_m / 1e3, 3.6 * fastest_m_s,
+                   standing_s);
+}
+
 int describe_command(const std::string& name) {
   std::vector<std::string> known = scenarios::scenario_names();
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
@@ -105,7 +125,8 @@ int describe_command(const std::string& name) {
   for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"}) {
     for (const std::string& asset : scenarios::list_assets(folder)) {
       if (asset == name) {
-        describe_file(scenarios::find_asset(folder, name));
+        const std::string path = scenarios::find_asset(folder, name);
+        std::string(folder) == "cycles" ? describe_cycle(path) : describe_file(path);
         return kDone;
       }
       known.push_back(asset);

@@ -25,6 +25,11 @@ struct Options {
 
 int run_command(const Options& options) {
   const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
+  if (!options.set_folder.empty() && spec.scenario->has_vehicle) {
+    throw InputError(
+        {fmt::format("measurement sets are written from drum tests, and '{}' is none", spec.scenario->text.name),
+         "command line", 0, "--write-set", options.set_folder, "--out for result and recording", ""});
+  }
   // Refused before the run, not after it, when the results could not be written.
   std::optional<OutputFolder> out;
   std::optional<OutputFolder> set;

@@ -75,7 +75,8 @@ struct TieDownParameters {
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"stiffness_N_per_m", positive(), "Along the vehicle, in all. Assumed: 2 MN/m", 2e6},
           p.stiffness_N_per_m);
-    visit(Field{"damping_N_s_per_m", positive(), "Likewise. Assumed: 20 kN s/m", 2e4}, p.damping_N_s_per_m);
+    visit(Field{"damping_N_s_per_m", positive(), "Likewise. Assumed: 100 kN s/m, 0.75 of critical", 1e5},
+          p.damping_N_s_per_m);
   }
 };
 

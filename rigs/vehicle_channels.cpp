@@ -13,7 +13,7 @@ constexpr double kTemperatureTime_K_s = 1e-3;
 constexpr double kPressureTime_Pa_s = 10.0;
 constexpr double kDistance_m = 1e-3;
 constexpr double kTime_s = 1e-3;
-constexpr double kEnergy_J = 0.005;  // of one step; a multi-cycle test has 1e5
+constexpr double kEnergy_J = 0.002;  // of one step; a multi-cycle test has 1e5
 constexpr double kYardstick_J = 1e4;
 
 }  // namespace
