@@ -70,9 +70,13 @@ std::string format_table(const scenarios::ResultTable& table) {
 
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   using Ledger = sim::EnergyTerm::Ledger;
-  const std::string vehicle = spec.vehicle.has_value() ? fmt::format("   vehicle {}", spec.vehicle->name) : "";
-  std::string text = fmt::format("{}   tire {} ({})   rig {}{}   {}\n", spec.scenario->text.name, spec.tire.name,
-                                 spec.tire.designation, spec.rig.name, vehicle, scenarios::name_of(spec.fidelity));
+  std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name, spec.tire.name,
+                                 spec.tire.designation, spec.rig.name, scenarios::name_of(spec.fidelity));
+  if (spec.vehicle.has_value()) {
+    text += wrap(fmt::format("vehicle {}: {:.0f} kg, driven axle {}", spec.vehicle->name, spec.vehicle->body.mass_kg,
+                             rigs::name_of(spec.vehicle->driven_axle)),
+                 2);
+  }
   if (!spec.effects.empty()) {
     std::string names;
     for (const models::ActiveEffect& active : spec.effects) {

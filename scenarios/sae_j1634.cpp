@@ -1,6 +1,8 @@
 /// SAE J1634 multi-cycle test on a dynamometer, in the standard's order or the source's (§3.4.4).
 #include <algorithm>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include "scenarios/vehicle_bench.h"
 
 namespace rollrig::scenarios {
@@ -127,6 +129,11 @@ std::string show(const Json& value, int digits) {
   return value.is_number() ? fmt::format("{:.{}f}", value.get<double>(), digits) : "-";
 }
 
+/// As the source's tables name it, so that a line holds.
+std::string shorten(const std::string& section) {
+  return boost::algorithm::replace_first_copy(section, "constant speed", "CS");
+}
+
 void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
   Json sections = Json::array();
@@ -136,7 +143,7 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (!is_section(outcome.recording.phases[i].name)) continue;
     const Json section = evaluate_section(spec, layout, outcome.recording, i);
-    table.rows.push_back({section["name"].get<std::string>(), show(section["distance_km"], 2),
+    table.rows.push_back({shorten(section["name"].get<std::string>()), show(section["distance_km"], 2),
                           show(section["rr_energy_Wh"], 1), show(section["rr_energy_iso_Wh"], 1),
                           show(section["difference_percent"], 1), show(section["mean_rrc_N_per_kN"], 2),
                           show(section["temperature_start_degC"], 1), show(section["temperature_end_degC"], 1),
