@@ -33,15 +33,28 @@ struct SlipForce {
   S dissipated_W{};
 };
 
+/// Eighth-power mean of the rates at which rolling and sliding let the contact's deflection go; about the larger.
+template <class S>
+S calc_relaxation_per_s(const S& rolling_per_s, const S& sliding_per_s) {
+  using std::pow;
+  const bool rolls = value_of(rolling_per_s) > value_of(sliding_per_s);
+  const S& larger_per_s = rolls ? rolling_per_s : sliding_per_s;
+  if (value_of(larger_per_s) <= 0.0) return larger_per_s;
+  const S ratio = (rolls ? sliding_per_s : rolling_per_s) / larger_per_s;
+  return larger_per_s * pow(S(1.0) + pow(ratio, S(8.0)), S(0.125));
+}
+
 /// Force through the deflection u of the contact.
-/// Equation  du/dt = V_s - (|V|/sigma + |V_s| k/(mu Fz)) u;  Fx = k u + d g(V_s) du/dt;
+/// Equation  du/dt = V_s - r u, r = ((|V|/sigma)^8 + (|V_s| k/(mu Fz))^8)^(1/8);  Fx = k u + d g(V_s) du/dt;
 ///           g = 1/(1 + (V_s/V_0)^2);  dissipated: Fx V_s - k u du/dt
 /// Symbols   V speed of the surface past the contact [m/s], V_s slip speed: of the surface over the tire
 ///           [m/s], sigma relaxation length [m], k spring [N/m], d damping [N s/m], mu friction
 ///           coefficient [1], Fz normal force [N], V_0 = 0.1 m/s
-/// Validity  any speed, standstill as well; |Fx| settles at mu Fz in full sliding; no force when lifted
-/// Energy    never dissipates less than nothing while d g (|V|/sigma + |V_s| k/(mu Fz)) <= 4 k
-/// Source    relaxation model of the design; damping gated as usual in LuGre friction. Assumed: V_0
+/// Validity  any speed, standstill as well; Fx = k sigma V_s/|V|, in proportion to the slip, to 1e-4 up to
+///           0.4 mu Fz; |Fx| settles at mu Fz in full sliding; no force when lifted
+/// Energy    never dissipates less than nothing while d g r <= 4 k
+/// Source    relaxation model of the design; damping gated as usual in LuGre friction. Assumed: V_0, the power 8,
+///           so that a tire within its grip costs the Fx^2/C of effect slip_loss
 /// Checked   tests/models/contact_law_test.cpp
 template <class S>
 SlipForce<S> calc_slip_force(const ContactParameters<S>& p, const S& speed_m_s, const S& slip_speed_m_s,
@@ -50,8 +63,9 @@ SlipForce<S> calc_slip_force(const ContactParameters<S>& p, const S& speed_m_s, 
   const S gate_m_s = quantity<S>(0.1, dimension::kSpeed);
   const S least_normal_N = quantity<S>(1.0, dimension::kForce);
   const S normal_or_least_N = normal_N > least_normal_N ? normal_N : least_normal_N;
-  const S relaxation_per_s = abs(speed_m_s) / p.relaxation_length_m +
-                             abs(slip_speed_m_s) * p.slip_spring_N_per_m / (p.friction_coefficient * normal_or_least_N);
+  const S relaxation_per_s = calc_relaxation_per_s(
+      S(abs(speed_m_s) / p.relaxation_length_m),
+      S(abs(slip_speed_m_s) * p.slip_spring_N_per_m / (p.friction_coefficient * normal_or_least_N)));
   const S spring_N = p.slip_spring_N_per_m * deflection_m;
   SlipForce<S> slip;
   if (value_of(normal_N) <= 0.0) {  // lifted: the deflection springs back, and its energy is lost

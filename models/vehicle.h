@@ -1,6 +1,7 @@
 #pragma once
 /// Forces on a vehicle beside those of its tires.
 
+#include "models/ports.h"
 #include "sim/core/scalar.h"
 #include "sim/core/units.h"
 
@@ -58,6 +59,14 @@ ForceDemand<S> blend_brakes(const S& demand_N, const S& motor_limit_N, const S& 
   const S limit_N = value_of(fade) < 1.0 ? S(motor_limit_N * fade) : motor_limit_N;
   const S motor_N = value_of(-demand_N) < value_of(limit_N) ? S(-demand_N) : limit_N;
   return {-motor_N, -demand_N - motor_N};
+}
+
+/// Whether the vehicle is to stand still. Its motor holds it then, uphill and downhill, without power: a friction
+/// brake whose force fades with the speed would let it creep.
+/// Source    Assumed: hill hold, usual of electric cars. Checked   tests/rigs/vehicle_test.cpp
+template <class S>
+bool is_held(const InputPort<S>& acting) {
+  return value_of(acting.speed_m_s) == 0.0 && value_of(acting.acceleration_m_s2) == 0.0;
 }
 
 }  // namespace rollrig::models

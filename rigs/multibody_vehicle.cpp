@@ -179,7 +179,40 @@ class MultibodyVehicle::Implementation {
     stored_J[index_of(VehicleStore::kHeat)] = heat_J;
   }
 
+  VehicleForces find_forces(double time_s, const double* y) {
+    set_state(time_s, y);
+    system_.realize(state_, SimTK::Stage::Acceleration);
+    const DriveEvaluation& drive = drive_->evaluation(state_);
+    VehicleForces forces;
+    forces.tie_down_N = drive.tie_down_N + drive.tie_down_damper_N;
+    forces.speed_m_s = drive.speed_m_s;
+    for (std::size_t i = 0; i < corners_.size(); ++i) forces.wheels.push_back(find_wheel_forces(i));
+    return forces;
+  }
+
  private:
+  VehicleForces::Wheel find_wheel_forces(std::size_t i) const {
+    const VehicleBodies::Wheel& bodies = bodies_.wheels[i];
+    const ContactEvaluation& at = contacts_[i]->evaluation(state_);
+    const DriveEvaluation::Wheel& drive = drive_->evaluation(state_).wheels[i];
+    const SimTK::SpatialVec hub = bodies.wheel.findMobilizerReactionOnBodyAtMInGround(state_);
+    VehicleForces::Wheel wheel;
+    wheel.contact_load_N = at.normal_N;
+    wheel.contact_force_N = at.slip.force_N * at.tangent[0];
+    wheel.rolling_resistance_N = at.now.rolling_resistance_N;
+    wheel.loaded_radius_m = at.loaded_radius_m;
+    wheel.wheel_speed_rad_s = at.wheel_speed_rad_s;
+    wheel.roller_speed_rad_s = at.surface_speed_rad_s;
+    wheel.spindle_reaction_N = hub[1][0];
+    wheel.hub_torque_Nm = drive.motor_Nm - drive.brake_Nm;
+    wheel.roller_mass_kg = bodies.roller_mass_kg;
+    if (is_flat()) return wheel;
+    const SimTK::SpatialVec pin = bodies.roller.findMobilizerReactionOnBodyAtMInGround(state_);
+    wheel.roller_reaction_N = pin[1][0];
+    wheel.roller_lift_N = pin[1][1];
+    return wheel;
+  }
+
   bool is_flat() const { return layout_.rig_kind == RigKind::kFlat; }
   std::size_t slip_state(std::size_t wheel) const {
     return first_z_ + static_cast<std::size_t>(contacts_[wheel]->first_z());
@@ -298,15 +331,19 @@ class MultibodyVehicle::Implementation {
     const double counted = segment_.inputs[index_of(VehicleInput::kCounted)].start;
     const double body_m_s = at.speed_m_s;
     double motor_W = 0.0, brake_W = 0.0, roller_W = 0.0, tire_W = 0.0, slip_W = 0.0, bearing_W = 0.0;
+    double own_share = 0.0;  // of the motor, at the simulated hubs
     double tire_damper_W = 0.0, suspension_W = 0.0, heat_W = 0.0, air_W = 0.0, road_W = 0.0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const ContactEvaluation& contact = contacts_[i]->evaluation(state_);
       const DriveEvaluation::Wheel& wheel = at.wheels[i];
-      motor_W += wheel.motor_Nm * contact.wheel_speed_rad_s;
-      brake_W += wheel.brake_Nm * contact.wheel_speed_rad_s;
+      const double hub_rad_s = bodies_.wheels[i].wheel.getOneU(state_, 0);  // against the upright, which may pitch
+      motor_W += wheel.motor_Nm * hub_rad_s;
+      brake_W += wheel.brake_Nm * hub_rad_s;
+      own_share += layout_.wheels[i].motor_share;
       tire_W += contact.couple_Nm * (contact.wheel_speed_rad_s + contact.surface_speed_rad_s);
       slip_W += contact.slip.dissipated_W;
-      bearing_W += calc_bearing_W(contact);
+      bearing_W += contact.now.parasitic_N *
+                   (is_flat() ? contact.loaded_radius_m * hub_rad_s : roller_radius_m_ * contact.surface_speed_rad_s);
       const double spring_N =
           corners_[i].context().tire.stiffness.vertical_N_per_m * std::max(0.0, contact.deflection_m);
       tire_damper_W += (contact.normal_N - spring_N) * contact.deflection_rate_m_s;
@@ -318,7 +355,7 @@ class MultibodyVehicle::Implementation {
     }
     if (is_flat()) roller_W += (at.assist_N - at.grade_N) * body_m_s;
     if (!is_flat() && bodies_.has_sled()) suspension_W -= at.tie_down_damper_N * bodies_.sled.getOneU(state_, 0);
-    const double drive_W = at.motor_N * body_m_s;
+    const double drive_W = own_share > 0.0 ? motor_W / own_share : at.motor_N * body_m_s;
     put(VehicleIntegral::kTraction, at.demand_N);
     put(VehicleIntegral::kDistance, body_m_s);
     put(VehicleIntegral::kCountedTime, counted);
@@ -339,11 +376,6 @@ class MultibodyVehicle::Implementation {
     put(VehicleIntegral::kHeatGenerated, heat_W);
     put(VehicleIntegral::kHeatToAir, air_W);
     put(VehicleIntegral::kHeatToRoad, road_W);
-  }
-
-  double calc_bearing_W(const ContactEvaluation& contact) const {
-    return is_flat() ? contact.now.parasitic_N * contact.loaded_radius_m * contact.wheel_speed_rad_s
-                     : contact.now.parasitic_N * roller_radius_m_ * contact.surface_speed_rad_s;
   }
 
   /// Power of the roller's motor, of the rest of the vehicle through it, and of the restraint.
@@ -437,6 +469,9 @@ void MultibodyVehicle::observe(double time_s, const double* state, double* value
 }
 void MultibodyVehicle::calc_stored(double time_s, const double* state, double* stored_J) {
   guarded([&] { implementation_->calc_stored(time_s, state, stored_J); });
+}
+VehicleForces MultibodyVehicle::find_forces(double time_s, const double* state) {
+  return guarded([&] { return implementation_->find_forces(time_s, state); });
 }
 
 }  // namespace rollrig::rigs

@@ -10,6 +10,27 @@
 
 namespace rollrig::rigs {
 
+/// Forces at one instant of one state, for tests that look inside. Horizontal ones are positive forwards,
+/// vertical ones upwards.
+struct VehicleForces {
+  struct Wheel {
+    double contact_load_N = 0.0;
+    double contact_force_N = 0.0;  // of the surface on the wheel
+    double rolling_resistance_N = 0.0;
+    double loaded_radius_m = 0.0;
+    double wheel_speed_rad_s = 0.0;
+    double roller_speed_rad_s = 0.0;  // 0 on the flat
+    double spindle_reaction_N = 0.0;  // of the upright on the wheel, from Simbody's joint reaction
+    double hub_torque_Nm = 0.0;       // of motor and brake on the wheel, positive when it drives
+    double roller_reaction_N = 0.0;   // of the ground on the roller, from Simbody's joint reaction
+    double roller_lift_N = 0.0;       // likewise upwards
+    double roller_mass_kg = 0.0;
+  };
+  std::vector<Wheel> wheels;
+  double tie_down_N = 0.0;  // on the vehicle
+  double speed_m_s = 0.0;
+};
+
 /// Bodies   dynamometer, whole: sled held by the tie-downs, body with heave; no pitch, which the mounting
 ///          prevents (§3.4.2); a quarter: no sled. Road: sled free along it, body with heave, and pitch
 ///          when whole. No roll: both sides of the vehicle are alike
@@ -39,6 +60,9 @@ class MultibodyVehicle : public sim::OdeSystem<double> {
   double watch(const std::string& name, double time_s, const double* state) override;
   void observe(double time_s, const double* state, double* values) override;
   void calc_stored(double time_s, const double* state, double* stored_J) override;
+
+  /// Everything at one state, joint reactions included.
+  VehicleForces find_forces(double time_s, const double* state);
 
  private:
   class Implementation;

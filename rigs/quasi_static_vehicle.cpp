@@ -142,7 +142,9 @@ void QuasiStaticVehicle<S>::find_balance() {
 template <class S>
 void QuasiStaticVehicle<S>::share_demand() {
   const models::ForceDemand<S> demand =
-      models::blend_brakes(demand_N_, S(layout_.motor_limit_N), speed_m_s_, S(layout_.regeneration_fade_m_s));
+      driver_on_ && models::is_held(wheels_.front().now.acting)
+          ? models::ForceDemand<S>{demand_N_, zero<S>()}
+          : models::blend_brakes(demand_N_, S(layout_.motor_limit_N), speed_m_s_, S(layout_.regeneration_fade_m_s));
   motor_N_ = demand.motor_N;
   assist_N_ = demand_N_;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
@@ -205,9 +207,12 @@ void QuasiStaticVehicle<S>::fill_vehicle_integrands(S* integrands) const {
   using std::abs;
   const auto put = [integrands](VehicleIntegral integral, const S& value) { integrands[index_of(integral)] = value; };
   const S counted = S(segment_.inputs[index_of(VehicleInput::kCounted)].start);
+  double own_share = 0.0;  // of the motor, at the simulated hubs
   S motor_W = zero<S>(), tire_W = zero<S>(), slip_W = zero<S>(), bearing_W = zero<S>(), brake_W = zero<S>();
   S heat_in_W = zero<S>(), to_air_W = zero<S>(), to_road_W = zero<S>();
-  for (const Wheel& wheel : wheels_) {
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const Wheel& wheel = wheels_[i];
+    own_share += layout_.wheels[i].motor_share;
     const S rim_m_s = speed_m_s_ * (S(1.0) - wheel.slip);
     motor_W += wheel.motor_N * rim_m_s;
     brake_W += wheel.friction_N * rim_m_s;
@@ -220,7 +225,7 @@ void QuasiStaticVehicle<S>::fill_vehicle_integrands(S* integrands) const {
     to_road_W += wheel.now.heat.to_road_W;
   }
   const S roller_W = (assist_N_ - given_force_N_) * speed_m_s_;
-  const S drive_W = motor_N_ * speed_m_s_;
+  const S drive_W = own_share > 0.0 ? S(motor_W / own_share) : S(motor_N_ * speed_m_s_);
   const bool drives = value_of(drive_W) > 0.0;
   const bool flat = layout_.rig_kind == RigKind::kFlat;
   put(VehicleIntegral::kTraction, demand_N_);

@@ -105,6 +105,21 @@ void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::F
   out.roller_Nm = (own_N - set_N + keep_pace_N) * roller_radius_m_;
 }
 
+/// What a hub does to its roller is shared by all rollers, each by its inertia, so that driven and undriven
+/// ones keep one speed without lagging.
+void VehicleDrive::share_among_rollers(DriveEvaluation& at) const {
+  double all_N = 0.0;
+  for (std::size_t i = 0; i < at.wheels.size(); ++i) all_N += hub_force_N(i, at);
+  for (std::size_t i = 0; i < at.wheels.size(); ++i) {
+    const double share = layout_.wheels[i].static_load_N / (layout_.mass_kg * kStandardGravity_m_s2);
+    at.wheels[i].roller_Nm += (share * all_N - hub_force_N(i, at)) * roller_radius_m_;
+  }
+}
+
+double VehicleDrive::hub_force_N(std::size_t i, const DriveEvaluation& at) const {
+  return (at.wheels[i].motor_Nm - at.wheels[i].brake_Nm) / rim_radius_m(i);
+}
+
 void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
   at = {};
   at.wheels.resize(bodies_.wheels.size());
@@ -116,7 +131,9 @@ void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
   find_speed(state, at);
   find_demand(state, at);
   const models::ForceDemand<double> demand =
-      models::blend_brakes(at.demand_N, layout_.motor_limit_N, at.speed_m_s, layout_.regeneration_fade_m_s);
+      driver_on_ && models::is_held(at.acting)
+          ? models::ForceDemand<double>{at.demand_N, 0.0}
+          : models::blend_brakes(at.demand_N, layout_.motor_limit_N, at.speed_m_s, layout_.regeneration_fade_m_s);
   at.motor_N = demand.motor_N;
   at.assist_N = demand.motor_N - demand.friction_N * fade(at.speed_m_s);  // less what the own wheels do
   const double restraint_N = at.acting.load_N - now.recorded.load_N;
@@ -128,6 +145,7 @@ void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
     at.drag_N = calc_body_drag_N(at.speed_m_s, at.acting);
     at.grade_N = models::calc_grade_N(layout_.mass_kg, at.acting.slope);
   } else if (bodies_.sled.isValid()) {
+    share_among_rollers(at);
     const SimTK::MobilizedBody& sled = matter_.getMobilizedBody(bodies_.sled);
     at.tie_down_N = -tie_down_.stiffness_N_per_m * sled.getOneQ(state, 0);
     at.tie_down_damper_N = -tie_down_.damping_N_s_per_m * sled.getOneU(state, 0);

@@ -40,9 +40,11 @@ struct DriveEvaluation {
 
 /// Driver    D = F_ff(v_set) + m (a_set + 2 w e + w^2 I), dI/dt = e, e = v_set - v: critically damped at w;
 ///           F_ff the rollers' force or drag, grade and a rolling loss of 1 % of the weight; coasting: D = 0
-/// Brakes    D shared by blend_brakes; a friction brake's torque fades with tanh(v_rim / 0.05 m/s)
-/// Rollers   T = R (-(A + B v + C v^2) s + F_par(v)) + R m_i w_s (v_mean - v_i): each bears its share s of the
-///           set force, makes up for its own nominal bearings, and keeps pace with the others
+/// Brakes    D shared by blend_brakes, at a held standstill all of it the motor's; a friction brake's torque fades with
+/// tanh(v_rim / 0.05 m/s) Rollers   T = R (-(A + B v + C v^2) s + F_par(v) + s sum D_j - D_i) + R m_i w_s (v_mean -
+/// v_i): each bears its
+///           share s of the set force and of what all hubs do (D), makes up for its own nominal bearings, and
+///           keeps pace with the others
 /// Source    (3.20), §3.4.2, §3.4.3. Assumed: gains, 20 rad/s for w_s
 /// Checked   tests/rigs/multibody_vehicle_test.cpp
 class VehicleDrive : public SimTK::Force::Custom::Implementation {
@@ -93,6 +95,8 @@ class VehicleDrive : public SimTK::Force::Custom::Implementation {
   void find_demand(const SimTK::State& state, DriveEvaluation& at) const;
   void find_wheel(const SimTK::State& state, std::size_t i, const models::ForceDemand<double>& demand,
                   DriveEvaluation& at) const;
+  void share_among_rollers(DriveEvaluation& at) const;
+  double hub_force_N(std::size_t wheel, const DriveEvaluation& at) const;
   void find_suspension(const SimTK::State& state, std::size_t i, DriveEvaluation& at) const;
   double calc_feedforward_N(const models::InputPort<double>& acting) const;
   double calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const;

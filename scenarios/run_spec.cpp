@@ -42,15 +42,14 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
     reader.accept("sensors");
     return std::nullopt;
   }
-  if (reader.source().find("sensors")->as_table() != nullptr) {
-    return models::read_sensors(*reader.table("sensors"), measured_drum_channels());
-  }
-  const std::string name = reader.text("sensors");
+  const ConfigTable* table = reader.source().find("sensors")->as_table();
+  const std::string name = table != nullptr ? "" : reader.text("sensors");
   if (name == "none") return std::nullopt;
   if (scenario.has_vehicle) {
     throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", scenario.text.name),
                          "no sensors, or none");
   }
+  if (table != nullptr) return models::read_sensors(*reader.table("sensors"), measured_drum_channels());
   return read_sensor_file(read_config(find_asset_from(base_folder, "sensors", name)));
 }
 
@@ -146,9 +145,10 @@ void check_rig_kind(const RunSpec& spec) {
 /// The vehicle of a scenario that has one.
 void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
   if (!spec.scenario->has_vehicle) {
-    if (reader.has("vehicle")) {
-      throw reader.problem("vehicle", fmt::format("scenario '{}' has no vehicle", spec.scenario->text.name),
-                           "no vehicle, or another scenario");
+    for (TableReader* from : {&reader, &overrides}) {
+      if (!from->has("vehicle")) continue;
+      throw from->problem("vehicle", fmt::format("scenario '{}' has no vehicle", spec.scenario->text.name),
+                          "no vehicle, or another scenario");
     }
     return;
   }

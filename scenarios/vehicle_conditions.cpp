@@ -21,6 +21,18 @@ void check_rotating_mass(const RunSpec& spec) {
   throw InputError(problem);
 }
 
+/// A file may describe a vehicle with any number of tires; the rigs here have a place for four.
+void check_tires(const RunSpec& spec) {
+  if (spec.vehicle->tires == 4) return;
+  InputProblem problem;
+  problem.what = fmt::format("vehicle '{}' has {} tires, the rigs take four", spec.vehicle->name, spec.vehicle->tires);
+  problem.file = spec.vehicle->path;
+  problem.key = "tires";
+  problem.value = fmt::format("{}", spec.vehicle->tires);
+  problem.allowed = "4";
+  throw InputError(problem);
+}
+
 }  // namespace
 
 void VehicleConditions::complete(const RunSpec& spec) {
@@ -37,6 +49,7 @@ void VehicleConditions::complete(const RunSpec& spec) {
     problem.allowed = "4 or 1";
     throw InputError(problem);
   }
+  check_tires(spec);
   check_rotating_mass(spec);
   if (!ambient_K.has_value()) ambient_K = spec.rig.environment.ambient_K;
   if (!initial_tire_K.has_value()) initial_tire_K = ambient_K;

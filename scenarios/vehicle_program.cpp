@@ -7,6 +7,7 @@ namespace {
 
 constexpr double kMaxStepAtRest_s = 20.0;  // under the gas's time constant of 24 s
 constexpr double kMaxStepCoasting_s = 1.0;
+constexpr double kMaxStepOnRamp_s = 1.0;  // recuperation has a knee in it
 
 }  // namespace
 
@@ -32,6 +33,7 @@ void VehicleProgram::add_counted_line(sim::Phase& phase, double duration_s, doub
   const auto put = [&segment](rigs::VehicleInput input, sim::Ramp ramp) {
     segment.inputs[rigs::index_of(input)] = ramp;
   };
+  if (end_m_s != speed_m_s_) segment.max_step_s = kMaxStepOnRamp_s;
   put(rigs::VehicleInput::kSpeed, {speed_m_s_, (end_m_s - speed_m_s_) / duration_s});
   put(rigs::VehicleInput::kAmbient, {ambient_K, 0.0});
   put(rigs::VehicleInput::kSurface, {conditions_.surface_K.value_or(ambient_K), 0.0});

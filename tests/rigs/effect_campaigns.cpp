@@ -3,7 +3,8 @@
 #include <map>
 
 #include "rigs/trace_effects.h"
-#include "tests/support/drum_fixture.h"
+#include "scenarios/vehicle_bench.h"
+#include "tests/support/vehicle_fixture.h"
 
 namespace rollrig::tests {
 namespace {
@@ -53,6 +54,75 @@ DrumFixture drum_with(const Effects& effects) {
   return fixture;
 }
 
+constexpr double kLoadShare = 0.55;  // of the axle, so that the wheel's load is not the tire's reference load
+
+/// A driven quarter at the rear: 1.2 kN of drive and 1.6 kN of friction brake force at the wheel.
+VehicleFixture dyno_with(const Effects& effects) {
+  VehicleFixture fixture("dyno_1m2", false, rigs::QuarterWheel::kRear);
+  fixture.vehicle.geometry.front_load_share = 1.0 - kLoadShare;
+  fixture.vehicle.brakes.front_share = 0.3;
+  fixture.effects = effects;
+  return fixture;
+}
+
+/// Cold start, ramps, brakings beyond what the motor takes, fast stretches, rest.
+sim::Program dyno_program() {
+  const double v50 = 50.0 / 3.6;
+  const double v120 = 120.0 / 3.6;
+  const double v130 = 130.0 / 3.6;
+  return make_program({driving("run-up", 30.0, 0.0, v120), driving("fast", 400.0, v120, v120),
+                       driving("brake", 6.0, v120, v50), driving("slow", 240.0, v50, v50),
+                       driving("faster", 20.0, v50, v130), driving("fastest", 400.0, v130, v130),
+                       driving("stop", 12.0, v130, 0.0), driving("rest", 120.0, 0.0, 0.0),
+                       driving("start", 15.0, 0.0, v50), driving("slow again", 300.0, v50, v50)});
+}
+
+/// A driven quarter at the front that hardly recuperates, so that moderate braking heats its brake.
+VehicleFixture road_with(const Effects& effects) {
+  VehicleFixture fixture("flat", false, rigs::QuarterWheel::kFront);
+  fixture.vehicle.driven_axle = rigs::DrivenAxle::kFront;
+  fixture.vehicle.geometry.front_load_share = kLoadShare;
+  fixture.vehicle.powertrain.regeneration_limit_m_s2 = 0.1;
+  fixture.effects = effects;
+  return fixture;
+}
+
+/// Cold start, then fast stretches with brakings between them; forces stay under 1 kN at the wheel.
+sim::Program road_program() {
+  const double v40 = 40.0 / 3.6;
+  const double v120 = 120.0 / 3.6;
+  std::vector<sim::Phase> phases{driving("run-up", 60.0, 0.0, v120), driving("fast", 300.0, v120, v120)};
+  for (const char* time : {"1", "2", "3", "4"}) {
+    phases.push_back(driving(std::string("brake ") + time, 25.0, v120, v40));
+    phases.push_back(driving(std::string("faster ") + time, 45.0, v40, v120));
+  }
+  phases.push_back(driving("fast again", 300.0, v120, v120));
+  phases.push_back(driving("stop", 40.0, v120, 0.0));
+  phases.push_back(driving("rest", 120.0, 0.0, 0.0));
+  phases.push_back(driving("start", 20.0, 0.0, v40));
+  phases.push_back(driving("slow", 300.0, v40, v40));
+  return make_program(phases);
+}
+
+sim::Recording<Jet> run_vehicle_with_derivatives(const VehicleFixture& fixture, const sim::Program& program) {
+  const rigs::VehicleLayout layout = fixture.layout();
+  std::vector<models::Corner<Jet>> corners(
+      layout.wheels.size(), models::Corner<Jet>(models::convert_context<Jet>(fixture.context()), fixture.effects));
+  for (models::Corner<Jet>& corner : corners) {
+    corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
+  }
+  const rigs::VehicleStart<double> at = fixture.start();
+  rigs::VehicleStart<Jet> start;
+  start.tire_temperature_K = Jet(at.tire_temperature_K);
+  start.cold_pressure_Pa = Jet(at.cold_pressure_Pa);
+  start.ambient_pressure_Pa = Jet(at.ambient_pressure_Pa);
+  rigs::QuasiStaticVehicle<Jet> vehicle(corners, layout, start, false);
+  sim::FixedGridIntegrator<Jet> integrator(vehicle);
+  sim::Recording<Jet> recording = sim::simulate<Jet>(vehicle, integrator, program);
+  rigs::apply_trace_effects(corners.front(), recording);
+  return recording;
+}
+
 }  // namespace
 
 const std::set<std::string>& measured_on(models::RigKind kind) {
@@ -68,9 +138,24 @@ const std::vector<Campaign>& campaigns() {
       {models::RigKind::kDrum,
        "drum_torque_Nm",
        {"load", "skim", "fast"},
+       sim::kAuditLimit,
        [](const Effects& effects) { return drum_with(effects).run_quasi_static(drum_program()); },
        [](const Effects& effects) { return drum_with(effects).run_multibody(drum_program()); },
-       run_drum_with_derivatives}};
+       run_drum_with_derivatives},
+      {models::RigKind::kDyno,
+       "loss_force_N",
+       {"fast", "slow", "fastest", "slow again"},
+       scenarios::kDriveAuditLimit,
+       [](const Effects& effects) { return dyno_with(effects).run_quasi_static(dyno_program()); },
+       [](const Effects& effects) { return dyno_with(effects).run_multibody(dyno_program()); },
+       [](const Effects& effects) { return run_vehicle_with_derivatives(dyno_with(effects), dyno_program()); }},
+      {models::RigKind::kFlat,
+       "traction_force_N",
+       {"fast", "fast again", "slow"},
+       scenarios::kDriveAuditLimit,
+       [](const Effects& effects) { return road_with(effects).run_quasi_static(road_program()); },
+       [](const Effects& effects) { return road_with(effects).run_multibody(road_program()); },
+       [](const Effects& effects) { return run_vehicle_with_derivatives(road_with(effects), road_program()); }}};
   return all;
 }
 

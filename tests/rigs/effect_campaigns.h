@@ -19,6 +19,7 @@ struct Campaign {
   models::RigKind kind;
   std::string force_channel;                // the fidelities are compared in it, and in temperature
   std::vector<std::string> settled_phases;  // at whose end force and temperature hold still
+  double audit_limit;
   std::function<sim::Recording<double>(const Effects&)> run_quasi_static;
   std::function<sim::Recording<double>(const Effects&)> run_multibody;
   /// With derivatives by the first parameter of the only effect, in place 0.

@@ -193,8 +193,8 @@ void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, c
 void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects) {
   const auto multibody = campaign.run_multibody(effects);
   const auto quasi_static = campaign.run_quasi_static(effects);
-  CHECK_NOTHROW(multibody.audit.require_closed(sim::kAuditLimit));
-  CHECK_NOTHROW(quasi_static.audit.require_closed(sim::kAuditLimit));
+  CHECK_NOTHROW(multibody.audit.require_closed(campaign.audit_limit));
+  CHECK_NOTHROW(quasi_static.audit.require_closed(campaign.audit_limit));
   if (measured_on(campaign.kind).count("liner_temperature_degC") == 1) {
     CHECK(largest_difference(multibody.channel("liner_temperature_degC"),
                              quasi_static.channel("liner_temperature_degC")) < 0.02);
