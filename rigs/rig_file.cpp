@@ -12,6 +12,9 @@ namespace {
 const std::map<std::string, RigKind> kKinds{
     {"drum", RigKind::kDrum}, {"dyno", RigKind::kDyno}, {"flat", RigKind::kFlat}};
 
+const std::string kAllWheels = "all_wheels";
+const std::string kDrivenWheels = "driven_wheels";
+
 /// Reads table [name] into a visited group; an absent table is an error unless every field has a default.
 template <class Group>
 void read_table(TableReader& file, const std::string& name, Group& group, bool may_be_absent) {
@@ -44,7 +47,10 @@ RigFile read_rig(const ConfigTable& config) {
   rig.name = file.text("name");
   rig.kind = kKinds.at(file.text("kind", {"drum", "dyno", "flat"}));
   if (rig.kind == RigKind::kDrum) read_table(file, "drum", rig.drum, false);
-  if (rig.kind == RigKind::kDyno) read_table(file, "roller", rig.drum, false);
+  if (rig.kind == RigKind::kDyno) {
+    read_table(file, "roller", rig.drum, false);
+    rig.driven_wheels_only = file.text_or("rollers_under", kAllWheels, {kAllWheels, kDrivenWheels}) == kDrivenWheels;
+  }
   if (rig.kind != RigKind::kFlat) read_parasitic(file, rig);
   read_table(file, "environment", rig.environment, false);
   if (rig.kind == RigKind::kDrum) {
@@ -86,6 +92,7 @@ std::string write_rig(const RigFile& rig) {
     if (value == rig.kind) kind = name;
   }
   std::string text = fmt::format("format = \"rollrig-rig/1\"\nname = \"{}\"\nkind = \"{}\"\n", rig.name, kind);
+  if (rig.driven_wheels_only) text += fmt::format("rollers_under = \"{}\"\n", kDrivenWheels);
   if (rig.kind != RigKind::kFlat) {
     text += write_group(rig.kind == RigKind::kDrum ? "drum" : "roller", rig.drum);
     text += write_group("parasitic", rig.parasitic, &rig.parasitic_uncertainties);

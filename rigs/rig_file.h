@@ -98,7 +98,8 @@ struct RigFile {
   std::string content;  // as read, for the manifest's hash
   std::string name;
   RigKind kind = RigKind::kDrum;
-  DrumParameters drum;  // of each roller on a dyno
+  DrumParameters drum;              // of each roller on a dyno
+  bool driven_wheels_only = false;  // of a dyno: the other axle stands still, its tires lose nothing
   models::ParasiticParameters<double> parasitic;
   models::ParasiticParameters<double> parasitic_uncertainties;  // 0 where none was given
   RigEnvironment environment;

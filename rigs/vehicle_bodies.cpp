@@ -88,8 +88,7 @@ VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const Ve
   }
   const double other_kg = calc_other_mass_kg(layout, tire, bodies, mass_factor);
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
-    bodies.wheels[i].roller_mass_kg =
-        other_kg * layout.wheels[i].static_load_N / (layout.mass_kg * kStandardGravity_m_s2);
+    bodies.wheels[i].roller_mass_kg = other_kg * layout.wheels[i].static_load_N / layout.rolling_load_N;
   }
   const Vec3 height_m(0, calc_body_height_m(vehicle), 0);
   const SimTK::Body::Rigid sprung = make_sprung_body(layout, bodies);

@@ -96,7 +96,7 @@ void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::F
   at.assist_N -= place.motor_share * demand.motor_N - friction_N * fade(at.speed_m_s);
   find_suspension(state, i, at);
   if (is_flat()) return;
-  const double share = place.static_load_N / (layout_.mass_kg * kStandardGravity_m_s2);
+  const double share = place.static_load_N / layout_.rolling_load_N;
   const double roller_m_s = matter_.getMobilizedBody(bodies_.wheels[i].roller).getOneU(state, 0) * roller_radius_m_;
   const double set_N = share * fade(roller_m_s) * models::calc_road_load_N(layout_.resistance, roller_m_s);
   const double own_N = fade(roller_m_s) * models::calc_parasitic_N(context_.parasitic, std::abs(roller_m_s));

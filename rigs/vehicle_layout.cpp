@@ -26,6 +26,21 @@ WheelPlace make_wheel(const VehicleFile& vehicle, bool front, const std::string&
   return wheel;
 }
 
+/// Where one axle stands still, the other's friction brakes do it all.
+WheelPlace make_rolling_wheel(const VehicleFile& vehicle, const RigFile& rig, bool front, const std::string& position) {
+  WheelPlace wheel = make_wheel(vehicle, front, position);
+  if (!rolls(vehicle, rig, !front)) wheel.friction_share = 0.5;
+  return wheel;
+}
+
+double find_rolling_load_N(const VehicleFile& vehicle, const RigFile& rig) {
+  double load_N = 0.0;
+  for (const bool front : {true, false}) {
+    if (rolls(vehicle, rig, front)) load_N += 2.0 * make_wheel(vehicle, front, "").static_load_N;
+  }
+  return load_N;
+}
+
 models::RoadLoad<double> scale(const models::RoadLoad<double>& load, double factor) {
   return {factor * load.A_N, factor * load.B_N_s_per_m, factor * load.C_N_s2_per_m2};
 }
@@ -38,6 +53,7 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, const mo
   layout.share = share;
   layout.mass_kg = share * vehicle.body.mass_kg;
   layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;
+  layout.rolling_load_N = share * find_rolling_load_N(vehicle, rig);
   layout.air_density_kg_per_m3 =
       models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, rig.environment.ambient_K);
   layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
@@ -54,19 +70,24 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, const mo
 
 }  // namespace
 
+bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front) {
+  return !(rig.kind == RigKind::kDyno && rig.driven_wheels_only) || is_driven(vehicle, front);
+}
+
 VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
                                const models::RoadLoad<double>& set_load) {
   VehicleLayout layout = make_body(vehicle, rig, set_load, 1.0);
   for (const char* position : {"front_left", "front_right", "rear_left", "rear_right"}) {
-    layout.wheels.push_back(make_wheel(vehicle, position[0] == 'f', position));
+    const bool front = position[0] == 'f';
+    if (rolls(vehicle, rig, front)) layout.wheels.push_back(make_rolling_wheel(vehicle, rig, front, position));
   }
   return layout;
 }
 
 VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
                            QuarterWheel which) {
-  WheelPlace wheel = make_wheel(vehicle, which == QuarterWheel::kFront, "");
-  const double share = wheel.static_load_N / (vehicle.body.mass_kg * kStandardGravity_m_s2);
+  WheelPlace wheel = make_rolling_wheel(vehicle, rig, which == QuarterWheel::kFront, "");
+  const double share = wheel.static_load_N / find_rolling_load_N(vehicle, rig);
   VehicleLayout layout = make_body(vehicle, rig, set_load, share);
   wheel.motor_share /= share;
   wheel.friction_share /= share;

@@ -22,7 +22,8 @@ struct WheelPlace {
   double axle_x_m = 0.0;        // from the centre of gravity, forwards
 };
 
-/// The whole vehicle on four wheels, or a quarter: one wheel with its share of the mass. What a quarter's
+/// The whole vehicle on its wheels, or a quarter: one wheel with its share of the mass (a half of it where only
+/// one axle rolls). What a quarter's
 /// own wheel does not drive or brake reaches it through the roller or the body, as the force of the other
 /// wheels would.
 struct VehicleLayout {
@@ -30,6 +31,7 @@ struct VehicleLayout {
   double share = 1.0;  // of the vehicle that is simulated
   double mass_kg = 0.0;
   double rotating_mass_kg = 0.0;
+  double rolling_load_N = 0.0;  // on the simulated wheels: less than the weight where an axle stands still
   double drag_area_m2 = 0.0;
   double air_density_kg_per_m3 = 0.0;
   double motor_limit_N = 0.0;  // most that the motor brakes
@@ -42,8 +44,12 @@ struct VehicleLayout {
 
 enum class QuarterWheel { kFront, kRear };
 
-/// The layout of a vehicle with four wheels, or of a quarter. On the flat, `resistance` is the vehicle's
-/// road load where it has one, else nothing: drag and tires act by themselves. On a dynamometer it is `set_load`.
+/// Whether a wheel of an axle rolls: on a dynamometer with rollers under the driven wheels alone, the others stand.
+bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front);
+
+/// The layout of a vehicle with all its wheels that roll, or of one wheel with its share. On the flat, `resistance` is
+/// the vehicle's road load where it has one, else nothing: drag and tires act by themselves. On a dynamometer it is
+/// `set_load`.
 VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
                                const models::RoadLoad<double>& set_load);
 VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,

@@ -128,7 +128,7 @@ void put_highway(const RunSpec& spec, const Settings& settings, Outcome& outcome
   outcome.result["highway_rr_energy_Wh"] = model_J / 3600.0;
   outcome.result["highway_rr_energy_iso_Wh"] =
       spec.tire.iso_28580.has_value()
-          ? Json(spec.tire.iso_28580->rrc * spec.vehicle->body.mass_kg * kStandardGravity_m_s2 * distance_m / 3600.0)
+          ? Json(spec.tire.iso_28580->rrc * layout.rolling_load_N / layout.share * distance_m / 3600.0)
           : Json();
 }
 
@@ -217,7 +217,7 @@ const Scenario& scenario_dyno_setting() {
                   {"largest_difference_N", "over those speeds"},
                   {"within_criterion", "whether it is within criterion_N"},
                   {"iterations", "corrections of the set force"},
-                  {"highway_rr_energy_Wh", "of all four tires, over both highway cycles"},
+                  {"highway_rr_energy_Wh", "of all tires that roll, over both highway cycles"},
                   {"highway_rr_energy_iso_Wh", "the same by the tire's ISO coefficient; null where it has none"}}};
     made.settings = list_settings<Settings>();
     made.rig_kinds = {rigs::RigKind::kDyno};

@@ -107,7 +107,8 @@ Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, co
   Json json = {{"name", span.name},
                {"distance_km", section.common(VehicleIntegral::kDistance) / 1e3},
                {"rr_energy_Wh", rr_J / kWh_J}};
-  if (spec.tire.iso_28580.has_value()) {
+  const bool tires_lose = spec.rig.kind == rigs::RigKind::kDyno || !spec.vehicle->road_load.has_value();
+  if (spec.tire.iso_28580.has_value() && tires_lose) {
     const double iso_J = spec.tire.iso_28580->rrc * layout.wheels.front().static_load_N *
                          section.common(VehicleIntegral::kCountedDistance);
     json["rr_energy_iso_Wh"] = iso_J / kWh_J;
@@ -168,11 +169,13 @@ const Scenario& scenario_sae_j1634() {
        "Standard: UDDS 1, 15 s, HFEDS 1, 10 min soak, UDDS 2, constant speed, UDDS 3, 15 s, HFEDS 2, 10 min soak, "
        "UDDS 4, constant speed. Source: the same without pauses, soaks of 10 min after the highway sections, "
        "constant speeds 105 and 80 km/h. Of each section, for one tire: energy of rolling resistance by the model "
-       "and by the constant ISO coefficient, temperatures, mean coefficient; for the vehicle: energy at the wheels.",
+       "and by the constant ISO coefficient, temperatures, mean coefficient; for the vehicle: energy at the wheels. On "
+       "rig flat a vehicle with [road_load] needs exactly that at the wheels, and its tires nothing of their own.",
        "SAE J1634 as fixed by 40 CFR 600.116-12(a); source §3.4.4, §3.4.5, Tables 4.4 and 4.5",
        {{"sections", "a list; of each: name, distance_km"},
         {"sections[].rr_energy_Wh", "energy of rolling resistance of one tire, counted stretches"},
-        {"sections[].rr_energy_iso_Wh", "the same by the tire's ISO coefficient; null where it has none"},
+        {"sections[].rr_energy_iso_Wh",
+         "the same by the tire's ISO coefficient; null where it has none, or no loss of its own"},
         {"sections[].difference_percent", "of the first from the second"},
         {"sections[].mean_rrc_N_per_kN", "mean over time of F_rr/Fz, counted stretches"},
         {"sections[].temperature_start_degC", "of the liner"},
@@ -180,7 +183,7 @@ const Scenario& scenario_sae_j1634() {
         {"sections[].wheel_energy_Wh", "given out at the driven hubs, whole vehicle"},
         {"sections[].recuperated_Wh", "taken in by the motor while it brakes"},
         {"sections[].battery_energy_Wh", "through the constant efficiency of the powertrain, both ways"}}},
-      {rigs::RigKind::kDyno}, "dyno_1m2", &plan, &evaluate);
+      {rigs::RigKind::kDyno, rigs::RigKind::kFlat}, "dyno_1m2", &plan, &evaluate);
   return scenario;
 }
 

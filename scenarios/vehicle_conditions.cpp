@@ -33,21 +33,32 @@ void check_tires(const RunSpec& spec) {
   throw InputError(problem);
 }
 
+InputError setting_problem(const RunSpec& spec, const char* key, const std::string& value, const std::string& what,
+                           const std::string& allowed) {
+  const ConfigValue* set = spec.settings.find(key);
+  InputProblem problem;
+  problem.what = what;
+  if (set != nullptr) {
+    problem.file = set->origin.file;
+    problem.line = set->origin.line;
+  }
+  problem.key = key;
+  problem.value = value;
+  problem.allowed = allowed;
+  return InputError(problem);
+}
+
 }  // namespace
 
 void VehicleConditions::complete(const RunSpec& spec) {
   if (wheels != 1 && wheels != 4) {
-    const ConfigValue* set = spec.settings.find("wheels");
-    InputProblem problem;
-    problem.what = "a vehicle is simulated whole or as a quarter";
-    if (set != nullptr) {
-      problem.file = set->origin.file;
-      problem.line = set->origin.line;
-    }
-    problem.key = "wheels";
-    problem.value = fmt::format("{}", wheels);
-    problem.allowed = "4 or 1";
-    throw InputError(problem);
+    throw setting_problem(spec, "wheels", fmt::format("{}", wheels), "a vehicle is simulated whole or as a quarter",
+                          "4 or 1");
+  }
+  if (wheels == 1 && !rigs::rolls(*spec.vehicle, spec.rig, quarter.value == "front")) {
+    throw setting_problem(spec, "quarter", quarter.value,
+                          fmt::format("rig '{}' has rollers under the driven wheels alone", spec.rig.name),
+                          fmt::format("\"{}\"", rigs::name_of(spec.vehicle->driven_axle)));
   }
   check_tires(spec);
   check_rotating_mass(spec);
