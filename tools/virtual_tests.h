@@ -19,8 +19,8 @@ struct Calibration {
     kBRise,        // B at 120 km/h less B at 80 km/h, 1/K
     kLogDynoZ,     // W/K
     kLogDynoF,     // W s/(m K)
-    kLogDrumZ,     // W/K
-    kLogDrumF,     // W s/(m K)
+    kLogDrumG,     // z + f v at 80 km/h, W/K
+    kDrumZShare,   // share of z in it
     kLogCapacity,  // J/K
   };
   static constexpr std::size_t kCount = 9;
