@@ -27,12 +27,6 @@ struct Fit {
   Eigen::MatrixXd jacobian;  // of the weighted residuals
 };
 
-/// Heat goes out of a tire by both ways.
-void set_bounds(ceres::Problem& problem, double* x) {
-  problem.SetParameterLowerBound(x, static_cast<int>(Calibration::kDrumZShare), 0.0);
-  problem.SetParameterUpperBound(x, static_cast<int>(Calibration::kDrumZShare), 1.0);
-}
-
 Fit calibrate(VirtualTests& tests) {
   Fit fit;
   fit.at = Calibration::of(tests.tire());
@@ -44,7 +38,6 @@ Fit calibrate(VirtualTests& tests) {
   cost->SetNumResiduals(static_cast<int>(tests.observation_count()));
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, x);
-  set_bounds(problem, x);
   ceres::Solver::Options options;
   options.max_num_iterations = 200;
   options.function_tolerance = 1e-9;

@@ -36,8 +36,6 @@ PublishedTire read_published_tire(const std::string& folder, const std::string& 
     out.band_B_high_per_K = reader.number({"band_B_high_per_degC", positive(), ""});
     out.band_low_N = reader.number_or_none({"band_low_N", positive(), ""});
     out.band_low_sd_N = reader.number_or_none({"band_low_N_sd", positive(), ""});
-    out.B_rise_per_K = reader.number_or_none({"B_rise_per_degC", positive(), ""});
-    out.B_rise_sd_per_K = reader.number_or_none({"B_rise_per_degC_sd", positive(), ""});
     out.city_3_fall_K = reader.number({"city_3_fall_K", positive(), ""});
   });
   read_table(folder + "/table_4_4_and_4_5/expected.toml", tire, [&out](TableReader& reader) {

@@ -14,8 +14,6 @@ struct PublishedTire {
   double band_B_high_per_K = 0.0;
   std::optional<double> band_low_N;
   std::optional<double> band_low_sd_N;
-  std::optional<double> B_rise_per_K;  // from 80 to 120 km/h
-  std::optional<double> B_rise_sd_per_K;
   double city_3_fall_K = 0.0;
   std::vector<double> city;            // Table 4.4, City 1 to 4
   std::vector<double> highway;         // Table 4.5, Highway 1 and 2
