@@ -16,9 +16,14 @@ struct LossCoefficients {
 /// Coefficients at a load.
 /// Equation  without a map  A = (Fz/Fz_ref) (A0 + A1 v), B = B0 + B1 v      (source (3.4), (3.5))
 ///           with a map     A0, A1, B0, B1 linear in load between two entries (§3.3.1.3)
-/// Validity  outside the map the nearest entry holds and A goes in proportion to the load, as in (3.5)
+///           below the tire's lowest speed v_low, v stands for v_low
+/// Validity  outside the map the nearest entry holds and A goes in proportion to the load, as in (3.5). Lines
+///           through two high speeds need not hold down to standstill, where they may cross zero: §4.2.1 trusts
+///           them from 20 km/h. v_low = 0, unless a tire says otherwise
 template <class S>
-LossCoefficients<S> calc_loss_coefficients(const TireParameters<S>& tire, const S& speed_m_s, const S& load_N) {
+LossCoefficients<S> calc_loss_coefficients(const TireParameters<S>& tire, const S& true_speed_m_s, const S& load_N) {
+  const S& lowest_m_s = tire.rolling_resistance.lowest_speed_m_s;
+  const S& speed_m_s = true_speed_m_s < lowest_m_s ? lowest_m_s : true_speed_m_s;
   const auto scaled = [&](const auto& c, const S& reference_load_N) {
     return LossCoefficients<S>{load_N / reference_load_N * (c.A0_N + c.A1_N_s_per_m * speed_m_s),
                                c.B0_per_K + c.B1_s_per_m_K * speed_m_s};

@@ -62,7 +62,8 @@ struct SpeedLines {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"A0_N", non_negative(), "Loss at standstill and 0 degC"}, p.A0_N);
+    visit(Field{"A0_N", any_number(), "Loss at standstill and 0 degC; A is not negative from lowest_speed_km_h up"},
+          p.A0_N);
     visit(Field{"A1_N_s_per_m", any_number(), "Its rise with speed"}, p.A1_N_s_per_m);
     visit(Field{"B0_per_degC", any_number(), "Its relative fall with tire temperature at standstill"}, p.B0_per_K);
     visit(Field{"B1_s_per_m_degC", any_number(), "The rise of that fall with speed"}, p.B1_s_per_m_K);
@@ -76,6 +77,7 @@ struct RollingResistanceParameters : SpeedLines<S> {
   S reference_pressure_Pa{};  // gauge
   S reference_drum_diameter_m{};
   S pressure_exponent{};
+  S lowest_speed_m_s{};
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -84,6 +86,8 @@ struct RollingResistanceParameters : SpeedLines<S> {
           p.reference_pressure_Pa);
     visit(Field{"reference_drum_diameter_m", positive(), "Drum on which A0 and A1 hold"}, p.reference_drum_diameter_m);
     visit(Field{"pressure_exponent", between(0.0, 2.0), "a of (p/p_ref)^-a"}, p.pressure_exponent);
+    visit(Field{"lowest_speed_km_h", between(0.0, 100.0), "Below it A and B are held at their values there", 0.0},
+          p.lowest_speed_m_s);
     SpeedLines<S>::visit(p, visit);
   }
 };

@@ -35,6 +35,15 @@ bool read_identified_group(TableReader& file, const char* name, Group& values, G
   return true;
 }
 
+/// A = A0 + A1 v must not be negative where it is used; A1 takes care of higher speeds as far as it is positive.
+void check_loss(const ConfigTable& table, const char* header, const SpeedLines<double>& lines, double lowest_m_s) {
+  const double least_A0_N = lowest_m_s > 0.0 ? -lines.A1_N_s_per_m * lowest_m_s : 0.0;
+  if (lines.A0_N >= least_A0_N) return;
+  throw TableReader(table, header)
+      .problem("A0_N", "the loss would be negative at the lowest speed of the law",
+               fmt::format(">= {:.5g}", least_A0_N));
+}
+
 void read_load_map(const ConfigTable& rolling_resistance, TireFile& tire) {
   TableReader reader(rolling_resistance, "[rolling_resistance]");
   for (const ConfigTable* entry_table : reader.tables("load_map")) {
@@ -48,6 +57,7 @@ void read_load_map(const ConfigTable& rolling_resistance, TireFile& tire) {
       throw entry_reader.problem("load_N", "loads of the map must increase",
                                  fmt::format("more than {} N", tire.values.load_map.back().load_N));
     }
+    check_loss(*entry_table, "[[rolling_resistance.load_map]]", entry, tire.values.rolling_resistance.lowest_speed_m_s);
     tire.values.load_map.push_back(entry);
     tire.standard_uncertainties.load_map.push_back(uncertainty);
   }
@@ -118,7 +128,12 @@ TireFile read_tire(const ConfigTable& config) {
   tire.has_stiffness = read_group(file, "stiffness", tire.values.stiffness);
   tire.has_rolling_resistance = read_identified_group(file, "rolling_resistance", tire.values.rolling_resistance,
                                                       tire.standard_uncertainties.rolling_resistance, {"load_map"});
-  if (tire.has_rolling_resistance) read_load_map(*file.table("rolling_resistance"), tire);
+  if (tire.has_rolling_resistance) {
+    const ConfigTable& table = *file.table("rolling_resistance");
+    check_loss(table, "[rolling_resistance]", tire.values.rolling_resistance,
+               tire.values.rolling_resistance.lowest_speed_m_s);
+    read_load_map(table, tire);
+  }
   tire.has_thermal =
       read_identified_group(file, "thermal", tire.values.thermal, tire.standard_uncertainties.thermal, {"rig"});
   if (tire.has_thermal) read_rig_thermal(*file.table("thermal"), tire);

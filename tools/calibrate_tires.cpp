@@ -1,120 +1,78 @@
-/// Calibrates the source's tires on the drum rig to the numbers that the source publishes.
+/// Calibrates the source's tires to the numbers that the source publishes, on the drum and on the dynamometer.
 ///
-/// usage: calibrate_tires <published.toml> <tire.toml> [<tire.toml> ...]
-/// Fitted for each tire: a scale on A0 and A1, B0, and z on rig drum_2m, so that virtual tests give
-///   - RRc_ISO (scenario iso_28580 at the tire's own ISO load and pressure),
-///   - the relative fall of the loss over 30 to 35 degC (scenario warm_up at 5400 N, 280 kPa),
-///   - the loss at 30 degC in that test, or, where none is published, the start of the warm-up over its
-///     end at ISO load.
-/// Three numbers by three parameters: nothing is left to predict in them. The files are rewritten in place,
-/// number by number; comments stay.
+/// usage: calibrate_tires <tests/published> <tire.toml> [<tire.toml> ...]
+/// Fitted for each tire, nine parameters: A and B at 80 and 120 km/h (A0, A1, B0, B1), z and f on rig dyno_1m2,
+/// z and f on rig drum_2m, and the heat capacity. To what, and with which weights and priors: virtual_tests.cpp
+/// and the published numbers' files. The tire files are rewritten in place, number by number; comments stay.
+/// Written out: fitted numbers with standard errors, every observation, the condition of the problem.
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <iostream>
-#include <optional>
 
-#include "scenarios/run_spec.h"
 #include "sim/core/file_io.h"
+#include "tools/virtual_tests.h"
 
 namespace {
 
 using namespace rollrig;
+using tools::Calibration;
+using tools::VirtualTests;
 
-struct Targets {
-  double rrc_iso = 0.0;
-  double band_B_per_K = 0.0;
-  std::optional<double> band_low_N;
-  std::optional<double> start_excess;
+using Cost = ceres::DynamicNumericDiffCostFunction<VirtualTests, ceres::CENTRAL>;
+
+struct Fit {
+  Calibration at;
+  Eigen::MatrixXd jacobian;  // of the weighted residuals
 };
 
-Targets read_targets(const ConfigTable& published, const std::string& tire) {
-  TableReader file(published, "");
-  check_format(file, "rollrig-published", 1);
-  const ConfigTable* table = file.table(tire);
-  if (table == nullptr) throw file.problem(tire, "nothing is published of this tire");
-  TableReader reader(*table, "[" + tire + "]");
-  Targets targets;
-  targets.rrc_iso = reader.number({"rrc_iso_N_per_kN", positive(), ""});
-  targets.band_B_per_K = reader.number({"band_B_per_degC", positive(), ""});
-  targets.band_low_N = reader.number_or_none({"band_low_N", positive(), ""});
-  targets.start_excess = reader.number_or_none({"start_excess_percent", positive(), ""});
-  reader.finish();
-  return targets;
-}
-
-/// What is fitted.
-struct Calibrated {
-  double A_scale = 1.0;
-  double B0_per_K = 0.0;
-  double z_W_per_K = 0.0;
-};
-
-class VirtualTests {
- public:
-  VirtualTests(std::string tire_path, Targets targets) : targets_(targets) {
-    iso_ = make_spec("iso_28580", tire_path, {});
-    warm_up_ = make_spec("warm_up", tire_path, {"load_N=5400", "pressure_kPa=280"});
-    warm_up_iso_ = make_spec("warm_up", tire_path, {});
-  }
-
-  const models::TireFile& tire() const { return iso_.tire; }
-
-  /// Relative differences to the published numbers.
-  bool operator()(const double* x, double* residuals) const {
-    const Calibrated at{x[0], x[1], x[2]};
-    residuals[0] = number(iso_, at, "rrc_25degC_2m_N_per_kN") / (1e3 * targets_.rrc_iso) - 1.0;
-    residuals[1] = number(warm_up_, at, "band_B_per_degC") / targets_.band_B_per_K - 1.0;
-    residuals[2] = targets_.band_low_N.has_value()
-                       ? number(warm_up_, at, "band_low_N") / *targets_.band_low_N - 1.0
-                       : number(warm_up_iso_, at, "start_excess_percent") / (100.0 * *targets_.start_excess) - 1.0;
-    return true;
-  }
-
-  static void put(const Calibrated& at, models::TireFile& tire) {
-    tire.values.rolling_resistance.A0_N *= at.A_scale;
-    tire.values.rolling_resistance.A1_N_s_per_m *= at.A_scale;
-    tire.values.rolling_resistance.B0_per_K = at.B0_per_K;
-    tire.rig_thermal["drum_2m"].z_W_per_K = at.z_W_per_K;
-  }
-
- private:
-  static scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire_path,
-                                      const std::vector<std::string>& settings) {
-    ConfigTable document = scenarios::make_run_document(scenario);
-    set_config_value(document, "tire", "\"" + tire_path + "\"", "calibrate_tires");
-    set_config_value(document, "fidelity", "quasi_static", "calibrate_tires");
-    for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
-    return scenarios::read_run_spec(document, "");
-  }
-
-  static double number(scenarios::RunSpec spec, const Calibrated& at, const char* key) {
-    put(at, spec.tire);
-    const Json value = spec.scenario->run(spec, {}).result[key];
-    if (!value.is_number()) throw RunFailure(fmt::format("'{}' could not be read off the virtual test", key));
-    return value.get<double>();
-  }
-
-  Targets targets_;
-  scenarios::RunSpec iso_, warm_up_, warm_up_iso_;
-};
-
-Calibrated calibrate(VirtualTests& tests) {
-  const models::TireFile& tire = tests.tire();
-  double x[3] = {1.0, tire.values.rolling_resistance.B0_per_K, *tire.rig_thermal.at("drum_2m").z_W_per_K};
+Fit calibrate(VirtualTests& tests) {
+  Fit fit;
+  fit.at = Calibration::of(tests.tire());
+  double* x = fit.at.x.data();
+  ceres::NumericDiffOptions steps;
+  steps.relative_step_size = 1e-4;
+  auto* cost = new Cost(&tests, ceres::DO_NOT_TAKE_OWNERSHIP, steps);  // the problem takes it
+  cost->AddParameterBlock(static_cast<int>(Calibration::kCount));
+  cost->SetNumResiduals(static_cast<int>(tests.observation_count()));
   ceres::Problem problem;
-  problem.AddResidualBlock(
-      new ceres::NumericDiffCostFunction<VirtualTests, ceres::CENTRAL, 3, 3>(&tests, ceres::DO_NOT_TAKE_OWNERSHIP),
-      nullptr, x);
+  problem.AddResidualBlock(cost, nullptr, x);
   ceres::Solver::Options options;
-  options.function_tolerance = 1e-16;
-  options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
+  options.max_num_iterations = 200;
+  options.function_tolerance = 1e-9;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  constexpr double kGoodCost = 1e-12;  // relative residuals below about 1e-6
-  if (!(summary.final_cost < kGoodCost)) throw RunFailure("calibration does not converge: " + summary.BriefReport());
-  return {x[0], x[1], x[2]};
+  if (summary.termination_type != ceres::CONVERGENCE)
+    throw RunFailure("calibration does not converge: " + summary.BriefReport());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(tests.observation_count(),
+                                                                              Calibration::kCount);
+  std::vector<double> residuals(tests.observation_count());
+  double* jacobian = rows.data();
+  const double* at = x;
+  cost->Evaluate(&at, residuals.data(), &jacobian);
+  fit.jacobian = rows;
+  return fit;
+}
+
+/// Standard errors from the weights, and the condition of the problem with columns of unit length.
+void report(const VirtualTests& tests, const Fit& fit) {
+  const Eigen::VectorXd length = fit.jacobian.colwise().norm();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(fit.jacobian * length.cwiseInverse().asDiagonal(), Eigen::ComputeThinV);
+  const Eigen::VectorXd values = svd.singularValues();
+  const Eigen::MatrixXd half = svd.matrixV() * values.cwiseInverse().asDiagonal();
+  const Eigen::VectorXd error = half.rowwise().norm().cwiseQuotient(length);
+  for (std::size_t i = 0; i < Calibration::kCount; ++i) {
+    fmt::print("  {:<12} {:>10.5f} +- {:.5f}\n", Calibration::kNames[i], fit.at.x[i],
+               error[static_cast<Eigen::Index>(i)]);
+  }
+  fmt::print("  condition {:.0f}\n", values[0] / values[values.size() - 1]);
+  const std::vector<tools::Observation> all = tests.observe(fit.at);
+  for (const tools::Observation& o : all) {
+    fmt::print("  {:<24} published {:>10.5f} fitted {:>10.5f} sd {:.5f} residual {:+.2f}\n", o.name, o.published,
+               o.fitted, o.sd, o.residual);
+  }
+  fmt::print("  rms over the eight sections {:.3f} points\n", 100.0 * VirtualTests::section_rms(all));
 }
 
 /// Replaces the number of `key` in [table], keeping the comment where it stands.
@@ -132,32 +90,38 @@ std::string replace_number(const std::string& text, const std::string& table, co
   return text.substr(0, line + 1) + fresh + text.substr(end);
 }
 
-void calibrate_file(const ConfigTable& published, const std::string& path) {
+void calibrate_file(const std::string& folder, const std::string& path) {
   std::string text = read_text_file(path);
-  VirtualTests tests(path, read_targets(published, models::read_tire(parse_config(text, path)).name));
-  const Calibrated found = calibrate(tests);
+  const std::string name = models::read_tire(parse_config(text, path)).name;
+  VirtualTests tests(path, tools::read_published_tire(folder, name));
+  const Fit fit = calibrate(tests);
   models::TireFile tire = tests.tire();
-  VirtualTests::put(found, tire);
+  fit.at.put(tire);
   const auto& rr = tire.values.rolling_resistance;
   text = replace_number(text, "rolling_resistance", "A0_N", rr.A0_N);
   text = replace_number(text, "rolling_resistance", "A1_N_s_per_m", rr.A1_N_s_per_m);
   text = replace_number(text, "rolling_resistance", "B0_per_degC", rr.B0_per_K);
-  text = replace_number(text, "thermal.rig.drum_2m", "z_W_per_K", found.z_W_per_K);
+  text = replace_number(text, "rolling_resistance", "B1_s_per_m_degC", rr.B1_s_per_m_K);
+  text = replace_number(text, "thermal", "heat_capacity_J_per_K", tire.values.thermal.heat_capacity_J_per_K);
+  for (const char* rig : {"drum_2m", "dyno_1m2"}) {
+    const std::string table = std::string("thermal.rig.") + rig;
+    text = replace_number(text, table, "z_W_per_K", *tire.rig_thermal.at(rig).z_W_per_K);
+    text = replace_number(text, table, "f_W_s_per_m_K", *tire.rig_thermal.at(rig).f_W_s_per_m_K);
+  }
+  fmt::print("{}\n", name);
+  report(tests, fit);
   write_file_atomically(path, text);
-  std::cout << fmt::format("{}: A0 {:.4f} N, A1 {:.5f} N s/m, B0 {:.6f} 1/degC, z on drum_2m {:.3f} W/K\n", tire.name,
-                           rr.A0_N, rr.A1_N_s_per_m, rr.B0_per_K, found.z_W_per_K);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::cerr << "usage: calibrate_tires <published.toml> <tire.toml> ...\n";
+    std::cerr << "usage: calibrate_tires <tests/published> <tire.toml> ...\n";
     return 2;
   }
   try {
-    const ConfigTable published = read_config(argv[1]);
-    for (int i = 2; i < argc; ++i) calibrate_file(published, argv[i]);
+    for (int i = 2; i < argc; ++i) calibrate_file(argv[1], argv[i]);
   } catch (const InputError& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 2;

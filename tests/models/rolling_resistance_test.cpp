@@ -63,6 +63,20 @@ TEST_CASE("the loss falls with pressure and temperature and rises with speed", "
   }
 }
 
+TEST_CASE("below its lowest speed a law is held, without a jump, and above it nothing changes", "[fast]") {
+  const auto free = figure_3_13();
+  auto held = free;
+  held.rolling_resistance.lowest_speed_m_s = 6.0;
+  const auto at = [](const TireParameters<double>& tire, double v) {
+    return loss(tire, v, 5400.0, kReferencePressure_Pa, 30.0);
+  };
+  for (const double v : {6.0, 10.0, 40.0}) CHECK(at(held, v) == at(free, v));
+  for (const double v : {0.0, 3.0, 5.999}) CHECK(at(held, v) == at(free, 6.0));
+  // A line that crosses zero at 4 m/s: positive all the same.
+  held.rolling_resistance.A0_N = -4.0 * held.rolling_resistance.A1_N_s_per_m;
+  for (const double v : {0.0, 2.0, 4.0, 6.0}) CHECK(at(held, v) > 0.0);
+}
+
 TEST_CASE("the pressure ratio of (4.1) at equal temperature", "[fast]") {
   const auto tire = figure_3_13();
   CHECK(loss(tire, 22.0, 5400.0, 250e3, 40.0) / loss(tire, 22.0, 5400.0, 280e3, 40.0) == Approx(1.0463).margin(1e-4));

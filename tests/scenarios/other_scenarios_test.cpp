@@ -73,7 +73,8 @@ TEST_CASE("a pressure sweep weakens the law's exponent by the warmer tire at low
   for (const auto& run_of_set : outcome.set_runs) {
     CHECK(run_of_set.initial_tire_temperature_K == Approx(298.15).margin(0.01));
   }
-  CHECK(outcome.set_runs[2].cold_pressure_Pa == Approx(300e3).epsilon(1e-5));
+  // The soak of 3 h leaves 0.01 K of the cycle before, in 298 K.
+  CHECK(outcome.set_runs[2].cold_pressure_Pa == Approx(300e3).epsilon(3e-5));
 }
 
 TEST_CASE("a speed sweep averages its measurement cycles and rises with speed", "[fast]") {

@@ -1,0 +1,29 @@
+#pragma once
+/// The published numbers of the source's tires, as kept in tests/published.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollrig::tools {
+
+/// What the source says of one tire; fractions, not percent.
+struct PublishedTire {
+  double rrc_iso = 0.0;  // N/N
+  double band_B_low_per_K = 0.0;
+  double band_B_high_per_K = 0.0;
+  std::optional<double> band_low_N;
+  std::optional<double> band_low_sd_N;
+  double city_3_fall_K = 0.0;
+  std::vector<double> city;            // Table 4.4, City 1 to 4
+  std::vector<double> highway;         // Table 4.5, Highway 1 and 2
+  std::vector<double> constant_speed;  // Table 4.5, 105 and 80 km/h
+
+  /// Sections in the order driven: city, highway, city, constant speed, twice.
+  std::vector<double> sections() const;
+};
+
+/// Reads source.toml and table_4_4_and_4_5/expected.toml of `folder`. Throws InputError.
+PublishedTire read_published_tire(const std::string& folder, const std::string& tire);
+
+}  // namespace rollrig::tools
