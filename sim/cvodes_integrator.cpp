@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -95,7 +96,14 @@ class CvodesIntegrator::Implementation {
   bool step(double end_time_s) {
     if (stop_ != nullptr && distance_to_stop(time_s_, data(y_)) <= 0.0) return true;
     require_success(CVodeSetStopTime(memory(), end_time_s), "CVodeSetStopTime");
-    const int flag = CVode(memory(), end_time_s, y_.get(), &time_s_, CV_ONE_STEP);
+    int flag = CVode(memory(), end_time_s, y_.get(), &time_s_, CV_ONE_STEP);
+    if (flag == CV_ERR_FAILURE && pending_ == nullptr && restarted_at_s_ != time_s_) {
+      // A jump of the rates, as when a bouncing wheel lifts off, spoils the history of the steps: once more
+      // from the last good state, with none.
+      restarted_at_s_ = time_s_;
+      restart();
+      flag = CVode(memory(), end_time_s, y_.get(), &time_s_, CV_ONE_STEP);
+    }
     if (pending_ != nullptr) std::rethrow_exception(std::exchange(pending_, nullptr));
     if (flag < 0) {
       throw RunFailure("integration failed at t = " + std::to_string(time_s_) + " s: " + message_ +
@@ -200,6 +208,14 @@ class CvodesIntegrator::Implementation {
     return sign * (system_.watch(stop_->watch, time_s, state) - stop_->threshold_SI);
   }
 
+  void restart() {
+    double at_s = 0.0;
+    if (m_ > 0) require_success(CVodeGetQuad(memory(), &at_s, q_.get()), "CVodeGetQuad");
+    const std::vector<double> state(data(y_), data(y_) + n_);
+    const std::vector<double> integrals(data(q_), data(q_) + m_);
+    start(time_s_, state.data(), integrals.data(), stop_);
+  }
+
   void collect_statistics() {
     CvodesStatistics now;
     CVodeGetNumSteps(memory(), &now.steps);
@@ -228,6 +244,7 @@ class CvodesIntegrator::Implementation {
   MemoryPtr memory_;
   const StopCondition* stop_ = nullptr;
   double time_s_ = 0.0;
+  std::optional<double> restarted_at_s_;
   std::exception_ptr pending_;
   std::string message_;
   CvodesStatistics statistics_;

@@ -140,3 +140,12 @@ TEST_CASE("the step from load to skim does not throw the wheel off the drum", "[
     CHECK_NOTHROW(run("iso_28580", "a50", {setting, "soak_h=0"}, "multibody"));
   }
 }
+
+TEST_CASE("a wheel that bounces on a weak load cylinder is integrated through its jumps", "[fast]") {
+  for (const int load_N : {6085, 6238, 6255, 6323, 6578, 6680, 6884}) {
+    INFO(load_N);
+    CHECK_NOTHROW(run("iso_28580", "a50",
+                      {"load_N=" + std::to_string(load_N), "soak_h=0", "rig.carriage.damping_N_s_per_m=2000.0"},
+                      "multibody"));
+  }
+}
