@@ -258,7 +258,7 @@ void QuasiStaticVehicle<S>::fill_wheel_integrands(std::size_t i, S* integrands) 
   const S counted = S(segment_.inputs[index_of(VehicleInput::kCounted)].start);
   const S& curvature_per_m = now.context->surface_curvature_per_m;
   const S roller_kg = now.context->machine_inertia_kg_m2 * curvature_per_m * curvature_per_m;
-  const S rolling_W = now.rolling_resistance_N * speed_m_s_;
+  const S rolling_W = now.rolling_resistance_N * now.motion.rolling_speed_m_s;
   put(WheelIntegral::kLossForce, now.rolling_resistance_N + now.parasitic_N +
                                      now.motion.longitudinal_force_N * wheel.slip +
                                      (now.contact.machine_inertia_factor - S(1.0)) * roller_kg * acceleration_m_s2_);

@@ -31,10 +31,6 @@ VehicleDrive::VehicleDrive(const SimTK::GeneralForceSubsystem& forces, const Sim
       context_(context),
       total_mass_kg_(layout.mass_kg + layout.rotating_mass_kg) {}
 
-double VehicleDrive::rim_radius_m(std::size_t wheel) const {
-  return calc_loaded_radius_m(context_.tire, layout_.wheels[wheel].static_load_N);
-}
-
 /// Drag and given road load, against the body's motion.
 double VehicleDrive::calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const {
   if (!is_flat()) return 0.0;
@@ -88,7 +84,9 @@ void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::F
                               DriveEvaluation& at) const {
   const WheelPlace& place = layout_.wheels[i];
   DriveEvaluation::Wheel& out = at.wheels[i];
-  const double radius_m = rim_radius_m(i);
+  out.restraint_N = at.acting.load_N - layout_.wheels.front().static_load_N;
+  out.radius_m = calc_loaded_radius_m(context_.tire, place.static_load_N + out.restraint_N);
+  const double radius_m = out.radius_m;
   const double rim_m_s = matter_.getMobilizedBody(bodies_.wheels[i].wheel).getOneU(state, 0) * radius_m;
   const double friction_N = place.friction_share * demand.friction_N;
   out.motor_Nm = place.motor_share * demand.motor_N * radius_m;
@@ -108,16 +106,15 @@ void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::F
 /// What a hub does to its roller is shared by all rollers, each by its inertia, so that driven and undriven
 /// ones keep one speed without lagging.
 void VehicleDrive::share_among_rollers(DriveEvaluation& at) const {
+  const auto hub_N = [&at](std::size_t i) {
+    return (at.wheels[i].motor_Nm - at.wheels[i].brake_Nm) / at.wheels[i].radius_m;
+  };
   double all_N = 0.0;
-  for (std::size_t i = 0; i < at.wheels.size(); ++i) all_N += hub_force_N(i, at);
+  for (std::size_t i = 0; i < at.wheels.size(); ++i) all_N += hub_N(i);
   for (std::size_t i = 0; i < at.wheels.size(); ++i) {
     const double share = layout_.wheels[i].static_load_N / (layout_.mass_kg * kStandardGravity_m_s2);
-    at.wheels[i].roller_Nm += (share * all_N - hub_force_N(i, at)) * roller_radius_m_;
+    at.wheels[i].roller_Nm += (share * all_N - hub_N(i)) * roller_radius_m_;
   }
-}
-
-double VehicleDrive::hub_force_N(std::size_t i, const DriveEvaluation& at) const {
-  return (at.wheels[i].motor_Nm - at.wheels[i].brake_Nm) / rim_radius_m(i);
 }
 
 void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
@@ -136,11 +133,7 @@ void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
           : models::blend_brakes(at.demand_N, layout_.motor_limit_N, at.speed_m_s, layout_.regeneration_fade_m_s);
   at.motor_N = demand.motor_N;
   at.assist_N = demand.motor_N - demand.friction_N * fade(at.speed_m_s);  // less what the own wheels do
-  const double restraint_N = at.acting.load_N - now.recorded.load_N;
-  for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
-    find_wheel(state, i, demand, at);
-    at.wheels[i].restraint_N = restraint_N;
-  }
+  for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) find_wheel(state, i, demand, at);
   if (is_flat()) {
     at.drag_N = calc_body_drag_N(at.speed_m_s, at.acting);
     at.grade_N = models::calc_grade_N(layout_.mass_kg, at.acting.slope);
@@ -155,7 +148,7 @@ void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
 models::InputPort<double> VehicleDrive::find_recorded(const State& state, std::size_t i) const {
   models::InputPort<double> recorded = program_inputs(state.getTime());
   const DriveEvaluation& at = evaluation(state);
-  const double radius_m = rim_radius_m(i);
+  const double radius_m = at.wheels[i].radius_m;
   recorded.load_N = layout_.wheels[i].static_load_N;
   recorded.brake_force_N = std::abs(at.wheels[i].brake_Nm) / radius_m;
   recorded.longitudinal_force_N = (at.wheels[i].motor_Nm - at.wheels[i].brake_Nm) / radius_m;

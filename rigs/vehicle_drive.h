@@ -26,6 +26,7 @@ struct DriveEvaluation {
   double absorbed_N = 0.0;    // by the rollers, less what makes up for their own bearings
 
   struct Wheel {
+    double radius_m = 0.0;  // loaded, at rest
     double motor_Nm = 0.0;
     double brake_Nm = 0.0;   // against the wheel's turning
     double roller_Nm = 0.0;  // on the roller
@@ -96,11 +97,9 @@ class VehicleDrive : public SimTK::Force::Custom::Implementation {
   void find_wheel(const SimTK::State& state, std::size_t i, const models::ForceDemand<double>& demand,
                   DriveEvaluation& at) const;
   void share_among_rollers(DriveEvaluation& at) const;
-  double hub_force_N(std::size_t wheel, const DriveEvaluation& at) const;
   void find_suspension(const SimTK::State& state, std::size_t i, DriveEvaluation& at) const;
   double calc_feedforward_N(const models::InputPort<double>& acting) const;
   double calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const;
-  double rim_radius_m(std::size_t wheel) const;
 
   const SimTK::GeneralForceSubsystem& forces_;
   const SimTK::SimbodyMatterSubsystem& matter_;

@@ -1,6 +1,7 @@
 #include "scenarios/vehicle_bench.h"
 
 #include "rigs/multibody_vehicle.h"
+#include "rigs/quasi_static_drum.h"
 #include "rigs/quasi_static_vehicle.h"
 #include "rigs/trace_effects.h"
 #include "scenarios/integrator_statistics.h"
@@ -37,7 +38,8 @@ sim::Recording<double> run_quasi_static(const RunSpec& spec, Corners& corners, c
                                         const sim::Progress& progress) {
   rigs::QuasiStaticVehicle<double> vehicle(corners, layout, start, program.surface_recorded());
   sim::FixedGridIntegrator<double> integrator(vehicle);
-  sim::Program on_grid = program.program();
+  static_assert(rigs::index_of(rigs::VehicleInput::kSpeed) == rigs::index_of(rigs::DrumInput::kSpeed));
+  sim::Program on_grid = rigs::refine_near_standstill(program.program());
   for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= spec.tolerance_factor;
   return sim::simulate<double>(vehicle, integrator, on_grid, progress);
 }
