@@ -237,7 +237,7 @@ class MultibodyVehicle::Implementation {
       SimTK::Force::Custom(forces_, contact);
       contacts_.push_back(contact);
       driven.wheels.push_back({contact, wheel.wheel.getMobilizedBodyIndex(), wheel.upright.getMobilizedBodyIndex(),
-                               roller, wheel.roller_mass_kg, wheel.preload_N});
+                               roller, wheel.roller_mass_kg, wheel.preload_N, wheel.ballast_N});
     }
     drive_ = new VehicleDrive(forces_, matter_, std::move(driven), layout_, vehicle, rig, corners_.front().context());
     drive_->program_inputs = [this](double time_s) { return program_inputs(time_s); };
@@ -381,7 +381,7 @@ class MultibodyVehicle::Implementation {
   /// Power of the roller's motor, of the rest of the vehicle through it, and of the restraint.
   double calc_given_W(std::size_t i, const DriveEvaluation::Wheel& wheel, const DriveEvaluation& at) const {
     const Vec3 axle_m_s = bodies_.body.findStationVelocityInGround(state_, Vec3(layout_.wheels[i].axle_x_m, 0, 0));
-    const double restraint_W = -wheel.restraint_N * axle_m_s[1];
+    const double restraint_W = -(wheel.restraint_N + bodies_.wheels[i].ballast_N) * axle_m_s[1];
     if (is_flat()) return restraint_W;
     const double assist_Nm = at.assist_N * roller_radius_m_ / static_cast<double>(corners_.size());
     return restraint_W + (wheel.roller_Nm + assist_Nm) * bodies_.wheels[i].roller.getOneU(state_, 0);

@@ -1,6 +1,7 @@
 #include "rigs/quasi_static_vehicle.h"
 
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace rollrig::rigs {
@@ -63,11 +64,12 @@ void QuasiStaticVehicle<S>::begin_segment(const sim::Segment& segment, double ti
   segment_start_s_ = time_s;
   const S start_m_s = S(segment.inputs[index_of(VehicleInput::kSpeed)].start);
   if (!driver_on_ || value_of(start_m_s) == value_of(state[kSpeedState])) return;
-  find_motion(time_s, state);
-  const S before_J = calc_kinetic_J();
+  const S former_m_s = state[kSpeedState];
   state[kSpeedState] = start_m_s;
   find_motion(time_s, state);
-  integrals[index_of(VehicleIntegral::kKnotWork)] += calc_kinetic_J() - before_J;
+  const S moving_kg = body_mass_kg_ + calc_wheel_inertia_kg();
+  integrals[index_of(VehicleIntegral::kKnotWork)] +=
+      0.5 * moving_kg * (start_m_s * start_m_s - former_m_s * former_m_s);
 }
 
 /// Ports up to the losses of one wheel at the common speed.
@@ -80,6 +82,8 @@ void QuasiStaticVehicle<S>::find_losses(std::size_t i, const S* state, const mod
   wheel.now.recorded.load_N = S(layout_.wheels[i].static_load_N);
   corner.apply_inputs(x, wheel.now);
   if (i == 0) speed_m_s_ = driver_on_ ? wheel.now.acting.speed_m_s : state[kSpeedState];
+  wheel.now.motion = {};  // forces and slip come after the losses, see docs/ports.md
+  wheel.now.motion.acceleration_m_s2 = wheel.now.acting.acceleration_m_s2;
   wheel.now.motion.speed_m_s = speed_m_s_;
   wheel.now.motion.load_N = wheel.now.acting.load_N;
   corner.calc_losses(x, wheel.now);
@@ -172,7 +176,8 @@ void QuasiStaticVehicle<S>::find_motion(double time_s, const S* state) {
   find_resistance();
   find_balance();
   share_demand();
-  if (value_of(wheels_.front().now.contact.slip_compliance_per_N) > 0.0) {
+  const bool has_derivatives = !std::is_same_v<S, double>;  // slip's own derivative does not vanish with slip
+  if (has_derivatives || value_of(wheels_.front().now.contact.slip_compliance_per_N) > 0.0) {
     find_slip();  // from the forces without slip, which differ from those with it in the second order
     find_balance();
     share_demand();

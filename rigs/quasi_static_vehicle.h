@@ -24,8 +24,7 @@ namespace rollrig::rigs {
 template <class S>
 class QuasiStaticVehicle : public sim::OdeSystem<S> {
  public:
-  /// One corner for each wheel of the layout. Throws InputError when the wheels alone have more equivalent
-  /// mass than the vehicle says of all that turns.
+  /// One corner for each wheel of the layout.
   QuasiStaticVehicle(std::vector<models::Corner<S>>& corners, const VehicleLayout& layout, VehicleStart<S> start,
                      bool surface_recorded);
 

@@ -1,5 +1,7 @@
 #include "rigs/vehicle_bodies.h"
 
+#include <algorithm>
+
 namespace rollrig::rigs {
 
 using SimTK::MobilizedBody;
@@ -28,7 +30,7 @@ SimTK::Body::Rigid make_point(double mass_kg) {
 
 /// The sprung mass: its centre where the suspensions' preloads balance, its pitch inertia that of masses
 /// over the axles (m a b, usual of passenger cars). Assumed.
-SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, const VehicleBodies& bodies) {
+SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& bodies, double missing_kg) {
   double weight_N = 0.0;
   double moment_Nm = 0.0;
   double spread_m2 = 1.0;
@@ -37,19 +39,20 @@ SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, const VehicleBo
     moment_Nm += bodies.wheels[i].preload_N * layout.wheels[i].axle_x_m;
     spread_m2 = std::max(spread_m2, layout.wheels[i].axle_x_m * layout.wheels[i].axle_x_m);
   }
-  const double mass_kg = weight_N / kStandardGravity_m_s2;
+  for (VehicleBodies::Wheel& wheel : bodies.wheels) {
+    wheel.ballast_N = missing_kg * kStandardGravity_m_s2 * wheel.preload_N / weight_N;
+  }
+  const double mass_kg = weight_N / kStandardGravity_m_s2 - missing_kg;
   const Vec3 centre_m(moment_Nm / weight_N, 0, 0);
   const SimTK::Inertia central(mass_kg * spread_m2);
   return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, centre_m, central.shiftFromMassCenter(centre_m, mass_kg)));
 }
 
-/// What moves along the road with the vehicle and is in no other body.
+/// What moves along the road with the vehicle and is in no other body; negative where those have more.
 double calc_other_mass_kg(const VehicleLayout& layout, const models::TireParameters<double>& tire,
-                          const VehicleBodies& bodies, double mass_factor) {
+                          double mass_factor) {
   double spin_kg = 0.0;
-  for (const VehicleBodies::Wheel& wheel : bodies.wheels) {
-    spin_kg += tire.geometry.spin_inertia_kg_m2 / (wheel.loaded_radius_m * wheel.loaded_radius_m);
-  }
+  for (const WheelPlace& wheel : layout.wheels) spin_kg += calc_spin_mass_kg(tire, wheel.static_load_N);
   const double total_kg = mass_factor * (layout.mass_kg + layout.rotating_mass_kg) - spin_kg;
   return layout.rig_kind == RigKind::kFlat ? total_kg - layout.mass_kg : total_kg;
 }
@@ -86,16 +89,16 @@ VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const Ve
     bodies.wheels[i].preload_N = layout.wheels[i].static_load_N - unsprung_N;
     bodies.wheels[i].loaded_radius_m = calc_loaded_radius_m(tire, layout.wheels[i].static_load_N);
   }
-  const double other_kg = calc_other_mass_kg(layout, tire, bodies, mass_factor);
+  const double other_kg = calc_other_mass_kg(layout, tire, mass_factor);
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
     bodies.wheels[i].roller_mass_kg = other_kg * layout.wheels[i].static_load_N / layout.rolling_load_N;
   }
   const Vec3 height_m(0, calc_body_height_m(vehicle), 0);
-  const SimTK::Body::Rigid sprung = make_sprung_body(layout, bodies);
+  const SimTK::Body::Rigid sprung = make_sprung_body(layout, bodies, flat ? std::max(0.0, -other_kg) : 0.0);
   MobilizedBody* base = &matter.Ground();
   if (flat || whole) {
     bodies.sled =
-        MobilizedBody::Slider(matter.Ground(), Transform(height_m), make_point(flat ? other_kg : 0.0), Transform());
+        MobilizedBody::Slider(matter.Ground(), Transform(height_m), make_point(flat ? std::max(0.0, other_kg) : 0.0), Transform());
     base = &bodies.sled;
   }
   const Vec3 start_m = bodies.has_sled() ? Vec3(0) : height_m;

@@ -58,10 +58,13 @@ void VehicleDrive::find_speed(const State& state, DriveEvaluation& at) const {
     at.speed_m_s = matter_.getMobilizedBody(bodies_.sled).getOneU(state, 0);
     return;
   }
+  // The mean by inertia, so that what keeps the rollers at one pace only moves energy between them.
+  double mass_kg = 0.0;
   for (const Wheel& wheel : bodies_.wheels) {
-    at.speed_m_s += matter_.getMobilizedBody(wheel.roller).getOneU(state, 0) * roller_radius_m_ /
-                    static_cast<double>(bodies_.wheels.size());
+    at.speed_m_s += wheel.roller_mass_kg * matter_.getMobilizedBody(wheel.roller).getOneU(state, 0) * roller_radius_m_;
+    mass_kg += wheel.roller_mass_kg;
   }
+  at.speed_m_s /= mass_kg;
 }
 
 void VehicleDrive::find_demand(const State& state, DriveEvaluation& at) const {
@@ -112,7 +115,7 @@ void VehicleDrive::share_among_rollers(DriveEvaluation& at) const {
   double all_N = 0.0;
   for (std::size_t i = 0; i < at.wheels.size(); ++i) all_N += hub_N(i);
   for (std::size_t i = 0; i < at.wheels.size(); ++i) {
-    const double share = layout_.wheels[i].static_load_N / (layout_.mass_kg * kStandardGravity_m_s2);
+    const double share = layout_.wheels[i].static_load_N / layout_.rolling_load_N;
     at.wheels[i].roller_Nm += (share * all_N - hub_N(i)) * roller_radius_m_;
   }
 }
@@ -185,7 +188,8 @@ void VehicleDrive::calcForce(const State& state, SimTK::Vector_<SpatialVec>& bod
     body_forces[own.wheel][0] += Vec3(0, 0, -hub_Nm);
     body_forces[own.upright][0] += Vec3(0, 0, hub_Nm);
     const Vec3 arm_m(layout_.wheels[i].axle_x_m, 0, 0);
-    body_forces[bodies_.body] += SpatialVec(SimTK::cross(arm_m, -wheel.restraint_N * up), -wheel.restraint_N * up);
+    const Vec3 down_N = -(wheel.restraint_N + own.ballast_N) * up;
+    body_forces[bodies_.body] += SpatialVec(SimTK::cross(arm_m, down_N), down_N);
     if (is_flat()) continue;
     const double assist_Nm = at.assist_N * roller_radius_m_ / static_cast<double>(bodies_.wheels.size());
     body_forces[own.roller][0] += Vec3(0, 0, wheel.roller_Nm + assist_Nm);

@@ -21,9 +21,7 @@ struct DriveEvaluation {
   double motor_N = 0.0;   // of the whole demand
   double assist_N = 0.0;  // of the rest of the vehicle
   double grade_N = 0.0;
-  double drag_N = 0.0;        // of the body, road load included
-  double drag_power_W = 0.0;  // what it takes
-  double absorbed_N = 0.0;    // by the rollers, less what makes up for their own bearings
+  double drag_N = 0.0;  // of the body, road load included
 
   struct Wheel {
     double radius_m = 0.0;  // loaded, at rest
@@ -41,11 +39,11 @@ struct DriveEvaluation {
 
 /// Driver    D = F_ff(v_set) + m (a_set + 2 w e + w^2 I), dI/dt = e, e = v_set - v: critically damped at w;
 ///           F_ff the rollers' force or drag, grade and a rolling loss of 1 % of the weight; coasting: D = 0
-/// Brakes    D shared by blend_brakes, at a held standstill all of it the motor's; a friction brake's torque fades with
-/// tanh(v_rim / 0.05 m/s) Rollers   T = R (-(A + B v + C v^2) s + F_par(v) + s sum D_j - D_i) + R m_i w_s (v_mean -
-/// v_i): each bears its
-///           share s of the set force and of what all hubs do (D), makes up for its own nominal bearings, and
-///           keeps pace with the others
+/// Brakes    D shared by blend_brakes, at a held standstill all of it the motor's; a friction brake's torque
+///           fades with tanh(v_rim / 0.05 m/s)
+/// Rollers   T_i = R (F_par(v_i) - s_i (A + B v_i + C v_i^2) + s_i sum D_j - D_i + w_s m_i (v - v_i)), v the mean by
+///           inertia: each makes up for its own nominal bearings, bears its share s of the set force and of
+///           what all hubs do, and keeps pace with the others
 /// Source    (3.20), §3.4.2, §3.4.3. Assumed: gains, 20 rad/s for w_s
 /// Checked   tests/rigs/multibody_vehicle_test.cpp
 class VehicleDrive : public SimTK::Force::Custom::Implementation {
@@ -57,6 +55,7 @@ class VehicleDrive : public SimTK::Force::Custom::Implementation {
     SimTK::MobilizedBodyIndex roller;  // invalid on the flat
     double roller_mass_kg = 0.0;       // inertia over R^2
     double preload_N = 0.0;            // of the suspension at its middle
+    double ballast_N = 0.0;            // weight without inertia, on the body over this wheel
   };
   struct Bodies {
     SimTK::MobilizedBodyIndex body;

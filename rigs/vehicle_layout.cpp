@@ -46,8 +46,8 @@ models::RoadLoad<double> scale(const models::RoadLoad<double>& load, double fact
 }
 
 /// All but the wheels, for a share of the vehicle.
-VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
-                        double share) {
+VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                        const models::RoadLoad<double>& set_load, double share) {
   VehicleLayout layout;
   layout.rig_kind = rig.kind;
   layout.share = share;
@@ -55,7 +55,7 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, const mo
   layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;
   layout.rolling_load_N = share * find_rolling_load_N(vehicle, rig);
   layout.air_density_kg_per_m3 =
-      models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, rig.environment.ambient_K);
+      models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, ambient_K);
   layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
   layout.regeneration_fade_m_s = vehicle.powertrain.regeneration_fade_m_s;
   if (rig.kind == RigKind::kDyno) {
@@ -74,9 +74,14 @@ bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front) {
   return !(rig.kind == RigKind::kDyno && rig.driven_wheels_only) || is_driven(vehicle, front);
 }
 
-VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
+double calc_spin_mass_kg(const models::TireParameters<double>& tire, double load_N) {
+  const double loaded_radius_m = calc_loaded_radius_m(tire, load_N);
+  return tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m * loaded_radius_m);
+}
+
+VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
                                const models::RoadLoad<double>& set_load) {
-  VehicleLayout layout = make_body(vehicle, rig, set_load, 1.0);
+  VehicleLayout layout = make_body(vehicle, rig, ambient_K, set_load, 1.0);
   for (const char* position : {"front_left", "front_right", "rear_left", "rear_right"}) {
     const bool front = position[0] == 'f';
     if (rolls(vehicle, rig, front)) layout.wheels.push_back(make_rolling_wheel(vehicle, rig, front, position));
@@ -84,11 +89,10 @@ VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
   return layout;
 }
 
-VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
-                           QuarterWheel which) {
+VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, double ambient_K, const models::RoadLoad<double>& set_load, QuarterWheel which) {
   WheelPlace wheel = make_rolling_wheel(vehicle, rig, which == QuarterWheel::kFront, "");
   const double share = wheel.static_load_N / find_rolling_load_N(vehicle, rig);
-  VehicleLayout layout = make_body(vehicle, rig, set_load, share);
+  VehicleLayout layout = make_body(vehicle, rig, ambient_K, set_load, share);
   wheel.motor_share /= share;
   wheel.friction_share /= share;
   wheel.axle_x_m = 0.0;

@@ -42,6 +42,9 @@ struct VehicleLayout {
   std::vector<WheelPlace> wheels;
 };
 
+/// Equivalent mass of a wheel's spin, I_spin/r_l^2, under its static load [kg].
+double calc_spin_mass_kg(const models::TireParameters<double>& tire, double load_N);
+
 enum class QuarterWheel { kFront, kRear };
 
 /// Whether a wheel of an axle rolls: on a dynamometer with rollers under the driven wheels alone, the others stand.
@@ -50,10 +53,10 @@ bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front);
 /// The layout of a vehicle with all its wheels that roll, or of one wheel with its share. On the flat, `resistance` is
 /// the vehicle's road load where it has one, else nothing: drag and tires act by themselves. On a dynamometer it is
 /// `set_load`.
-VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig,
+VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
                                const models::RoadLoad<double>& set_load);
-VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, const models::RoadLoad<double>& set_load,
-                           QuarterWheel wheel);
+VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                           const models::RoadLoad<double>& set_load, QuarterWheel wheel);
 
 /// What the equations take of a tire under a vehicle on a rig. A vehicle that is given by its road load rolls
 /// on the flat without any loss in its tires, since that load contains them. Throws InputError.

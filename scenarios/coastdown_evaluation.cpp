@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace rollrig::scenarios {
@@ -70,6 +71,11 @@ CoastdownData collect_coastdowns(const sim::Recording<double>& recording, const 
   const std::vector<double>& speed_m_s = recording.channel("speed_km_h");
   for (const sim::PhaseSpan& phase : recording.phases) {
     if (!is_coastdown(phase.name)) continue;
+    if (phase.end_s - phase.start_s >= kLongest_s - 1.0) {
+      throw RunFailure(fmt::format("{} does not come to its end speed within {:.0f} s: something drives the vehicle as "
+                                   "much as it resists, such as slope_percent, wind_m_s or an effect with a negative force",
+                                   phase.name, kLongest_s));
+    }
     CoastdownRun run;
     run.id = phase.name.substr(std::string(kPrefix).size());
     run.session = "session";
@@ -96,6 +102,9 @@ RoadLoadFit fit_vehicle_coastdowns(const CoastdownData& data, const RunSpec& spe
   options.mass_kg = spec.vehicle->body.mass_kg;
   options.rotating_mass_kg = spec.vehicle->body.rotating_mass_kg;
   options.drag_area_m2 = spec.vehicle->body.drag_area_m2;
+  // Where a tail wind is faster than the vehicle, drag drives it, and (v + w)^2 is not its law.
+  const std::vector<double>& wind_m_s = data.runs.front().conditions.wind_m_s;
+  if (!wind_m_s.empty()) options.speed_from_m_s = std::max(options.speed_from_m_s, 1.1 * std::abs(wind_m_s.front()));
   if (spec.rig.kind != rigs::RigKind::kFlat) {
     options.reference_temperature_K = data.runs.front().conditions.ambient_K.front();
     options.reference_pressure_Pa = data.runs.front().conditions.ambient_pressure_Pa.front();

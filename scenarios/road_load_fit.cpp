@@ -146,9 +146,7 @@ void put_wind_and_slope(const CoastdownProblem& problem, const RoadLoadFitOption
       kStandardGravity_m_s2;
   fit.slope = linear.coefficients(3) / weight_N;
   fit.slope_sd = std::sqrt(linear.covariance(3, 3)) / weight_N;
-  constexpr double kReferenceDensity_kg_m3 = 1.167;  // 98.21 kPa, 20 degC
-  const double drag =
-      options.drag_area_m2.has_value() ? 0.5 * kReferenceDensity_kg_m3 * *options.drag_area_m2 : fit.load.C_N_s2_per_m2;
+  const double drag = given_drag(options).value_or(fit.load.C_N_s2_per_m2);
   if (drag <= 0.0) return;
   for (std::size_t i = 0; i < problem.wind_sessions.size(); ++i) {
     const auto column = static_cast<Index>(4 + i);

@@ -7,9 +7,11 @@ namespace {
 
 /// Where the wheels' own inertia is above what the vehicle says of all that turns, one of the two is wrong.
 void check_rotating_mass(const RunSpec& spec) {
-  const auto& geometry = spec.tire.values.geometry;
-  const double radius_m = geometry.outer_diameter_m / 2.0;
-  const double wheels_kg = 4.0 * geometry.spin_inertia_kg_m2 / (radius_m * radius_m);
+  const double weight_N = spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
+  double wheels_kg = 0.0;
+  for (const double share : {spec.vehicle->geometry.front_load_share, 1.0 - spec.vehicle->geometry.front_load_share}) {
+    wheels_kg += 2.0 * rigs::calc_spin_mass_kg(spec.tire.values, 0.5 * share * weight_N);
+  }
   if (spec.vehicle->body.rotating_mass_kg >= wheels_kg) return;
   InputProblem problem;
   problem.what =
@@ -75,9 +77,9 @@ void VehicleConditions::complete(const RunSpec& spec) {
 
 rigs::VehicleLayout VehicleConditions::make_layout(const RunSpec& spec) const {
   const models::RoadLoad<double> set_load{*set_A_N, *set_B_N_s_per_m, *set_C_N_s2_per_m2};
-  if (wheels == 4) return rigs::make_four_wheels(*spec.vehicle, spec.rig, set_load);
+  if (wheels == 4) return rigs::make_four_wheels(*spec.vehicle, spec.rig, *ambient_K, set_load);
   const auto wheel = quarter.value == "front" ? rigs::QuarterWheel::kFront : rigs::QuarterWheel::kRear;
-  return rigs::make_quarter(*spec.vehicle, spec.rig, set_load, wheel);
+  return rigs::make_quarter(*spec.vehicle, spec.rig, *ambient_K, set_load, wheel);
 }
 
 }  // namespace rollrig::scenarios

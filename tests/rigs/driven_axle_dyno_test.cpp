@@ -42,7 +42,7 @@ TEST_CASE("rollers under the driven wheels: only these roll, and carry the vehic
   CHECK(rig.driven_wheels_only);
   for (const auto axle : {rigs::DrivenAxle::kFront, rigs::DrivenAxle::kRear}) {
     const rigs::VehicleFile car = read_car(axle);
-    const rigs::VehicleLayout layout = rigs::make_four_wheels(car, rig, {100.0, 0.0, 0.0});
+    const rigs::VehicleLayout layout = rigs::make_four_wheels(car, rig, 293.15, {100.0, 0.0, 0.0});
     REQUIRE(layout.wheels.size() == 2);
     double motor = 0.0, friction = 0.0, load_N = 0.0;
     for (const rigs::WheelPlace& wheel : layout.wheels) {
@@ -59,13 +59,13 @@ TEST_CASE("rollers under the driven wheels: only these roll, and carry the vehic
     CHECK(layout.resistance.A_N == 100.0);
     // Half of it: one wheel with half of the mass
     const auto which = axle == rigs::DrivenAxle::kFront ? rigs::QuarterWheel::kFront : rigs::QuarterWheel::kRear;
-    const rigs::VehicleLayout half = rigs::make_quarter(car, rig, {100.0, 0.0, 0.0}, which);
+    const rigs::VehicleLayout half = rigs::make_quarter(car, rig, 293.15, {100.0, 0.0, 0.0}, which);
     CHECK(half.share == Approx(0.5));
     CHECK(half.rolling_load_N == Approx(half.wheels.front().static_load_N));
     CHECK(half.wheels.front().motor_share == Approx(1.0));
   }
-  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kAll), rig, {}).wheels.size() == 4);
-  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kRear), read_rig("dyno_48in"), {}).wheels.size() == 4);
+  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kAll), rig, 293.15, {}).wheels.size() == 4);
+  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kRear), read_rig("dyno_48in"), 293.15, {}).wheels.size() == 4);
 }
 
 TEST_CASE("the file of a rig keeps which wheels it rolls", "[fast]") {

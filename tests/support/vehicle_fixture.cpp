@@ -22,7 +22,9 @@ void VehicleFixture::take_losses_away() {
 }
 
 rigs::VehicleLayout VehicleFixture::layout() const {
-  return whole ? rigs::make_four_wheels(vehicle, rig, set_load) : rigs::make_quarter(vehicle, rig, set_load, quarter);
+  const double ambient_K = rig.environment.ambient_K;
+  return whole ? rigs::make_four_wheels(vehicle, rig, ambient_K, set_load)
+               : rigs::make_quarter(vehicle, rig, ambient_K, set_load, quarter);
 }
 
 std::vector<models::Corner<double>> VehicleFixture::corners() const {
