@@ -12,8 +12,8 @@ namespace {
 const std::map<std::string, RigKind> kKinds{
     {"drum", RigKind::kDrum}, {"dyno", RigKind::kDyno}, {"flat", RigKind::kFlat}};
 
-const std::string kAllWheels = "all_wheels";
-const std::string kDrivenWheels = "driven_wheels";
+const char* const kAllWheels = "all_wheels";
+const char* const kDrivenWheels = "driven_wheels";
 
 /// Reads table [name] into a visited group; an absent table is an error unless every field has a default.
 template <class Group>
@@ -104,6 +104,8 @@ std::string write_rig(const RigFile& rig) {
   if (rig.kind != RigKind::kFlat) text += write_group("drive", rig.drive);
   return text;
 }
+
+const char* name_of_rolling_wheels(const RigFile& rig) { return rig.driven_wheels_only ? kDrivenWheels : kAllWheels; }
 
 models::Context<double> make_context(const models::TireFile& tire, const RigFile& rig, models::Baseline baseline) {
   models::Context<double> context;

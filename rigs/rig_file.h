@@ -112,6 +112,9 @@ struct RigFile {
 /// Reads a rig from parsed TOML. Throws InputError.
 RigFile read_rig(const ConfigTable& config);
 
+/// "all_wheels" or "driven_wheels": what rolls on a dyno.
+const char* name_of_rolling_wheels(const RigFile& rig);
+
 /// The file as TOML.
 std::string write_rig(const RigFile& rig);
 

@@ -86,7 +86,10 @@ Json rig_to_json(const rigs::RigFile& rig) {
     json["skim"] = parameters_to_json(rig.skim);
     json["carriage"] = parameters_to_json(rig.carriage);
   }
-  if (rig.kind == RigKind::kDyno) json["tie_down"] = parameters_to_json(rig.tie_down);
+  if (rig.kind == RigKind::kDyno) {
+    json["rollers_under"] = rigs::name_of_rolling_wheels(rig);
+    json["tie_down"] = parameters_to_json(rig.tie_down);
+  }
   return json;
 }
 

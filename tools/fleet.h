@@ -63,7 +63,10 @@ std::vector<FleetResult> simulate_fleet(const std::vector<TestCar>& cars, const 
 /// One row a car.
 std::string make_fleet_csv(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results);
 
-/// docs/epa_fleet.md.
+/// What comes out, as tables.
+std::string make_fleet_summary(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results);
+
+/// docs/epa_fleet.md: the same of the list of model year 2022, with what was assumed and what differs.
 std::string make_fleet_page(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results,
                             const FleetAssumptions& assumptions);
 

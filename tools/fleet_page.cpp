@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "tools/fleet.h"
 
@@ -23,6 +24,7 @@ constexpr Group kGroups[] = {{"F", "F, front"},
 
 /// Linear between the sorted values.
 double find_quantile(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -107,24 +109,25 @@ std::string make_setting(const std::vector<TestCar>& cars, const std::vector<Fle
 }
 
 std::string make_head(const FleetAssumptions& assumed) {
-  return fmt::format(
-      "# Test cars of a public list, simulated by their coefficients\n\n"
-      "Written by `cmake --build build/release --target test_record_pages`; a test holds it to what the program "
-      "gives.\n"
-      "The list: `tests/published/epa_fleet/` (United States Environmental Protection Agency, test-car data of model "
-      "year\n2022). Any list with those columns: `epa_fleet <list.csv> <cars.csv> <page.md>`; one row a car is "
-      "written.\n\n"
-      "Of each car: the equivalent test weight as mass, {:.0f} % of it as rotating mass (Assumed: SAE J2263), the "
-      "target\ncoefficients as `[road_load]`. Front share of the weight (Assumed): F 0.60, R and P 0.52, 4 and A 0.55. "
-      "Part-time\nfour-wheel drive is taken as driven at the rear. Tires, which the list does not name (Assumed): "
-      "a50's "
-      "law, its loss\nscaled so that the ISO test gives {:.1f} N/kN, {:.0f} kPa when soaked, all four and all cars "
-      "alike; a50's size and\ncooling for all. Rollers of 48 inch: rig `dyno_48in` under all wheels, `dyno_48in_2wd` "
-      "under the driven axle alone.\nLast column: as such a car is usually tested (one axle where one is driven, else "
-      "all), with the effect\n`driveline_warming` ({:.0f} N a wheel when cold, {:.0f} min, fall {:.1f}: Assumed, the "
-      "middle of its priors); without\nit the vehicle's driveline drags nothing. Quasi-static.\n",
-      100.0 * assumed.rotating_share, assumed.rrc_N_per_kN, assumed.pressure_kPa, assumed.driveline_cold_N,
-      assumed.driveline_time_min, assumed.driveline_fall);
+  return "# Test cars of a public list, simulated by their coefficients\n\n"
+         "Written by `cmake --build build/release --target test_record_pages`; a test holds it to what the program\n"
+         "gives. The list: `tests/published/epa_fleet/` (United States Environmental Protection Agency, test-car data\n"
+         "of model year 2022). Any list with those columns: `epa_fleet <list.csv> <cars.csv>` writes one row a car "
+         "and\n"
+         "prints the tables.\n\n" +
+         fmt::format(
+             "Of each car: the equivalent test weight as mass, {:.0f} % of it as rotating mass (Assumed: SAE J2263),\n"
+             "the target coefficients as `[road_load]`. Front share of the weight (Assumed): F 0.60, R and P 0.52,\n"
+             "4 and A 0.55. Part-time four-wheel drive is taken as driven at the rear. Tires, which the list does not\n"
+             "name (Assumed): a50's law, its loss scaled so that the ISO test gives {:.1f} N/kN, {:.0f} kPa when\n"
+             "soaked, all four and all cars alike; a50's size and cooling for all. Rollers of 48 inch: rig "
+             "`dyno_48in`\n"
+             "under all wheels, `dyno_48in_2wd` under the driven axle alone. Last column: as such a car is usually\n"
+             "tested (one axle where one is driven, else all), with the effect `driveline_warming` ({:.0f} N a wheel\n"
+             "when cold, {:.0f} min, fall {:.1f}: Assumed, the middle of its priors); without it the vehicle's\n"
+             "driveline drags nothing. Quasi-static.\n",
+             100.0 * assumed.rotating_share, assumed.rrc_N_per_kN, assumed.pressure_kPa, assumed.driveline_cold_N,
+             assumed.driveline_time_min, assumed.driveline_fall);
 }
 
 /// Of target A per weight with (target A - set A) per weight, over a group of the list.
@@ -144,77 +147,91 @@ double find_correlation(const std::vector<TestCar>& cars, const std::string& dri
   return (n * xy - x * y) / std::sqrt((n * xx - x * x) * (n * yy - y * y));
 }
 
-std::string make_reasons(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results) {
-  const auto list = [&](const char* drive) {
-    return find_quantile(collect(cars, results, drive, 0.0, [&](std::size_t i) { return cars[i].set; }), 0.5);
-  };
-  const auto all = [&](const char* drive) {
-    return find_quantile(collect(cars, results, drive, 0.0, [&](std::size_t i) { return results[i].set_all; }), 0.5);
-  };
-  const auto tested = [&](const char* drive) {
-    return find_quantile(collect(cars, results, drive, 0.0, [&](std::size_t i) { return results[i].set_driveline; }),
+/// Medians over a group, at standstill [N/kN].
+class Medians {
+ public:
+  Medians(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results) : cars_(cars), results_(results) {}
+
+  double target(const char* drive) const {
+    return find_quantile(collect(cars_, results_, drive, 0.0, [](std::size_t) { return Load{}; }), 0.5);
+  }
+  double list(const char* drive) const { return find_quantile(collect_list(drive), 0.5); }
+  double all(const char* drive) const {
+    return find_quantile(collect(cars_, results_, drive, 0.0, [this](std::size_t i) { return results_[i].set_all; }),
                          0.5);
-  };
-  const auto target = [&](const char* drive) {
-    return find_quantile(collect(cars, results, drive, 0.0, [](std::size_t) { return models::RoadLoad<double>{}; }),
-                         0.5);
-  };
-  const auto spread = [&](const char* drive) {
-    const auto reach = [](const std::vector<double>& v) { return find_quantile(v, 0.75) - find_quantile(v, 0.25); };
-    return reach(collect(cars, results, drive, 0.0, [&](std::size_t i) { return cars[i].set; })) /
-           reach(collect(cars, results, drive, 0.0, [&](std::size_t i) { return results[i].set_driveline; }));
-  };
-  std::string text = "\n## What differs, and the likely cause\n\n";
-  text += fmt::format(
-      "* **Level, cars driven at one axle.** The list's medians (F {:.2f}, R {:.2f} N/kN) lie by the column of the "
-      "driven "
-      "axle and\n  far below four rolling tires ({:.2f}, {:.2f}): most of these cars were, by this, set on a "
-      "dynamometer "
-      "that rolls the\n  driven axle alone. Tires of less loss on four rollers would give the same median, but then "
-      "not "
-      "the list's {:.2f} of A.\n  The list does not say which car was tested where; the quartiles of P reach from one "
-      "kind "
-      "to the other.\n",
-      list("F"), list("R"), all("F"), all("R"), list("A"));
-  text += fmt::format(
-      "* **Level, by drive.** List against the last column: F {:.2f} and {:.2f}, R {:.2f} and {:.2f}, 4 {:.2f} and "
-      "{:.2f}, "
-      "A {:.2f} and\n  {:.2f} N/kN. One class of tires stands for all. Likely causes: front-driven cars on tires of "
-      "less "
-      "loss (their target A per\n  weight is {:.2f} N/kN, that of R {:.2f}, of A {:.2f}), more axles and gears that "
-      "drag "
-      "along in A.\n",
-      list("F"), tested("F"), list("R"), tested("R"), list("4"), tested("4"), list("A"), tested("A"), target("F"),
-      target("R"), target("A"));
-  text += fmt::format(
-      "* **Spread.** The list's quartiles are {:.0f} times (F) and {:.0f} times (A) as far apart as the simulated "
-      "ones, "
-      "which only weight\n  spreads: one tire, one pressure, one driveline for all. In the list, (target A - set A) "
-      "goes "
-      "with target A (correlation\n  per weight: F {:.2f}, R {:.2f}, A {:.2f}): tires and drivelines of the cars "
-      "differ, "
-      "and the list carries neither.\n",
-      spread("F"), spread("A"), find_correlation(cars, "F"), find_correlation(cars, "R"), find_correlation(cars, "A"));
-  return text +
-         "* **Driveline.** Absent from the baseline; the effect's middle prior adds the difference of the last column "
-         "to "
-         "the\n  one it belongs to. On the road it is inside the target already.\n"
-         "* **Shape.** Between standstill and 80 km/h (target - set) rises by about as much in the list as simulated "
-         "for F;\n  for A the simulated rise is larger: a50's law has more rise with speed than those cars' tires and "
-         "drivelines\n  together, so their A is larger and their slope smaller.\n" +
+  }
+  double tested(const char* drive) const { return find_quantile(collect_tested(drive), 0.5); }
+  /// Between the quartiles, the list's over the simulated.
+  double spread(const char* drive) const { return reach(collect_list(drive)) / reach(collect_tested(drive)); }
+
+ private:
+  static double reach(const std::vector<double>& values) {
+    return find_quantile(values, 0.75) - find_quantile(values, 0.25);
+  }
+  std::vector<double> collect_list(const char* drive) const {
+    return collect(cars_, results_, drive, 0.0, [this](std::size_t i) { return cars_[i].set; });
+  }
+  std::vector<double> collect_tested(const char* drive) const {
+    return collect(cars_, results_, drive, 0.0, [this](std::size_t i) { return results_[i].set_driveline; });
+  }
+
+  const std::vector<TestCar>& cars_;
+  const std::vector<FleetResult>& results_;
+};
+
+std::string explain_level(const Medians& medians) {
+  return fmt::format(
+             "* **Level, cars driven at one axle.** The list's medians (F {:.2f}, R {:.2f} N/kN) lie by the column of\n"
+             "  the driven axle and far below four rolling tires ({:.2f}, {:.2f}): most of these cars were, by this,\n"
+             "  set on a dynamometer that rolls the driven axle alone. Tires of less loss on four rollers would give\n"
+             "  the same median, but then not the list's {:.2f} of A. The list does not say which car was tested\n"
+             "  where; the quartiles of P reach from one kind to the other.\n",
+             medians.list("F"), medians.list("R"), medians.all("F"), medians.all("R"), medians.list("A")) +
          fmt::format(
-             "* **Entries.** Cold tests (20 degF) carry a target raised by a tenth, with settings of their own. Some "
-             "entries must be\n  wrong: {} with a set C below zero, and the Elantra N with a target C ten times its "
-             "set "
-             "C. Nothing was left out;\n  medians and quartiles do not feel them.\n",
-             std::count_if(cars.begin(), cars.end(), [](const TestCar& car) { return car.set.C_N_s2_per_m2 < 0.0; }));
+             "* **Level, by drive.** List against the last column: F {:.2f} and {:.2f}, R {:.2f} and {:.2f},\n"
+             "  4 {:.2f} and {:.2f}, A {:.2f} and {:.2f} N/kN. One class of tires stands for all. Likely causes:\n"
+             "  front-driven cars on tires of less loss (their target A per weight is {:.2f} N/kN, that of R {:.2f},\n"
+             "  of A {:.2f}), more axles and gears that drag along in A.\n",
+             medians.list("F"), medians.tested("F"), medians.list("R"), medians.tested("R"), medians.list("4"),
+             medians.tested("4"), medians.list("A"), medians.tested("A"), medians.target("F"), medians.target("R"),
+             medians.target("A"));
+}
+
+/// The reasons of the list of model year 2022; what a person concluded, with the program's numbers.
+std::string explain(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results) {
+  const Medians medians(cars, results);
+  const auto wrong =
+      std::count_if(cars.begin(), cars.end(), [](const TestCar& car) { return car.set.C_N_s2_per_m2 < 0.0; });
+  return "\n## What differs, and the likely cause\n\n" + explain_level(medians) +
+         fmt::format(
+             "* **Spread.** The list's quartiles are {:.0f} times (F) and {:.0f} times (A) as far apart as the\n"
+             "  simulated ones, which only weight spreads: one tire, one pressure, one driveline for all. In the\n"
+             "  list, (target A - set A) goes with target A (correlation per weight: F {:.2f}, R {:.2f}, A {:.2f}):\n"
+             "  tires and drivelines of the cars differ, and the list carries neither.\n",
+             medians.spread("F"), medians.spread("A"), find_correlation(cars, "F"), find_correlation(cars, "R"),
+             find_correlation(cars, "A")) +
+         "* **Driveline.** Absent from the baseline; the effect's middle prior adds what the last column has above\n"
+         "  the one it belongs to. On the road it is inside the target already.\n"
+         "* **Shape.** Between standstill and 80 km/h (target - set) rises by about as much in the list as simulated\n"
+         "  for F; for A the simulated rise is larger: a50's law has more rise with speed than those cars' tires and\n"
+         "  drivelines together.\n" +
+         fmt::format(
+             "* **Entries.** Cold tests (20 degF) carry a target raised by a tenth, with settings of their own. Some\n"
+             "  entries must be wrong: {} with a set C below zero, and the Elantra N with a target C ten times its "
+             "set\n"
+             "  C. Nothing was left out; medians and quartiles do not feel them.\n",
+             wrong);
 }
 
 }  // namespace
 
+std::string make_fleet_summary(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results) {
+  return make_refit(cars, results) + make_setting(cars, results);
+}
+
 std::string make_fleet_page(const std::vector<TestCar>& cars, const std::vector<FleetResult>& results,
                             const FleetAssumptions& assumptions) {
-  return make_head(assumptions) + make_refit(cars, results) + make_setting(cars, results) + make_reasons(cars, results);
+  return make_head(assumptions) + make_fleet_summary(cars, results) + explain(cars, results);
 }
 
 }  // namespace rollrig::tools

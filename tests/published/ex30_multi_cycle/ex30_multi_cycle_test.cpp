@@ -14,10 +14,6 @@ namespace {
 
 const std::string kPhases = ROLLRIG_SOURCE_DIR "/tests/published/ex30_multi_cycle/phases.csv";
 
-double work_of_road_load_N(const models::RoadLoad<double>& load, double speed_m_s) {
-  return models::calc_road_load_N(load, speed_m_s);
-}
-
 }  // namespace
 
 TEST_CASE("EX30: one efficiency from two sections gives the others within 3 %, the cold first one apart",
@@ -43,7 +39,7 @@ TEST_CASE("EX30: at constant speed the wheels need the road load over the distan
   const auto certificate = read_certificate(kPhases);
   const auto simulated = simulate_multi_cycle({}, certificate);
   const auto vehicle = rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", "volvo_ex30")));
-  const double force_N = work_of_road_load_N(*vehicle.road_load, 65.0 * 0.44704);
+  const double force_N = models::calc_road_load_N(*vehicle.road_load, 65.0 * 0.44704);
   for (const std::size_t i : {3, 7}) {
     CHECK(simulated[i].distance_m == Approx(certificate[i].distance_m).epsilon(1e-4));
     // Ramps: kinetic energy given once and taken back but for the last metres, less drag on the way.
