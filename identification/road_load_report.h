@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "identification/coastdown_data.h"
+#include "identification/coastdown_file.h"
 #include "identification/road_load_checks.h"
 #include "sim/core/json.h"
 

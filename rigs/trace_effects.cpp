@@ -6,23 +6,27 @@
 namespace rollrig::rigs {
 
 template <class S>
-void apply_trace_effects(const models::Corner<S>& corner, sim::Recording<S>& recording) {
+void apply_trace_effects(const models::Corner<S>& corner, sim::Recording<S>& recording, const ChannelNames& name_of) {
   const bool any = std::any_of(corner.effects().begin(), corner.effects().end(),
                                [](const auto& on) { return on.hooks->trace != nullptr; });
   if (!any) return;
   models::TracePort<S> trace;
   trace.context = &corner.context();
   trace.time_s = recording.time_s;
+  std::vector<std::size_t> columns;
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
-    trace.channels.push_back({recording.channels[i].name, std::move(recording.values[i])});
+    const std::string name = name_of(recording.channels[i].name);
+    if (name.empty()) continue;
+    columns.push_back(i);
+    trace.channels.push_back({name, std::move(recording.values[i])});
   }
   for (const auto& on : corner.effects()) {
     if (on.hooks->trace != nullptr) on.hooks->trace(models::EffectView<S>(on.parameters.data(), nullptr), trace);
   }
-  for (std::size_t i = 0; i < recording.channels.size(); ++i) recording.values[i] = std::move(trace.channels[i].values);
+  for (std::size_t k = 0; k < columns.size(); ++k) recording.values[columns[k]] = std::move(trace.channels[k].values);
 }
 
-template void apply_trace_effects(const models::Corner<double>&, sim::Recording<double>&);
-template void apply_trace_effects(const models::Corner<Jet>&, sim::Recording<Jet>&);
+template void apply_trace_effects(const models::Corner<double>&, sim::Recording<double>&, const ChannelNames&);
+template void apply_trace_effects(const models::Corner<Jet>&, sim::Recording<Jet>&, const ChannelNames&);
 
 }  // namespace rollrig::rigs

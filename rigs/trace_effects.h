@@ -1,13 +1,22 @@
 #pragma once
 /// Port "trace": what effects do to the measured channels after a run.
 
+#include <functional>
+#include <string>
+
 #include "models/corner.h"
 #include "sim/recording.h"
 
 namespace rollrig::rigs {
 
-/// Runs the trace functions of the effects that are on over the channels of a recording.
+/// The name by which an effect knows a recorded channel; empty for channels that are not its own to change.
+using ChannelNames = std::function<std::string(const std::string& recorded)>;
+
+/// Runs the trace functions of the effects that are on over the channels of a recording. Where several wheels are
+/// recorded, it is called for each with the names of its channels.
 template <class S>
-void apply_trace_effects(const models::Corner<S>& corner, sim::Recording<S>& recording);
+void apply_trace_effects(
+    const models::Corner<S>& corner, sim::Recording<S>& recording,
+    const ChannelNames& name_of = [](const std::string& recorded) { return recorded; });
 
 }  // namespace rollrig::rigs

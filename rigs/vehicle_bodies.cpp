@@ -49,8 +49,7 @@ SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& 
 }
 
 /// What moves along the road with the vehicle and is in no other body; negative where those have more.
-double calc_other_mass_kg(const VehicleLayout& layout, const models::TireParameters<double>& tire,
-                          double mass_factor) {
+double calc_other_mass_kg(const VehicleLayout& layout, const models::TireParameters<double>& tire, double mass_factor) {
   double spin_kg = 0.0;
   for (const WheelPlace& wheel : layout.wheels) spin_kg += calc_spin_mass_kg(tire, wheel.static_load_N);
   const double total_kg = mass_factor * (layout.mass_kg + layout.rotating_mass_kg) - spin_kg;
@@ -97,8 +96,8 @@ VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const Ve
   const SimTK::Body::Rigid sprung = make_sprung_body(layout, bodies, flat ? std::max(0.0, -other_kg) : 0.0);
   MobilizedBody* base = &matter.Ground();
   if (flat || whole) {
-    bodies.sled =
-        MobilizedBody::Slider(matter.Ground(), Transform(height_m), make_point(flat ? std::max(0.0, other_kg) : 0.0), Transform());
+    bodies.sled = MobilizedBody::Slider(matter.Ground(), Transform(height_m),
+                                        make_point(flat ? std::max(0.0, other_kg) : 0.0), Transform());
     base = &bodies.sled;
   }
   const Vec3 start_m = bodies.has_sled() ? Vec3(0) : height_m;

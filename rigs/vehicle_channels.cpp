@@ -76,6 +76,16 @@ std::string wheel_channel(const std::string& name, const WheelPlace& wheel) {
   return quantity + "_" + wheel.position + name.substr(quantity.size());
 }
 
+std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel) {
+  for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
+    const std::string mark = "_" + layout.wheels[i].position;
+    const std::size_t at = recorded.find(mark);
+    if (mark.size() == 1 || at == std::string::npos) continue;
+    return i == wheel ? recorded.substr(0, at) + recorded.substr(at + mark.size()) : std::string();
+  }
+  return wheel == 0 ? recorded : std::string();
+}
+
 std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
                                                 const std::vector<models::CornerState>& states, bool surface_recorded) {
   std::vector<sim::Channel> channels{{"speed_km_h"}, {"ambient_degC"}};

@@ -80,6 +80,10 @@ std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
 /// A channel of one wheel: the position stands before the unit, "liner_temperature_front_left_degC".
 std::string wheel_channel(const std::string& name, const WheelPlace& wheel);
 
+/// The name of a recorded channel as one wheel's effects know it: without the wheel's position; the vehicle's own
+/// channels are the first wheel's; empty for those of other wheels.
+std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel);
+
 /// The recorded inputs of a segment at a time. Load, longitudinal and brake force are the rig's to fill.
 template <class S>
 models::InputPort<S> read_vehicle_inputs(const sim::Segment& segment, double elapsed_s, bool surface_recorded) {

@@ -49,7 +49,11 @@ VehicleFile read_vehicle(const ConfigTable& config) {
   VehicleFile vehicle;
   vehicle.path = config.origin.file;
   vehicle.name = file.text("name");
-  read_fields(file, vehicle.body);
+  const bool is_given_by_road_load = file.has("road_load");  // which holds the drag
+  VehicleBody::visit(vehicle.body, [&](Field field, double& member) {
+    if (is_given_by_road_load && std::string(field.key) == "drag_area_m2") field.fallback = 0.0;
+    member = file.number(field);
+  });
   read_standard_uncertainties(file, vehicle.uncertainties);
   vehicle.tires = file.count({"tires", between(1.0, 20.0), "Number of tires"});
   read_optional_table(file, "geometry", vehicle.geometry);

@@ -20,7 +20,8 @@ struct VehicleBody {
     visit(Field{"mass_kg", positive(), "Mass as tested"}, p.mass_kg);
     visit(Field{"rotating_mass_kg", non_negative(), "Equivalent mass of all that turns, wheels included"},
           p.rotating_mass_kg);
-    visit(Field{"drag_area_m2", non_negative(), "Drag coefficient times frontal area"}, p.drag_area_m2);
+    visit(Field{"drag_area_m2", non_negative(), "Drag coefficient times frontal area; not needed beside [road_load]"},
+          p.drag_area_m2);
   }
 };
 

@@ -54,8 +54,7 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
   layout.mass_kg = share * vehicle.body.mass_kg;
   layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;
   layout.rolling_load_N = share * find_rolling_load_N(vehicle, rig);
-  layout.air_density_kg_per_m3 =
-      models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, ambient_K);
+  layout.air_density_kg_per_m3 = models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, ambient_K);
   layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
   layout.regeneration_fade_m_s = vehicle.powertrain.regeneration_fade_m_s;
   if (rig.kind == RigKind::kDyno) {
@@ -89,7 +88,8 @@ VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, d
   return layout;
 }
 
-VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, double ambient_K, const models::RoadLoad<double>& set_load, QuarterWheel which) {
+VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                           const models::RoadLoad<double>& set_load, QuarterWheel which) {
   WheelPlace wheel = make_rolling_wheel(vehicle, rig, which == QuarterWheel::kFront, "");
   const double share = wheel.static_load_N / find_rolling_load_N(vehicle, rig);
   VehicleLayout layout = make_body(vehicle, rig, ambient_K, set_load, share);

@@ -33,7 +33,7 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
     outcome.result["coastdowns"].push_back({{"name", phase.name}, {"duration_s", phase.end_s - phase.start_s}});
     outcome.lines.push_back({phase.name, fmt::format("{:.2f} s", phase.end_s - phase.start_s)});
   }
-  add_road_load_lines(fit, outcome);
+  add_road_load_lines(spec, fit, outcome);
   for (const std::string& warning : fit.warnings) outcome.warnings.push_back(warning);
 }
 

@@ -72,9 +72,10 @@ CoastdownData collect_coastdowns(const sim::Recording<double>& recording, const 
   for (const sim::PhaseSpan& phase : recording.phases) {
     if (!is_coastdown(phase.name)) continue;
     if (phase.end_s - phase.start_s >= kLongest_s - 1.0) {
-      throw RunFailure(fmt::format("{} does not come to its end speed within {:.0f} s: something drives the vehicle as "
-                                   "much as it resists, such as slope_percent, wind_m_s or an effect with a negative force",
-                                   phase.name, kLongest_s));
+      throw RunFailure(
+          fmt::format("{} does not come to its end speed within {:.0f} s: something drives the vehicle as "
+                      "much as it resists, such as slope_percent, wind_m_s or an effect with a negative force",
+                      phase.name, kLongest_s));
     }
     CoastdownRun run;
     run.id = phase.name.substr(std::string(kPrefix).size());
@@ -132,12 +133,14 @@ Json road_load_to_json(const RoadLoadFit& fit) {
   return json;
 }
 
-void add_road_load_lines(const RoadLoadFit& fit, Outcome& outcome) {
+void add_road_load_lines(const RunSpec& spec, const RoadLoadFit& fit, Outcome& outcome) {
   const Json json = road_load_to_json(fit);
   outcome.lines.push_back({"A", fmt::format("{:.2f} N", json["A_N"].get<double>())});
   outcome.lines.push_back({"B", fmt::format("{:.4f} N/(km/h)", json["B_N_per_km_h"].get<double>())});
   outcome.lines.push_back({"C", fmt::format("{:.5f} N/(km/h)2", json["C_N_per_km_h2"].get<double>())});
-  ResultTable table{"Force at reference conditions", {"km/h", "N"}, {}};
+  const bool road = spec.rig.kind == rigs::RigKind::kFlat;
+  ResultTable table{
+      road ? "Force at reference conditions" : "Force of rollers and vehicle, as tested", {"km/h", "N"}, {}};
   for (const double speed_km_h : road_load_speeds_km_h()) {
     table.rows.push_back({fmt::format("{:.0f}", speed_km_h), fmt::format("{:.1f}", fit.force_N(speed_km_h / 3.6))});
   }

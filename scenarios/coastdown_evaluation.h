@@ -52,6 +52,6 @@ RoadLoadFit fit_vehicle_coastdowns(const CoastdownData& data, const RunSpec& spe
 const std::vector<double>& road_load_speeds_km_h();
 
 Json road_load_to_json(const RoadLoadFit& fit);
-void add_road_load_lines(const RoadLoadFit& fit, Outcome& outcome);
+void add_road_load_lines(const RunSpec& spec, const RoadLoadFit& fit, Outcome& outcome);
 
 }  // namespace rollrig::scenarios

@@ -5,12 +5,11 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
+#include "models/vehicle.h"
 #include "sim/core/units.h"
 
 namespace rollrig::scenarios {
 namespace {
-
-constexpr double kGasConstantAir_J_kgK = 287.05;  // dry air, ISO 2533
 
 double mean_of(const std::vector<double>& values, std::size_t first, std::size_t end) {
   return std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(first),
@@ -28,7 +27,7 @@ BinConditions make_conditions(const CoastdownRun& run, const RoadLoadFitOptions&
       given.ambient_K.empty() ? options.reference_temperature_K : mean_of(given.ambient_K, first, end);
   const double pressure_Pa = given.ambient_pressure_Pa.empty() ? options.reference_pressure_Pa
                                                                : mean_of(given.ambient_pressure_Pa, first, end);
-  const double density = pressure_Pa / (kGasConstantAir_J_kgK * ambient_K);
+  const double density = models::calc_air_density_kg_per_m3(pressure_Pa, ambient_K);
   at.rolling = 1.0 / (1.0 + options.rolling_fall_per_K * (ambient_K - options.reference_temperature_K));
   at.density = density / calc_reference_density_kg_m3(options);
   const double wind_m_s = given.wind_m_s.empty() ? 0.0 : h * mean_of(given.wind_m_s, first, end);
@@ -82,7 +81,7 @@ void add_bins(const CoastdownRun& run, const RoadLoadFitOptions& options, double
 }  // namespace
 
 double calc_reference_density_kg_m3(const RoadLoadFitOptions& options) {
-  return options.reference_pressure_Pa / (kGasConstantAir_J_kgK * options.reference_temperature_K);
+  return models::calc_air_density_kg_per_m3(options.reference_pressure_Pa, options.reference_temperature_K);
 }
 
 std::vector<FitRun> make_fit_runs(const CoastdownData& data, const RoadLoadFitOptions& options,

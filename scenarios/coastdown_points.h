@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "scenarios/coastdown.h"
+#include "scenarios/coastdown_data.h"
 
 namespace rollrig::scenarios {
 

@@ -164,7 +164,7 @@ void report(const Settings& settings, const Load& target, const Load& set, const
   show("Set", "set_");
   outcome.lines.push_back({"Corrections", fmt::format("{}", iterations)});
   outcome.lines.push_back(
-      {"Largest difference", fmt::format("{:.2f} N (criterion {:.0f} N)", largest_N, settings.criterion_N)});
+      {"Largest difference", fmt::format("{:.2f} N (criterion {:g} N)", largest_N, settings.criterion_N)});
   if (largest_N > settings.criterion_N) {
     outcome.warnings.push_back(fmt::format("the vehicle on the rollers is off by up to {:.1f} N", largest_N));
   }

@@ -72,6 +72,10 @@ void read_machine(TableReader& reader, const std::string& folder, MeasurementSet
   const std::string path = find_asset_from(folder, "rigs", reader.text("rig"));
   set.rig = rigs::read_rig(read_config(path));
   set.rig->content = read_text_file(path);
+  if (set.rig->kind == rigs::RigKind::kFlat) {
+    throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
+                         "a rig of kind \"drum\" or \"dyno\", or vehicle = ... with kind = \"road\"");
+  }
   set.kind = kind_of(set.rig->kind);
   if (!kind.empty() && kind != (set.kind == SetKind::kDrum ? "drum" : "dyno")) {
     throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),

@@ -29,7 +29,10 @@ VectorXd make_floors() {
 double step_to(const CoastdownProblem& problem, const VectorXd& wanted, VectorXd& coefficients) {
   double share = 1.0;
   while (share > 1e-3 && !all_possible(problem, coefficients + share * (wanted - coefficients))) share *= 0.5;
-  if (share <= 1e-3) throw RunFailure("the fitted road load is not positive at every speed of the data");
+  if (share <= 1e-3)
+    throw RunFailure(
+        "the fitted road load is not positive at every speed of the data: was the vehicle braked or driven in part of "
+        "it? Leave that part out (--speed-from, --speed-to)");
   coefficients += share * (wanted - coefficients);
   return share;
 }

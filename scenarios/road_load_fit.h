@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "models/road_load.h"
-#include "scenarios/coastdown.h"
+#include "scenarios/coastdown_data.h"
 
 namespace rollrig::scenarios {
 

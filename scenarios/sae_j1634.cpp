@@ -83,7 +83,7 @@ bool is_section(const std::string& phase) {
   return phase.rfind("city", 0) == 0 || phase.rfind("highway", 0) == 0 || phase.rfind("constant speed", 0) == 0;
 }
 
-/// A channel's value at a time, linear between rows.
+/// A channel's value in the first row from a time on.
 double find_at(const sim::Recording<double>& recording, const std::vector<double>& values, double time_s) {
   const auto row = std::lower_bound(recording.time_s.begin(), recording.time_s.end(), time_s - 1e-9);
   return values[std::min(static_cast<std::size_t>(row - recording.time_s.begin()), values.size() - 1)];
@@ -119,7 +119,8 @@ Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, co
   json["mean_rrc_N_per_kN"] =
       counted_s > 0.0 ? Json(1e3 * section.wheel(WheelIntegral::kCountedRrc, 0) / counted_s) : Json();
   json["temperature_start_degC"] = find_at(recording, temperature_K, span.start_s) - kZeroCelsius_K;
-  json["temperature_end_degC"] = find_at(recording, temperature_K, span.end_s - 1.0) - kZeroCelsius_K;
+  json["temperature_end_degC"] =
+      find_at(recording, temperature_K, span.end_s - spec.sample_interval_s) - kZeroCelsius_K;
   json["wheel_energy_Wh"] = drive_J / kWh_J;
   json["recuperated_Wh"] = recuperated_J / kWh_J;
   json["battery_energy_Wh"] = (drive_J / efficiency - recuperated_J * efficiency) / kWh_J;

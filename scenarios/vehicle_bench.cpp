@@ -1,5 +1,7 @@
 #include "scenarios/vehicle_bench.h"
 
+#include <algorithm>
+
 #include "rigs/multibody_vehicle.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/quasi_static_vehicle.h"
@@ -40,7 +42,8 @@ sim::Recording<double> run_quasi_static(const RunSpec& spec, Corners& corners, c
   sim::FixedGridIntegrator<double> integrator(vehicle);
   static_assert(rigs::index_of(rigs::VehicleInput::kSpeed) == rigs::index_of(rigs::DrumInput::kSpeed));
   sim::Program on_grid = rigs::refine_near_standstill(program.program());
-  for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= spec.tolerance_factor;
+  // A coarser grid than the phase's own is not stable.
+  for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= std::min(1.0, spec.tolerance_factor);
   return sim::simulate<double>(vehicle, integrator, on_grid, progress);
 }
 
@@ -56,7 +59,11 @@ void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, 
                           ? run_multibody(spec, corners, layout, start, program, progress, outcome.statistics)
                           : run_quasi_static(spec, corners, layout, start, program, progress);
   outcome.recording.audit.require_closed(kDriveAuditLimit);
-  rigs::apply_trace_effects(corners.front(), outcome.recording);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    rigs::apply_trace_effects(corners[i], outcome.recording, [&layout, i](const std::string& recorded) {
+      return rigs::name_at_wheel(recorded, layout, i);
+    });
+  }
 }
 
 }  // namespace rollrig::scenarios

@@ -50,9 +50,23 @@ InputError setting_problem(const RunSpec& spec, const char* key, const std::stri
   return InputError(problem);
 }
 
+/// A setting that changes nothing here is a mistake.
+void check_settings_say_something(const RunSpec& spec, int wheels) {
+  if (spec.rig.kind == rigs::RigKind::kFlat) {
+    for (const char* key : {"set_A_N", "set_B_N_per_km_h", "set_C_N_per_km_h2"}) {
+      if (spec.settings.find(key) == nullptr) continue;
+      throw setting_problem(spec, key, "", "a road has no rollers whose force could be set", "a rig of kind \"dyno\"");
+    }
+  }
+  if (wheels == 4 && spec.settings.find("quarter") != nullptr) {
+    throw setting_problem(spec, "quarter", "", "the whole vehicle is simulated", "wheels = 1 beside it");
+  }
+}
+
 }  // namespace
 
 void VehicleConditions::complete(const RunSpec& spec) {
+  check_settings_say_something(spec, wheels);
   if (wheels != 1 && wheels != 4) {
     throw setting_problem(spec, "wheels", fmt::format("{}", wheels), "a vehicle is simulated whole or as a quarter",
                           "4 or 1");
@@ -66,13 +80,24 @@ void VehicleConditions::complete(const RunSpec& spec) {
   check_rotating_mass(spec);
   if (!ambient_K.has_value()) ambient_K = spec.rig.environment.ambient_K;
   if (!initial_tire_K.has_value()) initial_tire_K = ambient_K;
-  if (!set_A_N.has_value()) set_A_N = 0.0;
-  if (!set_B_N_s_per_m.has_value()) set_B_N_s_per_m = 0.0;
-  if (!set_C_N_s2_per_m2.has_value()) {
-    const double density_kg_per_m3 =
-        models::calc_air_density_kg_per_m3(spec.rig.environment.ambient_pressure_Pa, *ambient_K);
-    set_C_N_s2_per_m2 = models::calc_drag_N(density_kg_per_m3, spec.vehicle->body.drag_area_m2, 1.0, 0.0);
+  const models::RoadLoad<double> by_default = find_default_set_load(spec);
+  if (!set_A_N.has_value()) set_A_N = by_default.A_N;
+  if (!set_B_N_s_per_m.has_value()) set_B_N_s_per_m = by_default.B_N_s_per_m;
+  if (!set_C_N_s2_per_m2.has_value()) set_C_N_s2_per_m2 = by_default.C_N_s2_per_m2;
+}
+
+models::RoadLoad<double> VehicleConditions::find_default_set_load(const RunSpec& spec) {
+  constexpr double kReference_K = kZeroCelsius_K + 20.0;  // 40 CFR 1066.305
+  constexpr double kReference_Pa = 98.21e3;               // likewise
+  if (spec.vehicle->road_load.has_value()) {
+    models::RoadLoad<double> load = *spec.vehicle->road_load;
+    if (spec.tire.iso_28580.has_value()) {
+      load.A_N -= spec.tire.iso_28580->rrc * spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
+    }
+    return load;
   }
+  const double density_kg_per_m3 = models::calc_air_density_kg_per_m3(kReference_Pa, kReference_K);
+  return {0.0, 0.0, models::calc_drag_N(density_kg_per_m3, spec.vehicle->body.drag_area_m2, 1.0, 0.0)};
 }
 
 rigs::VehicleLayout VehicleConditions::make_layout(const RunSpec& spec) const {

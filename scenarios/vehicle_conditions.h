@@ -32,18 +32,24 @@ struct VehicleConditions {
     visit(Field{"initial_tire_temperature_degC", between(-60.0, 120.0), "Tires at the start; default: as the air"},
           p.initial_tire_K);
     visit(Field{"set_A_N", any_number(),
-                "Force of the rollers at standstill, on the whole vehicle (3.20); default: none on a dynamometer"},
+                "Force of the rollers at standstill, on the whole vehicle (3.20); default: 0, or with [road_load] its "
+                "A less "
+                "the tires' loss by their ISO coefficient; dyno_setting finds it"},
           p.set_A_N);
-    visit(Field{"set_B_N_per_km_h", any_number(), "Its rise with speed; default: none"}, p.set_B_N_s_per_m);
+    visit(Field{"set_B_N_per_km_h", any_number(), "Its rise with speed; default: 0, or that of [road_load]"},
+          p.set_B_N_s_per_m);
     visit(Field{"set_C_N_per_km_h2", any_number(),
-                "Its rise with the square of speed; default: the vehicle's aerodynamic drag"},
+                "Its rise with the square of speed; default: the vehicle's drag at 20 degC and 98.21 kPa, or that of "
+                "[road_load]"},
           p.set_C_N_s2_per_m2);
   }
 
-  /// Fills what rig and vehicle decide. Throws InputError when `wheels` is neither 1 nor 4, or when the
-  /// wheels alone have more equivalent mass than the vehicle says of all that turns.
+  /// Fills what rig and vehicle decide. Throws InputError when `wheels` is neither 1 nor 4, when settings are given
+  /// that say nothing on this rig, or when the wheels alone have more equivalent mass than all that turns.
   void complete(const RunSpec& spec);
 
+  /// Force of the rollers on the whole vehicle where none is set.
+  static models::RoadLoad<double> find_default_set_load(const RunSpec& spec);
   /// The vehicle as it is simulated.
   rigs::VehicleLayout make_layout(const RunSpec& spec) const;
 };

@@ -37,7 +37,7 @@ class VehicleProgram {
   void add_line(sim::Phase& phase, double duration_s, double end_m_s);
   void add_counted_line(sim::Phase& phase, double duration_s, double end_m_s);
 
-  const VehicleConditions& conditions_;
+  VehicleConditions conditions_;
   double count_from_m_s_;
   sim::Program program_;
   double speed_m_s_ = 0.0;

@@ -25,6 +25,7 @@ struct BrakeHeat {
         {"time_constant_min", between(0.5, 600.0), {3.0, 30.0, Prior::Scale::kLog}, "tau, of the rim"}};
     info.states = {{"rim_heat_kJ", 1e4, "E, heat in the rim on its way to the tire"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
+    info.faint_on = {RigKind::kFlat};  // a few K move the loss by less than a thousandth of what accelerating takes
     info.visible_in = {"loss_force_N", "traction_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
     info.confused_with = {"rim_heat"};
     info.splitting_tests = {"the same cycle with and without friction brakes", "rim thermocouple"};

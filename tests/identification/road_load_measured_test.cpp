@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "identification/coastdown_data.h"
+#include "identification/coastdown_file.h"
 #include "identification/road_load_checks.h"
 
 namespace fs = std::filesystem;

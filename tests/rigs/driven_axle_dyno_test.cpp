@@ -65,7 +65,8 @@ TEST_CASE("rollers under the driven wheels: only these roll, and carry the vehic
     CHECK(half.wheels.front().motor_share == Approx(1.0));
   }
   CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kAll), rig, 293.15, {}).wheels.size() == 4);
-  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kRear), read_rig("dyno_48in"), 293.15, {}).wheels.size() == 4);
+  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kRear), read_rig("dyno_48in"), 293.15, {}).wheels.size() ==
+        4);
 }
 
 TEST_CASE("the file of a rig keeps which wheels it rolls", "[fast]") {

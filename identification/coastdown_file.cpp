@@ -1,4 +1,4 @@
-#include "identification/coastdown_data.h"
+#include "identification/coastdown_file.h"
 
 #include <algorithm>
 #include <charconv>

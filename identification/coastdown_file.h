@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/coastdown.h"
+#include "scenarios/coastdown_data.h"
 
 namespace rollrig::identification {
 
@@ -18,7 +18,7 @@ struct CoastdownFile {
 /// Reads either form, told apart by its columns.
 /// Errors   InputError: a wrong or missing column, times that do not increase within a run, a run whose speed
 ///          does not fall, bins that rise or overlap, times through a bin that are not positive
-/// Checked  tests/identification/coastdown_data_test.cpp, tests/cli/bad_input_test.cpp
+/// Checked  tests/identification/coastdown_file_test.cpp, tests/cli/bad_input_test.cpp
 CoastdownFile read_coastdowns(const std::string& path);
 
 }  // namespace rollrig::identification
