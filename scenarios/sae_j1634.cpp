@@ -121,6 +121,11 @@ Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, co
   json["temperature_start_degC"] = find_at(recording, temperature_K, span.start_s) - kZeroCelsius_K;
   json["temperature_end_degC"] =
       find_at(recording, temperature_K, span.end_s - spec.sample_interval_s) - kZeroCelsius_K;
+  double all_tires_J = 0.0;
+  for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
+    all_tires_J += section.wheel(WheelIntegral::kCountedRollingEnergy, wheel) / layout.share;
+  }
+  json["vehicle_rr_energy_Wh"] = all_tires_J / kWh_J;
   json["wheel_energy_Wh"] = drive_J / kWh_J;
   json["recuperated_Wh"] = recuperated_J / kWh_J;
   json["battery_energy_Wh"] = (drive_J / efficiency - recuperated_J * efficiency) / kWh_J;
@@ -181,6 +186,7 @@ const Scenario& scenario_sae_j1634() {
         {"sections[].mean_rrc_N_per_kN", "mean over time of F_rr/Fz, counted stretches"},
         {"sections[].temperature_start_degC", "of the liner"},
         {"sections[].temperature_end_degC", "of the liner"},
+        {"sections[].vehicle_rr_energy_Wh", "energy of rolling resistance of all tires that roll, counted stretches"},
         {"sections[].wheel_energy_Wh", "given out at the driven hubs, whole vehicle"},
         {"sections[].recuperated_Wh", "taken in by the motor while it brakes"},
         {"sections[].battery_energy_Wh", "through the constant efficiency of the powertrain, both ways"}}},

@@ -58,6 +58,10 @@ void check_settings_say_something(const RunSpec& spec, int wheels) {
       throw setting_problem(spec, key, "", "a road has no rollers whose force could be set", "a rig of kind \"dyno\"");
     }
   }
+  if (spec.settings.find("rest_before_min") != nullptr && spec.settings.find("tire_state") != nullptr) {
+    throw setting_problem(spec, "rest_before_min", "", "a rest and a state of the tire exclude each other",
+                          "one of rest_before_min and tire_state");
+  }
   if (wheels == 4 && spec.settings.find("quarter") != nullptr) {
     throw setting_problem(spec, "quarter", "", "the whole vehicle is simulated", "wheels = 1 beside it");
   }

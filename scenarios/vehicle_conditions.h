@@ -15,6 +15,8 @@ struct VehicleConditions {
   std::optional<double> ambient_K;
   std::optional<double> surface_K;
   std::optional<double> initial_tire_K;
+  Choice tire_state{"soaked", {"soaked", "warm"}};
+  std::optional<double> rest_before_s;
   std::optional<double> set_A_N;
   std::optional<double> set_B_N_s_per_m;
   std::optional<double> set_C_N_s2_per_m2;
@@ -31,6 +33,11 @@ struct VehicleConditions {
           p.surface_K);
     visit(Field{"initial_tire_temperature_degC", between(-60.0, 120.0), "Tires at the start; default: as the air"},
           p.initial_tire_K);
+    visit(Field{"tire_state", any_number(),
+                "warm: right after another run; effects that remember, such as flat_spot, start accordingly"},
+          p.tire_state);
+    visit(Field{"rest_before_min", between(0.0, 1e5), "Standstill before the run, after driving; default: soaked"},
+          p.rest_before_s);
     visit(Field{"set_A_N", any_number(),
                 "Force of the rollers at standstill, on the whole vehicle (3.20); default: 0, or with [road_load] its "
                 "A less "

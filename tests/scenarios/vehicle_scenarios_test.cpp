@@ -1,0 +1,110 @@
+// Scenarios with a vehicle: weather, odd vehicles, coasts that do not end, the state in which tires start.
+#include <catch2/catch.hpp>
+
+#include "rigs/vehicle_channels.h"
+#include "scenarios/coastdown_evaluation.h"
+#include "tests/support/drum_fixture.h"
+
+using namespace rollrig;
+
+namespace {
+
+using Settings = std::vector<std::string>;
+
+scenarios::Outcome run_on(const std::string& rig, const std::string& scenario, const Settings& settings,
+                          const std::string& fidelity = "quasi_static") {
+  ConfigTable document = scenarios::make_run_document(scenario);
+  set_config_value(document, "tire", "a50", "test");
+  set_config_value(document, "rig", rig, "test");
+  set_config_value(document, "fidelity", fidelity, "test");
+  for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
+  const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
+  return spec.scenario->run(spec, {});
+}
+
+double first_time_s(const scenarios::Outcome& outcome) {
+  return outcome.result["coastdowns"][0]["duration_s"].get<double>();
+}
+
+}  // namespace
+
+TEST_CASE("the air of the road has the temperature of the run, said by rig or by setting", "[fast]") {
+  const Settings cold{"ambient_degC=-20", "warm_up_min=10"};
+  const auto by_setting = run_on("flat", "coastdown", cold);
+  const auto by_rig = run_on("flat", "coastdown", {"rig.environment.ambient_degC=-20", "warm_up_min=10"});
+  CHECK(by_setting.result == by_rig.result);
+  // C at reference conditions is that of the drag area, 1.1672 kg/m3 / 2 x 0.72 m2 = 0.4202 N s2/m2, whatever the
+  // weather of the test; what tires add to it is a few percent.
+  const double drag_N_per_km_h2 = 0.5 * 98.21e3 / (287.05 * 293.15) * 0.72 / (3.6 * 3.6);
+  CHECK(tests::number(by_setting, "C_N_per_km_h2") == Approx(drag_N_per_km_h2).epsilon(0.06));
+  CHECK(first_time_s(by_setting) < 0.95 * first_time_s(run_on("flat", "coastdown", {"warm_up_min=10"})));
+}
+
+TEST_CASE("a coast that does not end is a failed run that says why", "[fast]") {
+  CHECK_THROWS_WITH(run_on("flat", "coastdown", {"slope_percent=-1", "warm_up_min=0"}),
+                    Catch::Contains("slope_percent"));
+}
+
+TEST_CASE("an effective mass below that of the bodies themselves", "[fast]") {
+  const Settings light{"effects.inertia_error.error_percent=-4", "warm_up_min=0"};
+  const auto multibody = run_on("flat", "coastdown", light, "multibody");
+  const auto quasi_static = run_on("flat", "coastdown", light);
+  CHECK(first_time_s(multibody) == Approx(first_time_s(quasi_static)).margin(0.1));
+  // Less to slow down by the same forces: 4 % less time, nearly.
+  const double usual_s = first_time_s(run_on("flat", "coastdown", {"warm_up_min=0"}));
+  CHECK(first_time_s(multibody) == Approx(0.96 * usual_s).epsilon(0.005));
+}
+
+TEST_CASE("keeping pace costs the rollers no energy, however the axles are loaded", "[fast]") {
+  for (const char* driven : {"front", "rear", "all"}) {
+    INFO(driven);
+    const Settings uneven{"vehicle.geometry.front_load_share=0.7",
+                          std::string("vehicle.powertrain.driven_axle=") + driven, "warm_up_min=5"};
+    const auto multibody = run_on("dyno_1m2", "coastdown", uneven, "multibody");
+    const auto quasi_static = run_on("dyno_1m2", "coastdown", uneven);
+    CHECK(first_time_s(multibody) == Approx(first_time_s(quasi_static)).margin(0.1));
+    CHECK(multibody.recording.audit.find_term_J(sim::kMotorWork) ==
+          Approx(quasi_static.recording.audit.find_term_J(sim::kMotorWork)).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("the work of a driver who takes over at another speed is in the audit", "[fast]") {
+  const auto outcome = run_on("flat", "coastdown", {"warm_up_min=0", "to_km_h=60"});
+  CHECK_NOTHROW(outcome.recording.audit.require_closed(1e-9));
+}
+
+TEST_CASE("flat spots are rolled out where the tire comes from another run", "[fast]") {
+  const Settings cycle{"wheels=1", "variant=source", "mid_min=5", "end_min=5"};
+  const auto with = [&cycle](const Settings& more) {
+    Settings all = cycle;
+    all.insert(all.end(), more.begin(), more.end());
+    return run_on("dyno_1m2", "sae_j1634", all).result["sections"][0]["rr_energy_Wh"].get<double>();
+  };
+  const double without = with({});
+  const double soaked = with({"effects.flat_spot.excess_percent=8"});
+  CHECK(soaked > 1.01 * without);
+  CHECK(with({"effects.flat_spot.excess_percent=8", "tire_state=warm"}) < soaked);
+  const double after_an_hour = with({"effects.flat_spot.excess_percent=8", "rest_before_min=60"});
+  CHECK(after_an_hour > without);
+  CHECK(after_an_hour < soaked);
+}
+
+TEST_CASE("rollers under a vehicle that is given by its road load leave its tires their loss", "[fast]") {
+  auto spec = tests::make_spec("dyno_setting", "a50");
+  spec.vehicle->road_load = models::RoadLoad<double>{150.0, 1.0, 0.4};
+  const auto set = scenarios::VehicleConditions::find_default_set_load(spec);
+  CHECK(set.A_N == Approx(150.0 - 5.2e-3 * 4.0 * 5400.0).epsilon(1e-5));
+  CHECK(set.B_N_s_per_m == 1.0);
+  CHECK(set.C_N_s2_per_m2 == 0.4);
+}
+
+TEST_CASE("an effect on measured channels finds those of each wheel under their own names", "[fast]") {
+  const auto spec = tests::make_spec("dyno_setting", "a50");
+  const auto layout = rigs::make_four_wheels(*spec.vehicle, spec.rig, 293.15, {});
+  CHECK(rigs::name_at_wheel("liner_temperature_rear_left_degC", layout, 2) == "liner_temperature_degC");
+  CHECK(rigs::name_at_wheel("liner_temperature_rear_left_degC", layout, 0).empty());
+  CHECK(rigs::name_at_wheel("traction_force_N", layout, 0) == "traction_force_N");
+  CHECK(rigs::name_at_wheel("traction_force_N", layout, 1).empty());
+  const auto quarter = rigs::make_quarter(*spec.vehicle, spec.rig, 293.15, {}, rigs::QuarterWheel::kFront);
+  CHECK(rigs::name_at_wheel("cavity_pressure_kPa", quarter, 0) == "cavity_pressure_kPa");
+}
