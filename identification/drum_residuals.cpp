@@ -6,6 +6,7 @@
 #include "identification/sample_selection.h"
 #include "models/corner.h"
 #include "rigs/quasi_static_drum.h"
+#include "rigs/standstill_grid.h"
 #include "sim/core/parallel.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
@@ -36,7 +37,8 @@ DrumResiduals::DrumResiduals(const scenarios::MeasurementSet& set, models::Conte
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
   for (const scenarios::MeasuredRun& run : set_.runs)
-    replays_.push_back(rigs::refine_near_standstill(scenarios::make_replay(run)));
+    replays_.push_back(
+        rigs::refine_near_standstill(scenarios::make_replay(run), rigs::index_of(rigs::DrumInput::kSpeed)));
   collect_series();
   std::size_t priors = 0;
   for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;

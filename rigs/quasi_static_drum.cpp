@@ -175,48 +175,6 @@ void QuasiStaticDrum<S>::calc_stored(double time_s, const S* state, S* stored_J)
   stored_J[index_of(DrumStore::kHeat)] = corner_.calc_stored_heat_J(state + kFirstCornerState);
 }
 
-namespace {
-
-/// The part of a segment from `from_s` to `to_s`.
-sim::Segment cut_segment(const sim::Segment& segment, double from_s, double to_s) {
-  sim::Segment part = segment;
-  part.duration_s = to_s - from_s;
-  for (sim::Ramp& ramp : part.inputs) ramp.start = ramp.at(from_s);
-  return part;
-}
-
-}  // namespace
-
-sim::Program refine_near_standstill(const sim::Program& program) {
-  constexpr double kBand_m_s = 0.4;   // where tanh(v / 0.05 m/s) is 1 to 1e-7
-  constexpr double kStep_m_s = 0.01;  // a fifth of the fade's width
-  sim::Program refined = program;
-  for (sim::Phase& phase : refined.phases) {
-    std::vector<sim::Segment> pieces;
-    for (const sim::Segment& segment : phase.segments) {
-      const sim::Ramp& speed = segment.inputs[index_of(DrumInput::kSpeed)];
-      std::vector<double> cuts_s{0.0};
-      if (speed.slope_per_s != 0.0) {
-        double first_s = (-kBand_m_s - speed.start) / speed.slope_per_s;
-        double second_s = (kBand_m_s - speed.start) / speed.slope_per_s;
-        if (first_s > second_s) std::swap(first_s, second_s);
-        for (const double cut_s : {first_s, second_s}) {
-          if (cut_s > 0.0 && cut_s < segment.duration_s) cuts_s.push_back(cut_s);
-        }
-      }
-      cuts_s.push_back(segment.duration_s);
-      for (std::size_t i = 0; i + 1 < cuts_s.size(); ++i) {
-        sim::Segment piece = cut_segment(segment, cuts_s[i], cuts_s[i + 1]);
-        const bool slow = std::abs(speed.at(0.5 * (cuts_s[i] + cuts_s[i + 1]))) < kBand_m_s;
-        if (slow && speed.slope_per_s != 0.0) piece.max_step_s = kStep_m_s / std::abs(speed.slope_per_s);
-        pieces.push_back(std::move(piece));
-      }
-    }
-    phase.segments = std::move(pieces);
-  }
-  return refined;
-}
-
 template class QuasiStaticDrum<double>;
 template class QuasiStaticDrum<Jet>;
 

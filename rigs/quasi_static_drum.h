@@ -65,10 +65,6 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   S drum_torque_Nm_{};
 };
 
-/// The same program with its segments cut where the speed enters or leaves the band around standstill in
-/// which forces fade (tanh(v / 0.05 m/s)), and a grid fine enough for the fade inside it.
-sim::Program refine_near_standstill(const sim::Program& program);
-
 extern template class QuasiStaticDrum<double>;
 extern template class QuasiStaticDrum<Jet>;
 

@@ -13,18 +13,6 @@ constexpr double kLongest_s = 3600.0;     // of one coastdown
 constexpr double kStandstill_m_s = 0.05;  // below, rolling forces fade and the vehicle creeps to rest
 constexpr const char* kPrefix = "coastdown ";
 
-InputError problem_of(const RunSpec& spec, const char* key, const std::string& what, const std::string& allowed) {
-  const ConfigValue* set = spec.settings.find(key);
-  InputProblem problem;
-  problem.what = what;
-  problem.file = set != nullptr ? set->origin.file : "command line";
-  problem.line = set != nullptr ? set->origin.line : 0;
-  problem.key = key;
-  if (set != nullptr) problem.value = set->text;
-  problem.allowed = allowed;
-  return InputError(problem);
-}
-
 /// +1 for the first direction of a pair, -1 for the second, from the phase's name.
 int heading_of(const std::string& phase) { return phase.back() == '+' ? 1 : -1; }
 
@@ -32,13 +20,13 @@ int heading_of(const std::string& phase) { return phase.back() == '+' ? 1 : -1; 
 
 void Coastdowns::check(const RunSpec& spec) const {
   if (to_m_s >= from_m_s - 10.0 / 3.6) {
-    throw problem_of(spec, "to_km_h", "the coastdown would fall through less than 10 km/h",
-                     fmt::format("less than {:.1f} km/h", 3.6 * from_m_s - 10.0));
+    throw InputError(setting_problem(spec, "to_km_h", "the coastdown would fall through less than 10 km/h",
+                                     fmt::format("less than {:.1f} km/h", 3.6 * from_m_s - 10.0)));
   }
   if (spec.rig.kind == rigs::RigKind::kFlat) return;
   for (const char* key : {"slope_percent", "wind_m_s"}) {
     if (spec.settings.find(key) != nullptr) {
-      throw problem_of(spec, key, "rollers have neither slope nor wind", "a rig of kind \"flat\"");
+      throw InputError(setting_problem(spec, key, "rollers have neither slope nor wind", "a rig of kind \"flat\""));
     }
   }
 }

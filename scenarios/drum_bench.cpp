@@ -1,38 +1,12 @@
 #include "scenarios/drum_bench.h"
 
-#include <algorithm>
-
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
-#include "scenarios/integrator_statistics.h"
-#include "sim/cvodes_integrator.h"
-#include "sim/fixed_grid_integrator.h"
+#include "scenarios/fidelity.h"
 
 namespace rollrig::scenarios {
 namespace {
-
-sim::Recording<double> run_multibody(const RunSpec& spec, models::Corner<double>& corner,
-                                     const rigs::DrumStart<double>& start, const DrumProgram& program,
-                                     const sim::Progress& progress, Json& statistics) {
-  rigs::MultibodyDrum drum(corner, spec.rig, start, program.surface_recorded());
-  sim::CvodesOptions options;
-  options.tolerance_factor = spec.tolerance_factor;
-  sim::CvodesIntegrator integrator(drum, options);
-  sim::Recording<double> recording = sim::simulate<double>(drum, integrator, program.program(), progress);
-  statistics = to_json(integrator.statistics());
-  return recording;
-}
-
-sim::Recording<double> run_quasi_static(const RunSpec& spec, models::Corner<double>& corner,
-                                        const rigs::DrumStart<double>& start, const DrumProgram& program,
-                                        const sim::Progress& progress) {
-  rigs::QuasiStaticDrum<double> drum(corner, start, program.surface_recorded(), rigs::Detail::kFull);
-  sim::FixedGridIntegrator<double> integrator(drum);
-  sim::Program on_grid = rigs::refine_near_standstill(program.program());
-  for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= spec.tolerance_factor;
-  return sim::simulate<double>(drum, integrator, on_grid, progress);
-}
 
 rigs::DrumStart<double> make_start(const RunSpec& spec, const DrumConditions& conditions) {
   rigs::DrumStart<double> start;
@@ -46,10 +20,9 @@ rigs::DrumStart<double> make_start(const RunSpec& spec, const DrumConditions& co
 /// gas at that time.
 void fill_set_starts(const sim::Recording<double>& recording, std::vector<SetRun>& runs) {
   for (SetRun& run : runs) {
-    const auto row = std::lower_bound(recording.time_s.begin(), recording.time_s.end(), run.start_s - 1e-9);
-    const auto index = static_cast<std::size_t>(row - recording.time_s.begin());
-    run.initial_tire_temperature_K = recording.channel("gas_temperature_degC")[index];
-    run.cold_pressure_Pa = recording.channel("cavity_pressure_kPa")[index];
+    const std::size_t row = recording.row_at(run.start_s);
+    run.initial_tire_temperature_K = recording.channel("gas_temperature_degC")[row];
+    run.cold_pressure_Pa = recording.channel("cavity_pressure_kPa")[row];
   }
 }
 
@@ -71,9 +44,14 @@ void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, con
                       const sim::Progress& progress, Outcome& outcome) {
   models::Corner<double> corner(rigs::make_context(spec.tire, spec.rig, spec.baseline), spec.effects);
   const rigs::DrumStart<double> start = make_start(spec, conditions);
-  outcome.recording = spec.fidelity == Fidelity::kMultibody
-                          ? run_multibody(spec, corner, start, program, progress, outcome.statistics)
-                          : run_quasi_static(spec, corner, start, program, progress);
+  if (spec.fidelity == Fidelity::kMultibody) {
+    rigs::MultibodyDrum drum(corner, spec.rig, start, program.surface_recorded());
+    outcome.recording = run_multibody(drum, program.program(), spec, progress, outcome.statistics);
+  } else {
+    rigs::QuasiStaticDrum<double> drum(corner, start, program.surface_recorded(), rigs::Detail::kFull);
+    outcome.recording =
+        run_quasi_static(drum, program.program(), rigs::index_of(rigs::DrumInput::kSpeed), spec, progress);
+  }
   outcome.recording.audit.require_closed(sim::kAuditLimit);
   outcome.set_runs = program.set_runs();
   fill_set_starts(outcome.recording, outcome.set_runs);

@@ -2,7 +2,7 @@
 /// Runs a drum program in the fidelity asked for, with effects, audits and sensors.
 
 #include "scenarios/drum_program.h"
-#include "scenarios/scenario.h"
+#include "scenarios/rig_scenario.h"
 
 namespace rollrig::scenarios {
 
@@ -14,33 +14,12 @@ const std::vector<std::string>& measured_drum_channels();
 void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
                       const sim::Progress& progress, Outcome& outcome);
 
-/// A scenario on the drum: settings (with a member `conditions`) are read and completed, `plan` makes the
-/// program, it is simulated, `evaluate` fills result, lines and tables.
+/// A scenario on the drum; see rig_scenario.h.
 template <class Settings>
 Scenario make_drum_scenario(ScenarioText text, DrumProgram (*plan)(const Settings&, const RunSpec&),
                             void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
-  const auto read = [](const RunSpec& spec) {
-    Settings settings = read_settings<Settings>(spec);
-    settings.conditions.complete(spec);
-    return settings;
-  };
-  Scenario scenario;
-  scenario.text = std::move(text);
-  scenario.settings = list_settings<Settings>();
-  scenario.check = [read, plan](const RunSpec& spec) {
-    const Settings settings = read(spec);
-    plan(settings, spec);
-    rigs::make_context(spec.tire, spec.rig, spec.baseline);
-  };
-  scenario.run = [read, plan, evaluate](const RunSpec& spec, const sim::Progress& progress) {
-    const Settings settings = read(spec);
-    Outcome outcome;
-    outcome.settings = settings_to_json(settings);
-    simulate_on_drum(spec, settings.conditions, plan(settings, spec), progress, outcome);
-    evaluate(settings, spec, outcome);
-    return outcome;
-  };
-  return scenario;
+  return make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum,
+                           [](const RunSpec& spec) { rigs::make_context(spec.tire, spec.rig, spec.baseline); });
 }
 
 }  // namespace rollrig::scenarios

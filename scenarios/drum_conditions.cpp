@@ -19,14 +19,9 @@ double calc_skim_limit_N(const rigs::RigFile& rig) { return 1.5 * rig.skim.load_
 
 void check_test_load(const RunSpec& spec, const char* key, double load_N) {
   const auto refuse = [&](const std::string& what, const std::string& allowed) {
-    const ConfigValue* set = spec.settings.find(key);
-    InputProblem problem;
-    problem.what = what;
-    problem.file = set != nullptr ? set->origin.file : spec.tire.path;
-    problem.line = set != nullptr ? set->origin.line : 0;
-    problem.key = key;
+    InputProblem problem = setting_problem(spec, key, what, allowed);
+    if (problem.file.empty()) problem.file = spec.tire.path;  // the tire's own load
     problem.value = fmt::format("{}", load_N);
-    problem.allowed = allowed;
     throw InputError(problem);
   };
   const double skim_limit_N = calc_skim_limit_N(spec.rig);

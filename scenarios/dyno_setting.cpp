@@ -1,5 +1,6 @@
 /// Dynamometer setting: the force of the rollers with which the vehicle coasts down as on the road (§3.4.3).
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "rigs/rig_file.h"
@@ -65,11 +66,12 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
 Settings read(const RunSpec& spec) {
   Settings settings = read_settings<Settings>(spec);
   settings.conditions.complete(spec);
-  const int given = int{settings.target_A_N.has_value()} + int{settings.target_B_N_s_per_m.has_value()} +
-                    int{settings.target_C_N_s2_per_m2.has_value()};
-  if (given != 0 && given != 3) {
-    throw InputError({"a target is given by all three of its coefficients", "command line", 0, "target_A_N", "",
-                      "target_A_N, target_B_N_per_km_h and target_C_N_per_km_h2, or none of them", ""});
+  const std::array<const char*, 3> keys{"target_A_N", "target_B_N_per_km_h", "target_C_N_per_km_h2"};
+  const auto is_given = [&spec](const char* key) { return spec.settings.find(key) != nullptr; };
+  const auto given = std::find_if(keys.begin(), keys.end(), is_given);
+  if (given != keys.end() && !std::all_of(keys.begin(), keys.end(), is_given)) {
+    throw InputError(setting_problem(spec, *given, "a target is given by all three of its coefficients",
+                                     fmt::format("{}, or none of them", fmt::join(keys, ", "))));
   }
   return settings;
 }

@@ -53,8 +53,7 @@ std::pair<double, double> calc_repeatability(const std::vector<Cycle>& cycles) {
 /// The pressure after the check, against what was set: the standard asks to verify it.
 double find_verified_pressure_Pa(const sim::Recording<double>& recording) {
   const double end_s = recording.phase_named("pressure check").end_s;
-  const auto row = std::lower_bound(recording.time_s.begin(), recording.time_s.end(), end_s - 1e-9);
-  return recording.channel("cavity_pressure_kPa")[static_cast<std::size_t>(row - recording.time_s.begin())];
+  return recording.channel("cavity_pressure_kPa")[recording.row_at(end_s)];
 }
 
 void fill_lines(const Settings& settings, const RunSpec& spec, const Cycle& cycle, double corrected,

@@ -83,12 +83,6 @@ bool is_section(const std::string& phase) {
   return phase.rfind("city", 0) == 0 || phase.rfind("highway", 0) == 0 || phase.rfind("constant speed", 0) == 0;
 }
 
-/// A channel's value in the first row from a time on.
-double find_at(const sim::Recording<double>& recording, const std::vector<double>& values, double time_s) {
-  const auto row = std::lower_bound(recording.time_s.begin(), recording.time_s.end(), time_s - 1e-9);
-  return values[std::min(static_cast<std::size_t>(row - recording.time_s.begin()), values.size() - 1)];
-}
-
 /// One section: of one tire (the first that is simulated), and of the whole vehicle at its wheels.
 Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, const sim::Recording<double>& recording,
                       std::size_t phase) {
@@ -118,9 +112,8 @@ Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, co
   }
   json["mean_rrc_N_per_kN"] =
       counted_s > 0.0 ? Json(1e3 * section.wheel(WheelIntegral::kCountedRrc, 0) / counted_s) : Json();
-  json["temperature_start_degC"] = find_at(recording, temperature_K, span.start_s) - kZeroCelsius_K;
-  json["temperature_end_degC"] =
-      find_at(recording, temperature_K, span.end_s - spec.sample_interval_s) - kZeroCelsius_K;
+  json["temperature_start_degC"] = temperature_K[recording.row_at(span.start_s)] - kZeroCelsius_K;
+  json["temperature_end_degC"] = temperature_K[recording.row_at(span.end_s - spec.sample_interval_s)] - kZeroCelsius_K;
   double all_tires_J = 0.0;
   for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
     all_tires_J += section.wheel(WheelIntegral::kCountedRollingEnergy, wheel) / layout.share;

@@ -76,6 +76,9 @@ Settings read_settings(const RunSpec& spec) {
   return settings;
 }
 
+/// What is wrong with a setting: with its file, line and value where it was given, for the caller to throw.
+InputProblem setting_problem(const RunSpec& spec, const char* key, const std::string& what, const std::string& allowed);
+
 /// Every setting as used, in the units of the keys, for the manifest.
 template <class Settings>
 Json settings_to_json(const Settings& settings) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Runs a vehicle's program in the fidelity asked for, with effects and audits.
 
-#include "scenarios/scenario.h"
+#include "scenarios/rig_scenario.h"
 #include "scenarios/vehicle_program.h"
 
 namespace rollrig::scenarios {
@@ -33,36 +33,17 @@ class SectionReader {
   const rigs::VehicleLayout& layout_;
 };
 
-/// A scenario with a vehicle: settings (with a member `conditions`) are read and completed, `plan` makes the
-/// program, it is simulated, `evaluate` fills result, lines and tables.
+/// A scenario with a vehicle, on the kinds of rig named; see rig_scenario.h.
 template <class Settings>
 Scenario make_vehicle_scenario(ScenarioText text, std::vector<rigs::RigKind> rig_kinds, std::string default_rig,
                                VehicleProgram (*plan)(const Settings&, const RunSpec&),
                                void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
-  const auto read = [](const RunSpec& spec) {
-    Settings settings = read_settings<Settings>(spec);
-    settings.conditions.complete(spec);
-    return settings;
-  };
-  Scenario scenario;
-  scenario.text = std::move(text);
-  scenario.settings = list_settings<Settings>();
+  Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_vehicle, [](const RunSpec& spec) {
+    rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
+  });
   scenario.rig_kinds = std::move(rig_kinds);
   scenario.default_rig = std::move(default_rig);
   scenario.has_vehicle = true;
-  scenario.check = [read, plan](const RunSpec& spec) {
-    const Settings settings = read(spec);
-    plan(settings, spec);
-    rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
-  };
-  scenario.run = [read, plan, evaluate](const RunSpec& spec, const sim::Progress& progress) {
-    const Settings settings = read(spec);
-    Outcome outcome;
-    outcome.settings = settings_to_json(settings);
-    simulate_vehicle(spec, settings.conditions, plan(settings, spec), progress, outcome);
-    evaluate(settings, spec, outcome);
-    return outcome;
-  };
   return scenario;
 }
 

@@ -35,35 +35,21 @@ void check_tires(const RunSpec& spec) {
   throw InputError(problem);
 }
 
-InputError setting_problem(const RunSpec& spec, const char* key, const std::string& value, const std::string& what,
-                           const std::string& allowed) {
-  const ConfigValue* set = spec.settings.find(key);
-  InputProblem problem;
-  problem.what = what;
-  if (set != nullptr) {
-    problem.file = set->origin.file;
-    problem.line = set->origin.line;
-  }
-  problem.key = key;
-  problem.value = value;
-  problem.allowed = allowed;
-  return InputError(problem);
-}
-
 /// A setting that changes nothing here is a mistake.
 void check_settings_say_something(const RunSpec& spec, int wheels) {
   if (spec.rig.kind == rigs::RigKind::kFlat) {
     for (const char* key : {"set_A_N", "set_B_N_per_km_h", "set_C_N_per_km_h2"}) {
       if (spec.settings.find(key) == nullptr) continue;
-      throw setting_problem(spec, key, "", "a road has no rollers whose force could be set", "a rig of kind \"dyno\"");
+      throw InputError(
+          setting_problem(spec, key, "a road has no rollers whose force could be set", "a rig of kind \"dyno\""));
     }
   }
   if (spec.settings.find("rest_before_min") != nullptr && spec.settings.find("tire_state") != nullptr) {
-    throw setting_problem(spec, "rest_before_min", "", "a rest and a state of the tire exclude each other",
-                          "one of rest_before_min and tire_state");
+    throw InputError(setting_problem(spec, "rest_before_min", "a rest and a state of the tire exclude each other",
+                                     "one of rest_before_min and tire_state"));
   }
   if (wheels == 4 && spec.settings.find("quarter") != nullptr) {
-    throw setting_problem(spec, "quarter", "", "the whole vehicle is simulated", "wheels = 1 beside it");
+    throw InputError(setting_problem(spec, "quarter", "the whole vehicle is simulated", "wheels = 1 beside it"));
   }
 }
 
@@ -72,13 +58,12 @@ void check_settings_say_something(const RunSpec& spec, int wheels) {
 void VehicleConditions::complete(const RunSpec& spec) {
   check_settings_say_something(spec, wheels);
   if (wheels != 1 && wheels != 4) {
-    throw setting_problem(spec, "wheels", fmt::format("{}", wheels), "a vehicle is simulated whole or as a quarter",
-                          "4 or 1");
+    throw InputError(setting_problem(spec, "wheels", "a vehicle is simulated whole or as a quarter", "4 or 1"));
   }
   if (wheels == 1 && !rigs::rolls(*spec.vehicle, spec.rig, quarter.value == "front")) {
-    throw setting_problem(spec, "quarter", quarter.value,
-                          fmt::format("rig '{}' has rollers under the driven wheels alone", spec.rig.name),
-                          fmt::format("\"{}\"", rigs::name_of(spec.vehicle->driven_axle)));
+    throw InputError(setting_problem(spec, "quarter",
+                                     fmt::format("rig '{}' has rollers under the driven wheels alone", spec.rig.name),
+                                     fmt::format("\"{}\"", rigs::name_of(spec.vehicle->driven_axle))));
   }
   check_tires(spec);
   check_rotating_mass(spec);

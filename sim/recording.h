@@ -1,6 +1,7 @@
 #pragma once
 /// What a run leaves behind.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -41,6 +42,13 @@ struct Recording {
   }
   std::vector<S>& channel(const std::string& name) {
     return const_cast<std::vector<S>&>(static_cast<const Recording&>(*this).channel(name));
+  }
+
+  /// The first row at or after a time, or the last row.
+  std::size_t row_at(double at_s) const {
+    constexpr double kSlack_s = 1e-9;
+    const auto row = std::lower_bound(time_s.begin(), time_s.end(), at_s - kSlack_s);
+    return std::min(static_cast<std::size_t>(row - time_s.begin()), time_s.size() - 1);
   }
 
   const PhaseSpan& phase_named(const std::string& name) const {

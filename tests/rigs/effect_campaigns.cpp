@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
 #include "scenarios/vehicle_bench.h"
 #include "tests/support/vehicle_fixture.h"
@@ -43,7 +44,8 @@ sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects) {
   start.ambient_pressure_Pa = Jet(fixture.rig.environment.ambient_pressure_Pa);
   rigs::QuasiStaticDrum<Jet> drum(corner, start, false, rigs::Detail::kMeasured);
   sim::FixedGridIntegrator<Jet> integrator(drum);
-  sim::Recording<Jet> recording = sim::simulate<Jet>(drum, integrator, rigs::refine_near_standstill(drum_program()));
+  sim::Recording<Jet> recording = sim::simulate<Jet>(
+      drum, integrator, rigs::refine_near_standstill(drum_program(), rigs::index_of(rigs::DrumInput::kSpeed)));
   rigs::apply_trace_effects(corner, recording);
   return recording;
 }

@@ -1,5 +1,6 @@
 #include "tests/support/drum_fixture.h"
 
+#include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
 #include "scenarios/assets.h"
 
@@ -32,7 +33,8 @@ sim::Recording<double> DrumFixture::run_quasi_static(const sim::Program& program
   models::Corner<double> at = corner();
   rigs::QuasiStaticDrum<double> drum(at, start(), false, rigs::Detail::kFull);
   sim::FixedGridIntegrator<double> integrator(drum);
-  sim::Recording<double> recording = sim::simulate<double>(drum, integrator, rigs::refine_near_standstill(program));
+  sim::Recording<double> recording = sim::simulate<double>(
+      drum, integrator, rigs::refine_near_standstill(program, rigs::index_of(rigs::DrumInput::kSpeed)));
   rigs::apply_trace_effects(at, recording);
   return recording;
 }
