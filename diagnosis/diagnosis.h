@@ -1,0 +1,116 @@
+#pragma once
+/// Why a measurement and the simulation differ: where, by which unmodelled effect, and how far the gap
+/// shrinks once that effect is added.
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/measurement_set.h"
+
+namespace rollrig::diagnosis {
+
+enum class Verdict { kNoGap, kExplained, kUnexplained };
+
+/// One own parameter of an effect, in the unit of its key.
+struct ParameterEstimate {
+  std::string name;  // "<effect>.<key>"
+  double value = 0.0;
+  double sd = 0.0;
+  double low_95 = 0.0;
+  double high_95 = 0.0;
+  std::string unit;
+};
+
+/// An effect, a pair of them, or effects that this set cannot tell apart.
+struct Cause {
+  std::vector<std::string> effects;  // of the hypothesis: one, or two that act together
+  double probability = 0.0;          // of it with all that it cannot be told from
+  std::vector<std::string> indistinguishable_from;
+  std::vector<ParameterEstimate> parameters;
+  bool adequate = true;
+  std::vector<std::string> objections;  // why not adequate, a sentence each
+};
+
+/// A gap in noise floors: rms of what is left without noise, in standard deviations of a mean over a
+/// block of ten seconds; the session's offset does not count.
+struct GapView {
+  double before = 0.0;
+  double after = 0.0;
+};
+
+/// The gap of one channel, in its unit (a torque as force at the drum's surface).
+struct ChannelGap {
+  std::string channel;
+  std::string unit;
+  double before = 0.0;
+  double after = 0.0;
+};
+
+/// How far the gap shrinks, on runs that the fit did not see.
+struct Gap {
+  GapView as_calibrated;  // base parameters as the files give them
+  GapView recalibrated;   // base parameters moved within their uncertainty; each run left out in turn
+  std::optional<double> shrink_percent;  // of the recalibrated gap; none where that is not above the noise
+  std::array<double, 2> shrink_ci95_percent{};
+  std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
+  std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
+  std::vector<std::string> held_out;            // runs judged on
+  std::vector<ChannelGap> channels;
+};
+
+/// A stretch of one channel in which simulation and measurement differ.
+struct Location {
+  std::string channel;
+  std::string run;
+  std::string phase;
+  double share_percent = 0.0;  // of all that is above the noise
+  double size = 0.0;           // measured less simulated, mean over the stretch
+  std::string unit;
+  double z = 0.0;  // size over its standard deviation
+  double start_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// An equation that needs a push for the simulation to meet the measurement.
+struct BalanceShare {
+  std::string name;
+  double share_percent = 0.0;
+};
+
+struct NextTest {
+  std::string test;
+  std::vector<std::string> splits;
+  double expected_bits_per_hour = 0.0;
+};
+
+struct Diagnosis {
+  std::string set;
+  Verdict verdict = Verdict::kNoGap;
+  std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the race
+  std::vector<Cause> causes;                  // the likeliest first
+  Gap gap;
+  std::vector<Location> where;  // the largest share first
+  std::vector<BalanceShare> balance;
+  std::vector<NextTest> next_test;
+  std::vector<std::string> not_excluded;  // effects that this set would not show
+  std::vector<std::string> warnings;      // about the data, a sentence each
+};
+
+struct DiagnosisOptions {
+  std::vector<std::string> without;  // effects left out of the race
+  std::vector<std::string> only;     // where not empty, the effects in the race
+  int threads = 0;                   // 0: as many as the machine has
+  std::function<void(double done, const std::string& stage)> progress = {};
+};
+
+/// The diagnosis of a measurement set of kind drum.
+/// Method  docs/diagnosis.md
+/// Errors  InputError: not a drum set; an unknown effect; nothing measured. RunFailure: no fit converges
+/// Checked tests/diagnosis/diagnosis_test.cpp
+Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options);
+
+}  // namespace rollrig::diagnosis
