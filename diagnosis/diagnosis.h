@@ -52,8 +52,8 @@ struct ChannelGap {
 
 /// How far the gap shrinks, on runs that the fit did not see.
 struct Gap {
-  GapView as_calibrated;  // base parameters as the files give them
-  GapView recalibrated;   // base parameters moved within their uncertainty; each run left out in turn
+  GapView as_calibrated;                 // base parameters as the files give them
+  GapView recalibrated;                  // base parameters moved within their uncertainty; each run left out in turn
   std::optional<double> shrink_percent;  // of the recalibrated gap; none where that is not above the noise
   std::array<double, 2> shrink_ci95_percent{};
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated

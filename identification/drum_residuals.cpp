@@ -3,28 +3,12 @@
 #include <cmath>
 #include <map>
 
+#include "identification/replay.h"
 #include "identification/sample_selection.h"
-#include "models/corner.h"
-#include "rigs/quasi_static_drum.h"
-#include "rigs/standstill_grid.h"
 #include "sim/core/parallel.h"
-#include "sim/fixed_grid_integrator.h"
-#include "sim/simulate.h"
 
 namespace rollrig::identification {
 namespace {
-
-template <class S>
-rigs::DrumStart<S> make_start(const scenarios::MeasuredRun& run, const scenarios::MeasurementSet& set) {
-  rigs::DrumStart<S> start;
-  start.tire_temperature_K = S(run.initial_tire_temperature_K);
-  start.cold_pressure_Pa = S(run.cold_pressure_Pa);
-  start.ambient_pressure_Pa = S(set.rig->environment.ambient_pressure_Pa);
-  start.history.soaked = !run.rest_before_s.has_value() && !run.started_warm;
-  start.history.rest_before_s = S(run.rest_before_s.value_or(0.0));
-  start.history.started_warm = run.started_warm;
-  return start;
-}
 
 void store_derivatives(double, std::size_t, double*) {}
 void store_derivatives(const Jet& value, std::size_t columns, double* out) {
@@ -36,9 +20,7 @@ void store_derivatives(const Jet& value, std::size_t columns, double* out) {
 DrumResiduals::DrumResiduals(const scenarios::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
-  for (const scenarios::MeasuredRun& run : set_.runs)
-    replays_.push_back(
-        rigs::refine_near_standstill(scenarios::make_replay(run), rigs::index_of(rigs::DrumInput::kSpeed)));
+  for (const scenarios::MeasuredRun& run : set_.runs) replays_.push_back(make_drum_replay(run));
   collect_series();
   std::size_t priors = 0;
   for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;
@@ -88,10 +70,7 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
   for (std::size_t i = 0; i < parameters_.size(); ++i) find_parameter(context, parameters_[i].key) = values[i];
   models::Corner<S> corner(std::move(context), {});
   const scenarios::MeasuredRun& run = set_.runs[r];
-  rigs::QuasiStaticDrum<S> drum(corner, make_start<S>(run, set_), run.has("surface_temperature_degC"),
-                                rigs::Detail::kMeasured);
-  sim::FixedGridIntegrator<S> integrator(drum);
-  const sim::Recording<S> recording = sim::simulate<S>(drum, integrator, replays_[r]);
+  const sim::Recording<S> recording = replay_drum_run<S>(set_, run, replays_[r], corner);
   for (const ComparedSeries& series : series_) {
     if (series.run != r) continue;
     const std::vector<S>& simulated = recording.channel(series.channel);

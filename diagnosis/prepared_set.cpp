@@ -1,0 +1,125 @@
+#include "diagnosis/prepared_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "identification/replay.h"
+#include "identification/sample_selection.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr double kBlock_s = 10.0;  // design: work on 10 s means
+constexpr double kSlack_s = 1e-6;
+
+void require_drum_set(const scenarios::MeasurementSet& set) {
+  if (set.kind == scenarios::SetKind::kDrum) return;
+  throw InputError({"a diagnosis needs a drum set", set.path, 0, "rig", "", "a rig with kind = \"drum\"", ""});
+}
+
+void require_sensor_error(const scenarios::MeasurementSet& set, const std::string& channel,
+                          const models::SensorParameters& sensor) {
+  if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) return;
+  InputProblem problem;
+  problem.what = "a sensor without any error: what counts as a gap could not be told";
+  problem.file = set.path;
+  problem.key = "[sensors." + channel + "]";
+  problem.value = "noise_sd = drift_sd = resolution = 0";
+  problem.allowed = "one of them above 0";
+  throw InputError(problem);
+}
+
+bool has_sample(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+}
+
+/// The phase of each row.
+std::vector<std::size_t> phase_by_row(const PreparedRun& run) {
+  std::vector<std::size_t> of(run.measured.time_s.size(), 0);
+  for (std::size_t p = 0; p < run.phases.size(); ++p) {
+    for (std::size_t row = run.phases[p].first; row < run.phases[p].last; ++row) of[row] = p;
+  }
+  return of;
+}
+
+/// Blocks of samples: not longer than kBlock_s, in one phase, and without a gap inside that is longer than a block.
+std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::vector<double>& time_s,
+                               const std::vector<std::size_t>& phase) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t row = rows[i];
+    const bool fits = !blocks.empty() && phase[row] == phase[rows[blocks.back().first]] &&
+                      time_s[row] < time_s[rows[blocks.back().first]] + kBlock_s - kSlack_s;
+    if (fits) {
+      blocks.back().last = i + 1;
+    } else {
+      blocks.push_back({i, i + 1});
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+PreparedSet::PreparedSet(const scenarios::MeasurementSet& set) : set_(set) {
+  require_drum_set(set_);
+  std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  context_ = rigs::make_context(set_.tire, *set_.rig, set_.baseline);
+  for (const std::string& channel : scenarios::measured_channels(set_.kind)) {
+    const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(), [&](const scenarios::MeasuredRun& run) {
+      return run.has(channel) && has_sample(run.columns.at(channel));
+    });
+    if (measured) channels_.push_back(channel);
+  }
+  std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
+  for (const scenarios::MeasuredRun& run : set_.runs) {
+    runs_.push_back({run, identification::make_drum_replay(run), find_phases(run, set_.rig->skim.load_N)});
+    for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
+      if (!run.has(channels_[channel])) continue;
+      const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());
+      add_series(runs_.size() - 1, channel, it->second);
+    }
+  }
+  offset_count_ = offsets.size();
+  if (series_.empty()) {
+    throw InputError({"nothing was measured in any run", set_.path, 0, "", "", "samples in one measured channel", ""});
+  }
+}
+
+void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t offset) {
+  const PreparedRun& run = runs_[r];
+  const std::string& name = channels_[channel];
+  const models::SensorParameters& sensor = set_.sensors.at(name);
+  require_sensor_error(set_, name, sensor);
+  const std::vector<double>& values = run.measured.columns.at(name);
+  const std::vector<bool> settled = identification::find_settled_rows(run.measured);
+  const bool is_torque = name == "drum_torque_Nm";
+  std::vector<std::size_t> rows;
+  std::vector<double> times_s;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isnan(values[row]) || (is_torque && !settled[row])) continue;
+    rows.push_back(row);
+    times_s.push_back(run.measured.time_s[row]);
+  }
+  if (rows.empty()) return;
+  const std::vector<std::size_t> phases = phase_by_row(run);
+  std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);
+  BlockWhitener whitener(sensor, times_s, blocks);
+  Series series{r,  channel,  offset, sensor.offset_sd, std::move(rows), std::move(blocks), {}, {},
+                {}, whitener, 0.0,    residual_count_};
+  std::vector<double> floors;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    const Block& block = series.blocks[k];
+    series.time_s.push_back(series.mean_over(block, [&](std::size_t row) { return run.measured.time_s[row]; }));
+    series.measured.push_back(series.mean_over(block, [&](std::size_t row) { return values[row]; }));
+    series.phase.push_back(phases[series.rows[block.first]]);
+    floors.push_back(whitener.standard_deviation(k));
+  }
+  std::nth_element(floors.begin(), floors.begin() + static_cast<std::ptrdiff_t>(floors.size() / 2), floors.end());
+  series.floor = floors[floors.size() / 2];
+  residual_count_ += series.size();
+  series_.push_back(std::move(series));
+}
+
+}  // namespace rollrig::diagnosis

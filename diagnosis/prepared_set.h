@@ -1,0 +1,73 @@
+#pragma once
+/// A measured set made ready for comparison: runs in a fixed order, blocks of samples, whitening, sensor offsets.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/block_whitener.h"
+#include "diagnosis/run_phases.h"
+#include "scenarios/measurement_set.h"
+#include "sim/program.h"
+
+namespace rollrig::diagnosis {
+
+/// One channel of one run.
+struct Series {
+  std::size_t run = 0;
+  std::size_t channel = 0;  // index into PreparedSet::channels
+  std::size_t offset = 0;   // index of the sensor offset that it shares with its session
+  double offset_sd = 0.0;
+  std::vector<std::size_t> rows;   // samples that are compared
+  std::vector<Block> blocks;       // of those
+  std::vector<double> time_s;      // mean time of each block
+  std::vector<std::size_t> phase;  // of each block, index into the run's phases
+  std::vector<double> measured;    // block means, SI
+  BlockWhitener whitener;
+  double floor = 0.0;              // standard deviation of a full block's mean, without offset
+  std::size_t first_residual = 0;  // index of its first residual
+
+  std::size_t size() const { return blocks.size(); }
+  /// Mean over the samples of a block.
+  template <class Get>
+  auto mean_over(const Block& block, Get&& get) const {
+    auto sum = get(rows[block.first]);
+    for (std::size_t i = block.first + 1; i < block.last; ++i) sum += get(rows[i]);
+    return decltype(sum)(sum / static_cast<double>(block.last - block.first));
+  }
+};
+
+struct PreparedRun {
+  scenarios::MeasuredRun measured;
+  sim::Program replay;
+  std::vector<RunPhase> phases;
+};
+
+/// Runs are put in the order of their ids, so that the order in the file does not matter.
+/// Blocks are 10 s long and end where a phase or an averaging gap does; torque within 30 s of a load change or a kink
+/// of the speed and below 20 km/h is left out.
+/// Errors  InputError: not a drum set; no sample in any channel; a sensor without any error
+class PreparedSet {
+ public:
+  explicit PreparedSet(const scenarios::MeasurementSet& set);
+
+  const scenarios::MeasurementSet& source() const { return set_; }
+  const models::Context<double>& context() const { return context_; }
+  const std::vector<PreparedRun>& runs() const { return runs_; }
+  const std::vector<std::string>& channels() const { return channels_; }
+  const std::vector<Series>& series() const { return series_; }
+  std::size_t offset_count() const { return offset_count_; }
+  std::size_t residual_count() const { return residual_count_; }
+
+ private:
+  void add_series(std::size_t run, std::size_t channel, std::size_t offset);
+
+  scenarios::MeasurementSet set_;  // with its runs in order
+  models::Context<double> context_;
+  std::vector<PreparedRun> runs_;
+  std::vector<std::string> channels_;
+  std::vector<Series> series_;
+  std::size_t offset_count_ = 0;
+  std::size_t residual_count_ = 0;
+};
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,249 @@
+#include "diagnosis/race.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/core/error.h"
+#include "sim/core/parallel.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+constexpr double kImpossible = -std::numeric_limits<double>::infinity();
+
+/// A free remainder: in each channel either as small as model error, or of any size up to a hundred floors.
+AmplitudePrior free_amplitude(double smallest) {
+  AmplitudePrior prior{{smallest}, {0.5}};
+  const double first = std::max(0.4, 4.0 * smallest);
+  std::vector<double> larger;
+  for (double amplitude = first; amplitude < 100.0; amplitude *= 2.0) larger.push_back(amplitude);
+  for (const double amplitude : larger) {
+    prior.amplitudes.push_back(amplitude);
+    prior.weights.push_back(0.5 / static_cast<double>(larger.size()));
+  }
+  return prior;
+}
+
+/// Rms by channel of a difference of block means, in noise floors.
+Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& difference) {
+  Amplitudes sums(set.channels().size(), 0.0);
+  std::vector<std::size_t> counts(set.channels().size(), 0);
+  for (const Series& series : set.series()) {
+    const auto rows = difference.segment(at(series.first_residual), at(series.size()));
+    sums[series.channel] += rows.squaredNorm() / (series.floor * series.floor);
+    counts[series.channel] += series.size();
+  }
+  for (std::size_t c = 0; c < sums.size(); ++c) {
+    sums[c] = counts[c] > 0 ? std::sqrt(sums[c] / static_cast<double>(counts[c])) : 0.0;
+  }
+  return sums;
+}
+
+Amplitudes expect_model_error(const ModelError& error, const Amplitudes& signature) {
+  Amplitudes expected;
+  for (const double changed : signature)
+    expected.push_back(std::hypot(error.baseline_floors, error.law_share * changed));
+  return expected;
+}
+
+void weigh(const Remainder& remainder, const Amplitudes& expected, Contender& contender) {
+  const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+  std::vector<AmplitudePrior> small;
+  std::vector<AmplitudePrior> free;
+  for (const double amplitude : expected) {
+    small.push_back(near_amplitude(amplitude));
+    free.push_back(free_amplitude(amplitude));
+  }
+  const Evidence::Sum sum = evidence.integrate(small);
+  contender.log_evidence = sum.log_value;
+  contender.amplitudes = sum.mean;
+  contender.log_remainder = evidence.integrate(free).log_value;
+}
+
+}  // namespace
+
+namespace {
+
+/// One fit under given model error; weighed under the error in proportion to what it changes.
+Contender fit_once(const Model& model, const Remainder& remainder, const ModelError& error, const Contender& null,
+                   const Amplitudes& amplitudes, const Eigen::VectorXd& start, int threads, int most_iterations) {
+  Contender contender;
+  contender.fit = refit(model, remainder, amplitudes, start, threads, most_iterations);
+  if (!std::isfinite(contender.fit.cost)) {
+    contender.log_evidence = contender.log_remainder = kImpossible;
+    contender.signature.assign(amplitudes.size(), 0.0);
+    contender.amplitudes = amplitudes;
+    return contender;
+  }
+  contender.signature = measure_in_floors(model.set(), contender.fit.simulated - null.fit.simulated);
+  weigh(remainder, expect_model_error(error, contender.signature), contender);
+  return contender;
+}
+
+}  // namespace
+
+Contender fit_contender(const Model& model, const Remainder& remainder, const ModelError& error, const Contender& null,
+                        const Eigen::VectorXd& start, int threads) {
+  constexpr int kMost = 30;
+  const Contender first = fit_once(model, remainder, error, null, null.amplitudes, start, threads, kMost);
+  if (!std::isfinite(first.fit.cost)) return first;
+  return fit_once(model, remainder, error, null, expect_model_error(error, first.signature), first.fit.unknowns,
+                  threads, kMost);
+}
+
+namespace {
+
+Contender fit_null(const Model& model, const Remainder& remainder, const RaceSettings& settings) {
+  Contender null;
+  const Amplitudes channels(model.set().channels().size(), 0.0);
+  const Amplitudes expected = expect_model_error(settings.model_error, channels);
+  null.fit = refit(model, remainder, expected, Eigen::VectorXd::Zero(at(model.unknown_count())), settings.threads);
+  if (!std::isfinite(null.fit.cost)) {
+    throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
+  }
+  null.signature = channels;
+  weigh(remainder, expected, null);
+  return null;
+}
+
+/// Screened effects worth a refit: within 6 nats of the best, and the best six at least.
+std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, double nats) {
+  std::stable_sort(screened.begin(), screened.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<Screened> chosen;
+  for (const Screened& one : screened) {
+    if (chosen.size() < least || one.score > screened.front().score - nats) chosen.push_back(one);
+  }
+  return chosen;
+}
+
+/// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
+std::vector<Contender> refit_all(const Contender& from, const std::vector<Screened>& chosen, const Contender& null,
+                                 const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                 const Remainder& remainder, const RaceSettings& settings) {
+  constexpr int kFirstSteps = 6;
+  constexpr double kHopeless_nats = 100.0;  // Assumed: more than the steps that are left could gain
+  std::vector<Contender> contenders(chosen.size());
+  const auto model_of = [&](std::size_t i) { return Model(set, base, from.fit.hypothesis.with(chosen[i].effect)); };
+  parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
+    const Model model = model_of(i);
+    const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
+    contenders[i] = fit_once(model, remainder, settings.model_error, null, from.amplitudes, start, 1, kFirstSteps);
+  });
+  double best = std::max(from.log_evidence, from.log_remainder);
+  for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
+  parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
+    const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) < best - kHopeless_nats;
+    if (hopeless) return;
+    contenders[i] = fit_contender(model_of(i), remainder, settings.model_error, null, contenders[i].fit.unknowns, 1);
+  });
+  return contenders;
+}
+
+/// Whether two contenders are the same hypothesis, found from two starts.
+bool same_hypothesis(const Contender& a, const Contender& b) {
+  const auto& x = a.fit.hypothesis.effects;
+  const auto& y = b.fit.hypothesis.effects;
+  return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), [](const auto& p, const auto& q) {
+           return p.effect == q.effect && p.sign == q.sign;
+         });
+}
+
+/// Adds contenders; of one hypothesis found twice the better stays.
+void add_contenders(std::vector<Contender> more, std::vector<Contender>& all) {
+  for (Contender& one : more) {
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const auto& other) { return same_hypothesis(one, other); });
+    if (known == all.end()) {
+      all.push_back(std::move(one));
+    } else if (one.log_evidence > known->log_evidence) {
+      *known = std::move(one);
+    }
+  }
+}
+
+/// Of the two signs of one effect, both halves of its prior.
+double sign_share(const Hypothesis& hypothesis) {
+  double share = 1.0;
+  for (const ActingEffect& on : hypothesis.effects) share /= static_cast<double>(possible_signs(*on.effect).size());
+  return share;
+}
+
+void assign_probabilities(const RaceSettings& settings, Race& race) {
+  const auto n = static_cast<double>(settings.effects.size());
+  const double pair_count = std::max(1.0, 0.5 * n * (n - 1.0));
+  std::vector<double> logs{std::log(settings.priors.none) + race.null.log_evidence,
+                           std::log(0.5 * settings.priors.unknown) + race.null.log_remainder};
+  for (const Contender& contender : race.contenders) {
+    const double share = sign_share(contender.fit.hypothesis);
+    const bool single = contender.fit.hypothesis.effects.size() == 1;
+    const double prior = single ? settings.priors.singles / n : settings.priors.pairs / pair_count;
+    logs.push_back(std::log(share * prior) + contender.log_evidence);
+    logs.push_back(single ? std::log(share * 0.5 * settings.priors.unknown / n) + contender.log_remainder
+                          : kImpossible);
+  }
+  const double total = log_sum_exp(logs);
+  race.null.probability = std::exp(logs[0] - total);
+  race.null.remainder_probability = race.unknown_probability = std::exp(logs[1] - total);
+  for (std::size_t i = 0; i < race.contenders.size(); ++i) {
+    race.contenders[i].probability = std::exp(logs[2 + 2 * i] - total);
+    race.contenders[i].remainder_probability = std::exp(logs[3 + 2 * i] - total);
+    race.unknown_probability += race.contenders[i].remainder_probability;
+  }
+  std::stable_sort(race.contenders.begin(), race.contenders.end(),
+                   [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+}
+
+/// Pairs of the best singles with the effects that gain most on top of them: those whose score could make up for a
+/// pair's smaller prior.
+void add_pairs(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+               const Remainder& remainder, const RaceSettings& settings, Race& race) {
+  constexpr std::size_t kFirsts = 2;
+  constexpr std::size_t kSeconds = 3;
+  constexpr double kWorthwhile_nats = 3.0;
+  std::vector<Contender> firsts(
+      race.contenders.begin(),
+      race.contenders.begin() + static_cast<std::ptrdiff_t>(std::min(kFirsts, race.contenders.size())));
+  for (const Contender& first : firsts) {
+    std::vector<const models::Effect*> others;
+    for (const models::Effect* effect : settings.effects) {
+      if (!first.fit.hypothesis.contains(*effect)) others.push_back(effect);
+    }
+    const Model model(set, base, first.fit.hypothesis);
+    std::vector<Screened> screened =
+        screen(model, remainder, first.amplitudes, first.fit, base, others, settings.threads);
+    screened.erase(std::remove_if(screened.begin(), screened.end(),
+                                  [](const Screened& one) { return one.score < kWorthwhile_nats; }),
+                   screened.end());
+    if (first.log_evidence < race.null.log_evidence || screened.empty()) continue;
+    add_contenders(refit_all(first, choose(screened, kSeconds, 0.0), race.null, set, base, remainder, settings),
+                   race.contenders);
+  }
+}
+
+}  // namespace
+
+Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+              const Remainder& remainder, const RaceSettings& settings) {
+  Race race;
+  const Model null(set, base, {});
+  settings.progress(0.0, "baseline");
+  race.null = fit_null(null, remainder, settings);
+  settings.progress(0.1, "screening");
+  race.screened =
+      screen(null, remainder, race.null.amplitudes, race.null.fit, base, settings.effects, settings.threads);
+  settings.progress(0.2, "refit of effects");
+  constexpr double kNats = 6.0;
+  constexpr std::size_t kLeast = 6;
+  add_contenders(refit_all(race.null, choose(race.screened, kLeast, kNats), race.null, set, base, remainder, settings),
+                 race.contenders);
+  assign_probabilities(settings, race);
+  settings.progress(0.6, "pairs");
+  add_pairs(set, base, remainder, settings, race);
+  assign_probabilities(settings, race);
+  return race;
+}
+
+}  // namespace rollrig::diagnosis

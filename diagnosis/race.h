@@ -1,0 +1,62 @@
+#pragma once
+/// All hypotheses on one set: fitted, weighed, compared.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/screen.h"
+
+namespace rollrig::diagnosis {
+
+/// Probabilities before the measurement. Source: design of the method; the rest of a kind is shared evenly.
+struct RacePriors {
+  double none = 0.50;
+  double singles = 0.35;
+  double pairs = 0.06;
+  double unknown = 0.09;  // half on top of the baseline, half on top of an effect
+};
+
+/// Sizes of model error, in noise floors and relative.
+struct ModelError {
+  double baseline_floors = 0.1;  // Assumed: of the baseline's equations, per channel
+  double law_share = 0.05;       // Assumed: of what an effect's law changes in a channel
+};
+
+/// One hypothesis in the race.
+struct Contender {
+  Fit fit;
+  Amplitudes amplitudes;       // of the remainder, after the measurement
+  Amplitudes signature;        // rms by channel of what it changes against the null, in noise floors
+  double log_evidence = 0.0;   // with the remainder as small as model error
+  double log_remainder = 0.0;  // with a free remainder on top
+  double probability = 0.0;    // with the small remainder
+  double remainder_probability = 0.0;
+};
+
+struct Race {
+  Contender null;
+  std::vector<Screened> screened;     // on top of the null
+  std::vector<Contender> contenders;  // effects and pairs, the likeliest first
+  double unknown_probability = 0.0;   // all hypotheses with a free remainder
+};
+
+struct RaceSettings {
+  std::vector<const models::Effect*> effects;
+  RacePriors priors;
+  ModelError model_error;
+  int threads = 0;
+  std::function<void(double done, const std::string& stage)> progress = [](double, const std::string&) {};
+};
+
+/// Screens, refits every effect that could matter from its best start, then pairs on top of the best, and weighs all.
+/// Errors  RunFailure: the baseline cannot be fitted
+Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+              const Remainder& remainder, const RaceSettings& settings);
+
+/// Fits a hypothesis from `start`, under model error in proportion to what it changes against `null`: twice, since that
+/// change is known after the first fit only.
+Contender fit_contender(const Model& model, const Remainder& remainder, const ModelError& error, const Contender& null,
+                        const Eigen::VectorXd& start, int threads);
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,24 @@
+#pragma once
+/// The phases of a measured run, found from its recorded inputs.
+
+#include <string>
+#include <vector>
+
+#include "scenarios/measurement_set.h"
+
+namespace rollrig::diagnosis {
+
+/// A stretch of one load and one kind of motion.
+struct RunPhase {
+  std::string name;  // "skim 1", "80 km/h 5.4 kN", "speed change 2", "standstill 1"
+  std::size_t first = 0;
+  std::size_t last = 0;  // one past its last row
+};
+
+/// Phases of a run, in order and without a gap: they change where the load changes (by more than 1 %), and where a
+/// steady speed begins or ends. Changes of speed shorter than 30 s belong to the phase that they lead to.
+/// `skim_load_N` is the rig's; at or below 1.5 times it the tire is in skim (formats.md).
+/// Checked tests/diagnosis/run_phases_test.cpp
+std::vector<RunPhase> find_phases(const scenarios::MeasuredRun& run, double skim_load_N);
+
+}  // namespace rollrig::diagnosis

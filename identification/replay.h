@@ -1,0 +1,19 @@
+#pragma once
+/// A measured drum run simulated again from its recorded inputs.
+
+#include "models/corner.h"
+#include "scenarios/measurement_set.h"
+#include "sim/recording.h"
+
+namespace rollrig::identification {
+
+/// The program of a drum run's recorded inputs, on a grid fit for the quasi-static rig.
+sim::Program make_drum_replay(const scenarios::MeasuredRun& run);
+
+/// What the sensors of a drum rig would have shown: the corner with its effects, quasi-static, rows at the run's own
+/// times, trace effects applied.
+template <class S>
+sim::Recording<S> replay_drum_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
+                                  const sim::Program& program, models::Corner<S>& corner);
+
+}  // namespace rollrig::identification
