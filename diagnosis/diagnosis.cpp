@@ -1,0 +1,72 @@
+#include "diagnosis/diagnosis.h"
+
+#include <algorithm>
+
+#include "diagnosis/base_parameters.h"
+#include "diagnosis/gap.h"
+#include "diagnosis/race.h"
+#include "diagnosis/verdict.h"
+#include "sim/core/error.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+/// Effects in the race: those that act on the rig and can be seen there, less those left out.
+std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSet& set,
+                                                  const DiagnosisOptions& options) {
+  const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  for (const auto* named : {&options.without, &options.only}) {
+    for (const std::string& id : *named) models::find_effect(id);  // throws where unknown
+  }
+  std::vector<const models::Effect*> effects;
+  const models::RigKind kind = set.rig->kind;
+  for (const models::Effect* effect : models::all_effects()) {
+    const models::EffectInfo& info = effect->info;
+    const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();
+    if (!models::acts_on(info, kind) || faint) continue;
+    if (holds(options.without, info.id) || (!options.only.empty() && !holds(options.only, info.id))) continue;
+    effects.push_back(effect);
+  }
+  return effects;
+}
+
+/// The contender of the first cause, where something beyond noise is there.
+const Contender* find_lead(const Race& race, const std::vector<Cause>& causes) {
+  if (causes.empty()) return nullptr;
+  for (const Contender& contender : race.contenders) {
+    if (contender.fit.hypothesis.ids() == causes.front().effects) return &contender;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
+  const PreparedSet set(measured);
+  const Remainder remainder(set);
+  const std::vector<identification::FreeParameter> base = find_base_parameters(measured, set.context());
+  RaceSettings settings;
+  settings.effects = choose_effects(measured, options);
+  settings.threads = options.threads;
+  const auto report = [&options](double done, const std::string& stage) {
+    if (options.progress) options.progress(done, stage);
+  };
+  settings.progress = [&report](double done, const std::string& stage) { report(0.7 * done, stage); };
+  const Race race = run_race(set, base, remainder, settings);
+
+  Diagnosis diagnosis;
+  diagnosis.set = measured.name;
+  diagnosis.probability = find_probabilities(race, settings.effects);
+  diagnosis.causes = find_causes(set, base, remainder, race);
+  diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
+  diagnosis.not_excluded = find_not_excluded(race, settings.effects, diagnosis.causes);
+  report(0.7, "runs left out");
+  const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
+  diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
+  report(1.0, "done");
+  return diagnosis;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,230 @@
+#include "diagnosis/gap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/black_box.h"
+#include "sim/core/parallel.h"
+#include "sim/core/random.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// The noise that a series' differences are expected to hold, once the best offset is taken off them.
+struct OffsetFit {
+  double offset = 0.0;           // SI
+  double offset_variance = 0.0;  // of it by noise alone
+};
+
+OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
+  std::vector<double> whitened(series.size());
+  std::vector<double> ones(series.size(), 1.0);
+  for (std::size_t k = 0; k < series.size(); ++k) whitened[k] = difference[at(series.first_residual + k)];
+  series.whitener.apply(whitened.data(), 1);
+  series.whitener.apply(ones.data(), 1);
+  double along = 0.0;
+  double square = 0.0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    along += ones[k] * whitened[k];
+    square += ones[k] * ones[k];
+  }
+  const double prior = series.offset_sd > 0.0 ? 1.0 / (series.offset_sd * series.offset_sd) : 1e300;
+  const double offset = along / (square + prior);
+  return {offset, square / ((square + prior) * (square + prior))};
+}
+
+/// Sums of squares above the noise, in floors, by stretch: what a resample draws.
+struct Stretch {
+  double above = 0.0;
+  double blocks = 0.0;
+};
+
+struct Measure {
+  std::map<std::pair<std::size_t, std::size_t>, Stretch> stretches;  // by run and phase
+  std::vector<Stretch> channels;                                     // squares in SI
+};
+
+/// Adds the differences of one run (all series of it), its offsets taken off anew.
+void add_run(const PreparedSet& set, std::size_t run, const Eigen::VectorXd& difference, Measure& measure) {
+  measure.channels.resize(set.channels().size());
+  for (const Series& series : set.series()) {
+    if (series.run != run) continue;
+    const OffsetFit fit = fit_offset(series, difference);
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const double d = difference[at(series.first_residual + k)] - fit.offset;
+      const double sd = series.whitener.standard_deviation(k);
+      const double above = d * d - std::max(0.0, sd * sd - fit.offset_variance);
+      Stretch& stretch = measure.stretches[{run, series.phase[k]}];
+      stretch.above += above / (series.floor * series.floor);
+      stretch.blocks += 1.0;
+      measure.channels[series.channel].above += above;
+      measure.channels[series.channel].blocks += 1.0;
+    }
+  }
+}
+
+double gap_of(double above, double blocks) { return blocks > 0.0 ? std::sqrt(std::max(0.0, above / blocks)) : 0.0; }
+
+double gap_of(const Measure& measure) {
+  Stretch sum;
+  for (const auto& [where, stretch] : measure.stretches) {
+    sum.above += stretch.above;
+    sum.blocks += stretch.blocks;
+  }
+  return gap_of(sum.above, sum.blocks);
+}
+
+/// Measured less simulated, without any offset.
+Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& simulated) {
+  Eigen::VectorXd difference(at(set.residual_count()));
+  for (const Series& series : set.series()) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const Eigen::Index row = at(series.first_residual + k);
+      difference[row] = series.measured[k] - simulated[row];
+    }
+  }
+  return difference;
+}
+
+/// A hypothesis fitted to all runs but one (or to all), and what it says of every run.
+Eigen::VectorXd predict(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                        const Remainder& remainder, const Contender& contender, const Amplitudes& amplitudes,
+                        std::optional<std::size_t> held_out) {
+  constexpr int kMost = 15;
+  const Model model(set, base, contender.fit.hypothesis, held_out);
+  return refit(model, remainder, amplitudes, contender.fit.unknowns, 1, kMost).simulated;
+}
+
+/// The contender with its base parameters at the files' values: only its own parameters and offsets are fitted.
+double gap_as_calibrated(const PreparedSet& set, const Remainder& remainder, const Contender& contender) {
+  Contender fixed = contender;
+  const Model model(set, {}, contender.fit.hypothesis);
+  fixed.fit.unknowns.resize(at(model.unknown_count()));
+  const auto own = at(model.own_count());
+  fixed.fit.unknowns.head(own) = contender.fit.unknowns.head(own);
+  fixed.fit.unknowns.tail(at(set.offset_count())) = contender.fit.unknowns.tail(at(set.offset_count()));
+  const Eigen::VectorXd simulated = predict(set, {}, remainder, fixed, contender.amplitudes, std::nullopt);
+  if (simulated.size() == 0) return 0.0;
+  Measure measure;
+  const Eigen::VectorXd difference = find_difference(set, simulated);
+  for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(set, run, difference, measure);
+  return gap_of(measure);
+}
+
+struct Shrinkage {
+  double percent = 0.0;
+  std::array<double, 2> ci95_percent{};
+  bool above_noise = false;
+};
+
+double shrink_percent(double before, double after) { return 100.0 * (1.0 - after / before); }
+
+/// Resamples stretches, the same ones before and after.
+Shrinkage resample(const Measure& before, const Measure& after) {
+  constexpr int kResamples = 1000;
+  std::vector<std::pair<Stretch, Stretch>> stretches;
+  for (const auto& [where, stretch] : before.stretches) stretches.emplace_back(stretch, after.stretches.at(where));
+  RandomStream random(1, "shrinkage");
+  std::vector<double> percents;
+  int not_above = 0;
+  for (int i = 0; i < kResamples; ++i) {
+    Stretch sum_before;
+    Stretch sum_after;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+      const auto drawn = static_cast<std::size_t>(random.uniform() * static_cast<double>(stretches.size()));
+      sum_before.above += stretches[drawn].first.above;
+      sum_before.blocks += stretches[drawn].first.blocks;
+      sum_after.above += stretches[drawn].second.above;
+      sum_after.blocks += stretches[drawn].second.blocks;
+    }
+    const double was = gap_of(sum_before.above, sum_before.blocks);
+    if (was > 0.0) {
+      percents.push_back(shrink_percent(was, gap_of(sum_after.above, sum_after.blocks)));
+    } else {
+      ++not_above;
+    }
+  }
+  Shrinkage result;
+  constexpr double kLow = 0.025;
+  result.above_noise = not_above < kLow * kResamples;
+  if (!result.above_noise) return result;
+  std::sort(percents.begin(), percents.end());
+  const auto quantile = [&](double p) {
+    return percents[static_cast<std::size_t>(p * static_cast<double>(percents.size() - 1))];
+  };
+  result.percent = shrink_percent(gap_of(before), gap_of(after));
+  result.ci95_percent = {quantile(kLow), quantile(1.0 - kLow)};
+  return result;
+}
+
+/// The channel's unit in reports: a torque as force at the drum's surface.
+struct ChannelUnit {
+  std::string symbol;
+  double per_SI = 1.0;
+};
+
+ChannelUnit unit_of(const PreparedSet& set, const std::string& channel) {
+  if (channel == "drum_torque_Nm") return {"N", set.context().surface_curvature_per_m};
+  const Unit unit = unit_of_key(channel);
+  return {unit.symbol, 1.0 / unit.factor};
+}
+
+}  // namespace
+
+Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParameter>& base, const Remainder& remainder,
+             const Contender& null, const Contender* cause, int threads) {
+  const std::size_t runs = set.runs().size();
+  const bool can_leave_out = runs > 1;
+  std::vector<Eigen::VectorXd> before(runs);
+  std::vector<Eigen::VectorXd> after(runs);
+  const std::size_t hypotheses = cause != nullptr ? 2 : 1;
+  parallel_for(runs * hypotheses, threads, [&](std::size_t job) {
+    const std::size_t run = job / hypotheses;
+    const bool is_null = job % hypotheses == 0;
+    const Contender& contender = is_null ? null : *cause;
+    const auto held_out = can_leave_out ? std::optional<std::size_t>(run) : std::nullopt;
+    (is_null ? before : after)[run] = predict(set, base, remainder, contender, contender.amplitudes, held_out);
+  });
+  Measure measured_before;
+  Measure measured_after;
+  Measure measured_black_box;
+  Gap gap;
+  for (std::size_t run = 0; run < runs; ++run) {
+    if (before[run].size() == 0 || (cause != nullptr && after[run].size() == 0)) continue;  // no fit without it
+    const Eigen::VectorXd difference = find_difference(set, before[run]);
+    add_run(set, run, difference, measured_before);
+    add_run(set, run, cause != nullptr ? find_difference(set, after[run]) : difference, measured_after);
+    if (can_leave_out) {
+      add_run(set, run, subtract_black_box(set, difference, run), measured_black_box);
+      gap.held_out.push_back(set.runs()[run].measured.id);
+    }
+  }
+  gap.recalibrated = {gap_of(measured_before), gap_of(measured_after)};
+  gap.as_calibrated.before = gap_as_calibrated(set, remainder, null);
+  gap.as_calibrated.after = cause != nullptr ? gap_as_calibrated(set, remainder, *cause) : gap.as_calibrated.before;
+  const Shrinkage shrinkage = resample(measured_before, measured_after);
+  if (shrinkage.above_noise && cause != nullptr) {
+    gap.shrink_percent = shrinkage.percent;
+    gap.shrink_ci95_percent = shrinkage.ci95_percent;
+  }
+  if (gap.as_calibrated.before > 0.0) {
+    gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
+  }
+  if (can_leave_out && shrinkage.above_noise) {
+    gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(measured_black_box));
+  }
+  for (std::size_t c = 0; c < set.channels().size(); ++c) {
+    const ChannelUnit unit = unit_of(set, set.channels()[c]);
+    const auto in_unit = [&](const Measure& measure) {
+      return unit.per_SI * gap_of(measure.channels[c].above, measure.channels[c].blocks);
+    };
+    gap.channels.push_back({set.channels()[c], unit.symbol, in_unit(measured_before), in_unit(measured_after)});
+  }
+  return gap;
+}
+
+}  // namespace rollrig::diagnosis

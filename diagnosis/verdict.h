@@ -1,0 +1,34 @@
+#pragma once
+/// From a race to named causes: what cannot be told apart, what is adequate, what stays possible.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/race.h"
+
+namespace rollrig::diagnosis {
+
+/// Inclusion probability of every effect in the race, of "none" and of "unknown".
+std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects);
+
+/// Causes from the likeliest down. Hypotheses whose expected log Bayes factor on this set is below 3 are one cause,
+/// named after the likeliest of them.
+/// Equation  expected log Bayes factor = |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
+/// The first cause is held adequate unless
+/// - a free remainder on top of it is likelier than it alone,
+/// - its size differs from run to run, by more than noise and 20 % of it explain (1 in 1000),
+/// - its size or a shape lies more than 3 standard deviations out in its prior.
+std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                               const Remainder& remainder, const Race& race);
+
+/// Effects that this set would not show: detectable at less than 3 standard deviations at the middle of their prior,
+/// and not named.
+std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
+                                           const std::vector<Cause>& causes);
+
+/// none likeliest: no gap; unknown likeliest, or the first cause not adequate: unexplained.
+Verdict find_verdict(const std::map<std::string, double>& probability, const std::vector<Cause>& causes);
+
+}  // namespace rollrig::diagnosis
