@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/typo.h"
+#include "diagnosis/explain.h"
 #include "models/effect.h"
 #include "scenarios/assets.h"
 #include "scenarios/scenario.h"
@@ -22,6 +23,8 @@ std::string words_after(const std::string& what) {
   if (what == "--fidelity") words = {"multibody", "quasi_static"};
   if (what == "--baseline") words = {"combined", "constant_rrc"};
   if (what == "run" || what == "sweep") words = scenarios::scenario_names();
+  if (what == "--without" || what == "--only") words = models::effect_ids();
+  if (what == "--explain") words = diagnosis::explainable_names();
   if (what == "completion") words = {"bash", "zsh", "fish"};
   if (what == "describe") {
     words = scenarios::scenario_names();
@@ -33,7 +36,8 @@ std::string words_after(const std::string& what) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-constexpr const char* kOptionsWithWords[] = {"--tire", "--rig", "--sensors", "--fidelity", "--baseline"};
+constexpr const char* kOptionsWithWords[] = {"--tire",     "--rig",     "--sensors", "--fidelity",
+                                             "--baseline", "--explain", "--without", "--only"};
 
 std::string make_bash(const CLI::App& app) {
   std::string script = "_rollrig() {\n  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n";

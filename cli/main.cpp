@@ -26,6 +26,8 @@ constexpr const char* kFooter =
     "  rollrig run warm_up --tire a60 --set speed_km_h=120 --out warm\n"
     "  rollrig sweep iso_28580 --tire a50 --vary pressure_kPa=210:310:20\n"
     "  rollrig describe iso_28580\n"
+    "  rollrig diagnose campaign --json why.json\n"
+    "  rollrig diagnose --explain bearing_warmup\n"
     "Exit status: 0 done, 1 a regression differs, 2 input or usage, 3 the run failed.\n";
 
 int report(const char* what, const std::string& text, int status) {
@@ -52,6 +54,7 @@ int parse_and_run(int argc, char** argv) {
   add_list_command(app, action);
   add_describe_command(app, action);
   add_fit_command(app, action);
+  add_diagnose_command(app, action);
   add_convert_command(app, action);
   add_completion_command(app, action);
   try {

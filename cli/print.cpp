@@ -4,39 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 
 #include "scenarios/run_spec.h"
 
 namespace rollrig::cli {
-namespace {
-
-/// Characters, not bytes, so that "§" counts once.
-std::size_t count_characters(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
-}  // namespace
-
-std::string wrap(const std::string& text, std::size_t indent, std::size_t width) {
-  std::istringstream words(text);
-  std::string out;
-  std::string line(indent, ' ');
-  std::string word;
-  bool empty = true;
-  while (words >> word) {
-    if (!empty && count_characters(line) + 1 + count_characters(word) > width) {
-      out += line + "\n";
-      line.assign(indent, ' ');
-      empty = true;
-    }
-    if (!empty) line += ' ';
-    line += word;
-    empty = false;
-  }
-  return out + line + "\n";
-}
 
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines) {
   std::size_t width = 0;

@@ -5,11 +5,9 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
-
-/// Text broken into lines of at most `width`, each indented.
-std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 80);
 
 /// Label and value lines, values aligned.
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines);

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/progress.h"
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/explain.h"
+#include "diagnosis/summary.h"
+#include "models/effect.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::cli {
+namespace {
+
+struct Options {
+  std::string set;
+  std::string explain;
+  std::string json;
+  std::vector<std::string> without;
+  std::vector<std::string> only;
+  int threads = 0;
+  bool quiet = false;
+};
+
+/// Effects that an option names. Throws InputError with the nearest name.
+void require_effects(const char* option, const std::vector<std::string>& names) {
+  const std::vector<std::string> ids = models::effect_ids();
+  for (const std::string& name : names) {
+    if (std::find(ids.begin(), ids.end(), name) != ids.end()) continue;
+    InputProblem problem = unknown_name("effect", name, ids);
+    problem.file = "command line";
+    problem.key = option;
+    throw InputError(problem);
+  }
+}
+
+void require_consistent(const Options& options) {
+  const auto usage = [](const std::string& what, const char* key, const std::string& value, const char* allowed) {
+    return InputError({what, "command line", 0, key, value, allowed, ""});
+  };
+  if (options.set.empty() == options.explain.empty()) {
+    throw usage(options.set.empty() ? "nothing to diagnose or to explain" : "a set and --explain exclude each other",
+                options.set.empty() ? "set" : "--explain", options.explain,
+                "a folder with a measurement set, or --explain and the name of an effect");
+  }
+  require_effects("--without", options.without);
+  require_effects("--only", options.only);
+  for (const std::string& name : options.only) {
+    if (std::find(options.without.begin(), options.without.end(), name) == options.without.end()) continue;
+    throw usage("an effect is asked for and left out", "--without", name, "effects that --only does not name");
+  }
+}
+
+int diagnose_command(const Options& options) {
+  require_consistent(options);
+  if (!options.explain.empty()) {
+    std::cout << diagnosis::explain_effect(options.explain);
+    return kDone;
+  }
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
+  require_writable(options.json);
+  diagnosis::Diagnosis result;
+  {
+    ProgressLine progress("diagnose", options.quiet);
+    diagnosis::DiagnosisOptions how{options.without, options.only, options.threads};
+    how.progress = [&progress](double done, const std::string& stage) {
+      progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
+    };
+    result = diagnosis::diagnose(set, how);
+  }
+  if (!options.json.empty()) write_output(options.json, diagnosis::make_diagnosis_json(result).dump(2) + "\n");
+  if (!options.quiet && options.json != "-") std::cout << diagnosis::format_summary(result);
+  return kDone;
+}
+
+}  // namespace
+
+void add_diagnose_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("diagnose", "Why a measurement and the simulation differ: where, by which effect, how much");
+  auto options = std::make_shared<Options>();
+  command->add_option("set", options->set, "Folder of a measurement set, or its set.toml");
+  command->add_option("--explain", options->explain,
+                      "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
+                      "which test splits them; also none, unknown");
+  command->add_option("--json", options->json, "File for the diagnosis, - for standard output");
+  command->add_option("--without", options->without, "Effects left out of the race: a,b")->delimiter(',');
+  command->add_option("--only", options->only, "The only effects in the race: a,b")->delimiter(',');
+  command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &action] { action = [options] { return diagnose_command(*options); }; });
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,17 @@
+#pragma once
+/// The document of `rollrig diagnose --json`.
+
+#include "diagnosis/diagnosis.h"
+#include "sim/core/json.h"
+
+namespace rollrig::diagnosis {
+
+/// The word of a verdict in files: no_gap, explained, unexplained.
+const char* name_of(Verdict verdict);
+
+/// A diagnosis as formats.md has it (rollrig-diagnosis/1). What does not exist is null: the shrinkage of a
+/// gap that is not above the noise, a number that is not finite.
+/// Checked tests/diagnosis/diagnosis_json_test.cpp
+Json make_diagnosis_json(const Diagnosis& diagnosis);
+
+}  // namespace rollrig::diagnosis

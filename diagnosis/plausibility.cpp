@@ -1,0 +1,142 @@
+#include "diagnosis/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "identification/replay.h"
+#include "identification/sample_selection.h"
+#include "models/corner.h"
+#include "sim/core/error.h"
+#include "sim/core/parallel.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+// Assumed, see RunMisfit.
+constexpr double kForce_N = 12.0;
+constexpr double kForceShare = 0.3;
+constexpr double kTemperature_K = 5.0;
+constexpr double kRiseShare = 0.4;
+constexpr double kPressure_Pa = 15e3;
+constexpr double kPressureShare = 0.4;
+
+double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel, std::size_t row,
+                      double simulated) {
+  if (channel == "drum_torque_Nm") return 0.5 * set.rig->drum.diameter_m * kForce_N + kForceShare * std::abs(simulated);
+  if (channel == "cavity_pressure_kPa") {
+    return kPressure_Pa + kPressureShare * std::abs(simulated - run.cold_pressure_Pa);
+  }
+  return kTemperature_K + kRiseShare * std::abs(simulated - run.columns.at("ambient_degC")[row]);
+}
+
+ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel,
+                                  const std::vector<double>& simulated) {
+  const std::vector<std::size_t> rows = find_compared_rows(run, channel);
+  const std::vector<double>& measured = run.columns.at(channel);
+  const Unit unit = unit_of_key(channel);
+  ChannelMisfit misfit{channel, rows.size()};
+  double squares = 0.0;
+  double measured_sum = 0.0;
+  double simulated_sum = 0.0;
+  for (const std::size_t row : rows) {
+    const double off =
+        std::abs(measured[row] - simulated[row]) / calc_tolerance(set, run, channel, row, simulated[row]);
+    const double held = std::isfinite(off) ? std::min(off, kLargestMisfit) : kLargestMisfit;
+    squares += held * held;
+    measured_sum += unit.from_si(measured[row]);
+    simulated_sum += unit.from_si(simulated[row]);
+  }
+  if (rows.empty()) return misfit;
+  misfit.rms = std::sqrt(squares / static_cast<double>(rows.size()));
+  misfit.ratio = measured_sum / simulated_sum;
+  return misfit;
+}
+
+}  // namespace
+
+sim::Recording<double> replay_baseline(const MeasurementSet& set, const MeasuredRun& run) {
+  models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {});
+  sim::Recording<double> recording =
+      identification::replay_drum_run(set, run, identification::make_drum_replay(run), corner);
+  for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+    const std::vector<double>& values = recording.values[c];
+    if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
+    throw RunFailure(recording.channels[c].name + " does not stay finite");
+  }
+  return recording;
+}
+
+std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) {
+  std::vector<std::size_t> rows;
+  if (!run.has(channel)) return rows;
+  const std::vector<double>& values = run.columns.at(channel);
+  const bool is_torque = channel == "drum_torque_Nm";
+  const std::vector<bool> settled =
+      is_torque ? identification::find_settled_rows(run) : std::vector<bool>(values.size(), true);
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isnan(values[row]) && settled[row]) rows.push_back(row);
+  }
+  return rows;
+}
+
+double RunMisfit::worst() const {
+  if (!failure.empty()) return kLargestMisfit;
+  double worst = 0.0;
+  for (const ChannelMisfit& channel : channels) worst = std::max(worst, channel.rms);
+  return worst;
+}
+
+double RunMisfit::sum_of_squares() const {
+  if (!failure.empty()) return kLargestMisfit * kLargestMisfit * 4.0;
+  double sum = 0.0;
+  for (const ChannelMisfit& channel : channels) sum += channel.rms * channel.rms;
+  return sum;
+}
+
+RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated) {
+  RunMisfit misfit;
+  for (const std::string& channel : scenarios::measured_channels(set.kind)) {
+    if (!run.has(channel)) continue;
+    misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel)));
+  }
+  return misfit;
+}
+
+RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run) {
+  try {
+    return calc_misfit(set, run, replay_baseline(set, run));
+  } catch (const RunFailure& failure) {
+    RunMisfit misfit;
+    misfit.failure = failure.what();
+    return misfit;
+  }
+}
+
+Replays replay_all(const MeasurementSet& set, int threads) {
+  Replays replays{std::vector<sim::Recording<double>>(set.runs.size()), std::vector<RunMisfit>(set.runs.size())};
+  parallel_for(set.runs.size(), threads, [&](std::size_t r) {
+    try {
+      replays.recordings[r] = replay_baseline(set, set.runs[r]);
+      replays.misfits[r] = calc_misfit(set, set.runs[r], replays.recordings[r]);
+    } catch (const RunFailure& failure) {
+      replays.misfits[r].failure = failure.what();
+    }
+  });
+  return replays;
+}
+
+std::string name_runs(const MeasurementSet& set, const std::vector<std::size_t>& runs) {
+  if (runs.size() > 1 && runs.size() == set.runs.size()) return "all runs";
+  std::vector<std::string> ids;
+  for (const std::size_t r : runs) ids.push_back(set.runs[r].id);
+  std::sort(ids.begin(), ids.end());
+  return (ids.size() == 1 ? "run " : "runs ") + fmt::format("{}", fmt::join(ids, ", "));
+}
+
+}  // namespace rollrig::diagnosis

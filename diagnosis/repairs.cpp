@@ -1,0 +1,146 @@
+#include "diagnosis/repairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/core/parallel.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+/// Undoes a mistake; false where it cannot have been made in that run.
+using Undo = std::function<bool(MeasuredRun&)>;
+
+struct Mistake {
+  std::string text;
+  Undo undo;
+};
+
+/// Columns of a set, given and measured, in the order of the format.
+std::vector<Field> list_columns(const MeasurementSet& set) {
+  const scenarios::SetColumns& all = scenarios::columns_of(set.kind);
+  std::vector<Field> fields = all.given;
+  fields.insert(fields.end(), all.optional_given.begin(), all.optional_given.end());
+  fields.insert(fields.end(), all.measured.begin(), all.measured.end());
+  return fields;
+}
+
+bool is_given(const MeasurementSet& set, const std::string& column) {
+  for (const Field& field : scenarios::columns_of(set.kind).measured) {
+    if (field.key == column) return false;
+  }
+  return true;
+}
+
+/// The numbers of a file under another heading, in SI units; empty where one is out of that column's range.
+/// An input is needed in every row: gaps take the sample before (or the first).
+std::vector<double> read_as(const std::vector<double>& values, const Unit& from, const Field& field, bool given) {
+  const Unit unit = unit_of_key(field.key);
+  std::vector<double> out;
+  double last = std::nan("");
+  for (const double value : values) {
+    if (!std::isnan(value) && std::isnan(last)) last = from.from_si(value);
+  }
+  for (const double value : values) {
+    const double number = from.from_si(value);
+    if (!std::isnan(number)) last = number;
+    const double read = given ? last : number;
+    if (std::isnan(read) ? given : !field.range.contains(read)) return {};
+    out.push_back(unit.to_si(read));
+  }
+  return out;
+}
+
+Mistake exchange(const MeasurementSet& set, const Field& a, const Field& b) {
+  const auto undo = [a, b, a_given = is_given(set, a.key), b_given = is_given(set, b.key)](MeasuredRun& run) {
+    if (!run.has(a.key) || !run.has(b.key)) return false;
+    std::vector<double> as_a = read_as(run.columns.at(b.key), unit_of_key(b.key), a, a_given);
+    std::vector<double> as_b = read_as(run.columns.at(a.key), unit_of_key(a.key), b, b_given);
+    if (as_a.empty() || as_b.empty()) return false;
+    run.columns[a.key] = std::move(as_a);
+    run.columns[b.key] = std::move(as_b);
+    return true;
+  };
+  return {fmt::format("the columns {} and {} are exchanged", a.key, b.key), undo};
+}
+
+/// The numbers of the file are `factor` x + `offset` in the unit of the column.
+Mistake wrong_unit(const char* column, double factor, double offset, const char* text) {
+  const auto undo = [column, factor, offset](MeasuredRun& run) {
+    if (!run.has(column)) return false;
+    const Unit unit = unit_of_key(column);
+    for (double& value : run.columns.at(column)) value = unit.to_si(factor * unit.from_si(value) + offset);
+    return true;
+  };
+  return {std::string(column) + " " + text, undo};
+}
+
+std::vector<Mistake> list_wrong_units() {
+  constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
+  constexpr double kBar_kPa = 100.0;
+  return {wrong_unit("speed_km_h", 3.6, 0.0, "holds m/s"),
+          wrong_unit("speed_km_h", 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"),
+          wrong_unit("load_N", kStandardGravity_m_s2, 0.0, "holds kgf"),
+          wrong_unit("cavity_pressure_kPa", 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"),
+          wrong_unit("cavity_pressure_kPa", kBar_kPa, 0.0, "holds bar"),
+          wrong_unit("cavity_pressure_kPa", kPsi_kPa, 0.0, "holds psi"),
+          wrong_unit("liner_temperature_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"),
+          wrong_unit("ambient_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"),
+          wrong_unit("drum_torque_Nm", 3.6, 0.0, "is too small by a factor of 3.6"),
+          wrong_unit("drum_torque_Nm", 1.0 / 3.6, 0.0, "is too large by a factor of 3.6"),
+          wrong_unit("drum_torque_Nm", -1.0, 0.0, "has the other sign: positive drives")};
+}
+
+std::vector<Mistake> list_mistakes(const MeasurementSet& set, Mistakes which) {
+  std::vector<Mistake> mistakes;
+  if (which == Mistakes::kAll) mistakes = list_wrong_units();
+  const std::vector<Field> columns = list_columns(set);
+  for (std::size_t a = 0; a < columns.size(); ++a) {
+    for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
+  }
+  return mistakes;
+}
+
+/// Sum of squares of a run's misfit once the mistake is undone; infinite where a channel stays outside.
+double calc_squares_without(const Mistake& mistake, const MeasurementSet& set, std::size_t r) {
+  MeasuredRun run = set.runs[r];
+  if (!mistake.undo(run)) return std::numeric_limits<double>::infinity();
+  const RunMisfit misfit = calc_misfit(set, run);
+  return misfit.worst() > 1.0 ? std::numeric_limits<double>::infinity() : misfit.sum_of_squares();
+}
+
+}  // namespace
+
+std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<std::size_t>& odd_runs, Mistakes which,
+                                  int threads) {
+  constexpr double kMuchBetter = 0.1;  // Assumed: of the sum of squares
+  const auto calc_squares = [&set](std::size_t r) { return calc_misfit(set, set.runs[r]).sum_of_squares(); };
+  double before = 0.0;
+  for (const std::size_t r : odd_runs) before += calc_squares(r);
+  const std::vector<Mistake> mistakes = list_mistakes(set, which);
+  std::vector<double> after(mistakes.size(), 0.0);
+  parallel_for(mistakes.size(), threads, [&](std::size_t i) {
+    for (const std::size_t r : odd_runs) {
+      after[i] += calc_squares_without(mistakes[i], set, r);
+      if (!(after[i] <= kMuchBetter * before)) return;
+    }
+  });
+  const auto best = std::min_element(after.begin(), after.end());
+  if (*best > kMuchBetter * before) return std::nullopt;
+  const Mistake& found = mistakes[static_cast<std::size_t>(best - after.begin())];
+  Repair repair{found.text, found.undo, {}};
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    const bool odd = std::find(odd_runs.begin(), odd_runs.end(), r) != odd_runs.end();
+    if (odd || calc_squares_without(found, set, r) <= kMuchBetter * calc_squares(r)) repair.runs.push_back(r);
+  }
+  return repair;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,240 @@
+#include "diagnosis/set_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "diagnosis/plausibility.h"
+#include "diagnosis/repairs.h"
+#include "diagnosis/tire_checks.h"
+#include "identification/sample_selection.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+constexpr double kOutside = 2.0;  // tolerances of plausibility.h; effects of unlikely size stay below
+
+bool has_samples(const MeasuredRun& run, const std::string& channel) {
+  if (!run.has(channel)) return false;
+  const std::vector<double>& values = run.columns.at(channel);
+  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+}
+
+std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+void require_drum(const MeasurementSet& set) {
+  if (set.kind == scenarios::SetKind::kDrum) return;
+  throw InputError({fmt::format("the set is of kind {}, which is not diagnosed yet",
+                                set.kind == scenarios::SetKind::kDyno ? "dyno" : "road"),
+                    set.path, 0, "", "", "a set measured on a drum", ""});
+}
+
+void require_noise(const MeasurementSet& set) {
+  for (const auto& [channel, sensor] : set.sensors) {
+    if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) continue;
+    throw InputError({"a sensor has no noise at all, so that nothing would be within it", set.path, 0,
+                      fmt::format("[sensors.{}]", channel), "0", "noise_sd, drift_sd or resolution above 0", ""});
+  }
+}
+
+/// Warns of channels without samples. Throws where there are none at all.
+void check_samples(const MeasurementSet& set, SetChecks& checks) {
+  std::vector<std::string> measured;
+  for (const std::string& channel : scenarios::measured_channels(set.kind)) {
+    std::vector<std::size_t> without;
+    bool anywhere = false;
+    for (std::size_t r = 0; r < set.runs.size(); ++r) {
+      if (has_samples(set.runs[r], channel)) {
+        anywhere = true;
+      } else if (set.runs[r].has(channel)) {
+        without.push_back(r);
+      }
+    }
+    if (anywhere) measured.push_back(channel);
+    if (!without.empty()) {
+      checks.warnings.push_back(fmt::format("{} has no sample in {}", channel, name_runs(set, without)));
+    }
+    if (!anywhere && without.empty() && channel != "gas_temperature_degC") {
+      checks.warnings.push_back(
+          fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel));
+    }
+  }
+  if (!measured.empty()) return;
+  const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
+  throw InputError({"nothing was measured: no run has a sample of any measured channel", set.path, 0, "[[run]]", "",
+                    "samples of one of " + join(channels), ""});
+}
+
+/// Torque that never settles cannot be compared.
+void check_torque(const MeasurementSet& set, SetChecks& checks) {
+  std::vector<std::size_t> without;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    const bool measured = has_samples(set.runs[r], "drum_torque_Nm");
+    if (measured && find_compared_rows(set.runs[r], "drum_torque_Nm").empty()) without.push_back(r);
+  }
+  if (without.empty()) return;
+  checks.warnings.push_back(fmt::format(
+      "no torque of {} is compared: all of it is slower than {:.0f} km/h or within {:.0f} s of a change of load or "
+      "acceleration",
+      name_runs(set, without), identification::kTrustedSpeed_m_s * 3.6, identification::kSettling_s));
+}
+
+/// Whether two columns hold the same numbers, which are not all one number.
+bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
+  std::set<double> numbers;
+  if (a.size() != b.size()) return false;
+  for (std::size_t row = 0; row < a.size(); ++row) {
+    if (std::isnan(a[row]) != std::isnan(b[row])) return false;
+    if (std::isnan(a[row])) continue;
+    if (a[row] != b[row]) return false;
+    numbers.insert(a[row]);
+  }
+  return numbers.size() > 1;
+}
+
+void check_runs(const MeasurementSet& set, SetChecks& checks) {
+  if (set.runs.size() == 1) {
+    checks.warnings.emplace_back(
+        "there is one run only: how far the gap shrinks on a run that the fit did not see cannot be judged");
+  }
+  for (std::size_t a = 0; a < set.runs.size(); ++a) {
+    for (std::size_t b = a + 1; b < set.runs.size(); ++b) {
+      const auto same_samples = [&](const std::string& channel) {
+        return set.runs[a].has(channel) && set.runs[b].has(channel) &&
+               are_same(set.runs[a].columns.at(channel), set.runs[b].columns.at(channel));
+      };
+      const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
+      if (std::none_of(channels.begin(), channels.end(), same_samples)) continue;
+      checks.warnings.push_back(
+          fmt::format("{} hold the same samples: they are no test of each other", name_runs(set, {a, b})));
+    }
+  }
+}
+
+/// Channels that lie outside all that an effect can make, and their levels.
+std::string describe_misfit(const MeasurementSet& set, const std::vector<std::size_t>& runs,
+                            const std::vector<RunMisfit>& misfits) {
+  std::vector<std::string> parts;
+  for (const std::string& channel : scenarios::measured_channels(set.kind)) {
+    std::vector<std::size_t> outside;
+    double ratio = 1.0;
+    for (const std::size_t r : runs) {
+      for (const ChannelMisfit& at : misfits[r].channels) {
+        if (at.channel != channel || at.rms <= kOutside) continue;
+        ratio = outside.empty() ? at.ratio : ratio;
+        outside.push_back(r);
+      }
+    }
+    if (outside.empty()) continue;
+    parts.push_back(
+        fmt::format("{} of {} ({:.2g} of the simulated, on average)", channel, name_runs(set, outside), ratio));
+  }
+  return join(parts);
+}
+
+/// Throws for the first run that cannot be simulated, with the mistake that would explain it.
+void require_simulated(const MeasurementSet& set, const std::vector<RunMisfit>& misfits,
+                       const std::optional<Repair>& repair) {
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    if (misfits[r].failure.empty()) continue;
+    throw InputError({fmt::format("run '{}' cannot be simulated: {}", set.runs[r].id, misfits[r].failure),
+                      set.runs[r].file, 0, "", "",
+                      repair.has_value() ? "it looks as if " + repair->text : "inputs that a drum test can have", ""});
+  }
+}
+
+void report_repair(const MeasurementSet& set, const Repair& repair, SetChecks& checks) {
+  checks.implausible = true;
+  checks.warnings.push_back(fmt::format("in {} it looks as if {}: no cause is named until that is mended",
+                                        name_runs(set, repair.runs), repair.text));
+}
+
+/// Whether no sensor of these runs stands still once the mistake is undone.
+bool moves_without(const Repair& repair, MeasurementSet set, const std::vector<std::size_t>& runs, int threads) {
+  for (const std::size_t r : runs) repair.undo(set.runs[r]);
+  const Stuck left = find_stuck(set, replay_all(set, threads));
+  return std::none_of(left.rows.begin(), left.rows.end(), [&runs](const DoubtfulRows& rows) {
+    return std::find(runs.begin(), runs.end(), rows.run) != runs.end();
+  });
+}
+
+/// A column that stands still where it should not: another's under its heading, or a stuck sensor.
+void check_stuck(const MeasurementSet& set, const Replays& replays, int threads, SetChecks& checks) {
+  const Stuck stuck = find_stuck(set, replays);
+  if (stuck.rows.empty()) return;
+  std::vector<std::size_t> runs;
+  for (const DoubtfulRows& rows : stuck.rows) {
+    if (runs.empty() || runs.back() != rows.run) runs.push_back(rows.run);
+  }
+  const std::optional<Repair> repair = find_repair(set, runs, Mistakes::kExchanges, threads);
+  if (repair.has_value() && moves_without(*repair, set, runs, threads)) {
+    report_repair(set, *repair, checks);
+    return;
+  }
+  checks.doubtful = stuck.rows;
+  checks.warnings.insert(checks.warnings.end(), stuck.warnings.begin(), stuck.warnings.end());
+}
+
+/// Columns and units.
+void check_plausibility(const MeasurementSet& kept, const Replays& replays, int threads, SetChecks& checks) {
+  const std::vector<RunMisfit>& misfits = replays.misfits;
+  std::vector<std::size_t> odd;
+  for (std::size_t r = 0; r < kept.runs.size(); ++r) {
+    if (misfits[r].worst() > 1.0) odd.push_back(r);
+  }
+  if (odd.empty()) return;
+  const std::optional<Repair> repair = find_repair(kept, odd, Mistakes::kAll, threads);
+  require_simulated(kept, misfits, repair);
+  if (repair.has_value()) {
+    report_repair(kept, *repair, checks);
+    return;
+  }
+  const std::string outside = describe_misfit(kept, odd, misfits);
+  if (outside.empty()) return;
+  checks.implausible = true;
+  checks.warnings.push_back(fmt::format(
+      "further from the simulation than any effect of the catalogue: {}. Check tire, rig, columns and units; no "
+      "cause is named",
+      outside));
+}
+
+}  // namespace
+
+SetChecks check_set(const MeasurementSet& set, int threads) {
+  require_drum(set);
+  require_noise(set);
+  SetChecks checks;
+  check_samples(set, checks);
+  check_torque(set, checks);
+  check_runs(set, checks);
+  Replays replays = replay_all(set, threads);
+  check_stuck(set, replays, threads, checks);
+  if (checks.implausible) return checks;
+  const MeasurementSet kept = leave_out(set, checks.doubtful);
+  for (std::size_t r = 0; r < kept.runs.size(); ++r) {
+    const bool simulated = replays.misfits[r].failure.empty();
+    if (simulated) replays.misfits[r] = calc_misfit(kept, kept.runs[r], replays.recordings[r]);
+  }
+  check_plausibility(kept, replays, threads, checks);
+  if (checks.implausible) return checks;
+  const std::vector<std::string> of_tire = check_tire(kept, replays, threads);
+  checks.warnings.insert(checks.warnings.end(), of_tire.begin(), of_tire.end());
+  return checks;
+}
+
+MeasurementSet leave_out(MeasurementSet set, const std::vector<DoubtfulRows>& rows) {
+  for (const DoubtfulRows& at : rows) {
+    std::vector<double>& values = set.runs[at.run].columns.at(at.channel);
+    std::fill(values.begin() + static_cast<std::ptrdiff_t>(at.first_row),
+              values.begin() + static_cast<std::ptrdiff_t>(at.last_row) + 1, std::nan(""));
+  }
+  return set;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,34 @@
+#pragma once
+/// Checks of a measurement set before and beside the race: what cannot be diagnosed, what is doubtful, what
+/// cannot be true.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/stuck_sensors.h"
+#include "scenarios/measurement_set.h"
+
+namespace rollrig::diagnosis {
+
+struct SetChecks {
+  std::vector<std::string> warnings;   // a sentence each
+  std::vector<DoubtfulRows> doubtful;  // to be left out
+  bool implausible = false;            // columns, units or files cannot be what they are said to be: name no cause
+};
+
+/// Looks at a drum set before it is diagnosed.
+///
+/// Warns of runs and channels without samples, one run alone, the same samples in two runs, and what
+/// tire_checks.h says. Marks rows of stuck sensors (stuck_sensors.h). Marks a set implausible, saying which
+/// mistake would explain it (repairs.h), when a channel of a run lies outside what uncertain parameters and
+/// effects of the catalogue can make (plausibility.h).
+/// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
+/// Errors    InputError: not a drum set; nothing measured; a sensor without any noise; a run that cannot be
+///           simulated
+/// Checked   tests/diagnosis/set_checks_test.cpp
+SetChecks check_set(const scenarios::MeasurementSet& set, int threads = 0);
+
+/// The set without the samples of those rows.
+scenarios::MeasurementSet leave_out(scenarios::MeasurementSet set, const std::vector<DoubtfulRows>& rows);
+
+}  // namespace rollrig::diagnosis

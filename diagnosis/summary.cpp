@@ -1,0 +1,208 @@
+#include "diagnosis/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/explain.h"
+#include "models/effect.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr std::size_t kColumns = 80;
+constexpr std::size_t kLabelColumns = 14;
+constexpr std::size_t kTextColumns = kColumns - kLabelColumns;
+
+std::string line(const std::string& label, const std::string& text) {
+  return fmt::format("{:<{}}{}\n", label, kLabelColumns, clip(text, kTextColumns));
+}
+
+/// A further point below the ten lines: in full, on as many lines as it needs.
+std::string note(const std::string& label, const std::string& text) {
+  std::string lines = wrap(text, kLabelColumns);
+  return lines.replace(0, label.size(), label);
+}
+
+/// As many items as fit into `width` characters, then how many more there are.
+std::string join_to_fit(const std::vector<std::string>& items, const char* separator, std::size_t width) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string next = (i == 0 ? "" : separator) + items[i];
+    const std::size_t left = items.size() - i - 1;
+    const std::string more = left == 0 ? "" : fmt::format(" and {} more", left);
+    if (i > 0 && count_characters(text + next + more) > width) return text + fmt::format(" and {} more", left + 1);
+    text += next;
+  }
+  return text;
+}
+
+/// "drum torque" of "drum_torque_Nm".
+std::string plain_name(const std::string& key) {
+  std::string name = name_without_unit(key);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
+/// A probability as percent; neither 0 nor 100 while some doubt is left.
+std::string percent(double probability) {
+  if (probability > 0.99 && probability < 1.0) return "over 99 %";
+  if (probability < 0.01 && probability > 0.0) return "under 1 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+double probability_of(const Diagnosis& diagnosis, const char* name) {
+  const auto at = diagnosis.probability.find(name);
+  return at == diagnosis.probability.end() ? 0.0 : at->second;
+}
+
+std::string names_of(const Cause& cause) { return fmt::format("{}", fmt::join(cause.effects, " with ")); }
+
+/// How a verdict is said, after the set's name; nothing of it is cut off.
+std::string verdict_line(const Diagnosis& diagnosis) {
+  std::string text;
+  const bool named = !diagnosis.causes.empty();
+  switch (diagnosis.verdict) {
+    case Verdict::kNoGap:
+      text = fmt::format("no gap beyond the noise, probability {}", percent(probability_of(diagnosis, "none")));
+      break;
+    case Verdict::kExplained:
+      text = fmt::format("explained, probability {} (no gap {}, something unknown {})",
+                         named ? percent(diagnosis.causes.front().probability) : "0 %",
+                         percent(probability_of(diagnosis, "none")), percent(probability_of(diagnosis, "unknown")));
+      break;
+    case Verdict::kUnexplained:
+      text = named && !diagnosis.causes.front().adequate && probability_of(diagnosis, "unknown") < 0.5
+                 ? "unexplained: looks like the cause below, but something else is missing"
+                 : fmt::format("unexplained: something outside the catalogue, probability {}",
+                               percent(probability_of(diagnosis, "unknown")));
+      break;
+  }
+  return clip(diagnosis.set, kColumns) + "\n" + line("Verdict", text);
+}
+
+/// "fall 0.019 1/K (95 %: 0.015 to 0.023)"; the unit stands once, behind the value.
+std::string describe_size(const ParameterEstimate& size) {
+  const std::string key = size.name.substr(size.name.rfind('.') + 1);
+  return fmt::format("{} {} (95 %: {:.3g} to {:.3g})", plain_name(key),
+                     with_unit(fmt::format("{:.3g}", size.value), size.unit), size.low_95, size.high_95);
+}
+
+/// The first parameter of each effect is its size.
+std::vector<std::string> describe_sizes(const Cause& cause) {
+  std::vector<std::string> sizes;
+  for (const std::string& effect : cause.effects) {
+    const auto first =
+        std::find_if(cause.parameters.begin(), cause.parameters.end(),
+                     [&effect](const ParameterEstimate& at) { return at.name.rfind(effect + ".", 0) == 0; });
+    if (first != cause.parameters.end()) sizes.push_back(describe_size(*first));
+  }
+  return sizes;
+}
+
+std::string cause_line(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
+  if (diagnosis.causes.empty()) return line("Cause", "none of the catalogue");
+  const Cause& cause = diagnosis.causes.front();
+  const std::string sizes = fmt::format("{}", fmt::join(describe_sizes(cause), "; "));
+  return line("Cause", names_of(cause) + (sizes.empty() ? "" : ": " + sizes));
+}
+
+/// The summary of an effect, where the catalogue has it.
+std::string meaning_of(const std::string& id) {
+  for (const models::Effect* effect : models::all_effects()) {
+    if (effect->info.id == id) return effect->info.summary;
+  }
+  return id;
+}
+
+std::string alternatives_line(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::kNoGap) {
+    return line("", "the simulation stands as it is, within the uncertainty of its numbers");
+  }
+  if (diagnosis.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
+  const Cause& cause = diagnosis.causes.front();
+  if (cause.indistinguishable_from.empty()) return line("", meaning_of(cause.effects.front()));
+  return line("or as well",
+              join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - 24) + " (this set cannot tell)");
+}
+
+std::string where_line(const Diagnosis& diagnosis) {
+  if (diagnosis.where.empty()) return line("Where", "nowhere above the noise");
+  const Location& at = diagnosis.where.front();
+  const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of the gap",
+                                       with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
+  std::string place = fmt::format("{}, run {}, {}", plain_name(at.channel), at.run, at.phase);
+  return line("Where", clip(place, kTextColumns - count_characters(size)) + size);
+}
+
+std::string equation_line(const Diagnosis& diagnosis) {
+  if (diagnosis.balance.empty()) return line("Equation", "none needs a push");
+  std::vector<std::string> shares;
+  for (const BalanceShare& share : diagnosis.balance) {
+    shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));
+  }
+  return line("Equation", join_to_fit(shares, ", ", kTextColumns));
+}
+
+std::string gap_lines(const Gap& gap) {
+  std::string text =
+      line("Gap", fmt::format("{:.1f} noise floors as calibrated; {:.1f} recalibrated, {:.1f} with cause",
+                              gap.as_calibrated.before, gap.recalibrated.before, gap.recalibrated.after));
+  std::vector<std::string> channels;
+  for (const ChannelGap& at : gap.channels) {
+    std::string name = plain_name(at.channel);
+    name = name.substr(name.rfind(' ') + 1);
+    channels.push_back(fmt::format("{} {:.2g} to {:.2g} {}", name, at.before, at.after, at.unit));
+  }
+  return text +
+         line("  in units", channels.empty() ? "no channel is compared" : join_to_fit(channels, "; ", kTextColumns));
+}
+
+std::string shrinkage_line(const Gap& gap) {
+  std::vector<std::string> parts;
+  if (gap.shrink_percent.has_value()) {
+    parts.push_back(fmt::format("{:.0f} % ({:.0f} to {:.0f} %) on {} run{} left out", *gap.shrink_percent,
+                                gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1], gap.held_out.size(),
+                                gap.held_out.size() == 1 ? "" : "s"));
+  } else {
+    parts.emplace_back("nothing to shrink above the noise on runs left out");
+  }
+  if (gap.recalibration_percent.has_value())
+    parts.push_back(fmt::format("retuning {:.0f} %", *gap.recalibration_percent));
+  if (gap.black_box_percent.has_value()) parts.push_back(fmt::format("black box {:.0f} %", *gap.black_box_percent));
+  return line("Shrinks by", join_to_fit(parts, "; ", kTextColumns));
+}
+
+std::string next_line(const Diagnosis& diagnosis) {
+  if (diagnosis.next_test.empty()) return line("Next test", "none would tell more");
+  const NextTest& next = diagnosis.next_test.front();
+  const std::string gain = fmt::format(" ({:.1g} bits/h)", next.expected_bits_per_hour);
+  return line("Next test", clip(next.test, kTextColumns - count_characters(gain)) + gain);
+}
+
+}  // namespace
+
+std::string format_summary(const Diagnosis& diagnosis) {
+  std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + alternatives_line(diagnosis) +
+                     where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis.gap) +
+                     shrinkage_line(diagnosis.gap);
+  text +=
+      line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: every effect in the race would have shown"
+                                                          : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
+  text += next_line(diagnosis);
+  if (!diagnosis.causes.empty()) {
+    for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
+  }
+  for (const std::string& warning : diagnosis.warnings) text += note("Warning", warning);
+  return text;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,17 @@
+#pragma once
+/// A diagnosis as a test engineer reads it in the terminal.
+
+#include <string>
+
+#include "diagnosis/diagnosis.h"
+
+namespace rollrig::diagnosis {
+
+/// Ten lines of at most 80 columns: verdict and probability; the cause with its size; what it cannot be
+/// told from, or what it means; where; which equation; the gap in noise floors and in units; shrinkage on
+/// runs that the fit did not see; what is not excluded; the next test. Then objections and warnings. What
+/// is too long for its line ends in "..." and stands in full in the JSON.
+/// Checked tests/diagnosis/summary_test.cpp
+std::string format_summary(const Diagnosis& diagnosis);
+
+}  // namespace rollrig::diagnosis

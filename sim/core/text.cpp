@@ -1,0 +1,45 @@
+#include "sim/core/text.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace rollrig {
+
+std::size_t count_characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width) {
+  std::istringstream words(text);
+  std::string out;
+  std::string line(indent, ' ');
+  std::string word;
+  bool empty = true;
+  while (words >> word) {
+    if (!empty && count_characters(line) + 1 + count_characters(word) > width) {
+      out += line + "\n";
+      line.assign(indent, ' ');
+      empty = true;
+    }
+    if (!empty) line += ' ';
+    line += word;
+    empty = false;
+  }
+  return out + line + "\n";
+}
+
+std::string clip(const std::string& text, std::size_t width) {
+  if (count_characters(text) <= width) return text;
+  const std::string mark = "...";
+  std::istringstream words(text);
+  std::string kept;
+  for (std::string word; words >> word;) {
+    const std::string longer = kept.empty() ? word : kept + ' ' + word;
+    if (count_characters(longer) + mark.size() > width) break;
+    kept = longer;
+  }
+  return kept + mark;
+}
+
+}  // namespace rollrig

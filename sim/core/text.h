@@ -1,0 +1,18 @@
+#pragma once
+/// Plain text for a terminal.
+
+#include <cstddef>
+#include <string>
+
+namespace rollrig {
+
+/// Characters, not bytes, so that "§" counts once.
+std::size_t count_characters(const std::string& text);
+
+/// Text broken into lines of at most `width`, each indented.
+std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 80);
+
+/// Text cut after a word so that it has at most `width` characters, with "..." where something was cut.
+std::string clip(const std::string& text, std::size_t width);
+
+}  // namespace rollrig

@@ -1,0 +1,88 @@
+#include "tests/support/drum_sets.h"
+
+#include <cmath>
+
+#include "scenarios/sensor_file.h"
+#include "tests/support/drum_fixture.h"
+
+namespace rollrig::tests {
+namespace {
+
+bool is_measured(const std::string& channel) {
+  return channel == "drum_torque_Nm" || channel == "liner_temperature_degC" || channel == "cavity_pressure_kPa";
+}
+
+/// One run cut out of a recording. A mean at its ends reaches beyond the cut: no sample there.
+scenarios::MeasuredRun cut_run(const std::string& id, const sim::Recording<double>& recording,
+                               const scenarios::SetRun& cut) {
+  scenarios::MeasuredRun run;
+  run.id = id;
+  run.file = id + ".csv";
+  run.session = "day";
+  run.initial_tire_temperature_K = cut.initial_tire_temperature_K;
+  run.cold_pressure_Pa = cut.cold_pressure_Pa;
+  constexpr double kSlack_s = 1e-6;
+  for (std::size_t row = 0; row < recording.row_count(); ++row) {
+    const double time_s = recording.time_s[row];
+    if (time_s < cut.start_s - kSlack_s || time_s > cut.end_s + kSlack_s) continue;
+    const bool at_cut = std::abs(time_s - cut.start_s) <= kSlack_s || std::abs(time_s - cut.end_s) <= kSlack_s;
+    run.time_s.push_back(time_s - cut.start_s);
+    for (const char* column :
+         {"speed_km_h", "load_N", "ambient_degC", "drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
+      run.columns[column].push_back(at_cut && is_measured(column) ? std::nan("") : recording.channel(column)[row]);
+    }
+  }
+  return run;
+}
+
+}  // namespace
+
+Campaign make_short_campaign() {
+  Campaign campaign;
+  campaign.parts = {{"warm_up", {"speed_km_h=80"}}, {"warm_up", {"speed_km_h=120"}}, {"transient_skim", {"repeats=3"}}};
+  return campaign;
+}
+
+Campaign make_wide_campaign() {
+  Campaign campaign = make_short_campaign();
+  campaign.parts.push_back({"load_sweep", {}});
+  campaign.parts.push_back({"pressure_sweep", {}});
+  return campaign;
+}
+
+scenarios::MeasurementSet simulate_campaign(const Campaign& campaign, std::uint64_t seed) {
+  scenarios::MeasurementSet set;
+  set.path = "simulated/set.toml";
+  set.name = "simulated";
+  set.tire = read_asset_tire(campaign.tire);
+  set.rig = read_asset_rig();
+  set.sensors = scenarios::read_sensor_asset("source");
+  for (std::size_t part = 0; part < campaign.parts.size(); ++part) {
+    const auto& [scenario, settings] = campaign.parts[part];
+    scenarios::RunSpec spec = make_spec(scenario, campaign.tire, settings, "quasi_static");
+    spec.effects = campaign.effects;
+    const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+    for (const scenarios::SetRun& cut : outcome.set_runs) {
+      set.runs.push_back(cut_run(std::to_string(part + 1) + "-" + cut.id, outcome.recording, cut));
+    }
+  }
+  for (scenarios::MeasuredRun& run : set.runs) {
+    for (const auto& [channel, sensor] : set.sensors) {
+      models::apply_sensor(sensor, channel, {seed, run.session, run.id}, run.time_s, run.columns.at(channel));
+    }
+  }
+  return set;
+}
+
+models::ActiveEffect make_effect_at(const std::string& id, double between) {
+  const models::Effect& effect = models::find_effect(id);
+  std::vector<double> values;
+  for (const models::EffectParameter& parameter : effect.info.parameters) {
+    const models::Prior& prior = parameter.prior;
+    values.push_back(prior.scale == models::Prior::Scale::kLog ? prior.low * std::pow(prior.high / prior.low, between)
+                                                               : prior.low + between * (prior.high - prior.low));
+  }
+  return make_active(effect, values);
+}
+
+}  // namespace rollrig::tests
