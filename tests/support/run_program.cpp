@@ -6,16 +6,29 @@
 
 namespace rollrig::tests {
 
-ProgramResult run_program(const std::string& arguments, const std::string& folder, const std::string& prefix) {
+namespace {
+
+ProgramResult run(const char* program, const std::string& arguments, const std::string& folder,
+                  const std::string& prefix) {
   const TemporaryFolder logs;
-  const std::string command = "cd '" + folder + "' && { " + prefix + " '" + ROLLRIG_PROGRAM + "' " + arguments +
-                              "; } > '" + logs.file("out") + "' 2> '" + logs.file("err") + "'";
+  const std::string command = "cd '" + folder + "' && { " + prefix + " '" + program + "' " + arguments + "; } > '" +
+                              logs.file("out") + "' 2> '" + logs.file("err") + "'";
   const int raw = std::system(command.c_str());  // NOLINT: a shell is wanted here
   ProgramResult result;
   result.status = WIFEXITED(raw) ? WEXITSTATUS(raw) : 128 + WTERMSIG(raw);
   result.out = read_file(logs.file("out"));
   result.err = read_file(logs.file("err"));
   return result;
+}
+
+}  // namespace
+
+ProgramResult run_program(const std::string& arguments, const std::string& folder, const std::string& prefix) {
+  return run(ROLLRIG_PROGRAM, arguments, folder, prefix);
+}
+
+ProgramResult run_blind(const std::string& arguments, const std::string& folder, const std::string& prefix) {
+  return run(ROLLRIG_BLIND_PROGRAM, arguments, folder, prefix);
 }
 
 }  // namespace rollrig::tests

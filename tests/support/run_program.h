@@ -16,5 +16,8 @@ struct ProgramResult {
 /// Runs `rollrig <arguments>` through a shell in `folder`; `prefix` stands before it ("ulimit -f 8;").
 ProgramResult run_program(const std::string& arguments, const std::string& folder = "/tmp",
                           const std::string& prefix = "");
+/// Likewise `rollrig_blind`.
+ProgramResult run_blind(const std::string& arguments, const std::string& folder = "/tmp",
+                        const std::string& prefix = "");
 
 }  // namespace rollrig::tests

@@ -1,0 +1,59 @@
+#pragma once
+/// What a laboratory does: runs of speeds and loads in two or three sessions.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "blind/specimen.h"
+
+namespace blind {
+
+/// Part of a run between two events: the speed runs linearly, the load stands. Ends lie on whole seconds.
+struct Leg {
+  double start_s = 0.0;
+  double duration_s = 0.0;
+  double start_m_s = 0.0;
+  double end_m_s = 0.0;
+  double load_N = 0.0;
+
+  double end_s() const { return start_s + duration_s; }
+  double acceleration_m_s2() const { return (end_m_s - start_m_s) / duration_s; }
+};
+
+/// Air at the tire over a run: a slow swing and a slope.
+/// Equation  T = mean + swing sin(2 pi t/period + phase) + slope t
+struct Air {
+  double mean_degC = 25.0;
+  double swing_dK = 0.0;
+  double period_s = 1500.0;
+  double phase = 0.0;
+  double slope_K_per_s = 0.0;
+
+  double at(double time_s) const;
+};
+
+struct RunPlan {
+  std::string id;
+  std::string session;
+  double cold_pressure_kPa = 280.0;
+  double initial_degC = 25.0;
+  std::optional<double> rest_before_min;  // none: soaked
+  Air air;
+  std::vector<Leg> legs;
+
+  double end_s() const { return legs.back().end_s(); }
+};
+
+struct Campaign {
+  std::string name;
+  std::vector<RunPlan> runs;
+};
+
+/// One of several kinds of campaign, by seed, with its first `runs` runs. It does not depend on the effect.
+Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+
+constexpr int kMostRuns = 6;
+
+}  // namespace blind

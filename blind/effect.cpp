@@ -1,0 +1,35 @@
+#include "blind/effect.h"
+
+#include <cmath>
+
+namespace blind {
+
+#define ROLLRIG_BLIND_EFFECT(id) extern const EffectKind kind_##id;
+#include "blind/effects.def"
+#undef ROLLRIG_BLIND_EFFECT
+
+const std::vector<const EffectKind*>& effect_kinds() {
+  static const std::vector<const EffectKind*> kinds{
+#define ROLLRIG_BLIND_EFFECT(id) &kind_##id,
+#include "blind/effects.def"
+#undef ROLLRIG_BLIND_EFFECT
+  };
+  return kinds;
+}
+
+const EffectKind* find_effect_kind(const std::string& id) {
+  for (const EffectKind* kind : effect_kinds()) {
+    if (id == kind->id) return kind;
+  }
+  return nullptr;
+}
+
+double draw_size(const EffectKind& kind, Draws& draws) {
+  for (;;) {
+    double size = draws.from(kind.size);
+    if (kind.either_sign && draws.happens(0.5)) size = -size;
+    if (std::isinf(kind.neutral) || std::abs(size - kind.neutral) >= kind.gap) return size;
+  }
+}
+
+}  // namespace blind

@@ -1,0 +1,165 @@
+/// rollrig_blind: measurement sets with a known hidden cause, made by a program that shares nothing with rollrig.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/algorithm/string/split.hpp>
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include "blind/effect.h"
+#include "blind/measurement_set.h"
+#include "blind/output.h"
+#include "blind/problem.h"
+
+namespace blind {
+namespace {
+
+enum ExitStatus { kDone = 0, kInputError = 2, kRunFailed = 3 };
+
+constexpr const char* kNone = "none";
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  if (!list.empty()) boost::algorithm::split(parts, list, boost::algorithm::is_any_of(","));
+  return parts;
+}
+
+std::vector<std::string> known_effects() {
+  std::vector<std::string> ids{kNone};
+  for (const EffectKind* kind : effect_kinds()) ids.push_back(kind->id);
+  return ids;
+}
+
+/// The effects of "a,b"; none of "none".
+std::vector<std::string> read_effects(const std::string& list) {
+  std::vector<std::string> ids = split(list);
+  const std::vector<std::string> known = known_effects();
+  for (const std::string& id : ids) {
+    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
+    throw InputError({fmt::format("unknown effect '{}'", id), "--effect", id, fmt::format("{}", fmt::join(known, ", ")),
+                      find_nearest(id, known)});
+  }
+  if (std::set<std::string>(ids.begin(), ids.end()).size() != ids.size()) {
+    throw InputError({"an effect is named twice", "--effect", list, "each effect once", ""});
+  }
+  if (ids.size() > 1 && std::find(ids.begin(), ids.end(), kNone) != ids.end()) {
+    throw InputError({"'none' stands with other effects", "--effect", list, "none alone, or effects", ""});
+  }
+  if (ids.size() == 1 && ids.front() == kNone) ids.clear();
+  return ids;
+}
+
+std::vector<std::optional<double>> read_sizes(const std::string& list, std::size_t effects) {
+  std::vector<std::optional<double>> sizes(effects);
+  const std::vector<std::string> parts = split(list);
+  if (parts.empty()) return sizes;
+  if (parts.size() != effects) {
+    throw InputError({fmt::format("{} sizes for {} effects", parts.size(), effects), "--size", list,
+                      "one number an effect, in its order", ""});
+  }
+  for (std::size_t i = 0; i < effects; ++i) {
+    double value = 0.0;
+    if (!CLI::detail::lexical_cast(parts[i], value) || std::isnan(value)) {
+      throw InputError({fmt::format("'{}' is not a number", parts[i]), "--size", parts[i],
+                        "a number in the unit of the effect's size, see rollrig_blind list", ""});
+    }
+    sizes[i] = value;
+  }
+  return sizes;
+}
+
+struct MakeOptions {
+  std::string effects = kNone;
+  std::string sizes;
+  std::string out;
+  std::string truth;
+  std::string counterfactual;
+  SetOrder order;
+};
+
+void check_places(const MakeOptions& options) {
+  if (!options.truth.empty()) {
+    require_writable(options.truth, "--truth");
+    if (lies_within(options.truth, options.out)) {
+      throw InputError({"the truth may not lie in the set", "--truth", options.truth, "a file outside of --out", ""});
+    }
+  }
+  if (!options.counterfactual.empty() &&
+      (lies_within(options.counterfactual, options.out) || lies_within(options.out, options.counterfactual))) {
+    throw InputError({"set and counterfactual may not lie in each other", "--counterfactual", options.counterfactual,
+                      "a folder beside --out", ""});
+  }
+}
+
+int make_command(MakeOptions options) {
+  options.order.effects = read_effects(options.effects);
+  options.order.sizes = read_sizes(options.sizes, options.order.effects.size());
+  check_places(options);
+  StagedFolder set(options.out, "--out");
+  std::optional<StagedFolder> without;
+  if (!options.counterfactual.empty()) without.emplace(options.counterfactual, "--counterfactual");
+  const MadeSet made = make_set(options.order, without.has_value());
+  set.write("", made.files);
+  if (without.has_value()) without->write("", made.counterfactual);
+  if (!options.truth.empty()) write_file(options.truth, made.truth.dump(2) + "\n", "--truth");
+  set.commit();
+  if (without.has_value()) without->commit();
+  return kDone;
+}
+
+int list_command() {
+  for (const EffectKind* kind : effect_kinds()) {
+    std::cout << fmt::format("{}\n  size     {} [{}]; {:g} does nothing\n  law      {}\n", kind->id, kind->meaning,
+                             kind->unit, kind->neutral, kind->law);
+  }
+  return kDone;
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app{"rollrig_blind: measurement sets with a known hidden cause, for judging a diagnosis"};
+  app.require_subcommand(1);
+  MakeOptions make;
+  CLI::App* make_app = app.add_subcommand("make", "One measurement set");
+  make_app->add_option("--effect", make.effects, "Effect, two as a,b, or none [none]");
+  make_app->add_option("--size", make.sizes, "Its size in its own unit, for two a,b [drawn]");
+  make_app->add_option("--seed", make.order.seed, "Decides all that is drawn [1]");
+  make_app->add_option("--out", make.out, "Folder of the set, new or empty")->required();
+  make_app->add_option("--truth", make.truth, "File for the truth, outside of the set");
+  make_app->add_option("--counterfactual", make.counterfactual,
+                       "Folder for the same set without effect and without noise");
+  make_app->add_option("--runs", make.order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
+  make_app->add_flag("--noise-free", make.order.noise_free, "No errors of sensors, no drop-outs");
+  make_app->add_flag("--nominal-base", make.order.nominal_base, "Base parameters as the files have them");
+  CLI::App* list_app = app.add_subcommand("list", "Effects, their sizes and laws");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {
+    return app.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    throw InputError({error.what(), "command line", "", "see rollrig_blind --help", ""});
+  }
+  const int status = list_app->parsed() ? list_command() : make_command(make);
+  if (!std::cout.flush()) throw InputError({"standard output cannot be written to", "", "", "space for it", ""});
+  return status;
+}
+
+int report(const char* what, const std::string& text, int status) {
+  std::cout << std::flush;
+  std::cerr << what << ": " << text << '\n';
+  return status;
+}
+
+}  // namespace
+}  // namespace blind
+
+int main(int argc, char** argv) {
+  try {
+    return blind::parse_and_run(argc, argv);
+  } catch (const blind::InputError& error) {
+    return blind::report("error", error.what(), blind::kInputError);
+  } catch (const std::exception& error) {
+    return blind::report("run failed", error.what(), blind::kRunFailed);
+  }
+}

@@ -1,0 +1,37 @@
+#pragma once
+/// One measurement set with its hidden cause.
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "blind/campaign.h"
+
+namespace blind {
+
+/// What is wanted.
+struct SetOrder {
+  std::vector<std::string> effects;          // none: the baseline
+  std::vector<std::optional<double>> sizes;  // one an effect; none: drawn
+  std::uint64_t seed = 1;
+  int runs = kMostRuns;
+  bool noise_free = false;
+  bool nominal_base = false;
+  std::string name = "campaign";
+};
+
+using Files = std::map<std::string, std::string>;  // contents by name
+
+struct MadeSet {
+  Files files;
+  Files counterfactual;  // the same without effect and without noise
+  nlohmann::ordered_json truth;
+};
+
+/// Makes a set. Its files are a function of the order and nothing else.
+MadeSet make_set(const SetOrder& order, bool with_counterfactual);
+
+}  // namespace blind

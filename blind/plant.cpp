@@ -1,0 +1,152 @@
+#include "blind/plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace blind {
+namespace {
+
+constexpr double kGasConstant = 8.314462618;  // J/(mol K)
+constexpr double kFreedoms = 2.5;             // c_v/R of a gas of two atoms
+constexpr double kAir_Pa = 101325.0;
+constexpr double kZero_K = 273.15;
+constexpr double kWalkingPace_m_s = 0.05;
+
+/// Standards' correction from the drum on which A holds (2 m) to this one.
+double calc_curvature_factor(const Specimen& specimen) {
+  const double tire_m = 0.5 * specimen.outer_diameter_m;
+  const double here_m = 0.5 * specimen.drum_diameter_m;
+  return std::sqrt((here_m + tire_m) / (here_m * (1.0 + tire_m)));
+}
+
+}  // namespace
+
+Plant::Plant(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run)
+    : specimen_(specimen), effects_(effects), run_(run), curvature_factor_(calc_curvature_factor(specimen)) {
+  for (const auto& effect : effects_) effect->lay_out(wall_);
+  const auto layers = static_cast<double>(wall_.layers);
+  for (std::size_t i = 0; i < wall_.layers; ++i) {
+    const double depth = (static_cast<double>(i) + 0.5) / layers;  // 0 at the tread, 1 at the liner
+    loss_share_.push_back((1.0 + wall_.loss_skew * (1.0 - 2.0 * depth)) / layers);
+  }
+  gas_mol_ = specimen.truth(Base::kCGas) / (kFreedoms * kGasConstant);
+  cavity_m3_ = gas_mol_ * kGasConstant * (run.initial_degC + kZero_K) / (1e3 * run.cold_pressure_kPa + kAir_Pa);
+  size_ = wall_.layers + 2;  // layers, energy of the gas, amount of the gas
+  for (const auto& effect : effects_) {
+    effect_state_.push_back(size_);
+    size_ += effect->state_count();
+  }
+}
+
+std::vector<double> Plant::start() const {
+  std::vector<double> state(size_, 0.0);
+  std::fill(state.begin(), state.begin() + static_cast<std::ptrdiff_t>(wall_.layers), run_.initial_degC);
+  state[wall_.layers] = gas_mol_ * kFreedoms * kGasConstant * (run_.initial_degC + kZero_K);
+  state[wall_.layers + 1] = gas_mol_;
+  const RunStart start{run_.initial_degC, run_.air.at(0.0), run_.cold_pressure_kPa, run_.rest_before_min};
+  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->start(start, state.data() + effect_state_[i]);
+  return state;
+}
+
+void Plant::enter(const Leg& leg, double load_before_N, double load_step_s) {
+  leg_ = leg;
+  load_before_N_ = load_before_N;
+  load_step_s_ = load_step_s;
+}
+
+/// Load of a cylinder that settles as a damped second-order system.
+double Plant::load_at(double time_s) const {
+  const double since_s = time_s - load_step_s_;
+  const double decay = std::exp(-specimen_.load_damping * specimen_.load_frequency_rad_s * std::max(0.0, since_s));
+  const double root = std::sqrt(1.0 - specimen_.load_damping * specimen_.load_damping);
+  const double angle = root * specimen_.load_frequency_rad_s * std::max(0.0, since_s);
+  const double left = decay * (std::cos(angle) + specimen_.load_damping / root * std::sin(angle));
+  return leg_.load_N + (load_before_N_ - leg_.load_N) * left;
+}
+
+double Plant::speed_at(double time_s) const {
+  return std::max(0.0, leg_.start_m_s + leg_.acceleration_m_s2() * (time_s - leg_.start_s));
+}
+
+double Plant::moving_mass_kg(double load_N) const {
+  const double drum_m = 0.5 * specimen_.drum_diameter_m;
+  const double wheel_m = 0.5 * specimen_.outer_diameter_m - load_N / specimen_.vertical_N_per_m;
+  return specimen_.drum_inertia_kg_m2 / (drum_m * drum_m) + specimen_.spin_inertia_kg_m2 / (wheel_m * wheel_m);
+}
+
+Instant Plant::find_instant(double time_s, const double* state) const {
+  Instant now;
+  now.time_s = time_s;
+  now.speed_m_s = speed_at(time_s);
+  now.load_N = load_at(time_s);
+  now.ambient_degC = run_.air.at(time_s);
+  for (std::size_t i = 0; i < wall_.layers; ++i) now.rubber_degC += state[i] / static_cast<double>(wall_.layers);
+  now.liner_degC = state[wall_.layers - 1];
+  now.gas_mol = state[wall_.layers + 1];
+  // Ideal gas: energy U = 5/2 n R T, and p V = n R T = 2/5 U.
+  const double gas_J = state[wall_.layers];
+  now.gas_degC = gas_J / (kFreedoms * kGasConstant * now.gas_mol) - kZero_K;
+  now.pressure_kPa = 1e-3 * (gas_J / (kFreedoms * cavity_m3_) - kAir_Pa);
+  now.specimen = &specimen_;
+  return now;
+}
+
+/// Each layer loses by its own temperature; the mean of all is the rolling resistance.
+void Plant::find_losses(const double* state, Instant& now, std::vector<double>& layer_loss_N) const {
+  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->act(state + effect_state_[i], now);
+  const double v = now.speed_m_s;
+  const double fade = v / std::sqrt(v * v + kWalkingPace_m_s * kWalkingPace_m_s);
+  const double cold_N = specimen_.truth(Base::kA0) + specimen_.truth(Base::kA1) * v;
+  const double fall_per_K = specimen_.truth(Base::kB0) + specimen_.truth(Base::kB1) * v;
+  const double level =
+      curvature_factor_ * now.load_N / specimen_.reference_load_N *
+      std::exp(specimen_.pressure_exponent * std::log(specimen_.reference_pressure_kPa / now.pressure_kPa)) *
+      now.loss_factor * cold_N;
+  layer_loss_N.resize(wall_.layers);
+  for (std::size_t i = 0; i < wall_.layers; ++i) {
+    layer_loss_N[i] = fade * loss_share_[i] * (level * std::exp(-fall_per_K * state[i]) + now.heating_force_N);
+  }
+  const double bearing_N = specimen_.truth(Base::kC0) + specimen_.truth(Base::kC1) * v;
+  now.bearing_N = fade * now.bearing_factor * bearing_N;
+  now.rig_force_N = now.bearing_N + fade * (specimen_.truth(Base::kC2) * v * v + now.rig_force_N);
+}
+
+void Plant::calc_rates(double time_s, const double* state, double* rates) const {
+  Instant now = find_instant(time_s, state);
+  thread_local std::vector<double> loss_N;
+  find_losses(state, now, loss_N);
+  const std::size_t n = wall_.layers;
+  const double layer_J_per_K = specimen_.truth(Base::kC) / static_cast<double>(n);
+  const double between_W_per_K = wall_.conductance_W_per_K * static_cast<double>(n);
+  const double air_W_per_K = 0.5 * specimen_.truth(Base::kZ) + specimen_.truth(Base::kF) * now.speed_m_s;
+  const double surface_W_per_K = 0.5 * specimen_.truth(Base::kZ);
+  for (std::size_t i = 0; i < n; ++i) rates[i] = loss_N[i] * now.speed_m_s;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double through_W = between_W_per_K * (state[i] - state[i + 1]);
+    rates[i] -= through_W;
+    rates[i + 1] += through_W;
+  }
+  const double tread_W_per_K = surface_W_per_K + wall_.tread_share_of_air * air_W_per_K;
+  rates[0] -= tread_W_per_K * (state[0] - now.ambient_degC);
+  const double to_gas_W = specimen_.truth(Base::kH) * (now.liner_degC - now.gas_degC);
+  rates[n - 1] += now.liner_heat_W - to_gas_W -
+                  (1.0 - wall_.tread_share_of_air) * air_W_per_K * (now.liner_degC - now.ambient_degC);
+  for (std::size_t i = 0; i < n; ++i) rates[i] /= layer_J_per_K;
+  // What leaks takes its enthalpy 7/2 R T along.
+  rates[n] = to_gas_W + now.gas_heat_W - now.leak_mol_s * (kFreedoms + 1.0) * kGasConstant * (now.gas_degC + kZero_K);
+  rates[n + 1] = -now.leak_mol_s;
+  for (std::size_t i = 0; i < effects_.size(); ++i) {
+    effects_[i]->rates(state + effect_state_[i], now, rates + effect_state_[i]);
+  }
+}
+
+Reading Plant::read(double time_s, const double* state) const {
+  Instant now = find_instant(time_s, state);
+  thread_local std::vector<double> loss_N;
+  find_losses(state, now, loss_N);
+  Reading reading{now.rig_force_N, now.liner_degC, now.pressure_kPa};
+  for (const double layer_N : loss_N) reading.force_N += layer_N;
+  return reading;
+}
+
+}  // namespace blind

@@ -1,0 +1,91 @@
+#include "blind/sensors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "blind/draws.h"
+
+namespace blind {
+namespace {
+
+double round_to_step(double value, double step) { return std::round(value / step) * step; }
+
+}  // namespace
+
+double Sensor::floor() const {
+  constexpr int kSamples = 10;
+  double shared = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    for (int j = 0; j < kSamples; ++j) shared += std::exp(-std::abs(i - j) / drift_time_s);
+  }
+  const double white = noise_sd * noise_sd + resolution * resolution / 12.0;
+  return std::sqrt(drift_sd * drift_sd * shared / (kSamples * kSamples) + white / kSamples);
+}
+
+Sensors draw_sensors(std::uint64_t seed) {
+  Draws draws(seed, "sensors");
+  const auto draw = [&draws](const Sensor& typical) {
+    const auto varied = [&draws](double value) { return round_to_step(value * draws.uniform(0.75, 1.3), 0.001); };
+    Sensor sensor;
+    sensor.offset_sd = varied(typical.offset_sd);
+    sensor.drift_sd = varied(typical.drift_sd);
+    sensor.drift_time_s = std::round(typical.drift_time_s * draws.uniform(0.75, 1.3));
+    sensor.noise_sd = varied(typical.noise_sd);
+    sensor.resolution = typical.resolution;
+    return sensor;
+  };
+  return {draw({0.45, 0.10, 60.0, 0.25, 0.0}), draw({0.25, 0.05, 60.0, 0.1, 0.1}),
+          draw({0.25, 0.10, 120.0, 0.05, 0.1})};
+}
+
+std::string write_sensors(const Sensors& sensors) {
+  std::string text;
+  for (std::size_t i = 0; i < kChannelCount; ++i) {
+    const Sensor& sensor = sensors[i];
+    text += fmt::format(
+        "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
+        "resolution = {:.10g}\n",
+        kChannelNames[i], sensor.offset_sd, sensor.drift_sd, sensor.drift_time_s, sensor.noise_sd, sensor.resolution);
+  }
+  return text;
+}
+
+void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& session, const std::string& run,
+                  Channel channel, const std::vector<double>& time_s, std::vector<double>& values) {
+  const char* name = kChannelNames[static_cast<std::size_t>(channel)];
+  Draws offsets(seed, fmt::format("offset/{}/{}", session, name));
+  Draws drifts(seed, fmt::format("drift/{}/{}", run, name));
+  Draws noises(seed, fmt::format("noise/{}/{}", run, name));
+  const double offset = sensor.offset_sd * offsets.normal();
+  double drift = sensor.drift_sd * drifts.normal();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) {
+      const double kept = std::exp(-(time_s[i] - time_s[i - 1]) / sensor.drift_time_s);
+      drift = kept * drift + sensor.drift_sd * std::sqrt(1.0 - kept * kept) * drifts.normal();
+    }
+    values[i] += offset + drift + sensor.noise_sd * noises.normal();
+    if (sensor.resolution > 0.0) values[i] = round_to_step(values[i], sensor.resolution);
+  }
+}
+
+void drop_samples(std::uint64_t seed, const std::string& run, Channel channel, std::vector<double>& values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const char* logger = channel == Channel::kTorque ? "torque" : "tire";
+  Draws singles(seed, fmt::format("dropped/{}/{}", run, kChannelNames[static_cast<std::size_t>(channel)]));
+  for (double& value : values) {
+    if (singles.happens(0.003)) value = kNone;
+  }
+  Draws gaps(seed, fmt::format("gaps/{}/{}", run, logger));
+  const int count = gaps.whole(0, 3);
+  const int last = static_cast<int>(values.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    const int first = gaps.whole(0, last);
+    const int length = gaps.whole(3, 60);
+    for (int row = first; row <= std::min(last, first + length); ++row) values[static_cast<std::size_t>(row)] = kNone;
+  }
+}
+
+}  // namespace blind

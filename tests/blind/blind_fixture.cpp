@@ -1,0 +1,97 @@
+#include "tests/blind/blind_fixture.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "identification/sample_selection.h"
+#include "models/corner.h"
+#include "rigs/quasi_static_drum.h"
+#include "rigs/standstill_grid.h"
+#include "sim/fixed_grid_integrator.h"
+#include "sim/simulate.h"
+#include "tests/support/run_program.h"
+
+namespace rollrig::tests {
+namespace {
+
+const std::vector<std::string> kChannels{"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
+
+/// Sums squares of a difference over rows, the torque 30 s after changes of load or acceleration left out.
+class FloorSum {
+ public:
+  explicit FloorSum(const scenarios::MeasurementSet& set) : set_(set) {}
+
+  void add(const scenarios::MeasuredRun& run, const std::string& channel, const std::vector<double>& other) {
+    const std::vector<bool> settled = identification::find_settled_rows(run);
+    const std::vector<double>& own = run.columns.at(channel);
+    for (std::size_t row = 0; row < own.size(); ++row) {
+      if (std::isnan(own[row]) || std::isnan(other[row]) || (channel == kChannels[0] && !settled[row])) continue;
+      const double floors = (own[row] - other[row]) / calc_floor(set_, channel);
+      sum_[channel] += floors * floors;
+      count_[channel] += 1.0;
+    }
+  }
+
+  Floors take() const {
+    Floors floors;
+    for (const auto& [channel, sum] : sum_) floors[channel] = std::sqrt(sum / count_.at(channel));
+    return floors;
+  }
+
+ private:
+  const scenarios::MeasurementSet& set_;
+  std::map<std::string, double> sum_;
+  std::map<std::string, double> count_;
+};
+
+sim::Recording<double> replay(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run) {
+  models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {});
+  rigs::DrumStart<double> start;
+  start.tire_temperature_K = run.initial_tire_temperature_K;
+  start.cold_pressure_Pa = run.cold_pressure_Pa;
+  start.ambient_pressure_Pa = set.rig->environment.ambient_pressure_Pa;
+  start.history.soaked = !run.rest_before_s.has_value();
+  start.history.rest_before_s = run.rest_before_s.value_or(0.0);
+  rigs::QuasiStaticDrum<double> drum(corner, start, false, rigs::Detail::kMeasured);
+  sim::FixedGridIntegrator<double> integrator(drum);
+  return sim::simulate<double>(
+      drum, integrator,
+      rigs::refine_near_standstill(scenarios::make_replay(run), rigs::index_of(rigs::DrumInput::kSpeed)));
+}
+
+}  // namespace
+
+BlindSet make_blind_set(const std::string& arguments) {
+  const TemporaryFolder folder;
+  const std::string truth = folder.file("truth.json");
+  const auto made = run_blind("make " + arguments + " --out " + folder.file("set") + " --counterfactual " +
+                              folder.file("without") + " --truth " + truth);
+  INFO("rollrig_blind make " << arguments << "\n" << made.err);
+  REQUIRE(made.status == 0);
+  return {scenarios::read_measurement_set(folder.file("set")), scenarios::read_measurement_set(folder.file("without")),
+          Json::parse(read_file(truth))};
+}
+
+double calc_floor(const scenarios::MeasurementSet& set, const std::string& channel) {
+  constexpr double kFarApart_s = 1e6;  // so that the drift of both means has nothing in common
+  return std::sqrt(0.5 * models::calc_difference_variance(set.sensors.at(channel), 10, 1.0, kFarApart_s));
+}
+
+Floors compare_with_baseline(const scenarios::MeasurementSet& set) {
+  FloorSum sum(set);
+  for (const scenarios::MeasuredRun& run : set.runs) {
+    const sim::Recording<double> baseline = replay(set, run);
+    for (const std::string& channel : kChannels) sum.add(run, channel, baseline.channel(channel));
+  }
+  return sum.take();
+}
+
+Floors compare(const scenarios::MeasurementSet& a, const scenarios::MeasurementSet& b) {
+  FloorSum sum(a);
+  for (std::size_t r = 0; r < a.runs.size(); ++r) {
+    for (const std::string& channel : kChannels) sum.add(a.runs[r], channel, b.runs[r].columns.at(channel));
+  }
+  return sum.take();
+}
+
+}  // namespace rollrig::tests

@@ -1,0 +1,34 @@
+#pragma once
+/// Sets made by the foreign generator, and what rollrig's baseline makes of them.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenarios/measurement_set.h"
+#include "sim/core/json.h"
+
+namespace rollrig::tests {
+
+/// A set, what the generator says is in it, and the same set without effect and noise.
+struct BlindSet {
+  scenarios::MeasurementSet set;
+  scenarios::MeasurementSet counterfactual;
+  Json truth;
+};
+
+/// Runs `rollrig_blind make <arguments>`, which must work, and reads what it writes.
+BlindSet make_blind_set(const std::string& arguments);
+
+/// Noise floor of a channel: standard deviation of a mean over 10 samples at 1 Hz, without the offset; SI.
+double calc_floor(const scenarios::MeasurementSet& set, const std::string& channel);
+
+/// Root mean square of a difference in noise floors, by channel.
+using Floors = std::map<std::string, double>;
+
+/// Between a set and rollrig's baseline replay of it with the parameters of its files.
+Floors compare_with_baseline(const scenarios::MeasurementSet& set);
+/// Between two sets of the same rows.
+Floors compare(const scenarios::MeasurementSet& a, const scenarios::MeasurementSet& b);
+
+}  // namespace rollrig::tests
