@@ -5,6 +5,7 @@
 #include "diagnosis/base_parameters.h"
 #include "diagnosis/gap.h"
 #include "diagnosis/race.h"
+#include "diagnosis/set_checks.h"
 #include "diagnosis/verdict.h"
 #include "sim/core/error.h"
 
@@ -41,10 +42,17 @@ const Contender* find_lead(const Race& race, const std::vector<Cause>& causes) {
   return nullptr;
 }
 
+/// A set that cannot be what it is said to be has no cause in the catalogue, whatever comes near.
+void forbid_causes(Diagnosis& diagnosis) {
+  for (auto& [hypothesis, probability] : diagnosis.probability) probability = hypothesis == "unknown" ? 1.0 : 0.0;
+  diagnosis.causes.clear();
+}
+
 }  // namespace
 
 Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
-  const PreparedSet set(measured);
+  const SetChecks checks = check_set(measured, options.threads);
+  const PreparedSet set(leave_out(measured, checks.doubtful));
   const Remainder remainder(set);
   const std::vector<identification::FreeParameter> base = find_base_parameters(measured, set.context());
   RaceSettings settings;
@@ -60,6 +68,8 @@ Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOpt
   diagnosis.set = measured.name;
   diagnosis.probability = find_probabilities(race, settings.effects);
   diagnosis.causes = find_causes(set, base, remainder, race);
+  diagnosis.warnings = checks.warnings;
+  if (checks.implausible) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   diagnosis.not_excluded = find_not_excluded(race, settings.effects, diagnosis.causes);
   report(0.7, "runs left out");
