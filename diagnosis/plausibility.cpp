@@ -19,7 +19,7 @@ using scenarios::MeasuredRun;
 using scenarios::MeasurementSet;
 
 // Assumed, see RunMisfit.
-constexpr double kForce_N = 12.0;
+constexpr double kForce_N = 20.0;
 constexpr double kForceShare = 0.3;
 constexpr double kTemperature_K = 5.0;
 constexpr double kRiseShare = 0.4;

@@ -134,7 +134,7 @@ std::string meaning_of(const std::string& id) {
 
 std::string alternatives_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) {
-    return line("", "the simulation stands as it is, within the uncertainty of its numbers");
+    return line("", "the simulation stands, within the uncertainty of its numbers");
   }
   if (diagnosis.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
   const Cause& cause = diagnosis.causes.front();
@@ -149,7 +149,9 @@ std::string alternatives_line(const Diagnosis& diagnosis) {
 }
 
 std::string where_line(const Diagnosis& diagnosis) {
-  if (diagnosis.where.empty()) return line("Where", "nowhere above the noise");
+  if (diagnosis.where.empty()) {
+    return line("Where", diagnosis.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
+  }
   const Location& at = diagnosis.where.front();
   const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of the gap",
                                        with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
@@ -158,7 +160,8 @@ std::string where_line(const Diagnosis& diagnosis) {
 }
 
 std::string equation_line(const Diagnosis& diagnosis) {
-  if (diagnosis.balance.empty()) return line("Equation", "none needs a push");
+  if (diagnosis.balance.empty())
+    return line("Equation", diagnosis.verdict == Verdict::kNoGap ? "none needs a push" : "none stands out");
   std::vector<std::string> shares;
   for (const BalanceShare& share : diagnosis.balance) {
     shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));
@@ -166,30 +169,42 @@ std::string equation_line(const Diagnosis& diagnosis) {
   return line("Equation", join_to_fit(shares, ", ", kTextColumns));
 }
 
-std::string gap_lines(const Gap& gap) {
-  std::string text =
-      line("Gap", fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned, {:.1f} with the cause",
-                              gap.as_calibrated.before, gap.recalibrated.before, gap.recalibrated.after));
+/// Two digits, and no more than two behind the point.
+std::string short_number(double value) {
+  return std::abs(value) < 0.995 ? fmt::format("{:.2f}", value) : fmt::format("{:.2g}", value);
+}
+
+/// A whole number of percent, without a sign on zero.
+std::string whole(double percent) { return fmt::format("{:.0f}", std::round(percent) + 0.0); }
+
+std::string gap_lines(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned", gap.as_calibrated.before,
+                                   gap.recalibrated.before);
+  if (!diagnosis.causes.empty()) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
   std::vector<std::string> channels;
   for (const ChannelGap& at : gap.channels) {
-    channels.push_back(fmt::format("{} {:.2g}->{:.2g} {}", short_name(at.channel), at.before, at.after, at.unit));
+    channels.push_back(
+        fmt::format("{} {}->{} {}", short_name(at.channel), short_number(at.before), short_number(at.after), at.unit));
   }
-  return text +
-         line("  in units", channels.empty() ? "no channel is compared" : join_to_fit(channels, ", ", kTextColumns));
+  const std::string units = channels.empty() ? "no channel is compared" : join_to_fit(channels, ", ", kTextColumns);
+  return line("Gap", floors) + line("  in units", units);
 }
 
 std::string shrinkage_line(const Gap& gap) {
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
-    parts.push_back(fmt::format("{:.0f} % ({:.0f} to {:.0f}) on {} held-out run{}", *gap.shrink_percent,
-                                gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1], gap.held_out.size(),
-                                gap.held_out.size() == 1 ? "" : "s"));
+    const std::size_t runs = gap.held_out.size();
+    const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held-out run{}", runs, runs == 1 ? "" : "s");
+    parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
+                                whole(gap.shrink_ci95_percent[1]), on));
   } else {
     parts.emplace_back("nothing above the noise to shrink");
   }
-  if (gap.recalibration_percent.has_value())
-    parts.push_back(fmt::format("retuning {:.0f} %", *gap.recalibration_percent));
-  if (gap.black_box_percent.has_value()) parts.push_back(fmt::format("black box {:.0f} %", *gap.black_box_percent));
+  if (gap.recalibration_percent.has_value()) {
+    parts.push_back("retuning " + whole(*gap.recalibration_percent) + " %");
+  }
+  if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
   return line("Shrinks by", join_to_fit(parts, ", ", kTextColumns));
 }
 
@@ -204,7 +219,7 @@ std::string next_line(const Diagnosis& diagnosis) {
 
 std::string format_summary(const Diagnosis& diagnosis) {
   std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + alternatives_line(diagnosis) +
-                     where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis.gap) +
+                     where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) +
                      shrinkage_line(diagnosis.gap);
   text +=
       line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: every effect in the race would have shown"

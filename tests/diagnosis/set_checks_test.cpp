@@ -215,6 +215,17 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
   }
 }
 
+TEST_CASE("where every sensor is stuck nothing is left", "[fast]") {
+  MeasurementSet set = short_set();
+  for (MeasuredRun& run : set.runs) {
+    for (const char* channel : kChannels) {
+      std::vector<double>& values = run.columns.at(channel);
+      std::fill(values.begin(), values.end(), values[200]);
+    }
+  }
+  CHECK_THROWS_WITH(check_set(set), Contains("stands still"));
+}
+
 TEST_CASE("a channel that holds still because nothing moves is not doubtful", "[fast]") {
   // coarse steps on a warm tire: minutes on one number
   MeasurementSet set = short_set();

@@ -51,8 +51,8 @@ TEST_CASE("an explained gap is told in ten lines", "[fast]") {
                                          Contains("z 14.2") && Contains("41 %"));
   CHECK_THAT(line_of(text, "Equation"), Contains("drum torque 88 %"));
   CHECK_THAT(line_of(text, "Gap"), Contains("6.1 noise floors") && Contains("2.3") && Contains("0.2"));
-  CHECK_THAT(line_of(text, "  in units"),
-             Contains("torque 1.9->0.13 N") && Contains("liner 0.4->0.1 degC") && Contains("pressure 0.3->0.1 kPa"));
+  CHECK_THAT(line_of(text, "  in units"), Contains("torque 1.9->0.13 N") && Contains("liner 0.40->0.10 degC") &&
+                                              Contains("pressure 0.30->0.10 kPa"));
   CHECK_THAT(line_of(text, "Shrinks by"),
              Contains("91 %") && Contains("84 to 96") && Contains("3 held-out runs") && Contains("black box 70 %"));
   CHECK_THAT(line_of(text, "Not excluded"), Contains("windage, torque_gain"));
@@ -66,6 +66,12 @@ TEST_CASE("no gap is ten lines too, without a cause or a shrinkage", "[fast]") {
   CHECK_THAT(line_of(text, "Cause"), Contains("none needed"));
   CHECK_THAT(line_of(text, "Where"), Contains("nowhere"));
   CHECK_THAT(line_of(text, "Shrinks by"), Contains("nothing above the noise"));
+}
+
+TEST_CASE("a shrinkage of one run alone is not called one of held-out runs", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.gap.held_out.clear();
+  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("on the fitted data") && !Contains("held-out"));
 }
 
 TEST_CASE("what cannot be told apart stands beside the cause", "[fast]") {
