@@ -1,5 +1,6 @@
 /// rollrig_blind: measurement sets with a known hidden cause, made by a program that shares nothing with rollrig.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <boost/algorithm/string/classification.hpp>
@@ -8,6 +9,7 @@
 #include <iostream>
 #include <set>
 
+#include "blind/bank.h"
 #include "blind/effect.h"
 #include "blind/measurement_set.h"
 #include "blind/output.h"
@@ -109,6 +111,28 @@ int make_command(MakeOptions options) {
   return kDone;
 }
 
+int bank_command(BankOrder order, const std::string& effects) {
+  order.effects = read_effects(effects);
+  if (effects.empty()) {
+    for (const EffectKind* kind : effect_kinds()) order.effects.push_back(kind->id);
+  }
+  if (order.pairs > 0 && order.effects.size() < 2) {
+    throw InputError({"a pair needs two effects", "--pairs", std::to_string(order.pairs), "two or more --effects", ""});
+  }
+  const std::size_t all =
+      static_cast<std::size_t>(order.each) * order.effects.size() + static_cast<std::size_t>(order.none + order.pairs);
+  if (all == 0) throw InputError({"the bank has no sets", "--each", "0", "one set at least", ""});
+  const auto progress = [](std::size_t done, std::size_t of) {
+    if (::isatty(STDERR_FILENO) != 0) std::cerr << fmt::format("\r{} of {} sets{}", done, of, done == of ? "\n" : "");
+  };
+  const auto sealed = [&order](const std::string& sha256) {
+    std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
+    if (!std::cout) throw InputError({"standard output cannot be written to", "", "", "space for it", ""});
+  };
+  write_bank(order, sealed, progress);
+  return kDone;
+}
+
 int list_command() {
   for (const EffectKind* kind : effect_kinds()) {
     std::cout << fmt::format("{}\n  size     {} [{}]; {:g} does nothing\n  law      {}\n", kind->id, kind->meaning,
@@ -132,6 +156,17 @@ int parse_and_run(int argc, char** argv) {
   make_app->add_option("--runs", make.order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
   make_app->add_flag("--noise-free", make.order.noise_free, "No errors of sensors, no drop-outs");
   make_app->add_flag("--nominal-base", make.order.nominal_base, "Base parameters as the files have them");
+  BankOrder bank;
+  std::string bank_effects;
+  CLI::App* bank_app = app.add_subcommand("bank", "A bank of sets in shuffled order, with one sealed truth");
+  bank_app->add_option("--seed", bank.seed, "Decides all that is drawn [1]");
+  bank_app->add_option("--each", bank.each, "Sets of each effect [20]")->check(CLI::Range(0, 2000));
+  bank_app->add_option("--none", bank.none, "Sets without effect [100]")->check(CLI::Range(0, 2000));
+  bank_app->add_option("--pairs", bank.pairs, "Sets of two effects [0]")->check(CLI::Range(0, 2000));
+  bank_app->add_option("--effects", bank_effects, "Effects, as a,b,c [all]");
+  bank_app->add_option("--runs", bank.runs, "Number of runs of a set [6]")->check(CLI::Range(1, kMostRuns));
+  bank_app->add_flag("--counterfactual", bank.counterfactual, "Also each set without effect and without noise");
+  bank_app->add_option("--out", bank.out, "Folder of the bank, new or empty")->required();
   CLI::App* list_app = app.add_subcommand("list", "Effects, their sizes and laws");
   try {
     app.parse(argc, argv);
@@ -140,7 +175,10 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw InputError({error.what(), "command line", "", "see rollrig_blind --help", ""});
   }
-  const int status = list_app->parsed() ? list_command() : make_command(make);
+  int status = kDone;
+  if (list_app->parsed()) status = list_command();
+  if (make_app->parsed()) status = make_command(make);
+  if (bank_app->parsed()) status = bank_command(bank, bank_effects);
   if (!std::cout.flush()) throw InputError({"standard output cannot be written to", "", "", "space for it", ""});
   return status;
 }

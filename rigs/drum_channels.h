@@ -47,7 +47,8 @@ enum class DrumIntegral : std::size_t {
 };
 
 /// How much of a run is integrated: the four channels that a rig can measure (for identification, where
-/// every integral costs), or everything that the recording and the audits want.
+/// every integral costs), or everything that the recording and the audits want. With the four, load and ambient
+/// are recorded, which effects of the port "trace" read.
 enum class Detail { kMeasured, kFull };
 
 /// Stores of energy, in this order.

@@ -153,7 +153,12 @@ S QuasiStaticDrum<S>::watch(const std::string& name, double time_s, const S* sta
 
 template <class S>
 void QuasiStaticDrum<S>::observe(double time_s, const S* state, S* values) {
-  if (detail_ == Detail::kMeasured) return;
+  if (detail_ == Detail::kMeasured) {
+    const models::InputPort<S> inputs = read_drum_inputs<S>(segment_, time_s - segment_start_s_, surface_recorded_);
+    *values++ = inputs.load_N;
+    *values++ = inputs.ambient_K;
+    return;
+  }
   find_motion(time_s, state);
   *values++ = motor_on_ ? now_.recorded.speed_m_s : now_.motion.speed_m_s;
   *values++ = now_.recorded.load_N;

@@ -15,7 +15,7 @@ struct BrakeHeat {
     info.equation =
         "dE/dt = w F_brake |v| - E/tau, E/tau heats the rubber: E is the heat in the rim that is bound for the "
         "tire, tau = C_rim/(UA + UA_air). With a rim node linked to the tire (rim_heat), w F_brake |v| (1 + "
-        "UA_air/UA) goes into that node instead, of which w F_brake |v| reaches the tire in the end";
+        "UA_air/UA) goes into that node instead, of which w F_brake |v| reaches rubber and gas in the end";
     info.source =
         "source §4.2.2, §4.4.1: brakes left out; 2 to 15 % reaches the tire, rim 5 to 9 kJ/K, UA 0.5 to 4 W/K: "
         "effects.md. The baseline has no heat to the rim, so E counts what the brake adds to a rim that else "
@@ -39,10 +39,12 @@ struct BrakeHeat {
     return self.parameter(kShare) * now.acting.brake_force_N * abs(now.motion.speed_m_s);
   }
 
+  /// Conductance between the rim and the tire, gas included; 0 without a rim.
   template <class S>
-  static bool has_linked_rim(const ThermalPort<S>& port) {
-    const S& link_W_per_K = port.link_W_per_K[index_of(Node::kRubber)][index_of(Node::kRim)];
-    return port.active[index_of(Node::kRim)] && value_of(link_W_per_K) > 0.0;
+  static S calc_rim_link_W_per_K(const ThermalPort<S>& port) {
+    const std::size_t rim = index_of(Node::kRim);
+    if (!port.active[rim]) return zero<S>();
+    return port.link_W_per_K[index_of(Node::kRubber)][rim] + port.link_W_per_K[index_of(Node::kGas)][rim];
   }
 
   template <class S>
@@ -53,8 +55,9 @@ struct BrakeHeat {
     port.heat_W[index_of(Node::kRubber)] += arriving_W;
     port.under_way_J += self.state(kOnItsWay);
     port.under_way_W -= arriving_W;
-    if (has_linked_rim(port)) {
-      port.heat_W[rim] += bound_W * (S(1.0) + port.air_W_per_K[rim] / port.link(Node::kRubber, Node::kRim));
+    const S link_W_per_K = calc_rim_link_W_per_K(port);
+    if (value_of(link_W_per_K) > 0.0) {
+      port.heat_W[rim] += bound_W * (S(1.0) + port.air_W_per_K[rim] / link_W_per_K);
     } else {
       port.under_way_W += bound_W;
     }
@@ -63,7 +66,8 @@ struct BrakeHeat {
   template <class S>
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     rates[kOnItsWay] = -self.state(kOnItsWay) / self.parameter(kTimeConstant);
-    if (!has_linked_rim(now.thermal)) rates[kOnItsWay] += calc_bound_for_tire_W(self, now);
+    const bool has_linked_rim = value_of(calc_rim_link_W_per_K(now.thermal)) > 0.0;
+    if (!has_linked_rim) rates[kOnItsWay] += calc_bound_for_tire_W(self, now);
   }
 };
 

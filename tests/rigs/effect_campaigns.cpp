@@ -10,7 +10,7 @@
 namespace rollrig::tests {
 namespace {
 
-/// Cold start, two loads, two speeds, skims, rest.
+/// Cold start, two loads, two speeds, skims, less pressure, rest.
 sim::Program drum_program() {
   const double v80 = 80.0 / 3.6;
   const double v120 = 120.0 / 3.6;
@@ -19,12 +19,15 @@ sim::Program drum_program() {
   up.segments = {drum_segment(60.0, 0.0, v80, 200.0)};
   sim::Phase faster = rolling("faster", 60.0, v80, 5400.0);
   faster.segments = {drum_segment(60.0, v80, v120, 5400.0)};
-  sim::Phase down = rolling("run-down", 60.0, v120, 200.0);
-  down.segments = {drum_segment(60.0, v120, 0.0, 200.0)};
+  sim::Phase softer = rolling("less pressure", 240.0, v80, 5400.0);
+  softer.commands = {{rigs::kSetPressure, 220e3}};
+  sim::Phase down = rolling("run-down", 120.0, v120, 200.0);
+  down.segments = {drum_segment(120.0, v120, 0.0, 200.0)};
   program.phases = {up,
                     rolling("load", 600.0, v80, 5400.0),
                     rolling("skim", 180.0, v80, 200.0),
                     rolling("high load", 300.0, v80, 6865.0),
+                    softer,
                     rolling("load again", 60.0, v80, 5400.0),
                     faster,
                     rolling("fast", 300.0, v120, 5400.0),
@@ -58,11 +61,14 @@ DrumFixture drum_with(const Effects& effects) {
 
 constexpr double kLoadShare = 0.55;  // of the axle, so that the wheel's load is not the tire's reference load
 
+constexpr double kDynoPressure_Pa = 230e3;  // other than the tire's reference pressure
+
 /// A driven quarter at the rear: 1.2 kN of drive and 1.6 kN of friction brake force at the wheel.
 VehicleFixture dyno_with(const Effects& effects) {
   VehicleFixture fixture("dyno_1m2", false, rigs::QuarterWheel::kRear);
   fixture.vehicle.geometry.front_load_share = 1.0 - kLoadShare;
   fixture.vehicle.brakes.front_share = 0.3;
+  fixture.cold_pressure_Pa = kDynoPressure_Pa;
   fixture.effects = effects;
   return fixture;
 }

@@ -117,3 +117,61 @@ TEST_CASE("more drum inertia asks for torque by its share of J a/R, and none at 
   CHECK(with.channel("drum_torque_Nm")[30] - plain.channel("drum_torque_Nm")[30] == Approx(added_Nm));
   CHECK(with.channel("drum_torque_Nm")[100] == Approx(plain.channel("drum_torque_Nm")[100]).epsilon(1e-10));
 }
+
+TEST_CASE("friction of loaded bearings goes with the load, not with temperature or speed, and heats no tire",
+          "[fast]") {
+  const ActiveEffect friction = switch_on("bearing_load_friction", {2.0});
+  for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno}) {
+    for (const double temperature_K : {280.0, 330.0}) {
+      HandFedCorner<double> with(make_context_on(kind), {friction}, {}, temperature_K);
+      HandFedCorner<double> without(make_context_on(kind), {}, {}, temperature_K);
+      const auto added_N = [&](double load_N, double speed_m_s) {
+        for (auto* at : {&with, &without}) {
+          at->inputs.load_N = load_N;
+          at->inputs.speed_m_s = speed_m_s;
+          at->evaluate();
+        }
+        CHECK(with.now.heat.heat_in_W == without.now.heat.heat_in_W);
+        return with.now.parasitic_N - without.now.parasitic_N;
+      };
+      CHECK(added_N(5400.0, 20.0) == Approx(2.0));
+      CHECK(added_N(5400.0, 35.0) == Approx(2.0));
+      CHECK(added_N(2700.0, 20.0) == Approx(1.0));
+      CHECK(added_N(0.0, 20.0) == 0.0);
+      CHECK(added_N(5400.0, 0.0) == 0.0);  // friction at rest holds, and turns nothing
+    }
+  }
+}
+
+TEST_CASE("friction of loaded bearings is reported as the tire's, but for its share at skim load", "[fast]") {
+  // F_r = T/R - F_pl with F_pl from the skim phase: what goes with the load does not cancel
+  tests::DrumFixture fixture;
+  sim::Program program;
+  program.phases = {tests::rolling("load", 120.0, 20.0, 5400.0), tests::rolling("skim", 120.0, 20.0, 200.0)};
+  const auto plain = fixture.run_quasi_static(program);
+  fixture.effects = {switch_on("bearing_load_friction", {1.5})};
+  const auto with = fixture.run_quasi_static(program);
+  const auto added_N = [&](std::size_t row) {
+    return with.channel("drum_torque_Nm")[row] - plain.channel("drum_torque_Nm")[row];  // R = 1 m
+  };
+  CHECK(added_N(100) - added_N(220) == Approx(1.5 * (1.0 - 200.0 / 5400.0)));
+}
+
+TEST_CASE("loss goes with the pressure by the tire's exponent and the shift together", "[fast]") {
+  const auto loss_N = [](const std::vector<ActiveEffect>& effects, double pressure_Pa) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), effects);
+    at.now.inflation.cold_pressure_Pa = pressure_Pa;
+    return at.evaluate().rolling_resistance_N;
+  };
+  const auto context = make_context_on(RigKind::kDrum);
+  const double own = context.tire.rolling_resistance.pressure_exponent;
+  const double reference_Pa = context.tire.rolling_resistance.reference_pressure_Pa;
+  for (const double shift : {-0.15, 0.1}) {
+    const std::vector<ActiveEffect> with{switch_on("pressure_exponent", {shift})};
+    CHECK(loss_N(with, 150e3) / loss_N(with, 300e3) == Approx(std::pow(2.0, own + shift)));
+    CHECK(loss_N(with, reference_Pa) == Approx(loss_N({}, reference_Pa)).epsilon(1e-14));
+  }
+  // without any exponent left, the pressure does not matter
+  const std::vector<ActiveEffect> none{switch_on("pressure_exponent", {-own})};
+  CHECK(loss_N(none, 150e3) == Approx(loss_N(none, 300e3)).epsilon(1e-14));
+}

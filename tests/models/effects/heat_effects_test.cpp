@@ -5,9 +5,6 @@
 #include "tests/support/hand_fed_corner.h"
 
 using namespace rollrig;
-using models::EffectInfo;
-using models::EffectView;
-using models::Instant;
 using models::Node;
 using models::RigKind;
 using tests::HandFedCorner;
@@ -30,24 +27,6 @@ void check_heat_balance(HandFedCorner<double>& at) {
   const auto& heat = at.now.heat;
   CHECK(stored_W == Approx(heat.heat_in_W - heat.to_air_W - heat.to_road_W).margin(1e-3));
 }
-
-/// A rim as another effect will have it.
-struct LinkedRim {
-  static EffectInfo info() {
-    EffectInfo info;
-    info.id = "linked_rim";
-    info.parameters = {{"link_W_per_K", any_number(), {0.0, 1.0}, "", 0.0}};
-    info.nodes[models::index_of(Node::kRim)] = true;
-    return info;
-  }
-  template <class S>
-  static void thermal(const EffectView<S>& self, const Instant<S>&, models::ThermalPort<S>& port) {
-    const Dimension conductance = dimension::kPower / dimension::kTemperature;
-    port.heat_capacity_J_per_K[models::index_of(Node::kRim)] = quantity<S>(7000.0, conductance * dimension::kTime);
-    port.link(Node::kRubber, Node::kRim) += self.parameter(0);
-    port.air_W_per_K[models::index_of(Node::kRim)] = quantity<S>(9.0, conductance);
-  }
-};
 
 }  // namespace
 
@@ -200,26 +179,6 @@ TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fa
   CHECK((at.temperature_K(Node::kRubber) - rubber_K) * at.corner.context().tire.thermal.heat_capacity_J_per_K ==
         Approx(on_its_way_J).epsilon(1e-6));
   CHECK(after_J - before_J > 0.05 * 2000.0 * 250.0);  // and the rolling loss beside it
-}
-
-TEST_CASE("into a rim that another effect links goes what makes the same share arrive", "[fast]") {
-  static const models::Effect rim_effect = models::make_effect<LinkedRim>();
-  for (const double link_W_per_K : {0.0, 2.0}) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno),
-                             {tests::make_active(rim_effect, {link_W_per_K}), switch_on("brake_heat", {10.0})});
-    at.inputs.brake_force_N = 450.0;
-    at.inputs.speed_m_s = 20.0;  // 900 W bound for the tire
-    const auto& now = at.evaluate();
-    const double rim_W = now.thermal.heat_W[models::index_of(Node::kRim)];
-    if (link_W_per_K == 0.0) {
-      CHECK(rim_W == 0.0);
-      CHECK(now.thermal.under_way_W == Approx(900.0));
-    } else {
-      CHECK(rim_W * 2.0 / (2.0 + 9.0) == Approx(900.0));  // in a steady rim UA/(UA + UA_air) of it goes to the tire
-      CHECK(now.thermal.under_way_W == 0.0);
-    }
-    check_heat_balance(at);
-  }
 }
 
 TEST_CASE("effects of a vehicle leave a drum rig alone to the bit", "[fast]") {

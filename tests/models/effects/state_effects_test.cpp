@@ -149,3 +149,96 @@ TEST_CASE("a recorded surface and the road do not warm", "[fast]") {
   HandFedCorner<double> road(make_context_on(RigKind::kFlat), {switch_on("surface_warming")}, warm());
   CHECK(road.evaluate().boundary.surface_K == 298.15);
 }
+
+TEST_CASE("rubber's memory fades in minutes of loaded rolling, whatever the speed", "[fast]") {
+  for (const double speed_m_s : {5.0, 20.0, 36.0}) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("rubber_memory", {5.0, 8.0, 1e9})});
+    CHECK(at.state("rubber_memory.memory") == 1.0);
+    at.inputs.speed_m_s = speed_m_s;
+    at.inputs.load_N = 1e6;  // far above where a load works the rubber
+    CHECK(at.evaluate().loss.factor == Approx(1.05));
+    at.advance(8.0 * 60.0);
+    CHECK(at.state("rubber_memory.memory") == Approx(std::exp(-1.0)).epsilon(1e-4));
+    CHECK(at.now.loss.factor == Approx(1.0 + 0.05 * std::exp(-1.0)).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("rubber's memory comes back at rest under any load, and unloaded at any speed", "[fast]") {
+  const auto effect = switch_on("rubber_memory", {5.0, 8.0, 20.0});
+  const auto after_20_min = [&](double speed_m_s, double load_N) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {effect}, warm());
+    CHECK(at.evaluate().loss.factor == 1.0);
+    at.inputs.speed_m_s = speed_m_s;
+    at.inputs.load_N = load_N;
+    at.advance(1200.0);
+    return at.state("rubber_memory.memory");
+  };
+  const double all_the_time = 1.0 - std::exp(-1.0);
+  CHECK(after_20_min(0.0, 5400.0) == Approx(all_the_time).epsilon(1e-6));
+  CHECK(after_20_min(0.0, 0.0) == Approx(all_the_time).epsilon(1e-6));
+  CHECK(after_20_min(k80_m_s, 0.0) == Approx(all_the_time).epsilon(1e-6));
+  const double in_skim = after_20_min(k80_m_s, 200.0);
+  CHECK(in_skim < all_the_time);
+  CHECK(in_skim > 0.8 * all_the_time);
+  CHECK(after_20_min(k80_m_s, 5400.0) < 0.05 * all_the_time);
+}
+
+TEST_CASE("after each skim the tire loses more for a while", "[fast]") {
+  tests::DrumFixture fixture;
+  fixture.effects = {switch_on("rubber_memory", {6.0, 5.0, 10.0})};
+  sim::Program program;
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    program.phases.push_back(tests::rolling("load", 1800.0, k80_m_s, 5400.0));
+    program.phases.push_back(tests::rolling("skim", 600.0, k80_m_s, 200.0));
+  }
+  const auto recording = fixture.run_quasi_static(program);
+  const auto& memory = recording.channel("rubber_memory.memory");
+  for (const std::size_t start_s : {2400u, 4800u, 7200u}) {
+    CHECK(memory[start_s + 1] > 0.5);
+    CHECK(memory[start_s + 300] < 0.5 * memory[start_s + 1]);
+    CHECK(memory[start_s + 1790] < 0.05);
+  }
+}
+
+TEST_CASE("rubber's memory starts from the rest before the run", "[fast]") {
+  const auto effect = switch_on("rubber_memory", {5.0, 8.0, 30.0});
+  const auto starts_at = [&](const models::InitialPort<double>& initial) {
+    return HandFedCorner<double>(make_context_on(RigKind::kFlat), {effect}, initial).state("rubber_memory.memory");
+  };
+  CHECK(starts_at({}) == 1.0);
+  CHECK(starts_at(warm()) == 0.0);
+  CHECK(starts_at(rested(0.0)) == 0.0);
+  CHECK(starts_at(rested(0.5)) == Approx(1.0 - std::exp(-1.0)));
+  CHECK(starts_at(rested(1000.0)) == Approx(1.0));
+}
+
+TEST_CASE("a slow leak takes its rate off the pressure at the temperature at which it was set", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0})});
+  at.inputs.speed_m_s = 0.0;  // at ambient temperature
+  CHECK(at.evaluate().pressure_Pa == Approx(280e3).epsilon(1e-14));
+  at.advance(2.0 * 3600.0);
+  CHECK(280e3 - at.now.pressure_Pa == Approx(6e3).epsilon(1e-9));
+  at.advance(2.0 * 3600.0);
+  CHECK(280e3 - at.now.pressure_Pa == Approx(12e3).epsilon(1e-9));
+  // what is left, heated, is at the same share less of the absolute pressure
+  const double warm_K = 320.0;
+  HandFedCorner<double> tight(make_context_on(RigKind::kDrum), {});
+  at.temperature_K(Node::kGas) = tight.temperature_K(Node::kGas) = warm_K;
+  const double p_amb_Pa = 101325.0;
+  CHECK((at.evaluate().pressure_Pa + p_amb_Pa) / (tight.evaluate().pressure_Pa + p_amb_Pa) ==
+        Approx((268e3 + p_amb_Pa) / (280e3 + p_amb_Pa)).epsilon(1e-9));
+}
+
+TEST_CASE("a leaking tire loses more, is full again when filled, and never falls below the ambient", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {20.0})});
+  HandFedCorner<double> tight(make_context_on(RigKind::kDrum), {});
+  for (auto* one : {&at, &tight}) one->advance(4.0 * 3600.0, 2000);
+  CHECK(at.now.rolling_resistance_N > 1.02 * tight.now.rolling_resistance_N);
+  at.corner.inflate(280e3, at.x.data(), at.now.inflation);
+  CHECK(at.state("slow_leak.gas_lost") == 0.0);
+  CHECK(at.evaluate().pressure_Pa == Approx(280e3));
+  at.inputs.speed_m_s = 0.0;
+  at.advance(100.0 * 3600.0, 20000);
+  CHECK(at.now.pressure_Pa > 0.0);
+  CHECK(at.now.pressure_Pa < 1e3);
+}

@@ -1,0 +1,52 @@
+/// The zero of the torque meter moves as its amplifier warms, and with the air.
+#include <cmath>
+
+#include "blind/effect.h"
+#include "blind/recorder.h"
+
+namespace blind {
+namespace {
+
+constexpr double kSpan_s = 1800.0;  // over which the size is a mean rate
+
+class TorqueZeroDrift : public Effect {
+ public:
+  TorqueZeroDrift(double rate_N_per_10min, Draws& draws) : rate_N_per_10min_(rate_N_per_10min) {
+    time_s_ = 60.0 * draws.from(log_normal(25.0, 120.0, 15.0, 240.0));
+    air_ = draws.uniform(-0.4, 0.4);
+    shape = {{"time_constant_min", time_s_ / 60.0}, {"N_per_K_of_air_over_size", air_}};
+  }
+
+  void trace(RunRecord& record) const override {
+    const double drum_m = 0.5 * record.specimen->drum_diameter_m;
+    const double final_N = rate_N_per_10min_ * kSpan_s / 600.0 / (1.0 - std::exp(-kSpan_s / time_s_));
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      const double amplifier_N = final_N * (1.0 - std::exp(-record.time_s[row] / time_s_));
+      const double air_N = air_ * rate_N_per_10min_ * (record.ambient_degC[row] - record.ambient_degC.front());
+      record.torque_Nm[row] += drum_m * (amplifier_N + air_N);
+    }
+  }
+
+ private:
+  double rate_N_per_10min_;
+  double time_s_ = 0.0;
+  double air_ = 0.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_torque_zero_drift;
+const EffectKind kind_torque_zero_drift{
+    "torque_zero_drift",
+    "N/10min",
+    "mean rate over the first 30 min of a run, as force at the drum's surface",
+    0.0,
+    normal(-0.5, 0.5, -1.2, 1.2),
+    false,
+    0.04,
+    "zeroed before each run; then an amplifier's exponential approach (25 to 120 min) and a part that follows the air",
+    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
+      return std::make_unique<TorqueZeroDrift>(size, draws);
+    }};
+
+}  // namespace blind

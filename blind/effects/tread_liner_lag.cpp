@@ -1,0 +1,54 @@
+/// Heat takes its time through the wall from tread to liner.
+#include <cmath>
+#include <limits>
+
+#include "blind/effect.h"
+#include "blind/plant.h"
+
+namespace blind {
+namespace {
+
+class TreadLinerLag : public Effect {
+ public:
+  TreadLinerLag(double halves_W_per_K, Draws& draws) : halves_W_per_K_(halves_W_per_K) {
+    layers_ = static_cast<std::size_t>(draws.whole(3, 6));
+    skew_ = draws.uniform(0.0, 0.5);
+    tread_share_ = draws.uniform(0.6, 1.0);
+    shape = {
+        {"layers", static_cast<double>(layers_)}, {"loss_skew_to_tread", skew_}, {"tread_share_of_air", tread_share_}};
+  }
+
+  void lay_out(Wall& wall) const override {
+    if (std::isinf(halves_W_per_K_)) return;
+    // Half a wall of conductance K has its middle at 1/4 and 3/4 of its depth: 2 K lies between them.
+    wall.layers = layers_;
+    wall.conductance_W_per_K = 1.0 / (1.0 / wall.conductance_W_per_K + 2.0 / halves_W_per_K_);
+    wall.loss_skew = skew_;
+    wall.tread_share_of_air = tread_share_;
+  }
+
+ private:
+  double halves_W_per_K_;
+  std::size_t layers_ = 6;
+  double skew_ = 0.0;
+  double tread_share_ = 1.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_tread_liner_lag;
+const EffectKind kind_tread_liner_lag{"tread_liner_lag",
+                                      "W/K",
+                                      "conductance between the middles of the two halves of the wall",
+                                      std::numeric_limits<double>::infinity(),
+                                      log_normal(30.0, 150.0, 20.0, 230.0),
+                                      false,
+                                      0.0,
+                                      "conduction through three to six radial layers, each losing at its own "
+                                      "temperature, more towards the tread; road and most "
+                                      "of the air cool the outermost, the sensor and the gas see the innermost",
+                                      [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
+                                        return std::make_unique<TreadLinerLag>(size, draws);
+                                      }};
+
+}  // namespace blind

@@ -1,0 +1,61 @@
+/// The tire loses gas.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct SlowLeak {
+  enum Parameter { kRate };
+  enum State { kLost };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "slow_leak";
+    info.summary =
+        "The tire loses gas at a constant rate: the pressure falls, and the loss rises after hours; filling it anew "
+        "sets that back";
+    info.equation =
+        "m/m_0 <- (m/m_0)(1 - s), ds/dt = r/(p_cold + p_amb) tanh(p/p_0); p_0 = 10 kPa: no overpressure, no leak";
+    info.source =
+        "source (3.14) has the gas sealed; 0.2 to 2 kPa/h: effects.md. Assumed: a constant rate, since the pressure "
+        "that drives it hardly changes; tight before the run, whose cold pressure is read at its start";
+    info.parameters = {{"rate_kPa_per_h",
+                        between(0.0, 100.0),
+                        {0.2, 2.0, Prior::Scale::kLog},
+                        "r, fall of the pressure at the temperature at which it was set",
+                        0.0}};
+    info.states = {{"gas_lost", 0.01, "s, share of the gas that was filled in"}};
+    info.faint_on = {RigKind::kFlat};  // has no pressure channel, and the loss follows after hours
+    info.visible_in = {"cavity_pressure_kPa"};
+    info.confused_with = {"cell_air_warming"};
+    info.splitting_tests = {"soak with pressure logged", "setting gauge before and after, at one temperature"};
+    return info;
+  }
+
+  template <class S>
+  static void gas(const EffectView<S>& self, const Instant<S>&, GasPort<S>& port) {
+    port.mass_ratio *= S(1.0) - self.state(kLost);
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
+    using std::tanh;
+    const S low_Pa = quantity<S>(10e3, dimension::kPressure);
+    const S filled_abs_Pa = now.inflation.cold_pressure_Pa + now.inflation.ambient_pressure_Pa;
+    rates[kLost] = self.parameter(kRate) / filled_abs_Pa * tanh(now.pressure_Pa / low_Pa);
+  }
+
+  template <class S>
+  static void inflated(const EffectView<S>&, S* states) {
+    states[kLost] = S(0.0);
+  }
+};
+
+}  // namespace
+
+const Effect& effect_slow_leak() {
+  static const Effect effect = make_effect<SlowLeak>();
+  return effect;
+}
+
+}  // namespace rollrig::models
