@@ -34,6 +34,16 @@ bool has_sample(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
 }
 
+/// Whether the drum stands still over a row and its neighbours.
+bool stands(const scenarios::MeasuredRun& run, std::size_t row) {
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::size_t last = std::min(row + 1, speed_m_s.size() - 1);
+  for (std::size_t i = row > 0 ? row - 1 : 0; i <= last; ++i) {
+    if (speed_m_s[i] != 0.0) return false;
+  }
+  return true;
+}
+
 /// The phase of each row.
 std::vector<std::size_t> phase_by_row(const PreparedRun& run) {
   std::vector<std::size_t> of(run.measured.time_s.size(), 0);
@@ -62,11 +72,13 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 
 }  // namespace
 
-PreparedSet::PreparedSet(const scenarios::MeasurementSet& set) : set_(set) {
+PreparedSet::PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings extra) : extra_(extra), set_(set) {
   require_drum_set(set_);
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   context_ = rigs::make_context(set_.tire, *set_.rig, set_.baseline);
-  for (const std::string& channel : scenarios::measured_channels(set_.kind)) {
+  std::vector<std::string> readable = scenarios::measured_channels(set_.kind);
+  if (extra_.rim_thermocouple) readable.push_back(kRimTemperature);
+  for (const std::string& channel : readable) {
     const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(), [&](const scenarios::MeasuredRun& run) {
       return run.has(channel) && has_sample(run.columns.at(channel));
     });
@@ -98,7 +110,8 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   std::vector<std::size_t> rows;
   std::vector<double> times_s;
   for (std::size_t row = 0; row < values.size(); ++row) {
-    if (std::isnan(values[row]) || (is_torque && !settled[row])) continue;
+    const bool is_zero_reading = extra_.torque_at_standstill && stands(run.measured, row);
+    if (std::isnan(values[row]) || (is_torque && !settled[row] && !is_zero_reading)) continue;
     rows.push_back(row);
     times_s.push_back(run.measured.time_s[row]);
   }

@@ -42,15 +42,23 @@ struct PreparedRun {
   std::vector<RunPhase> phases;
 };
 
+/// What a test may read beyond a measurement set's columns.
+struct ExtraReadings {
+  bool torque_at_standstill = false;  // where the drum stands: the sensor's zero
+  bool rim_thermocouple = false;      // channel kRimTemperature
+};
+constexpr const char* kRimTemperature = "rim_temperature_degC";
+
 /// Runs are put in the order of their ids, so that the order in the file does not matter.
 /// Blocks are 10 s long and end where a phase or an averaging gap does; torque within 30 s of a load change or a kink
 /// of the speed and below 20 km/h is left out.
 /// Errors  InputError: not a drum set; no sample in any channel; a sensor without any error
 class PreparedSet {
  public:
-  explicit PreparedSet(const scenarios::MeasurementSet& set);
+  explicit PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings extra = {});
 
   const scenarios::MeasurementSet& source() const { return set_; }
+  const ExtraReadings& extra() const { return extra_; }
   const models::Context<double>& context() const { return context_; }
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<std::string>& channels() const { return channels_; }
@@ -61,6 +69,7 @@ class PreparedSet {
  private:
   void add_series(std::size_t run, std::size_t channel, std::size_t offset);
 
+  ExtraReadings extra_;
   scenarios::MeasurementSet set_;  // with its runs in order
   models::Context<double> context_;
   std::vector<PreparedRun> runs_;

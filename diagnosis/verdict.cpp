@@ -14,16 +14,9 @@ namespace {
 
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
-constexpr double kToldApart_nats = 3.0;  // design: below it hypotheses are named together
 constexpr double kNormal95 = 1.959963984540054;
 
 bool was_fitted(const Contender& contender) { return std::isfinite(contender.fit.cost); }
-
-double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b) {
-  Eigen::VectorXd difference = a.fit.residuals - b.fit.residuals;
-  remainder.whiten(a.amplitudes, difference);
-  return 0.5 * difference.squaredNorm();
-}
 
 std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
                                                    const std::vector<identification::FreeParameter>& base,
@@ -131,6 +124,12 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
 }
 
 }  // namespace
+
+double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b) {
+  Eigen::VectorXd difference = a.fit.residuals - b.fit.residuals;
+  remainder.whiten(a.amplitudes, difference);
+  return 0.5 * difference.squaredNorm();
+}
 
 std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects) {
   std::map<std::string, double> probability{{"none", race.null.probability}, {"unknown", race.unknown_probability}};

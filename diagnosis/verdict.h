@@ -13,9 +13,14 @@ namespace rollrig::diagnosis {
 /// Inclusion probability of every effect in the race, of "none" and of "unknown".
 std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects);
 
+constexpr double kToldApart_nats = 3.0;  // design: below it hypotheses are named together
+
+/// What a set like this one would say on average for `a` against `b`, were `a` true.
+/// Equation  |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
+double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b);
+
 /// Causes from the likeliest down. Hypotheses whose expected log Bayes factor on this set is below 3 are one cause,
 /// named after the likeliest of them.
-/// Equation  expected log Bayes factor = |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
 /// The first cause is held adequate unless
 /// - a free remainder on top of it is likelier than it alone,
 /// - its size differs from run to run, by more than noise and 20 % of it explain (1 in 1000),

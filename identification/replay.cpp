@@ -43,9 +43,8 @@ void add_given_channels(const scenarios::MeasuredRun& run, sim::Recording<S>& re
 
 template <class S>
 sim::Recording<S> replay_drum_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
-                                  const sim::Program& program, models::Corner<S>& corner) {
-  rigs::QuasiStaticDrum<S> drum(corner, make_start<S>(set, run), run.has("surface_temperature_degC"),
-                                rigs::Detail::kMeasured);
+                                  const sim::Program& program, models::Corner<S>& corner, rigs::Detail detail) {
+  rigs::QuasiStaticDrum<S> drum(corner, make_start<S>(set, run), run.has("surface_temperature_degC"), detail);
   sim::FixedGridIntegrator<S> integrator(drum);
   sim::Recording<S> recording = sim::simulate<S>(drum, integrator, program);
   if (rigs::has_trace_effects(corner)) {
@@ -56,8 +55,8 @@ sim::Recording<S> replay_drum_run(const scenarios::MeasurementSet& set, const sc
 }
 
 template sim::Recording<double> replay_drum_run(const scenarios::MeasurementSet&, const scenarios::MeasuredRun&,
-                                                const sim::Program&, models::Corner<double>&);
+                                                const sim::Program&, models::Corner<double>&, rigs::Detail);
 template sim::Recording<Jet> replay_drum_run(const scenarios::MeasurementSet&, const scenarios::MeasuredRun&,
-                                             const sim::Program&, models::Corner<Jet>&);
+                                             const sim::Program&, models::Corner<Jet>&, rigs::Detail);
 
 }  // namespace rollrig::identification

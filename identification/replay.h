@@ -2,6 +2,7 @@
 /// A measured drum run simulated again from its recorded inputs.
 
 #include "models/corner.h"
+#include "rigs/drum_channels.h"
 #include "scenarios/measurement_set.h"
 #include "sim/recording.h"
 
@@ -11,9 +12,10 @@ namespace rollrig::identification {
 sim::Program make_drum_replay(const scenarios::MeasuredRun& run);
 
 /// What the sensors of a drum rig would have shown: the corner with its effects, quasi-static, rows at the run's own
-/// times, trace effects applied.
+/// times, trace effects applied. With full detail, also what only a simulation knows.
 template <class S>
 sim::Recording<S> replay_drum_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
-                                  const sim::Program& program, models::Corner<S>& corner);
+                                  const sim::Program& program, models::Corner<S>& corner,
+                                  rigs::Detail detail = rigs::Detail::kMeasured);
 
 }  // namespace rollrig::identification

@@ -1,0 +1,40 @@
+#pragma once
+/// Which test to run next: the one that is expected to tell most an hour.
+
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/information.h"
+#include "diagnosis/open_questions.h"
+#include "diagnosis/test_menu.h"
+
+namespace rollrig::diagnosis {
+
+/// What each hypothesis predicts of a test: its runs simulated at the hypothesis's parameters, sensors' noise whitened
+/// as in a diagnosis, one new session. Empty where a hypothesis cannot be simulated on it.
+/// Equation  covariance = 1 + (J L)(J L)^T + offsets, L L^T what the parameters are uncertain by after the measurement,
+///           all of it reduced to the directions in which the hypotheses' means and covariances differ from 1
+/// Validity  linear in the parameters about the fit; model error as in the race, common to all hypotheses, in
+///           proportion to what they differ by on average
+/// Checked   tests/diagnosis/next_test_test.cpp
+std::vector<PredictedOutcome> predict_outcomes(const PreparedSet& set,
+                                               const std::vector<identification::FreeParameter>& base,
+                                               const std::vector<OpenHypothesis>& open, const PlannedTest& test);
+
+/// A test of the menu, judged.
+struct JudgedTest {
+  PlannedTest test;
+  double bits = 0.0;  // expected fall of the entropy over the open hypotheses
+  std::vector<std::string>
+      splits;  // effects that it tells apart: expected log Bayes factor 3 or more, whichever is true
+};
+std::vector<JudgedTest> judge_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                    const std::vector<OpenHypothesis>& open, int threads);
+
+/// The three tests that tell most an hour, those first that tell anything apart. None where nothing is open.
+/// Source  design of the method, decision 9
+/// Checked tests/diagnosis/next_test_test.cpp
+std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                    const Remainder& remainder, const Race& race, int threads);
+
+}  // namespace rollrig::diagnosis
