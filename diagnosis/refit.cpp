@@ -67,7 +67,8 @@ Fit refit(const Model& model, const Remainder& remainder, const Amplitudes& ampl
   fit.unknowns = start;
   fit.cost = std::numeric_limits<double>::infinity();
   ceres::Problem problem;
-  problem.AddResidualBlock(new WhitenedResiduals(model, remainder, amplitudes, threads), nullptr, fit.unknowns.data());
+  auto* residuals = new WhitenedResiduals(model, remainder, amplitudes, threads);  // the problem's own
+  problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds bounds = model.own_bounds(i);
     double& u = fit.unknowns[at(i)];
@@ -83,7 +84,7 @@ Fit refit(const Model& model, const Remainder& remainder, const Amplitudes& ampl
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return fit;
-  if (residuals->last().unknowns == fit.unknowns) {
+  if (residuals->last().unknowns.size() > 0 && residuals->last().unknowns == fit.unknowns) {
     fit.residuals = residuals->last().residuals;
     fit.jacobian = residuals->last().jacobian;
   } else if (!model.evaluate(fit.unknowns, threads, fit.residuals, &fit.jacobian)) {
