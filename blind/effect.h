@@ -71,6 +71,8 @@ struct EffectKind {
   const char* unit;     // of the size
   const char* meaning;  // of the size
   double neutral;       // size at which it does nothing
+  double lowest;        // sizes that may be asked for
+  double highest;
   Spread size;
   bool either_sign;  // the size is drawn positive, then given a sign
   double gap;        // sizes nearer to the neutral one than this are drawn again: they would be no effect

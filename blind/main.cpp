@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
@@ -53,7 +54,8 @@ std::vector<std::string> read_effects(const std::string& list) {
   return ids;
 }
 
-std::vector<std::optional<double>> read_sizes(const std::string& list, std::size_t effects) {
+std::vector<std::optional<double>> read_sizes(const std::string& list, const std::vector<std::string>& ids) {
+  const std::size_t effects = ids.size();
   std::vector<std::optional<double>> sizes(effects);
   const std::vector<std::string> parts = split(list);
   if (parts.empty()) return sizes;
@@ -66,6 +68,11 @@ std::vector<std::optional<double>> read_sizes(const std::string& list, std::size
     if (!CLI::detail::lexical_cast(parts[i], value) || std::isnan(value)) {
       throw InputError({fmt::format("'{}' is not a number", parts[i]), "--size", parts[i],
                         "a number in the unit of the effect's size, see rollrig_blind list", ""});
+    }
+    const EffectKind& kind = *find_effect_kind(ids[i]);
+    if (value < kind.lowest || value > kind.highest) {
+      throw InputError({fmt::format("the size of {} is out of range", ids[i]), "--size", parts[i],
+                        fmt::format("{:g} to {:g} {}: {}", kind.lowest, kind.highest, kind.unit, kind.meaning), ""});
     }
     sizes[i] = value;
   }
@@ -97,7 +104,7 @@ void check_places(const MakeOptions& options) {
 
 int make_command(MakeOptions options) {
   options.order.effects = read_effects(options.effects);
-  options.order.sizes = read_sizes(options.sizes, options.order.effects.size());
+  options.order.sizes = read_sizes(options.sizes, options.order.effects);
   check_places(options);
   StagedFolder set(options.out, "--out");
   std::optional<StagedFolder> without;
@@ -141,44 +148,75 @@ int list_command() {
   return kDone;
 }
 
+/// The option or command nearest to a word of the command line that none is.
+std::string find_nearest_option(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* part : app.get_subcommands({})) {
+    known.push_back(part->get_name());
+    for (const CLI::Option* option : part->get_options()) known.push_back(option->get_name());
+  }
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const bool is_known = std::find(known.begin(), known.end(), word) != known.end();
+    if (!is_known && (i == 1 || word.rfind("--", 0) == 0)) return find_nearest(word, known);
+  }
+  return {};
+}
+
+CLI::App* add_make(CLI::App& app, MakeOptions& options) {
+  CLI::App* make = app.add_subcommand("make", "One measurement set");
+  make->add_option("--effect", options.effects, "Effect, two as a,b, or none [none]");
+  make->add_option("--size", options.sizes, "Its size in its own unit, for two a,b [drawn]");
+  make->add_option("--seed", options.order.seed, "Decides all that is drawn [1]");
+  make->add_option("--out", options.out, "Folder of the set, new or empty")->required();
+  make->add_option("--truth", options.truth, "File for the truth, outside of the set");
+  make->add_option("--counterfactual", options.counterfactual,
+                   "Folder for the same set without effect and without noise");
+  make->add_option("--runs", options.order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
+  make->add_flag("--noise-free", options.order.noise_free, "No errors of sensors, no drop-outs");
+  make->add_flag("--nominal-base", options.order.nominal_base, "Base parameters as the files have them");
+  return make;
+}
+
+CLI::App* add_bank(CLI::App& app, BankOrder& order, std::string& effects) {
+  constexpr int kMostSets = 2000;
+  CLI::App* bank = app.add_subcommand("bank", "A bank of sets in shuffled order, with one sealed truth");
+  bank->add_option("--seed", order.seed, "Decides all that is drawn [1]");
+  bank->add_option("--each", order.each, "Sets of each effect [20]")->check(CLI::Range(0, kMostSets));
+  bank->add_option("--none", order.none, "Sets without effect [100]")->check(CLI::Range(0, kMostSets));
+  bank->add_option("--pairs", order.pairs, "Sets of two effects [0]")->check(CLI::Range(0, kMostSets));
+  bank->add_option("--effects", effects, "Effects, as a,b,c [all]");
+  bank->add_option("--runs", order.runs, "Number of runs of a set [6]")->check(CLI::Range(1, kMostRuns));
+  bank->add_flag("--counterfactual", order.counterfactual, "Also each set without effect and without noise");
+  bank->add_option("--out", order.out, "Folder of the bank, new or empty")->required();
+  return bank;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"rollrig_blind: measurement sets with a known hidden cause, for judging a diagnosis"};
   app.require_subcommand(1);
   MakeOptions make;
-  CLI::App* make_app = app.add_subcommand("make", "One measurement set");
-  make_app->add_option("--effect", make.effects, "Effect, two as a,b, or none [none]");
-  make_app->add_option("--size", make.sizes, "Its size in its own unit, for two a,b [drawn]");
-  make_app->add_option("--seed", make.order.seed, "Decides all that is drawn [1]");
-  make_app->add_option("--out", make.out, "Folder of the set, new or empty")->required();
-  make_app->add_option("--truth", make.truth, "File for the truth, outside of the set");
-  make_app->add_option("--counterfactual", make.counterfactual,
-                       "Folder for the same set without effect and without noise");
-  make_app->add_option("--runs", make.order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
-  make_app->add_flag("--noise-free", make.order.noise_free, "No errors of sensors, no drop-outs");
-  make_app->add_flag("--nominal-base", make.order.nominal_base, "Base parameters as the files have them");
   BankOrder bank;
   std::string bank_effects;
-  CLI::App* bank_app = app.add_subcommand("bank", "A bank of sets in shuffled order, with one sealed truth");
-  bank_app->add_option("--seed", bank.seed, "Decides all that is drawn [1]");
-  bank_app->add_option("--each", bank.each, "Sets of each effect [20]")->check(CLI::Range(0, 2000));
-  bank_app->add_option("--none", bank.none, "Sets without effect [100]")->check(CLI::Range(0, 2000));
-  bank_app->add_option("--pairs", bank.pairs, "Sets of two effects [0]")->check(CLI::Range(0, 2000));
-  bank_app->add_option("--effects", bank_effects, "Effects, as a,b,c [all]");
-  bank_app->add_option("--runs", bank.runs, "Number of runs of a set [6]")->check(CLI::Range(1, kMostRuns));
-  bank_app->add_flag("--counterfactual", bank.counterfactual, "Also each set without effect and without noise");
-  bank_app->add_option("--out", bank.out, "Folder of the bank, new or empty")->required();
-  CLI::App* list_app = app.add_subcommand("list", "Effects, their sizes and laws");
+  const CLI::App* make_app = add_make(app, make);
+  const CLI::App* bank_app = add_bank(app, bank, bank_effects);
+  app.add_subcommand("list", "Effects, their sizes and laws");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    throw InputError({error.what(), "command line", "", "see rollrig_blind --help", ""});
+    throw InputError({error.what(), "command line", "", "make, bank or list; see rollrig_blind <command> --help",
+                      find_nearest_option(app, argc, argv)});
   }
   int status = kDone;
-  if (list_app->parsed()) status = list_command();
-  if (make_app->parsed()) status = make_command(make);
-  if (bank_app->parsed()) status = bank_command(bank, bank_effects);
+  if (make_app->parsed()) {
+    status = make_command(make);
+  } else if (bank_app->parsed()) {
+    status = bank_command(bank, bank_effects);
+  } else {
+    status = list_command();
+  }
   if (!std::cout.flush()) throw InputError({"standard output cannot be written to", "", "", "space for it", ""});
   return status;
 }

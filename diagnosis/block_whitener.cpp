@@ -86,4 +86,17 @@ void BlockWhitener::apply(double* values, std::size_t count) const {
   }
 }
 
+void BlockWhitener::undo(double* values, std::size_t count) const {
+  std::vector<double> drift(count, 0.0);
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    for (std::size_t c = 0; c < count; ++c) {
+      double& value = values[k * count + c];
+      const double innovation = value / step.inverse;
+      value = innovation + step.memory * drift[c];
+      drift[c] = step.carry * drift[c] + step.gain * innovation;
+    }
+  }
+}
+
 }  // namespace rollrig::diagnosis

@@ -37,6 +37,8 @@ class BlockWhitener {
 
   /// Whitens `count` columns of block means at once, in place; row k of column c is values[k * count + c].
   void apply(double* values, std::size_t count) const;
+  /// Takes `apply` back.
+  void undo(double* values, std::size_t count) const;
 
  private:
   struct Step {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "diagnosis/balance.h"
 #include "diagnosis/base_parameters.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/locations.h"
+#include "diagnosis/next_test.h"
 #include "diagnosis/race.h"
 #include "diagnosis/set_checks.h"
 #include "diagnosis/verdict.h"
@@ -72,7 +75,12 @@ Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOpt
   if (checks.implausible) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   diagnosis.not_excluded = find_not_excluded(race, settings.effects, diagnosis.causes);
-  report(0.7, "runs left out");
+  report(0.7, "where and what");
+  diagnosis.where = find_locations(set, remainder, race.null);
+  diagnosis.balance = find_balance(set, base, remainder, race.null, options.threads);
+  report(0.8, "next test");
+  diagnosis.next_test = propose_tests(set, base, remainder, race, options.threads);
+  report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
   report(1.0, "done");

@@ -90,13 +90,31 @@ Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& s
   return difference;
 }
 
-/// A hypothesis fitted to all runs but one (or to all), and what it says of every run.
-Eigen::VectorXd predict(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                        const Remainder& remainder, const Contender& contender, const Amplitudes& amplitudes,
-                        std::optional<std::size_t> held_out) {
-  constexpr int kMost = 15;
-  const Model model(set, base, contender.fit.hypothesis, held_out);
-  return refit(model, remainder, amplitudes, contender.fit.unknowns, 1, kMost).simulated;
+/// What a hypothesis, fitted without one run, says of every run. One step of Gauss and Newton from the fit to all runs,
+/// whose derivatives are known; the prediction itself is simulated.
+Eigen::VectorXd predict_without(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                const Remainder& remainder, const Contender& contender, std::size_t held_out) {
+  RowMatrix jacobian = contender.fit.jacobian;
+  Eigen::VectorXd residuals = contender.fit.residuals;
+  remainder.whiten(contender.amplitudes, jacobian);
+  remainder.whiten(contender.amplitudes, residuals);
+  for (const Series& series : set.series()) {
+    if (series.run != held_out) continue;
+    jacobian.middleRows(at(series.first_residual), at(series.size())).setZero();
+    residuals.segment(at(series.first_residual), at(series.size())).setZero();
+  }
+  const Eigen::Index n = jacobian.cols();
+  const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
+  Eigen::VectorXd unknowns =
+      contender.fit.unknowns - curvature.solve(jacobian.transpose() * residuals + contender.fit.unknowns);
+  const Model model(set, base, contender.fit.hypothesis);
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const PriorBounds bounds = model.own_bounds(i);
+    unknowns[at(i)] = std::clamp(unknowns[at(i)], bounds.lower, bounds.upper);
+  }
+  Eigen::VectorXd simulated;
+  if (!model.simulate(unknowns, 1, simulated, nullptr)) simulated.resize(0);
+  return simulated;
 }
 
 /// The contender with its base parameters at the files' values: only its own parameters and offsets are fitted.
@@ -107,7 +125,9 @@ double gap_as_calibrated(const PreparedSet& set, const Remainder& remainder, con
   const auto own = at(model.own_count());
   fixed.fit.unknowns.head(own) = contender.fit.unknowns.head(own);
   fixed.fit.unknowns.tail(at(set.offset_count())) = contender.fit.unknowns.tail(at(set.offset_count()));
-  const Eigen::VectorXd simulated = predict(set, {}, remainder, fixed, contender.amplitudes, std::nullopt);
+  constexpr int kMost = 6;
+  const Eigen::VectorXd simulated =
+      refit(model, remainder, contender.amplitudes, fixed.fit.unknowns, 1, kMost).simulated;
   if (simulated.size() == 0) return 0.0;
   Measure measure;
   const Eigen::VectorXd difference = find_difference(set, simulated);
@@ -186,8 +206,8 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
     const std::size_t run = job / hypotheses;
     const bool is_null = job % hypotheses == 0;
     const Contender& contender = is_null ? null : *cause;
-    const auto held_out = can_leave_out ? std::optional<std::size_t>(run) : std::nullopt;
-    (is_null ? before : after)[run] = predict(set, base, remainder, contender, contender.amplitudes, held_out);
+    const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
+    (is_null ? before : after)[run] = predict_without(set, base, remainder, contender, held_out);
   });
   Measure measured_before;
   Measure measured_after;

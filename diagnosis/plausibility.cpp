@@ -19,12 +19,13 @@ using scenarios::MeasuredRun;
 using scenarios::MeasurementSet;
 
 // Assumed, see RunMisfit.
-constexpr double kForce_N = 12.0;
+constexpr double kForce_N = 20.0;
 constexpr double kForceShare = 0.3;
 constexpr double kTemperature_K = 5.0;
 constexpr double kRiseShare = 0.4;
 constexpr double kPressure_Pa = 15e3;
 constexpr double kPressureShare = 0.4;
+constexpr double kUncompared = 1.05;  // just outside
 
 double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel, std::size_t row,
                       double simulated) {
@@ -52,7 +53,11 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
     measured_sum += unit.from_si(measured[row]);
     simulated_sum += unit.from_si(simulated[row]);
   }
-  if (rows.empty()) return misfit;
+  if (rows.empty()) {
+    const bool sampled = std::any_of(measured.begin(), measured.end(), [](double value) { return !std::isnan(value); });
+    misfit.rms = sampled ? kUncompared : 0.0;
+    return misfit;
+  }
   misfit.rms = std::sqrt(squares / static_cast<double>(rows.size()));
   misfit.ratio = measured_sum / simulated_sum;
   return misfit;

@@ -27,11 +27,12 @@ constexpr double kLargestMisfit = 10.0;
 
 /// How far a run lies from its simulation, in units of what uncertain parameters and effects of the
 /// catalogue can make.
-/// Equation  u = (y - h)/tolerance; tolerance of a torque R (kForce_N) + 0.3 |h|, of a temperature
+/// Equation  u = (y - h)/tolerance; tolerance of a torque 20 N R + 0.3 |h|, of a temperature
 ///           5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|
 /// Symbols   y measured, h simulated, R drum radius [m]
-/// Source    Assumed: each effect of the catalogue at the upper end of its prior, with the pressure record
-///           off by 15 kPa and the air at the tire by 6 K (effects.md), stays below 1
+///           A torque with samples of which none can be compared counts as just outside: its speed may not be one.
+/// Source    Assumed: an effect at the upper end of its prior, with the pressure record off by 15 kPa and the air
+///           at the tire by 6 K (effects.md), stays below 1; of draws from the priors at most 1 in 100 is above 2
 /// Checked   tests/diagnosis/set_checks_test.cpp
 struct RunMisfit {
   std::vector<ChannelMisfit> channels;

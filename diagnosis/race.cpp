@@ -123,8 +123,9 @@ std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, 
 std::vector<Contender> refit_all(const Contender& from, const std::vector<Screened>& chosen, const Contender& null,
                                  const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                  const Remainder& remainder, const RaceSettings& settings) {
-  constexpr int kFirstSteps = 6;
-  constexpr double kHopeless_nats = 100.0;  // Assumed: more than the steps that are left could gain
+  constexpr int kFirstSteps = 4;
+  constexpr double kHopeless_nats = 20.0;  // Assumed: more than the steps that are left could gain ...
+  constexpr double kHopelessShare = 0.25;  // ... and so much of what the best gains
   std::vector<Contender> contenders(chosen.size());
   const auto model_of = [&](std::size_t i) { return Model(set, base, from.fit.hypothesis.with(chosen[i].effect)); };
   parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
@@ -135,7 +136,8 @@ std::vector<Contender> refit_all(const Contender& from, const std::vector<Screen
   double best = std::max(from.log_evidence, from.log_remainder);
   for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
   parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
-    const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) < best - kHopeless_nats;
+    const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
+                          best - std::max(kHopeless_nats, kHopelessShare * (best - from.log_evidence));
     if (hopeless) return;
     contenders[i] = fit_contender(model_of(i), remainder, settings.model_error, null, contenders[i].fit.unknowns, 1);
   });

@@ -28,10 +28,12 @@ class WhitenedResiduals : public ceres::CostFunction {
     Eigen::VectorXd residuals;
     RowMatrix jacobian;
     if (!model_.evaluate(u, threads_, residuals, derive ? &jacobian : nullptr)) return false;
+    const Eigen::VectorXd whitened = residuals;
     remainder_.whiten(amplitudes_, residuals);
     Eigen::Map<Eigen::VectorXd>(out, rows) = residuals;
     Eigen::Map<Eigen::VectorXd>(out + rows, unknowns) = u;
     if (derive) {
+      last_ = {u, whitened, jacobian};
       remainder_.whiten(amplitudes_, jacobian);
       Eigen::Map<RowMatrix> all(jacobians[0], rows + unknowns, unknowns);
       all.topRows(rows) = jacobian;
@@ -40,11 +42,20 @@ class WhitenedResiduals : public ceres::CostFunction {
     return true;
   }
 
+  /// Whitened residuals and their derivatives where they were last derived.
+  struct Derived {
+    Eigen::VectorXd unknowns;
+    Eigen::VectorXd residuals;
+    RowMatrix jacobian;
+  };
+  const Derived& last() const { return last_; }
+
  private:
   const Model& model_;
   const Remainder& remainder_;
   const Amplitudes& amplitudes_;
   int threads_;
+  mutable Derived last_;
 };
 
 }  // namespace
@@ -72,7 +83,12 @@ Fit refit(const Model& model, const Remainder& remainder, const Amplitudes& ampl
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return fit;
-  if (!model.evaluate(fit.unknowns, threads, fit.residuals, &fit.jacobian)) return fit;
+  if (residuals->last().unknowns == fit.unknowns) {
+    fit.residuals = residuals->last().residuals;
+    fit.jacobian = residuals->last().jacobian;
+  } else if (!model.evaluate(fit.unknowns, threads, fit.residuals, &fit.jacobian)) {
+    return fit;
+  }
   if (!model.simulate(fit.unknowns, threads, fit.simulated, nullptr, true)) return fit;
   fit.cost = summary.final_cost;
   fit.converged = summary.termination_type == ceres::CONVERGENCE;

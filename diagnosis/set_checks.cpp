@@ -18,7 +18,8 @@ namespace {
 using scenarios::MeasuredRun;
 using scenarios::MeasurementSet;
 
-constexpr double kOutside = 2.0;  // tolerances of plausibility.h; effects of unlikely size stay below
+constexpr double kOdd = 0.3;      // tolerances of plausibility.h from which a mistake is looked for
+constexpr double kOutside = 2.0;  // from which none is needed to doubt the set; effects of unlikely size stay below
 
 bool has_samples(const MeasuredRun& run, const std::string& channel) {
   if (!run.has(channel)) return false;
@@ -181,12 +182,24 @@ void check_stuck(const MeasurementSet& set, const Replays& replays, int threads,
   checks.warnings.insert(checks.warnings.end(), stuck.warnings.begin(), stuck.warnings.end());
 }
 
+/// Where all sensors stand still nothing is left to diagnose.
+void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
+  const std::vector<std::string> channels = scenarios::measured_channels(kept.kind);
+  for (const MeasuredRun& run : kept.runs) {
+    const auto is_left = [&run](const std::string& channel) { return !find_compared_rows(run, channel).empty(); };
+    if (checks.doubtful.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
+  }
+  const DoubtfulRows& first = checks.doubtful.front();
+  throw InputError({"every measured channel stands still where it should move: stuck sensors, or no measurement at all",
+                    kept.runs[first.run].file, 0, first.channel, "", "samples of a sensor that works", ""});
+}
+
 /// Columns and units.
 void check_plausibility(const MeasurementSet& kept, const Replays& replays, int threads, SetChecks& checks) {
   const std::vector<RunMisfit>& misfits = replays.misfits;
   std::vector<std::size_t> odd;
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
-    if (misfits[r].worst() > 1.0) odd.push_back(r);
+    if (misfits[r].worst() > kOdd) odd.push_back(r);
   }
   if (odd.empty()) return;
   const std::optional<Repair> repair = find_repair(kept, odd, Mistakes::kAll, threads);
@@ -221,6 +234,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
     const bool simulated = replays.misfits[r].failure.empty();
     if (simulated) replays.misfits[r] = calc_misfit(kept, kept.runs[r], replays.recordings[r]);
   }
+  require_rest(kept, checks);
   check_plausibility(kept, replays, threads, checks);
   if (checks.implausible) return checks;
   const std::vector<std::string> of_tire = check_tire(kept, replays, threads);

@@ -14,7 +14,7 @@ namespace rollrig::diagnosis {
 namespace {
 
 constexpr std::size_t kColumns = 80;
-constexpr std::size_t kLabelColumns = 14;
+constexpr std::size_t kLabelColumns = 13;
 constexpr std::size_t kTextColumns = kColumns - kLabelColumns;
 
 std::string line(const std::string& label, const std::string& text) {
@@ -47,6 +47,14 @@ std::string plain_name(const std::string& key) {
   return name;
 }
 
+/// A channel in one word: the last of its name, or what has the temperature.
+std::string short_name(const std::string& channel) {
+  if (channel == "liner_temperature_degC") return "liner";
+  if (channel == "gas_temperature_degC") return "gas";
+  const std::string name = plain_name(channel);
+  return name.substr(name.rfind(' ') + 1);
+}
+
 std::string with_unit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
@@ -63,56 +71,57 @@ double probability_of(const Diagnosis& diagnosis, const char* name) {
   return at == diagnosis.probability.end() ? 0.0 : at->second;
 }
 
-std::string names_of(const Cause& cause) { return fmt::format("{}", fmt::join(cause.effects, " with ")); }
-
-/// How a verdict is said, after the set's name; nothing of it is cut off.
 std::string verdict_line(const Diagnosis& diagnosis) {
-  std::string text;
+  const std::string none = percent(probability_of(diagnosis, "none"));
+  const std::string unknown = percent(probability_of(diagnosis, "unknown"));
   const bool named = !diagnosis.causes.empty();
   switch (diagnosis.verdict) {
     case Verdict::kNoGap:
-      text = fmt::format("no gap beyond the noise, probability {}", percent(probability_of(diagnosis, "none")));
-      break;
+      return line("Verdict", "no gap beyond the noise, probability " + none);
     case Verdict::kExplained:
-      text = fmt::format("explained, probability {} (no gap {}, something unknown {})",
-                         named ? percent(diagnosis.causes.front().probability) : "0 %",
-                         percent(probability_of(diagnosis, "none")), percent(probability_of(diagnosis, "unknown")));
-      break;
+      return line("Verdict", fmt::format("explained, probability {} (none {}, unknown {})",
+                                         named ? percent(diagnosis.causes.front().probability) : "0 %", none, unknown));
     case Verdict::kUnexplained:
-      text = named && !diagnosis.causes.front().adequate && probability_of(diagnosis, "unknown") < 0.5
-                 ? "unexplained: looks like the cause below, but something else is missing"
-                 : fmt::format("unexplained: something outside the catalogue, probability {}",
-                               percent(probability_of(diagnosis, "unknown")));
-      break;
+      if (named && !diagnosis.causes.front().adequate) {
+        return line("Verdict", "unexplained: looks like this cause, but something else is missing");
+      }
+      return line("Verdict", fmt::format("unexplained: outside the catalogue, probability {}", unknown));
   }
-  return clip(diagnosis.set, kColumns) + "\n" + line("Verdict", text);
-}
-
-/// "fall 0.019 1/K (95 %: 0.015 to 0.023)"; the unit stands once, behind the value.
-std::string describe_size(const ParameterEstimate& size) {
-  const std::string key = size.name.substr(size.name.rfind('.') + 1);
-  return fmt::format("{} {} (95 %: {:.3g} to {:.3g})", plain_name(key),
-                     with_unit(fmt::format("{:.3g}", size.value), size.unit), size.low_95, size.high_95);
+  return {};
 }
 
 /// The first parameter of each effect is its size.
-std::vector<std::string> describe_sizes(const Cause& cause) {
-  std::vector<std::string> sizes;
+std::vector<ParameterEstimate> find_sizes(const Cause& cause) {
+  std::vector<ParameterEstimate> sizes;
   for (const std::string& effect : cause.effects) {
     const auto first =
         std::find_if(cause.parameters.begin(), cause.parameters.end(),
                      [&effect](const ParameterEstimate& at) { return at.name.rfind(effect + ".", 0) == 0; });
-    if (first != cause.parameters.end()) sizes.push_back(describe_size(*first));
+    if (first != cause.parameters.end()) sizes.push_back(*first);
   }
   return sizes;
 }
 
+/// "fall 0.0192 1/K"
+std::string describe_size(const ParameterEstimate& size) {
+  const std::string key = size.name.substr(size.name.rfind('.') + 1);
+  return fmt::format("{} {}", plain_name(key), with_unit(fmt::format("{:.3g}", size.value), size.unit));
+}
+
+std::string describe_interval(const ParameterEstimate& size) {
+  return fmt::format("{:.3g} to {:.3g}", size.low_95, size.high_95);
+}
+
+/// One effect: its size and interval. Two: their sizes; the intervals stand in the next line.
 std::string cause_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
   if (diagnosis.causes.empty()) return line("Cause", "none of the catalogue");
-  const Cause& cause = diagnosis.causes.front();
-  const std::string sizes = fmt::format("{}", fmt::join(describe_sizes(cause), "; "));
-  return line("Cause", names_of(cause) + (sizes.empty() ? "" : ": " + sizes));
+  const std::vector<ParameterEstimate> sizes = find_sizes(diagnosis.causes.front());
+  std::vector<std::string> parts;
+  for (const ParameterEstimate& size : sizes) parts.push_back(describe_size(size));
+  if (sizes.size() == 1) parts[0] += " (95 %: " + describe_interval(sizes[0]) + ")";
+  const std::string names = fmt::format("{}", fmt::join(diagnosis.causes.front().effects, " with "));
+  return line("Cause", parts.empty() ? names : fmt::format("{}: {}", names, fmt::join(parts, ", ")));
 }
 
 /// The summary of an effect, where the catalogue has it.
@@ -125,26 +134,34 @@ std::string meaning_of(const std::string& id) {
 
 std::string alternatives_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) {
-    return line("", "the simulation stands as it is, within the uncertainty of its numbers");
+    return line("", "the simulation stands, within the uncertainty of its numbers");
   }
   if (diagnosis.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
   const Cause& cause = diagnosis.causes.front();
-  if (cause.indistinguishable_from.empty()) return line("", meaning_of(cause.effects.front()));
-  return line("or as well",
-              join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - 24) + " (this set cannot tell)");
+  if (!cause.indistinguishable_from.empty()) {
+    const std::string why = " (this set cannot tell)";
+    return line("or as well", join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why);
+  }
+  if (cause.effects.size() == 1) return line("", meaning_of(cause.effects.front()));
+  std::vector<std::string> intervals;
+  for (const ParameterEstimate& size : find_sizes(cause)) intervals.push_back(describe_interval(size));
+  return line("", fmt::format("95 %: {}", fmt::join(intervals, ", ")));
 }
 
 std::string where_line(const Diagnosis& diagnosis) {
-  if (diagnosis.where.empty()) return line("Where", "nowhere above the noise");
+  if (diagnosis.where.empty()) {
+    return line("Where", diagnosis.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
+  }
   const Location& at = diagnosis.where.front();
   const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of the gap",
                                        with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
-  std::string place = fmt::format("{}, run {}, {}", plain_name(at.channel), at.run, at.phase);
+  const std::string place = fmt::format("{} in {}, {}", short_name(at.channel), at.run, at.phase);
   return line("Where", clip(place, kTextColumns - count_characters(size)) + size);
 }
 
 std::string equation_line(const Diagnosis& diagnosis) {
-  if (diagnosis.balance.empty()) return line("Equation", "none needs a push");
+  if (diagnosis.balance.empty())
+    return line("Equation", diagnosis.verdict == Verdict::kNoGap ? "none needs a push" : "none stands out");
   std::vector<std::string> shares;
   for (const BalanceShare& share : diagnosis.balance) {
     shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));
@@ -152,33 +169,43 @@ std::string equation_line(const Diagnosis& diagnosis) {
   return line("Equation", join_to_fit(shares, ", ", kTextColumns));
 }
 
-std::string gap_lines(const Gap& gap) {
-  std::string text =
-      line("Gap", fmt::format("{:.1f} noise floors as calibrated; {:.1f} recalibrated, {:.1f} with cause",
-                              gap.as_calibrated.before, gap.recalibrated.before, gap.recalibrated.after));
+/// Two digits, and no more than two behind the point.
+std::string short_number(double value) {
+  return std::abs(value) < 0.995 ? fmt::format("{:.2f}", value) : fmt::format("{:.2g}", value);
+}
+
+/// A whole number of percent, without a sign on zero.
+std::string whole(double percent) { return fmt::format("{:.0f}", std::round(percent) + 0.0); }
+
+std::string gap_lines(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned", gap.as_calibrated.before,
+                                   gap.recalibrated.before);
+  if (!diagnosis.causes.empty()) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
   std::vector<std::string> channels;
   for (const ChannelGap& at : gap.channels) {
-    std::string name = plain_name(at.channel);
-    name = name.substr(name.rfind(' ') + 1);
-    channels.push_back(fmt::format("{} {:.2g} to {:.2g} {}", name, at.before, at.after, at.unit));
+    channels.push_back(
+        fmt::format("{} {}->{} {}", short_name(at.channel), short_number(at.before), short_number(at.after), at.unit));
   }
-  return text +
-         line("  in units", channels.empty() ? "no channel is compared" : join_to_fit(channels, "; ", kTextColumns));
+  const std::string units = channels.empty() ? "no channel is compared" : join_to_fit(channels, ", ", kTextColumns);
+  return line("Gap", floors) + line("  in units", units);
 }
 
 std::string shrinkage_line(const Gap& gap) {
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
-    parts.push_back(fmt::format("{:.0f} % ({:.0f} to {:.0f} %) on {} run{} left out", *gap.shrink_percent,
-                                gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1], gap.held_out.size(),
-                                gap.held_out.size() == 1 ? "" : "s"));
+    const std::size_t runs = gap.held_out.size();
+    const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held-out run{}", runs, runs == 1 ? "" : "s");
+    parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
+                                whole(gap.shrink_ci95_percent[1]), on));
   } else {
-    parts.emplace_back("nothing to shrink above the noise on runs left out");
+    parts.emplace_back("nothing above the noise to shrink");
   }
-  if (gap.recalibration_percent.has_value())
-    parts.push_back(fmt::format("retuning {:.0f} %", *gap.recalibration_percent));
-  if (gap.black_box_percent.has_value()) parts.push_back(fmt::format("black box {:.0f} %", *gap.black_box_percent));
-  return line("Shrinks by", join_to_fit(parts, "; ", kTextColumns));
+  if (gap.recalibration_percent.has_value()) {
+    parts.push_back("retuning " + whole(*gap.recalibration_percent) + " %");
+  }
+  if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
+  return line("Shrinks by", join_to_fit(parts, ", ", kTextColumns));
 }
 
 std::string next_line(const Diagnosis& diagnosis) {
@@ -192,7 +219,7 @@ std::string next_line(const Diagnosis& diagnosis) {
 
 std::string format_summary(const Diagnosis& diagnosis) {
   std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + alternatives_line(diagnosis) +
-                     where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis.gap) +
+                     where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) +
                      shrinkage_line(diagnosis.gap);
   text +=
       line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: every effect in the race would have shown"

@@ -27,13 +27,30 @@ sim::Program make_drum_replay(const scenarios::MeasuredRun& run) {
   return rigs::refine_near_standstill(scenarios::make_replay(run), rigs::index_of(rigs::DrumInput::kSpeed));
 }
 
+namespace {
+
+/// Gives effects of the port "trace" the recorded inputs that they may read.
+template <class S>
+void add_given_channels(const scenarios::MeasuredRun& run, sim::Recording<S>& recording) {
+  for (const char* name : {"load_N", "ambient_degC"}) {
+    const std::vector<double>& given = run.columns.at(name);
+    recording.channels.push_back({name});
+    recording.values.emplace_back(given.begin(), given.end());
+  }
+}
+
+}  // namespace
+
 template <class S>
 sim::Recording<S> replay_drum_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
                                   const sim::Program& program, models::Corner<S>& corner, rigs::Detail detail) {
   rigs::QuasiStaticDrum<S> drum(corner, make_start<S>(set, run), run.has("surface_temperature_degC"), detail);
   sim::FixedGridIntegrator<S> integrator(drum);
   sim::Recording<S> recording = sim::simulate<S>(drum, integrator, program);
-  rigs::apply_trace_effects(corner, recording);
+  if (rigs::has_trace_effects(corner)) {
+    add_given_channels(run, recording);
+    rigs::apply_trace_effects(corner, recording);
+  }
   return recording;
 }
 

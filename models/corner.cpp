@@ -172,11 +172,14 @@ void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& 
   using std::abs;
   const TireThermalParameters<S>& thermal = context_.tire.thermal;
   const std::size_t rubber = index_of(Node::kRubber);
-  network.heat_capacity_J_per_K = {};  // of further nodes: theirs who ask for them
-  network.heat_W = {};
-  network.air_W_per_K = {};
-  network.road_W_per_K = {};
-  network.link_W_per_K = {};
+  for (std::size_t i = 0; i < kNodeCount; ++i) {  // of further nodes: theirs who ask for them
+    if (!nodes_[i]) continue;
+    network.heat_capacity_J_per_K[i] = network.heat_W[i] = zero<S>();
+    network.air_W_per_K[i] = network.road_W_per_K[i] = zero<S>();
+    for (std::size_t j = i + 1; j < kNodeCount; ++j) {
+      if (nodes_[j]) network.link_W_per_K[i][j] = zero<S>();
+    }
+  }
   network.under_way_J = zero<S>();
   network.under_way_W = zero<S>();
   network.heat_capacity_J_per_K[rubber] = thermal.heat_capacity_J_per_K;

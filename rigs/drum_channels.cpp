@@ -57,9 +57,10 @@ std::vector<sim::Channel> make_drum_channels(const std::vector<models::CornerSta
                                              Detail detail) {
   const auto mean = [](const char* name, DrumIntegral integral) { return sim::Channel{name, index_of(integral)}; };
   std::vector<sim::Channel> channels;
-  if (detail == Detail::kFull) channels.push_back({"speed_km_h"});
-  for (const char* given : {"load_N", "ambient_degC"}) channels.push_back({given});
-  if (detail == Detail::kFull && surface_recorded) channels.push_back({"surface_temperature_degC"});
+  if (detail == Detail::kFull) {
+    for (const char* given : {"speed_km_h", "load_N", "ambient_degC"}) channels.push_back({given});
+    if (surface_recorded) channels.push_back({"surface_temperature_degC"});
+  }
   channels.push_back(mean("drum_torque_Nm", DrumIntegral::kDrumTorque));
   channels.push_back(mean("liner_temperature_degC", DrumIntegral::kLinerTemperature));
   channels.push_back(mean("cavity_pressure_kPa", DrumIntegral::kCavityPressure));

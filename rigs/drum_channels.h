@@ -47,8 +47,7 @@ enum class DrumIntegral : std::size_t {
 };
 
 /// How much of a run is integrated: the four channels that a rig can measure (for identification, where
-/// every integral costs), or everything that the recording and the audits want. With the four, load and ambient
-/// are recorded, which effects of the port "trace" read.
+/// every integral costs), or everything that the recording and the audits want.
 enum class Detail { kMeasured, kFull };
 
 /// Stores of energy, in this order.
@@ -77,22 +76,25 @@ struct DrumStart {
   models::Inflation<S> inflation() const { return {cold_pressure_Pa, tire_temperature_K, ambient_pressure_Pa}; }
 };
 
-/// The recorded inputs of a segment at a time.
+/// Puts the recorded inputs of a segment at a time into `inputs`, all else as on a drum without effects.
 template <class S>
-models::InputPort<S> read_drum_inputs(const sim::Segment& segment, double elapsed_s, bool surface_recorded) {
+void read_drum_inputs(const sim::Segment& segment, double elapsed_s, bool surface_recorded,
+                      models::InputPort<S>& inputs) {
   const auto value = [&](DrumInput input) { return S(segment.inputs[index_of(input)].at(elapsed_s)); };
-  models::InputPort<S> inputs;
   inputs.speed_m_s = value(DrumInput::kSpeed);
   inputs.acceleration_m_s2 = S(segment.inputs[index_of(DrumInput::kSpeed)].slope_per_s);
   inputs.load_N = value(DrumInput::kLoad);
   inputs.ambient_K = value(DrumInput::kAmbient);
   inputs.surface_recorded = surface_recorded;
   inputs.surface_K = surface_recorded ? value(DrumInput::kSurface) : inputs.ambient_K;
-  inputs.longitudinal_force_N = S(0.0);
-  inputs.brake_force_N = S(0.0);
-  inputs.slope = S(0.0);
-  inputs.wind_m_s = S(0.0);
+}
+
+/// The recorded inputs of a segment at a time.
+template <class S>
+models::InputPort<S> read_drum_inputs(const sim::Segment& segment, double elapsed_s, bool surface_recorded) {
+  models::InputPort<S> inputs;
   inputs.air_density_ratio = S(1.0);
+  read_drum_inputs(segment, elapsed_s, surface_recorded, inputs);
   return inputs;
 }
 

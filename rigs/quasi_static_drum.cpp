@@ -31,6 +31,7 @@ void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S*
   segment_start_s_ = time_s;
   motor_on_ = true;
   now_ = {};
+  now_.recorded.air_density_ratio = S(1.0);
   now_.inflation = start_.inflation();
   corner_.initialize(start_.tire_temperature_K, start_.history, state + kFirstCornerState);
   state[kSpeedState] = S(first.inputs[index_of(DrumInput::kSpeed)].start);
@@ -65,7 +66,7 @@ void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_
 template <class S>
 void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   const S* x = state + kFirstCornerState;
-  now_.recorded = read_drum_inputs<S>(segment_, time_s - segment_start_s_, surface_recorded_);
+  read_drum_inputs(segment_, time_s - segment_start_s_, surface_recorded_, now_.recorded);
   corner_.apply_inputs(x, now_);
   models::Motion<S>& motion = now_.motion;
   motion.speed_m_s = motor_on_ ? now_.acting.speed_m_s : state[kSpeedState];
@@ -153,12 +154,7 @@ S QuasiStaticDrum<S>::watch(const std::string& name, double time_s, const S* sta
 
 template <class S>
 void QuasiStaticDrum<S>::observe(double time_s, const S* state, S* values) {
-  if (detail_ == Detail::kMeasured) {
-    const models::InputPort<S> inputs = read_drum_inputs<S>(segment_, time_s - segment_start_s_, surface_recorded_);
-    *values++ = inputs.load_N;
-    *values++ = inputs.ambient_K;
-    return;
-  }
+  if (detail_ == Detail::kMeasured) return;
   find_motion(time_s, state);
   *values++ = motor_on_ ? now_.recorded.speed_m_s : now_.motion.speed_m_s;
   *values++ = now_.recorded.load_N;

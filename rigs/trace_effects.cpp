@@ -1,15 +1,12 @@
 #include "rigs/trace_effects.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rollrig::rigs {
 
 template <class S>
 void apply_trace_effects(const models::Corner<S>& corner, sim::Recording<S>& recording, const ChannelNames& name_of) {
-  const bool any = std::any_of(corner.effects().begin(), corner.effects().end(),
-                               [](const auto& on) { return on.hooks->trace != nullptr; });
-  if (!any) return;
+  if (!has_trace_effects(corner)) return;
   models::TracePort<S> trace;
   trace.context = &corner.context();
   trace.time_s = recording.time_s;

@@ -12,6 +12,15 @@ namespace rollrig::rigs {
 /// The name by which an effect knows a recorded channel; empty for channels that are not its own to change.
 using ChannelNames = std::function<std::string(const std::string& recorded)>;
 
+/// Whether any effect that is on has a trace function.
+template <class S>
+bool has_trace_effects(const models::Corner<S>& corner) {
+  for (const auto& on : corner.effects()) {
+    if (on.hooks->trace != nullptr) return true;
+  }
+  return false;
+}
+
 /// Runs the trace functions of the effects that are on over the channels of a recording. Where several wheels are
 /// recorded, it is called for each with the names of its channels.
 template <class S>

@@ -41,6 +41,7 @@ class Sampler {
     state_.resize(system.state_count());
     for (const Channel& channel : out_.channels) instant_count_ += channel.is_mean() ? 0 : 1;
     instant_.resize(instant_count_);
+    for (std::vector<S>& column : out_.values) column.reserve(program.sample_times_s.size());
   }
 
   void begin_run(const std::vector<S>& integrals) { mean_start_ = integrals; }
@@ -94,7 +95,7 @@ class Sampler {
     row_open_ = true;
     row_written_ = is_written(next_);
     if (!row_written_) return;
-    integrator.interpolate_state(row_s, state_.data());
+    if (instant_count_ > 0) integrator.interpolate_state(row_s, state_.data());
     write_instants(row_s);
   }
 

@@ -38,6 +38,8 @@ const EffectKind kind_bearing_load_friction{
     "N",
     "friction at 5.4 kN and at speed",
     0.0,
+    0.0,
+    50.0,
     log_normal(0.3, 3.0, 0.15, 5.0),
     false,
     0.0,

@@ -74,6 +74,8 @@ const EffectKind kind_bearing_warmup{
     "1/K",
     "relative fall of c0 + c1 v per K, from soaked at 25 degC to steady at 80 km/h",
     0.0,
+    0.0,
+    0.2,
     log_normal(0.005, 0.04, 0.002, 0.06),
     false,
     0.0,

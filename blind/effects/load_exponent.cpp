@@ -33,6 +33,8 @@ const EffectKind kind_load_exponent{
     "1",
     "exponent of the loss over load at the reference load",
     1.0,
+    0.3,
+    2.0,
     normal(0.85, 1.15, 0.7, 1.3),
     false,
     0.02,

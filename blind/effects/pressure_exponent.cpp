@@ -30,6 +30,8 @@ const EffectKind kind_pressure_exponent{
     "1",
     "exponent of the loss over pressure at the reference pressure",
     0.4,
+    0.0,
+    2.0,
     normal(0.25, 0.55, 0.1, 0.7),
     false,
     0.02,

@@ -67,6 +67,8 @@ const EffectKind kind_rim_heat{
     "W/K",
     "conductance from gas and bead to the rim",
     0.0,
+    0.0,
+    50.0,
     log_normal(0.5, 4.0, 0.3, 6.5),
     false,
     0.0,

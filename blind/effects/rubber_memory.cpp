@@ -60,6 +60,8 @@ const EffectKind kind_rubber_memory{
     "percent",
     "higher loss after long rest",
     0.0,
+    0.0,
+    100.0,
     log_normal(1.0, 8.0, 0.6, 12.0),
     false,
     0.0,

@@ -62,6 +62,8 @@ const EffectKind kind_slow_leak{
     "kPa/h",
     "loss of pressure at the reference pressure; through a hole with gas at 25 degC, through rubber at 40 degC",
     0.0,
+    0.0,
+    50.0,
     log_normal(0.2, 2.0, 0.1, 3.5),
     false,
     0.0,

@@ -40,6 +40,8 @@ const EffectKind kind_standing_wave{
     "N",
     "further loss at 120 km/h and the reference load",
     0.0,
+    0.0,
+    50.0,
     log_normal(0.5, 4.0, 0.25, 6.0),
     false,
     0.0,

@@ -37,6 +37,8 @@ const EffectKind kind_tire_loss_in_skim{
     "N",
     "further loss of the tire at the skim load and 25 degC",
     0.0,
+    0.0,
+    50.0,
     log_normal(0.3, 3.0, 0.15, 5.0),
     false,
     0.0,

@@ -41,6 +41,8 @@ const EffectKind kind_torque_zero_drift{
     "N/10min",
     "mean rate over the first 30 min of a run, as force at the drum's surface",
     0.0,
+    -10.0,
+    10.0,
     normal(-0.5, 0.5, -1.2, 1.2),
     false,
     0.04,

@@ -30,15 +30,16 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
 }
 
 std::string clip(const std::string& text, std::size_t width) {
-  if (count_characters(text) <= width) return text;
   const std::string mark = "...";
-  std::istringstream words(text);
+  if (count_characters(text) <= width) return text;
   std::string kept;
-  for (std::string word; words >> word;) {
-    const std::string longer = kept.empty() ? word : kept + ' ' + word;
-    if (count_characters(longer) + mark.size() > width) break;
-    kept = longer;
+  for (const char c : text) {
+    const bool starts_character = (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    if (starts_character && count_characters(kept) + mark.size() >= width) break;
+    kept += c;
   }
+  const std::size_t space = kept.rfind(' ');
+  if (space != std::string::npos && 3 * space >= 2 * kept.size()) kept.resize(space);
   return kept + mark;
 }
 

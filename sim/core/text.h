@@ -12,7 +12,8 @@ std::size_t count_characters(const std::string& text);
 /// Text broken into lines of at most `width`, each indented.
 std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 80);
 
-/// Text cut after a word so that it has at most `width` characters, with "..." where something was cut.
+/// Text cut so that it has at most `width` characters, with "..." where something was cut: after a word, unless that
+/// would take more than a third.
 std::string clip(const std::string& text, std::size_t width);
 
 }  // namespace rollrig

@@ -232,7 +232,7 @@ TEST_CASE("describe explains scenarios, effects and assets within 80 columns", "
 
 TEST_CASE("help stands everywhere and completion scripts parse", "[fast]") {
   for (const char* command : {"", "run", "sweep", "regress", "validate", "list", "describe", "fit", "fit tire",
-                              "fit road-load", "completion"}) {
+                              "fit road-load", "diagnose", "completion"}) {
     const auto run = run_program(std::string(command) + " --help");
     INFO(command);
     CHECK(run.status == 0);

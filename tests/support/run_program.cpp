@@ -6,10 +6,8 @@
 
 namespace rollrig::tests {
 
-namespace {
-
-ProgramResult run(const char* program, const std::string& arguments, const std::string& folder,
-                  const std::string& prefix) {
+ProgramResult run_other(const char* program, const std::string& arguments, const std::string& folder,
+                        const std::string& prefix) {
   const TemporaryFolder logs;
   const std::string command = "cd '" + folder + "' && { " + prefix + " '" + program + "' " + arguments + "; } > '" +
                               logs.file("out") + "' 2> '" + logs.file("err") + "'";
@@ -21,14 +19,12 @@ ProgramResult run(const char* program, const std::string& arguments, const std::
   return result;
 }
 
-}  // namespace
-
 ProgramResult run_program(const std::string& arguments, const std::string& folder, const std::string& prefix) {
-  return run(ROLLRIG_PROGRAM, arguments, folder, prefix);
+  return run_other(ROLLRIG_PROGRAM, arguments, folder, prefix);
 }
 
 ProgramResult run_blind(const std::string& arguments, const std::string& folder, const std::string& prefix) {
-  return run(ROLLRIG_BLIND_PROGRAM, arguments, folder, prefix);
+  return run_other(ROLLRIG_BLIND_PROGRAM, arguments, folder, prefix);
 }
 
 }  // namespace rollrig::tests

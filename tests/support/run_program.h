@@ -16,6 +16,9 @@ struct ProgramResult {
 /// Runs `rollrig <arguments>` through a shell in `folder`; `prefix` stands before it ("ulimit -f 8;").
 ProgramResult run_program(const std::string& arguments, const std::string& folder = "/tmp",
                           const std::string& prefix = "");
+/// Likewise the program of a path.
+ProgramResult run_other(const char* program, const std::string& arguments, const std::string& folder = "/tmp",
+                        const std::string& prefix = "");
 /// Likewise `rollrig_blind`.
 ProgramResult run_blind(const std::string& arguments, const std::string& folder = "/tmp",
                         const std::string& prefix = "");

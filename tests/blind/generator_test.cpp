@@ -1,0 +1,183 @@
+// What every set and bank of the foreign generator must be: repeatable, and silent about its cause.
+#include <fmt/format.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "sim/core/file_io.h"
+#include "tests/blind/blind_fixture.h"
+#include "tests/support/run_program.h"
+
+namespace fs = std::filesystem;
+using namespace rollrig;
+using namespace rollrig::tests;
+
+namespace {
+
+std::map<std::string, std::string> read_folder(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_file(entry.path().string());
+  }
+  return files;
+}
+
+std::map<std::string, std::string> make_files(const std::string& arguments) {
+  const TemporaryFolder folder;
+  const auto made = run_blind("make " + arguments + " --out " + folder.file("set"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  return read_folder(folder.file("set"));
+}
+
+/// The first columns of a CSV: what the rig was told.
+std::string given_columns(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string given;
+  for (std::string line; std::getline(in, line);) {
+    std::size_t end = 0;
+    for (int comma = 0; comma < 4; ++comma) end = line.find(',', end + 1);
+    given += line.substr(0, end) + "\n";
+  }
+  return given;
+}
+
+std::vector<std::string> effect_names() {
+  const auto listed = run_blind("list");
+  std::istringstream in(listed.out);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty() && line.front() != ' ') names.push_back(line);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("the same order gives the same set to the bit, another seed another set", "[fast]") {
+  const auto first = make_files("--effect rim_heat --seed 5");
+  CHECK(make_files("--effect rim_heat --seed 5") == first);
+  CHECK(make_files("--effect rim_heat --seed 6") != first);
+  const auto fewer = make_files("--effect rim_heat --seed 5 --runs 2");
+  for (const auto& [name, content] : fewer) {
+    INFO(name);
+    if (name != "set.toml") CHECK(first.at(name) == content);  // runs do not depend on each other
+  }
+  CHECK(fewer.size() == 5);
+}
+
+TEST_CASE("nothing but the measured values depends on the effect", "[fast]") {
+  const auto none = make_files("--effect none --seed 11");
+  for (const std::string& effect : effect_names()) {
+    const auto with = make_files("--effect " + effect + " --seed 11");
+    REQUIRE(with.size() == none.size());
+    for (const auto& [name, content] : none) {
+      INFO(effect << ", " << name);
+      REQUIRE(with.count(name) == 1);
+      if (fs::path(name).extension() == ".csv") {
+        CHECK(given_columns(with.at(name)) == given_columns(content));
+      } else {
+        CHECK(with.at(name) == content);
+      }
+    }
+  }
+}
+
+TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") {
+  const TemporaryFolder folder;
+  const auto made = run_blind("make --effect slow_leak,clock_shift --seed 4711 --truth " + folder.file("truth.json") +
+                              " --out " + folder.file("set"));
+  REQUIRE(made.status == 0);
+  CHECK(made.out.empty());
+  const Json truth = Json::parse(read_file(folder.file("truth.json")));
+  CHECK(truth.at("effects").size() == 2);
+  for (const auto& [name, content] : read_folder(folder.file("set"))) {
+    INFO(name);
+    for (const char* word : {"leak", "clock", "effect", "seed", "4711", "truth", "true", "shift"}) {
+      if (std::string(word) == "4711" && fs::path(name).extension() == ".csv") continue;  // a reading may hold it
+      const bool is_said = content.find(word) != std::string::npos;
+      INFO(word);
+      CHECK_FALSE(is_said);
+    }
+    for (const auto& [key, number] : truth.at("base").items()) {
+      if (fs::path(name).extension() != ".toml") continue;
+      CHECK_THAT(content, !Catch::Contains(fmt::format("{:.5g}", number.at("true").get<double>())));
+    }
+  }
+}
+
+TEST_CASE("a bank is shuffled, numbered, repeatable, and its truth has the hash that was printed", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string arguments = "bank --seed 9 --each 3 --none 6 --pairs 2 --effects slow_leak,load_exponent --runs 1";
+  const auto made = run_blind(arguments + " --out " + folder.file("bank"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  const auto files = read_folder(folder.file("bank"));
+  CHECK_THAT(made.out, Catch::Contains(calc_sha256(files.at("truth.json"))));
+  const Json truth = Json::parse(files.at("truth.json"));
+  REQUIRE(truth.at("sets").size() == 14);
+  std::map<std::size_t, int> by_count;
+  std::string order;
+  std::set<std::string> folders;
+  for (const auto& [number, set] : truth.at("sets").items()) {
+    ++by_count[set.at("effects").size()];
+    order += set.at("effects").empty() ? "-" : set.at("effects").front().at("id").get<std::string>().substr(0, 1);
+    CHECK(fs::is_directory(folder.file("bank/sets/" + number)));
+    CHECK_NOTHROW(scenarios::read_measurement_set(folder.file("bank/sets/" + number)));
+  }
+  CHECK(by_count == std::map<std::size_t, int>{{0, 6}, {1, 6}, {2, 2}});
+  CHECK(order.find("------") == std::string::npos);  // not as they were listed
+  for (const auto& [name, content] : files) {
+    if (name != "truth.json") CHECK(name.rfind("sets/00", 0) == 0);
+  }
+  REQUIRE(run_blind(arguments + " --out " + folder.file("again")).status == 0);
+  CHECK(read_folder(folder.file("again")) == files);
+}
+
+TEST_CASE("campaigns are what was asked for: six runs in sessions, skims, fast running, another pressure", "[fast]") {
+  std::set<std::string> kinds;
+  bool rests = false;
+  for (int seed = 1; seed <= 12; ++seed) {
+    const BlindSet made = make_blind_set(fmt::format("--effect none --seed {}", seed));
+    kinds.insert(made.truth.at("campaign").get<std::string>());
+    REQUIRE(made.set.runs.size() == 6);
+    std::set<std::string> sessions;
+    std::set<double> pressures_Pa;
+    double fastest_m_s = 0.0;
+    int skims = 0;
+    for (const scenarios::MeasuredRun& run : made.set.runs) {
+      INFO("seed " << seed << ", " << run.id);
+      sessions.insert(run.session);
+      pressures_Pa.insert(run.cold_pressure_Pa);
+      rests = rests || run.rest_before_s.has_value();
+      CHECK(run.time_s.back() >= 2000.0);
+      CHECK(run.time_s.back() <= 3500.0);
+      CHECK(run.time_s.size() == static_cast<std::size_t>(run.time_s.back()) + 1);
+      const auto& speed_m_s = run.columns.at("speed_km_h");
+      const auto& load_N = run.columns.at("load_N");
+      fastest_m_s = std::max(fastest_m_s, *std::max_element(speed_m_s.begin(), speed_m_s.end()));
+      for (std::size_t row = 1; row < load_N.size(); ++row) skims += load_N[row] < 300.0 && load_N[row - 1] > 300.0;
+    }
+    CHECK(sessions.size() >= 2);
+    CHECK(sessions.size() <= 3);
+    CHECK(pressures_Pa.size() >= 2);
+    CHECK(skims >= 3);
+    CHECK(fastest_m_s > 33.5);
+  }
+  CHECK(kinds.size() >= 4);
+  CHECK(rests);
+}
+
+TEST_CASE("a run that is stopped by a mistake leaves nothing behind", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string inside = folder.file("set/truth.json");
+  const auto made = run_blind("make --effect none --out " + folder.file("set") + " --truth " + inside);
+  CHECK(made.status == 2);
+  CHECK(folder.entry_count() == 0);
+  write_file(folder.file("taken"), "a file");
+  CHECK(run_blind("bank --each 1 --none 0 --out " + folder.file("taken")).status == 2);
+  CHECK(read_file(folder.file("taken")) == "a file");
+  CHECK(folder.entry_count() == 1);
+}

@@ -1,0 +1,155 @@
+// rollrig diagnose as users and CI jobs meet it. What it finds is tested in tests/diagnosis.
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/run_program.h"
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+using nlohmann::json;
+using rollrig::tests::read_file;
+using rollrig::tests::run_other;
+using rollrig::tests::run_program;
+using rollrig::tests::TemporaryFolder;
+using rollrig::tests::write_file;
+
+namespace {
+
+/// A folder with a small set of two runs, "set"; `effects` as of --set.
+struct SetFolder {
+  TemporaryFolder folder;
+  explicit SetFolder(const std::string& effects = "") {
+    const auto made = run_program(
+        "run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80,120]' --set "
+        "warm_up_min=10 --write-set set --quiet " +
+            effects,
+        folder.path());
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+  }
+};
+
+std::size_t count_lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+/// Divides the second column, the speed, of a run's file.
+void divide_speeds(const std::string& file, double by) {
+  std::istringstream in(read_file(file));
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t first = line.find(',') + 1;
+    const std::size_t last = line.find(',', first);
+    const std::string field = line.substr(first, last - first);
+    if (field != "speed_km_h") line.replace(first, last - first, std::to_string(std::stod(field) / by));
+    out += line + "\n";
+  }
+  write_file(file, out);
+}
+
+}  // namespace
+
+TEST_CASE("a diagnosis prints ten lines and writes the JSON of the contract", "[slow]") {
+  const SetFolder made;
+  const auto run = run_program("diagnose set --only bearing_warmup,load_exponent --json why.json", made.folder.path());
+  INFO(run.out << run.err);
+  REQUIRE(run.status == 0);
+  CHECK(count_lines(run.out) >= 10);
+  std::istringstream in(run.out);
+  for (std::string line; std::getline(in, line);) CHECK(line.size() <= 80);
+  for (const char* label :
+       {"Verdict", "Cause", "Where", "Equation", "Gap", "Shrinks by", "Not excluded", "Next test"}) {
+    CHECK_THAT(run.out, Contains(label));
+  }
+  const json result = json::parse(read_file(made.folder.file("why.json")));
+  CHECK(result["format"] == "rollrig-diagnosis/1");
+  CHECK(result["set"].is_string());
+  for (const char* name : {"none", "unknown", "bearing_warmup", "load_exponent"}) {
+    INFO(name);
+    CHECK(result["probability"][name].is_number());
+  }
+  CHECK(result["probability"].size() == 4);  // --only
+}
+
+TEST_CASE("with --json - nothing but JSON, with --quiet nothing at all", "[slow]") {
+  const SetFolder made;
+  const auto to_stdout = run_program("diagnose set/set.toml --only bearing_warmup --json -", made.folder.path());
+  INFO(to_stdout.err);
+  CHECK(to_stdout.status == 0);
+  CHECK(json::parse(to_stdout.out)["format"] == "rollrig-diagnosis/1");
+  CHECK(to_stdout.err.empty());
+  const auto quiet = run_program("diagnose set --only bearing_warmup --quiet", made.folder.path());
+  CHECK(quiet.status == 0);
+  CHECK(quiet.out.empty());
+  CHECK(quiet.err.empty());
+}
+
+TEST_CASE("the same JSON from one or two threads, and from runs in another order", "[slow]") {
+  const SetFolder made("--set effects.bearing_warmup.fall_per_K=0.02");
+  const std::string options = " --only bearing_warmup,tire_loss_in_skim --quiet --json ";
+  REQUIRE(run_program("diagnose set --threads 1" + options + "one.json", made.folder.path()).status == 0);
+  REQUIRE(run_program("diagnose set --threads 2" + options + "two.json", made.folder.path()).status == 0);
+  const std::string one = read_file(made.folder.file("one.json"));
+  CHECK(one == read_file(made.folder.file("two.json")));
+  std::string set = read_file(made.folder.file("set/set.toml"));
+  const std::size_t first = set.find("[[run]]");
+  const std::size_t second = set.find("[[run]]", first + 1);
+  write_file(made.folder.file("set/set.toml"),
+             set.substr(0, first) + set.substr(second) + "\n" + set.substr(first, second - first));
+  REQUIRE(run_program("diagnose set" + options + "other.json", made.folder.path()).status == 0);
+  CHECK(one == read_file(made.folder.file("other.json")));
+}
+
+TEST_CASE("a speed in m/s under a km/h heading comes out as unexplained, with the mistake named", "[slow]") {
+  const SetFolder made;
+  for (const char* run : {"set/speed-80.csv", "set/speed-120.csv"}) divide_speeds(made.folder.file(run), 3.6);
+  const auto run = run_program("diagnose set --json -", made.folder.path());
+  INFO(run.out << run.err);
+  REQUIRE(run.status == 0);
+  const json result = json::parse(run.out);
+  CHECK(result["verdict"] == "unexplained");
+  CHECK(result["causes"].empty());
+  CHECK_THAT(result["warnings"].dump(), Contains("speed_km_h holds m/s"));
+}
+
+TEST_CASE("an interrupted diagnosis writes nothing", "[slow]") {
+  const SetFolder made;
+  const auto run = run_program("diagnose set --threads 1 --json why.json", made.folder.path(),
+                               "timeout --foreground -s INT --preserve-status 0.5");
+  INFO(run.out << run.err);
+  CHECK(run.status == 130);
+  CHECK_THAT(run.err, Contains("nothing was written"));
+  CHECK_FALSE(fs::exists(made.folder.file("why.json")));
+}
+
+TEST_CASE("effects are explained", "[fast]") {
+  const auto run = run_program("diagnose --explain bearing_warmup");
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("Equation") && Contains("fall_per_K") && Contains("1/K") && Contains("drum_torque_Nm") &&
+                          Contains("tire_loss_in_skim") && Contains("torque at standstill"));
+  CHECK(run_program("diagnose --explain unknown").status == 0);
+}
+
+TEST_CASE("effects complete after --explain, --only and --without", "[fast]") {
+  const std::string script = run_program("completion bash").out;
+  for (const char* option : {"--explain)", "--only)", "--without)"}) {
+    const std::size_t at = script.find(option);
+    REQUIRE(at != std::string::npos);
+    CHECK_THAT(script.substr(at, script.find('\n', at) - at), Contains("bearing_warmup"));
+  }
+}
+
+#ifdef ROLLRIG_EXAMPLE_DIAGNOSE
+TEST_CASE("the example program diagnoses through the library", "[slow]") {
+  const SetFolder made;
+  const auto run = run_other(ROLLRIG_EXAMPLE_DIAGNOSE, "set", made.folder.path());
+  INFO(run.out << run.err);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("Verdict") && Contains("verdict "));
+  const auto missing = run_other(ROLLRIG_EXAMPLE_DIAGNOSE, "nowhere", made.folder.path());
+  CHECK(missing.status == 2);
+  CHECK_THAT(missing.err, Contains("error:"));
+}
+#endif

@@ -1,0 +1,85 @@
+// The JSON of a diagnosis: the keys of the contract, and null where it says so.
+#include "diagnosis/diagnosis_json.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <set>
+
+#include "tests/diagnosis/hand_made.h"
+
+using namespace rollrig;
+
+namespace {
+
+std::set<std::string> keys_of(const Json& object) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.insert(key);
+  return keys;
+}
+
+bool holds(const Json& object, const std::set<std::string>& wanted) {
+  const std::set<std::string> keys = keys_of(object);
+  return std::includes(keys.begin(), keys.end(), wanted.begin(), wanted.end());
+}
+
+}  // namespace
+
+TEST_CASE("every key of the contract is there, with its meaning", "[fast]") {
+  const Json json = diagnosis::make_diagnosis_json(tests::make_explained());
+  CHECK(holds(json, {"format", "set", "verdict", "probability", "causes", "gap", "where", "balance", "next_test",
+                     "not_excluded"}));
+  CHECK(json["format"] == "rollrig-diagnosis/1");
+  CHECK(json["set"] == "a50-drum-campaign");
+  CHECK(json["verdict"] == "explained");
+  CHECK(json["probability"]["bearing_warmup"] == 0.94);
+  CHECK(json["probability"]["none"] == 0.01);
+  CHECK(json["probability"]["unknown"] == 0.03);
+  const Json& cause = json["causes"][0];
+  CHECK(holds(cause, {"effects", "probability", "indistinguishable_from", "parameters", "adequate"}));
+  CHECK(cause["effects"] == Json::array({"bearing_warmup"}));
+  CHECK(cause["indistinguishable_from"].is_array());
+  CHECK(cause["adequate"] == true);
+  CHECK(holds(cause["parameters"][0], {"name", "value", "sd", "unit"}));
+  CHECK(cause["parameters"][0]["name"] == "bearing_warmup.fall_per_K");
+  CHECK(cause["parameters"][0]["unit"] == "1/K");
+  const Json& gap = json["gap"];
+  CHECK(holds(gap, {"as_calibrated", "recalibrated", "shrink_percent", "shrink_ci95_percent", "held_out", "unit"}));
+  CHECK(gap["as_calibrated"]["before"] == 6.1);
+  CHECK(gap["recalibrated"]["after"] == 0.2);
+  CHECK(gap["shrink_percent"] == 91.0);
+  CHECK(gap["shrink_ci95_percent"] == Json::array({84.0, 96.0}));
+  CHECK(gap["held_out"].size() == 3);
+  CHECK(gap["unit"] == "noise floors");
+  CHECK(holds(json["where"][0], {"channel", "run", "phase", "share_percent", "size", "unit", "z"}));
+  CHECK(json["where"].size() == 2);
+  CHECK(holds(json["balance"][0], {"name", "share_percent"}));
+  CHECK(holds(json["next_test"][0], {"test", "splits", "expected_bits_per_hour"}));
+  CHECK(json["not_excluded"] == Json::array({"windage", "torque_gain"}));
+}
+
+TEST_CASE("without a gap there is no shrinkage, and lists are empty, not absent", "[fast]") {
+  const Json json = diagnosis::make_diagnosis_json(tests::make_no_gap());
+  CHECK(json["verdict"] == "no_gap");
+  CHECK(json["gap"]["shrink_percent"].is_null());
+  CHECK(json["gap"]["shrink_ci95_percent"].is_null());
+  CHECK(json["gap"]["recalibration_percent"].is_null());
+  for (const char* key : {"causes", "where", "balance", "next_test", "not_excluded", "warnings"}) {
+    INFO(key);
+    CHECK(json[key] == Json::array());
+  }
+}
+
+TEST_CASE("the words of the verdict are those of the contract", "[fast]") {
+  CHECK(std::string(diagnosis::name_of(diagnosis::Verdict::kNoGap)) == "no_gap");
+  CHECK(std::string(diagnosis::name_of(diagnosis::Verdict::kExplained)) == "explained");
+  CHECK(std::string(diagnosis::name_of(diagnosis::Verdict::kUnexplained)) == "unexplained");
+}
+
+TEST_CASE("a number that is not finite is null, and the text is JSON all the same", "[fast]") {
+  diagnosis::Diagnosis made = tests::make_explained();
+  made.causes[0].parameters[0].sd = std::numeric_limits<double>::infinity();
+  made.where[0].z = std::numeric_limits<double>::quiet_NaN();
+  const Json json = Json::parse(diagnosis::make_diagnosis_json(made).dump());
+  CHECK(json["causes"][0]["parameters"][0]["sd"].is_null());
+  CHECK(json["where"][0]["z"].is_null());
+}

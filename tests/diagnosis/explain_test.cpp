@@ -1,0 +1,50 @@
+// Explanations of effects: complete, from the catalogue, within 80 columns.
+#include "diagnosis/explain.h"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "models/effect.h"
+#include "sim/core/error.h"
+#include "sim/core/text.h"
+
+using Catch::Contains;
+using namespace rollrig;
+
+TEST_CASE("every name can be explained within 80 columns", "[fast]") {
+  for (const std::string& name : diagnosis::explainable_names()) {
+    INFO(name);
+    const std::string text = diagnosis::explain_effect(name);
+    CHECK_THAT(text, Catch::StartsWith(name + ":"));
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+      // a word longer than a line stands alone
+      CHECK((count_characters(line) <= 80 || line.find(' ', line.find_first_not_of(' ')) == std::string::npos));
+    }
+  }
+}
+
+TEST_CASE("an effect's explanation holds all that its declaration knows", "[fast]") {
+  for (const models::Effect* effect : models::all_effects()) {
+    const models::EffectInfo& info = effect->info;
+    const std::string text = diagnosis::explain_effect(info.id);
+    INFO(text);
+    for (const char* title :
+         {"Equation", "Source", "Own parameters", "Acts on", "Revealed by", "Confused with", "Told from those by"}) {
+      CHECK_THAT(text, Contains(title));
+    }
+    for (const models::EffectParameter& parameter : info.parameters) CHECK_THAT(text, Contains(parameter.key));
+    for (const std::string& channel : info.visible_in) CHECK_THAT(text, Contains(channel));
+    for (const std::string& id : info.confused_with) CHECK_THAT(text, Contains(id));
+  }
+}
+
+TEST_CASE("none and unknown are explained", "[fast]") {
+  CHECK_THAT(diagnosis::explain_effect("none"), Contains("no_gap"));
+  CHECK_THAT(diagnosis::explain_effect("unknown"), Contains("unexplained"));
+}
+
+TEST_CASE("a misspelt effect is answered with the nearest", "[fast]") {
+  CHECK_THROWS_WITH(diagnosis::explain_effect("bearing_warmpu"), Contains("bearing_warmup"));
+  CHECK_THROWS_AS(diagnosis::explain_effect(""), InputError);
+}

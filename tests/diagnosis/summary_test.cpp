@@ -1,0 +1,142 @@
+// The ten lines in the terminal: what they say, and that they fit.
+#include "diagnosis/summary.h"
+
+#include <catch2/catch.hpp>
+#include <sstream>
+
+#include "sim/core/text.h"
+#include "tests/diagnosis/hand_made.h"
+
+using Catch::Contains;
+using namespace rollrig;
+using diagnosis::Diagnosis;
+using diagnosis::format_summary;
+
+namespace {
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream in(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+void check_layout(const std::string& text, std::size_t lines) {
+  INFO(text);
+  CHECK(lines_of(text).size() == lines);
+  for (const std::string& line : lines_of(text)) {
+    CHECK(count_characters(line) <= 80);
+    CHECK(line.find_last_not_of(' ') == line.size() - 1);
+  }
+}
+
+/// The line that starts with a label.
+std::string line_of(const std::string& text, const std::string& label) {
+  for (const std::string& line : lines_of(text)) {
+    if (line.rfind(label, 0) == 0) return line;
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("an explained gap is told in ten lines", "[fast]") {
+  const std::string text = format_summary(tests::make_explained());
+  check_layout(text, 10);
+  CHECK_THAT(line_of(text, "Verdict"), Contains("explained") && Contains("94 %") && Contains("3 %"));
+  CHECK_THAT(line_of(text, "Cause"),
+             Contains("bearing_warmup") && Contains("0.0192 1/K") && Contains("0.0153 to 0.0231"));
+  CHECK_THAT(text, Contains("The rig's bearings warm"));
+  CHECK_THAT(line_of(text, "Where"), Contains("torque in transient-skim, skim 1") && Contains("+1.9 N") &&
+                                         Contains("z 14.2") && Contains("41 %"));
+  CHECK_THAT(line_of(text, "Equation"), Contains("drum torque 88 %"));
+  CHECK_THAT(line_of(text, "Gap"), Contains("6.1 noise floors") && Contains("2.3") && Contains("0.2"));
+  CHECK_THAT(line_of(text, "  in units"), Contains("torque 1.9->0.13 N") && Contains("liner 0.40->0.10 degC") &&
+                                              Contains("pressure 0.30->0.10 kPa"));
+  CHECK_THAT(line_of(text, "Shrinks by"),
+             Contains("91 %") && Contains("84 to 96") && Contains("3 held-out runs") && Contains("black box 70 %"));
+  CHECK_THAT(line_of(text, "Not excluded"), Contains("windage, torque_gain"));
+  CHECK_THAT(line_of(text, "Next test"), Contains("drum alone") && Contains("0.9 bits/h"));
+}
+
+TEST_CASE("no gap is ten lines too, without a cause or a shrinkage", "[fast]") {
+  const std::string text = format_summary(tests::make_no_gap());
+  check_layout(text, 10);
+  CHECK_THAT(line_of(text, "Verdict"), Contains("no gap") && Contains("98 %"));
+  CHECK_THAT(line_of(text, "Cause"), Contains("none needed"));
+  CHECK_THAT(line_of(text, "Where"), Contains("nowhere"));
+  CHECK_THAT(line_of(text, "Shrinks by"), Contains("nothing above the noise"));
+}
+
+TEST_CASE("a shrinkage of one run alone is not called one of held-out runs", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.gap.held_out.clear();
+  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("on the fitted data") && !Contains("held-out"));
+}
+
+TEST_CASE("what cannot be told apart stands beside the cause", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].indistinguishable_from = {"tire_loss_in_skim", "torque_zero_drift"};
+  const std::string text = format_summary(made);
+  check_layout(text, 10);
+  CHECK_THAT(line_of(text, "or as well"), Contains("tire_loss_in_skim, torque_zero_drift") && Contains("cannot tell"));
+}
+
+TEST_CASE("two effects together both show their size", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].effects = {"bearing_warmup", "slow_leak"};
+  made.causes[0].parameters = {{"bearing_warmup.fall_per_K", 0.02, 0.0, 0.01, 0.03, "1/K"},
+                               {"slow_leak.rate_kPa_per_h", 1.0, 0.1, 0.8, 1.2, "kPa/h"}};
+  CHECK_THAT(line_of(format_summary(made), "Cause"),
+             Contains("bearing_warmup with slow_leak: fall 0.02 1/K, rate 1 kPa/h"));
+  CHECK_THAT(format_summary(made), Contains("95 %: 0.01 to 0.03, 0.8 to 1.2"));
+  check_layout(format_summary(made), 10);
+}
+
+TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.verdict = diagnosis::Verdict::kUnexplained;
+  made.causes[0].adequate = false;
+  made.causes[0].objections = {"the size differs from run to run: 0.01 to 0.04 1/K"};
+  const std::string text = format_summary(made);
+  check_layout(text, 11);
+  CHECK_THAT(line_of(text, "Verdict"), Contains("looks like this cause, but something else is missing"));
+  CHECK_THAT(line_of(text, "But"), Contains("differs from run to run"));
+}
+
+TEST_CASE("an unknown cause is said to be one", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.verdict = diagnosis::Verdict::kUnexplained;
+  made.probability["unknown"] = 0.9;
+  made.causes.clear();
+  const std::string text = format_summary(made);
+  check_layout(text, 10);
+  CHECK_THAT(line_of(text, "Verdict"), Contains("outside the catalogue") && Contains("90 %"));
+  CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalogue"));
+}
+
+TEST_CASE("warnings follow in full, and long names stay within 80 columns", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.set = std::string(120, 'x');
+  made.where[0].run = "a-run-with-a-name-that-goes-on-and-on-beyond-all-that-is-reasonable-2026-11-21";
+  made.where[0].phase = "the third skim of the second repetition";
+  for (int i = 0; i < 30; ++i) made.not_excluded.push_back("effect_" + std::to_string(i));
+  const std::string warning =
+      "liner_temperature_degC of run 1-warm-up-80 stands at 25.4 degC from 0 to 2040 s, where it should move by 16: a "
+      "stuck sensor? Those samples are left out";
+  made.warnings = {warning};
+  const std::string text = format_summary(made);
+  for (const std::string& line : lines_of(text)) CHECK(count_characters(line) <= 80);
+  CHECK_THAT(line_of(text, "Where"), Contains("torque in a-run-with") && Contains("...") && Contains("z 14.2"));
+  CHECK_THAT(line_of(text, "Not excluded"), Contains(" more"));
+  std::string flat;
+  for (const std::string& line : lines_of(text.substr(text.find("Warning")))) flat += line.substr(13) + " ";
+  CHECK_THAT(flat, Contains(warning));
+}
+
+TEST_CASE("a probability is never rounded to certainty", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].probability = 0.9999;
+  made.probability["none"] = 1e-9;
+  CHECK_THAT(line_of(format_summary(made), "Verdict"), Contains("over 99 %") && Contains("under 1 %"));
+}
