@@ -187,25 +187,24 @@ bool are_told_apart(const PredictedOutcome& a, const PredictedOutcome& b) {
 
 /// Effects in one hypothesis of a pair and not in the other, of all pairs of a likeliest hypothesis and any other that
 /// are told apart.
-std::vector<std::string> find_splits(const std::vector<OpenHypothesis>& open,
-                                     const std::vector<PredictedOutcome>& outcomes) {
-  std::vector<std::string> splits;
+void find_splits(const std::vector<OpenHypothesis>& open, const std::vector<PredictedOutcome>& outcomes,
+                 JudgedTest& judged) {
   const auto add = [&](const Hypothesis& in, const Hypothesis& not_in) {
     for (const ActingEffect& on : in.effects) {
       const std::string& id = on.effect->info.id;
-      const bool known = std::find(splits.begin(), splits.end(), id) != splits.end();
-      if (!known && !not_in.contains(*on.effect)) splits.push_back(id);
+      const bool known = std::find(judged.splits.begin(), judged.splits.end(), id) != judged.splits.end();
+      if (!known && !not_in.contains(*on.effect)) judged.splits.push_back(id);
     }
   };
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    if (open[i].probability < open.front().probability) continue;
+  const auto is_likeliest = [&](std::size_t i) { return open[i].probability >= open.front().probability; };
+  for (std::size_t i = 0; i < open.size() && is_likeliest(i); ++i) {
     for (std::size_t j = i + 1; j < open.size(); ++j) {
       if (!are_told_apart(outcomes[i], outcomes[j])) continue;
       add(open[i].hypothesis, open[j].hypothesis);
       add(open[j].hypothesis, open[i].hypothesis);
+      judged.splits_likeliest = judged.splits_likeliest || is_likeliest(j);
     }
   }
-  return splits;
 }
 
 }  // namespace
@@ -213,14 +212,14 @@ std::vector<std::string> find_splits(const std::vector<OpenHypothesis>& open,
 std::vector<JudgedTest> judge_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                     const std::vector<OpenHypothesis>& open, int threads) {
   std::vector<JudgedTest> judged;
-  for (PlannedTest& test : make_test_menu(set)) judged.push_back({std::move(test), 0.0, {}});
+  for (PlannedTest& test : make_test_menu(set)) judged.push_back({std::move(test), 0.0, {}, false});
   std::vector<double> probabilities;
   for (const OpenHypothesis& one : open) probabilities.push_back(one.probability);
   parallel_for(judged.size(), threads, [&](std::size_t i) {
     const std::vector<PredictedOutcome> outcomes = predict_outcomes(set, base, open, judged[i].test);
     if (outcomes.empty()) return;
     judged[i].bits = calc_information_bits(probabilities, outcomes);
-    judged[i].splits = find_splits(open, outcomes);
+    find_splits(open, outcomes, judged[i]);
   });
   return judged;
 }
@@ -233,13 +232,13 @@ std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<id
   if (open.size() < 2) return {};
   std::vector<JudgedTest> judged = judge_tests(set, base, open, threads);
   std::stable_sort(judged.begin(), judged.end(), [](const JudgedTest& a, const JudgedTest& b) {
-    if (a.splits.empty() != b.splits.empty()) return b.splits.empty();
+    if (a.splits_likeliest != b.splits_likeliest) return a.splits_likeliest;
     return a.bits / a.test.hours > b.bits / b.test.hours;
   });
   std::vector<NextTest> proposed;
   for (const JudgedTest& one : judged) {
-    if (proposed.size() == kProposed || one.bits < kWorthwhile_bits) break;
-    proposed.push_back({one.test.description, one.splits, one.bits / one.test.hours});
+    if (proposed.size() == kProposed) break;
+    if (one.bits >= kWorthwhile_bits) proposed.push_back({one.test.description, one.splits, one.bits / one.test.hours});
   }
   return proposed;
 }

@@ -24,14 +24,15 @@ std::vector<PredictedOutcome> predict_outcomes(const PreparedSet& set,
 /// A test of the menu, judged.
 struct JudgedTest {
   PlannedTest test;
-  double bits = 0.0;  // expected fall of the entropy over the open hypotheses
-  std::vector<std::string>
-      splits;  // effects that it tells apart: expected log Bayes factor 3 or more, whichever is true
+  double bits = 0.0;                // expected fall of the entropy over the open hypotheses
+  std::vector<std::string> splits;  // effects told from the likeliest hypotheses, or those from them
+  bool splits_likeliest = false;    // tells two of the likeliest hypotheses apart
 };
 std::vector<JudgedTest> judge_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                     const std::vector<OpenHypothesis>& open, int threads);
 
-/// The three tests that tell most an hour, those first that tell anything apart. None where nothing is open.
+/// The three tests that tell most an hour. Where the set leaves several causes equally likely, tests that tell any two
+/// of those apart come before all others. None where nothing is open.
 /// Source  design of the method, decision 9
 /// Checked tests/diagnosis/next_test_test.cpp
 std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,

@@ -11,6 +11,7 @@ namespace {
 Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr std::size_t kMost = 6;
+constexpr std::size_t kMostOnBaseline = 9;  // single effects are cheaper to simulate than two
 constexpr double kRunnerUp = 0.01;
 constexpr double kLeastShare = 0.05;
 constexpr double kDetectable = 3.0;  // as for what is not excluded (verdict.cpp)
@@ -82,22 +83,18 @@ OpenHypothesis add_unseen(const PreparedSet& set, const std::vector<identificati
 
 /// Effects that the set would not have shown, the best hidden first.
 std::vector<const models::Effect*> find_hidden(const Race& race) {
-  std::vector<std::pair<double, const models::Effect*>> largest;
-  for (const Screened& one : race.screened) {
-    const auto known =
-        std::find_if(largest.begin(), largest.end(), [&](const auto& of) { return of.second == one.effect.effect; });
-    if (known == largest.end()) {
-      largest.emplace_back(one.detectability, one.effect.effect);
-    } else {
-      known->first = std::max(known->first, one.detectability);
+  std::vector<std::pair<double, const models::Effect*>> hidden;
+  for (const models::Effect* effect : race.effects) {
+    double detectability = 0.0;  // where no trial of it changes anything
+    for (const Screened& one : race.screened) {
+      if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);
     }
+    if (detectability < kDetectable) hidden.emplace_back(detectability, effect);
   }
-  std::stable_sort(largest.begin(), largest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const models::Effect*> hidden;
-  for (const auto& [detectability, effect] : largest) {
-    if (detectability < kDetectable) hidden.push_back(effect);
-  }
-  return hidden;
+  std::stable_sort(hidden.begin(), hidden.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<const models::Effect*> effects;
+  for (const auto& one : hidden) effects.push_back(one.second);
+  return effects;
 }
 
 }  // namespace
@@ -127,7 +124,8 @@ std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
     for (const models::Effect* effect : find_hidden(race)) {
       const bool is_in = std::any_of(open.begin(), open.end(),
                                      [&](const OpenHypothesis& one) { return one.hypothesis.contains(*effect); });
-      if (!is_in && open.size() < kMost) open.push_back(add_unseen(set, base, open.front(), *effect, least));
+      if (!is_in && open.size() < (is_baseline ? kMostOnBaseline : kMost))
+        open.push_back(add_unseen(set, base, open.front(), *effect, least));
     }
   }
   double sum = 0.0;

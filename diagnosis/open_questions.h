@@ -15,14 +15,14 @@ struct OpenHypothesis {
   double probability = 0.0;    // all add to 1
 };
 
-/// The likeliest hypothesis with, in this order and at most six in all,
+/// The likeliest hypothesis with, in this order and at most six in all (nine where it is the baseline),
 /// - unless it is the baseline, those that the set cannot tell from it (verdict.h), all as likely as it: that is the
 ///   question to be split,
 /// - the runners-up from a probability of 0.01,
 /// - where that leaves nothing but it, or nothing but the baseline: it with one more effect that the set would not have
 ///   shown, at the middle of its prior and as uncertain as that.
 /// No hypothesis counts for less than a twentieth of the likeliest. One sign of an effect stands for both.
-/// Source  Assumed: six, a twentieth and 0.01, which keep what matters in a named set of at most three
+/// Source  Assumed: six, nine, a twentieth and 0.01, which keep what matters in a named set of at most three
 /// Checked tests/diagnosis/next_test_test.cpp
 std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
                                                  const std::vector<identification::FreeParameter>& base,

@@ -230,6 +230,7 @@ void add_pairs(const PreparedSet& set, const std::vector<identification::FreePar
 Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
               const Remainder& remainder, const RaceSettings& settings) {
   Race race;
+  race.effects = settings.effects;
   const Model null(set, base, {});
   settings.progress(0.0, "baseline");
   race.null = fit_null(null, remainder, settings);

@@ -35,6 +35,7 @@ struct Contender {
 };
 
 struct Race {
+  std::vector<const models::Effect*> effects;
   Contender null;
   std::vector<Screened> screened;     // on top of the null
   std::vector<Contender> contenders;  // effects and pairs, the likeliest first

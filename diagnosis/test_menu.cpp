@@ -182,24 +182,39 @@ PlannedTest rests(const Conditions& at) {
                    {run.finish()});
 }
 
-PlannedTest speed_steps_with_pulse(const Conditions& at) {
+PlannedTest speed_steps_hot(const Conditions& at) {
   RunPlan run = begin_warm(at);
   run.roll(10.0, at.load_N, 120.0).roll(10.0, at.load_N, 40.0).roll(10.0, at.load_N, 120.0);
-  PlannedTest test =
-      make_test("speed_steps_with_pulse",
-                "speed steps 80, 120, 40, 120 km/h with a common electrical pulse on both loggers", 0, {run.finish()});
+  return make_test("speed_steps_hot", "speed steps 80, 120, 40, 120 km/h, 10 min each, on the warm tire", 0,
+                   {run.finish()});
+}
+
+PlannedTest speed_steps_with_pulse(const Conditions& at) {
+  constexpr double kWiring_h = 0.25;  // Assumed
+  PlannedTest test = make_test("speed_steps_with_pulse",
+                               "speed steps 80, 120, 40, 120 km/h with a common electrical pulse on both loggers", 0,
+                               speed_steps_hot(at).runs);
+  test.hours += kWiring_h;
   test.clock_pulse = true;
   return test;
 }
 
+PlannedTest short_soak(const Conditions& at) {
+  RunPlan run = begin_warm(at);
+  run.roll(20.0, at.load_N, 120.0).stand(45.0, 0.0);
+  return make_test("short_soak",
+                   "20 min at 120 km/h, then a soak of 45 min, lifted, pressure and liner temperature logged", 0,
+                   {run.finish()});
+}
+
 PlannedTest rim_thermocouple(const Conditions& at) {
+  constexpr double kFitting_h = 1.0;  // Assumed: sensor and its slip ring or logger on the wheel
   Conditions with_rim = at;
   with_rim.channels.push_back(kRimTemperature);
-  RunPlan run = begin_warm(with_rim);
-  run.roll(20.0, at.load_N, 120.0).stand(45.0, 0.0);
   PlannedTest test =
       make_test("rim_thermocouple", "thermocouple on the rim: 20 min at 120 km/h, then 45 min at standstill, lifted", 0,
-                {run.finish()});
+                short_soak(with_rim).runs);
+  test.hours += kFitting_h;
   test.extra.rim_thermocouple = true;
   return test;
 }
@@ -254,8 +269,8 @@ std::vector<PlannedTest> make_test_menu(const PreparedSet& set) {
   const Conditions at = find_conditions(set);
   std::vector<PlannedTest> menu;
   for (const auto make : {skim_at_loads, skim_at_loads_hot, load_sweep, drum_alone, standstill_torque, load_off_and_on,
-                          rests, speed_steps_with_pulse, rim_thermocouple, soak_with_pressure, speed_steps,
-                          pressure_sweep, fast_steps, warm_surface}) {
+                          rests, speed_steps_hot, speed_steps_with_pulse, short_soak, rim_thermocouple,
+                          soak_with_pressure, speed_steps, pressure_sweep, fast_steps, warm_surface}) {
     menu.push_back(make(at));
   }
   return menu;

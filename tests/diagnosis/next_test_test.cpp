@@ -1,8 +1,12 @@
 #include "diagnosis/next_test.h"
 
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
 
-#include <ctime>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
 
 #include "diagnosis/base_parameters.h"
 #include "diagnosis/verdict.h"
@@ -16,34 +20,38 @@ using namespace rollrig::diagnosis;
 
 namespace {
 
-/// Stages of a run: minutes, load, speed.
-struct Stage {
-  double minutes;
-  double load_N;
-  double speed_km_h;
-};
+/// An effect on, its size a multiple of the middle of its prior.
+models::ActiveEffect act(const std::string& id, double size = 1.0) {
+  const models::Effect& effect = models::find_effect(id);
+  std::vector<double> values;
+  for (const models::EffectParameter& parameter : effect.info.parameters) values.push_back(parameter.prior.centre());
+  values.front() *= size;
+  return tests::make_active(effect, values);
+}
 
-scenarios::MeasuredRun make_run(const std::string& id, const std::vector<Stage>& stages) {
+/// Skim, 25 min at 80 km/h, skim, at 1 Hz.
+scenarios::MeasuredRun plan_skim_run() {
   scenarios::MeasuredRun run;
-  run.id = id;
+  run.id = "warm-up";
   run.session = "day";
   run.initial_tire_temperature_K = 298.15;
   run.cold_pressure_Pa = 280e3;
-  double time_s = 0.0;
-  for (const Stage& stage : stages) {
-    for (int i = 0; i < static_cast<int>(60.0 * stage.minutes); ++i) {
-      run.time_s.push_back(time_s++);
-      run.columns["speed_km_h"].push_back(stage.speed_km_h / 3.6);
-      run.columns["load_N"].push_back(stage.load_N);
-      run.columns["ambient_degC"].push_back(298.15);
-    }
+  constexpr double kSkim_s = 180.0;
+  constexpr double kLoaded_s = 1500.0;
+  for (double time_s = 0.0; time_s < 2.0 * kSkim_s + kLoaded_s; time_s += 1.0) {
+    const bool loaded = time_s >= kSkim_s && time_s < kSkim_s + kLoaded_s;
+    run.time_s.push_back(time_s);
+    run.columns["speed_km_h"].push_back(80.0 / 3.6);
+    run.columns["load_N"].push_back(loaded ? 5400.0 : 200.0);
+    run.columns["ambient_degC"].push_back(298.15);
   }
   return run;
 }
 
-/// Runs of the asset tire on the asset rig with an effect on, measured with noise.
+/// Runs of the asset tire on the asset rig with effects on, measured with noise.
 scenarios::MeasurementSet measure(const std::vector<models::ActiveEffect>& effects,
-                                  std::vector<scenarios::MeasuredRun> runs, std::uint64_t seed) {
+                                  std::vector<scenarios::MeasuredRun> runs) {
+  constexpr std::uint64_t kSeed = 1;
   scenarios::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
@@ -57,7 +65,7 @@ scenarios::MeasurementSet measure(const std::vector<models::ActiveEffect>& effec
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
     set.runs.push_back(std::move(run));
   }
-  return tests::add_noise(set, seed);
+  return tests::add_noise(set, kSeed);
 }
 
 struct Raced {
@@ -67,50 +75,223 @@ struct Raced {
     for (const std::string& id : effects) settings.effects.push_back(&models::find_effect(id));
     race = run_race(set, base, remainder, settings);
   }
+
+  std::vector<OpenHypothesis> find_open() const { return find_open_hypotheses(set, base, remainder, race); }
+  std::vector<JudgedTest> judge(const std::vector<OpenHypothesis>& open) const {
+    return judge_tests(set, base, open, 0);
+  }
+  std::vector<NextTest> propose(int threads = 0) const { return propose_tests(set, base, remainder, race, threads); }
+
   PreparedSet set;
   std::vector<identification::FreeParameter> base;
   Remainder remainder;
   Race race;
 };
 
+/// A warm-up in which only what warms shows, with bearings that do: the torque's zero could drift as well.
+const Raced& bearings_or_zero() {
+  static const Raced raced(measure({act("bearing_warmup")}, {plan_skim_run()}),
+                           {"bearing_warmup", "torque_zero_drift"});
+  return raced;
+}
+
+/// The baseline and each of the effects, at the middle of its prior and as uncertain, all as likely.
+std::vector<OpenHypothesis> make_open(const Raced& raced, const std::vector<std::string>& effects) {
+  std::vector<OpenHypothesis> open;
+  const double share = 1.0 / static_cast<double>(effects.size());
+  for (const std::string& id : effects) {
+    Hypothesis hypothesis;
+    if (id != "none") hypothesis.effects.push_back({&models::find_effect(id), 1});
+    const auto count = static_cast<Eigen::Index>(Model(raced.set, raced.base, hypothesis).parameter_count());
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(count, count);
+    spread.bottomRightCorner(raced.base.size(), raced.base.size()) *= 0.3;  // after some measurement
+    open.push_back({hypothesis, Eigen::VectorXd::Zero(count), spread, share});
+  }
+  return open;
+}
+
+const JudgedTest& find_judged(const std::vector<JudgedTest>& judged, const std::string& id) {
+  return *std::find_if(judged.begin(), judged.end(), [&](const JudgedTest& one) { return one.test.id == id; });
+}
+
+const JudgedTest& find_described(const std::vector<JudgedTest>& judged, const std::string& description) {
+  return *std::find_if(judged.begin(), judged.end(),
+                       [&](const JudgedTest& one) { return one.test.description == description; });
+}
+
+double calc_mean_bits_per_hour(const std::vector<JudgedTest>& judged) {
+  double sum = 0.0;
+  for (const JudgedTest& one : judged) sum += one.bits / one.test.hours;
+  return sum / static_cast<double>(judged.size());
+}
+
+PredictedOutcome make_outcome(double mean, double sd) {
+  return {Eigen::VectorXd::Constant(1, mean), Eigen::MatrixXd::Constant(1, 1, sd * sd)};
+}
+
+/// Mutual information of two normal distributions and which of them was drawn from, by quadrature.
+double integrate_information_bits(double w, double mean, double sd) {
+  const auto density = [](double x, double m, double s) {
+    return std::exp(-0.5 * (x - m) * (x - m) / (s * s)) / (s * std::sqrt(2.0 * M_PI));
+  };
+  const auto gain = [&](double x) {
+    const double p = density(x, 0.0, 1.0);
+    const double q = density(x, mean, sd);
+    const double mixture = w * p + (1.0 - w) * q;
+    return (p > 0.0 ? w * p * std::log2(p / mixture) : 0.0) + (q > 0.0 ? (1.0 - w) * q * std::log2(q / mixture) : 0.0);
+  };
+  return boost::math::quadrature::gauss_kronrod<double, 61>::integrate(gain, -30.0, 30.0, 12, 1e-9);
+}
+
 }  // namespace
 
-TEST_CASE("look", "[.look]") {
-  const std::string truth = std::getenv("TRUTH") ? std::getenv("TRUTH") : "bearing_warmup";
-  std::vector<models::ActiveEffect> on;
-  if (truth != "none") {
-    std::vector<double> values;
-    for (const auto& p : models::find_effect(truth).info.parameters) values.push_back(p.prior.centre());
-    on.push_back(tests::make_active(models::find_effect(truth), values));
+TEST_CASE("information lies between nothing and the entropy, below the exact value", "[fast]") {
+  for (const double w : {0.5, 0.1}) {
+    const std::vector<double> weights{w, 1.0 - w};
+    CHECK(calc_information_bits(weights, {make_outcome(0.0, 1.0), make_outcome(0.0, 1.0)}) ==
+          Approx(0.0).margin(1e-12));
+    CHECK(calc_information_bits(weights, {make_outcome(0.0, 1.0), make_outcome(50.0, 1.0)}) ==
+          Approx(calc_entropy_bits(weights)));
+    for (const double mean : {0.5, 1.0, 2.0, 4.0}) {
+      for (const double sd : {0.5, 1.0, 3.0}) {
+        const double bound = calc_information_bits(weights, {make_outcome(0.0, 1.0), make_outcome(mean, sd)});
+        const double exact = integrate_information_bits(w, mean, sd);
+        INFO("w " << w << " mean " << mean << " sd " << sd);
+        CHECK(bound > 0.0);
+        CHECK(bound <= exact + 1e-6);
+        CHECK(bound >= 0.25 * exact);  // of use, not merely a bound
+      }
+    }
   }
-  std::vector<std::string> ids;
-  for (const auto* e : models::all_effects()) {
-    const auto& i = e->info;
-    if (models::acts_on(i, models::RigKind::kDrum) && std::count(i.faint_on.begin(), i.faint_on.end(), models::RigKind::kDrum) == 0) ids.push_back(i.id);
+}
+
+TEST_CASE("an expected log Bayes factor is half the squared distance of equal normals", "[fast]") {
+  CHECK(calc_divergence_nats(make_outcome(0.0, 2.0), make_outcome(6.0, 2.0)) == Approx(4.5));
+  CHECK(4.0 * calc_overlap_distance_nats(make_outcome(0.0, 2.0), make_outcome(6.0, 2.0)) == Approx(4.5));
+  CHECK(calc_divergence_nats(make_outcome(1.0, 1.0), make_outcome(1.0, 1.0)) == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("every test of the menu runs on paper and takes its hours", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  std::set<std::string> ids;
+  for (const PlannedTest& test : make_test_menu(raced.set)) {
+    INFO(test.id);
+    ids.insert(test.id);
+    double rolling_h = 0.0;
+    for (const scenarios::MeasuredRun& run : test.runs) rolling_h += run.time_s.back() / 3600.0;
+    CHECK(test.hours >= rolling_h + 0.5);  // set-up
+    CHECK(test.hours < 24.0);
+    CHECK(!predict_outcomes(raced.set, raced.base, make_open(raced, {"none", "bearing_warmup"}), test).empty());
   }
-  if (std::getenv("IDS")) { ids.clear(); std::string a = std::getenv("IDS"); for (std::size_t k = 0; k < a.size();) { auto e = std::min(a.find(',', k), a.size()); ids.push_back(a.substr(k, e - k)); k = e + 1; } }
-  if (std::getenv("SIZE")) on[0].parameters[0] *= std::stod(std::getenv("SIZE"));
-  const Raced raced(std::getenv("SHORT") ? measure(on, {make_run("a", {{3, 200, 80}, {25, 5400, 80}, {3, 200, 80}})}, 1) : measure(on, {make_run("a", {{3, 200, 80}, {8, 5400, 80}, {3, 200, 80}, {8, 5400, 80}, {3, 200, 80}})}, 1), ids);
-  for (const auto& c : raced.race.contenders) {
-    WARN(c.fit.hypothesis.name() << " p " << c.probability << " rem " << c.remainder_probability << " lbf " << expected_log_bayes_factor(raced.remainder, raced.race.contenders.front(), c));
+  CHECK(ids.size() == make_test_menu(raced.set).size());
+}
+
+TEST_CASE("identical hypotheses leave nothing to learn, and none teaches more than there is to know", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  for (const JudgedTest& one : raced.judge(make_open(raced, {"rim_heat", "rim_heat"}))) {
+    INFO(one.test.id);
+    CHECK(one.bits == Approx(0.0).margin(1e-6));
+    CHECK(one.splits.empty());
   }
-  WARN("null " << raced.race.null.probability << " unknown " << raced.race.unknown_probability);
-  for (const auto& s : raced.race.screened) WARN(s.effect.effect->info.id << " d' " << s.detectability);
-  const std::clock_t t0 = std::clock();
-  const auto open = find_open_hypotheses(raced.set, raced.base, raced.remainder, raced.race);
-  const std::clock_t t1 = std::clock();
-  const auto judged = judge_tests(raced.set, raced.base, open, 1);
-  const std::clock_t t2 = std::clock();
-  WARN("open " << double(t1 - t0) / CLOCKS_PER_SEC << " judge " << double(t2 - t1) / CLOCKS_PER_SEC);
-  std::string text;
-  for (const auto& o : open) text += o.hypothesis.name() + " " + std::to_string(o.probability) + "\n";
-  for (const auto& j : judged) {
-    text += j.test.id + " h " + std::to_string(j.test.hours) + " bits " + std::to_string(j.bits) + " /h " + std::to_string(j.bits / j.test.hours) + " splits";
-    for (const auto& s : j.splits) text += " " + s;
-    text += "\n";
+  for (const JudgedTest& one : raced.judge(make_open(raced, {"none", "slow_leak", "load_exponent"}))) {
+    INFO(one.test.id);
+    CHECK(one.bits >= 0.0);
+    CHECK(one.bits <= std::log2(3.0) + 1e-9);
   }
-  WARN(text);
-  const std::clock_t t3 = std::clock();
-  for (const auto& t : make_test_menu(raced.set)) { std::clock_t a = std::clock(); predict_outcomes(raced.set, raced.base, open, t); WARN(t.id << " " << double(std::clock() - a) / CLOCKS_PER_SEC); }
-  (void)t3;
+}
+
+TEST_CASE("warming bearings and a drifting zero are split by the torque at standstill", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const std::vector<OpenHypothesis> open = raced.find_open();
+  REQUIRE(open.size() == 2);  // the set cannot tell them apart
+  CHECK(open[0].probability == Approx(open[1].probability));
+  const std::vector<NextTest> proposed = raced.propose();
+  REQUIRE(!proposed.empty());
+  const std::vector<JudgedTest> judged = raced.judge(open);
+  const std::string best = find_described(judged, proposed.front().test).test.id;
+  CHECK((best == "standstill_torque" || best == "drum_alone"));  // the menu's row
+  CHECK(proposed.front().splits.size() == 2);
+  CHECK(proposed.front().expected_bits_per_hour > 2.0 * calc_mean_bits_per_hour(judged));
+  CHECK(find_judged(judged, "standstill_torque").bits > 0.9);  // of one bit
+}
+
+TEST_CASE("a proposal does not depend on the number of threads", "[fast]") {
+  const std::vector<NextTest> one = bearings_or_zero().propose(1);
+  const std::vector<NextTest> two = bearings_or_zero().propose(2);
+  REQUIRE(one.size() == two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i].test == two[i].test);
+    CHECK(one[i].expected_bits_per_hour == two[i].expected_bits_per_hour);
+  }
+}
+
+TEST_CASE("bearings that warm and a loss of the tire in skim are split best by their row of the menu", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const std::vector<JudgedTest> judged = raced.judge(make_open(raced, {"bearing_warmup", "tire_loss_in_skim"}));
+  const auto most = [&](const auto& value) {
+    return *std::max_element(judged.begin(), judged.end(),
+                             [&](const JudgedTest& a, const JudgedTest& b) { return value(a) < value(b); });
+  };
+  const std::set<std::string> row{"drum_alone", "standstill_torque", "skim_at_loads", "skim_at_loads_hot"};
+  CHECK(row.count(most([](const JudgedTest& one) { return one.bits; }).test.id) == 1);
+  CHECK(find_judged(judged, "drum_alone").splits.size() == 2);
+  CHECK(find_judged(judged, "skim_at_loads").splits.size() == 2);
+  // An hour, tests that need no soak tell more.
+  const JudgedTest best = most([](const JudgedTest& one) { return one.bits / one.test.hours; });
+  CHECK(best.splits.size() == 2);
+  CHECK(best.bits / best.test.hours > 1.5 * calc_mean_bits_per_hour(judged));
+}
+
+TEST_CASE("readings beyond the usual channels tell what they are for", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const auto clocks = raced.judge(make_open(raced, {"none", "clock_shift"}));
+  CHECK(find_judged(clocks, "speed_steps_with_pulse").bits > find_judged(clocks, "speed_steps_hot").bits);
+  CHECK(find_judged(clocks, "standstill_torque").bits < 0.05);
+  const auto rims = raced.judge(make_open(raced, {"none", "rim_heat"}));
+  CHECK(find_judged(rims, "rim_thermocouple").bits > find_judged(rims, "short_soak").bits);
+  CHECK(find_judged(rims, "standstill_torque").bits < 0.05);
+  const auto zeros = raced.judge(make_open(raced, {"none", "torque_zero_drift"}));
+  CHECK(find_judged(zeros, "soak_with_pressure").bits < 0.2 * find_judged(zeros, "standstill_torque").bits);
+}
+
+TEST_CASE("without a gap the test is proposed that would show what is not excluded", "[fast]") {
+  const Raced raced(measure({}, {plan_skim_run()}), {"standing_wave"});
+  const std::vector<OpenHypothesis> open = raced.find_open();
+  REQUIRE(open.size() == 2);
+  CHECK(open[0].hypothesis.effects.empty());
+  const std::vector<NextTest> proposed = raced.propose();
+  REQUIRE(!proposed.empty());
+  CHECK(proposed.front().test == find_judged(raced.judge(open), "fast_steps").test.description);
+}
+
+TEST_CASE("with nothing open no test is proposed", "[fast]") {
+  Raced raced = bearings_or_zero();
+  raced.race.contenders.resize(1);
+  raced.race.effects.clear();
+  CHECK(raced.propose().empty());
+}
+
+TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
+  const std::vector<std::string> effects{"tire_loss_in_skim", "load_exponent"};
+  const std::vector<models::ActiveEffect> truth{act("tire_loss_in_skim", 1.5)};
+  const Raced before(measure(truth, {plan_skim_run()}), effects);
+  const auto find_factor = [](const Raced& raced) {
+    const auto find = [&](const std::string& id) -> const Contender& {
+      return *std::find_if(raced.race.contenders.begin(), raced.race.contenders.end(),
+                           [&](const Contender& one) { return one.fit.hypothesis.name() == id; });
+    };
+    return expected_log_bayes_factor(raced.remainder, find("tire_loss_in_skim"), find("load_exponent"));
+  };
+  REQUIRE(find_factor(before) < kToldApart_nats);
+  const std::vector<NextTest> proposed = before.propose();
+  REQUIRE(!proposed.empty());
+  CHECK(proposed.front().splits.size() >= 2);
+  std::vector<scenarios::MeasuredRun> runs{plan_skim_run()};
+  for (const PlannedTest& test : make_test_menu(before.set)) {
+    if (test.description == proposed.front().test) runs.insert(runs.end(), test.runs.begin(), test.runs.end());
+  }
+  REQUIRE(runs.size() >= 2);
+  const Raced after(measure(truth, runs), effects);
+  CHECK(find_factor(after) >= kToldApart_nats);
+  CHECK(after.race.contenders.front().fit.hypothesis.contains(models::find_effect("tire_loss_in_skim")));
 }
