@@ -82,6 +82,8 @@ Mistake wrong_unit(const char* column, double factor, double offset, const char*
   return {std::string(column) + " " + text, undo};
 }
 
+/// A torque too large by a factor is not among them: bearings of a very cold rig come near it, and it is far outside
+/// all else anyway.
 std::vector<Mistake> list_wrong_units() {
   constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
   constexpr double kBar_kPa = 100.0;
@@ -94,7 +96,6 @@ std::vector<Mistake> list_wrong_units() {
           wrong_unit("liner_temperature_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"),
           wrong_unit("ambient_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"),
           wrong_unit("drum_torque_Nm", 3.6, 0.0, "is too small by a factor of 3.6"),
-          wrong_unit("drum_torque_Nm", 1.0 / 3.6, 0.0, "is too large by a factor of 3.6"),
           wrong_unit("drum_torque_Nm", -1.0, 0.0, "has the other sign: positive drives")};
 }
 

@@ -6,6 +6,7 @@
 
 #include "sim/core/text.h"
 #include "tests/diagnosis/hand_made.h"
+#include "tests/support/temporary_folder.h"
 
 using Catch::Contains;
 using namespace rollrig;
@@ -139,4 +140,11 @@ TEST_CASE("a probability is never rounded to certainty", "[fast]") {
   made.causes[0].probability = 0.9999;
   made.probability["none"] = 1e-9;
   CHECK_THAT(line_of(format_summary(made), "Verdict"), Contains("over 99 %") && Contains("under 1 %"));
+}
+
+TEST_CASE("docs/diagnosis.md shows the ten lines as they are printed", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].indistinguishable_from = {"tire_loss_in_skim"};
+  const std::string page = tests::read_file(ROLLRIG_SOURCE_DIR "/docs/diagnosis.md");
+  for (const std::string& line : lines_of(format_summary(made))) CHECK_THAT(page, Contains("    " + line + "\n"));
 }
