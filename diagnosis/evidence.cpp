@@ -5,12 +5,6 @@
 #include <cmath>
 
 namespace rollrig::diagnosis {
-namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-}  // namespace
-
 double log_sum_exp(const std::vector<double>& logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
   if (!std::isfinite(largest)) return largest;
@@ -34,23 +28,27 @@ AmplitudePrior near_amplitude(double middle) {
 Evidence::Evidence(const Remainder& remainder, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
                    const RowMatrix& jacobian)
     : remainder_(remainder), unknowns_(unknowns) {
-  const auto& all = remainder.set().series();
-  for (std::size_t s = 0; s < all.size(); ++s) {
-    const auto rows = jacobian.middleRows(at(all[s].first_residual), at(all[s].size()));
-    const auto r = residuals.segment(at(all[s].first_residual), at(all[s].size()));
-    const Eigen::MatrixXd& directions = remainder.basis(s).directions;
-    series_.push_back({rows.transpose() * rows, rows.transpose() * r, r.squaredNorm(), directions.transpose() * rows,
-                       directions.transpose() * r});
+  RowMatrix columns = jacobian;
+  Eigen::VectorXd r = residuals;
+  remainder.whiten_below(columns);
+  remainder.whiten_below(r);
+  log_determinant_below_ = remainder.log_determinant_below();
+  for (const Remainder::Basis& basis : remainder.bases()) {
+    const Eigen::MatrixXd rows = remainder.gather(basis, columns);
+    const Eigen::VectorXd of_basis = remainder.gather(basis, r);
+    parts_.push_back({rows.transpose() * rows, rows.transpose() * of_basis, of_basis.squaredNorm(),
+                      basis.directions.transpose() * rows, basis.directions.transpose() * of_basis});
   }
 }
 
 Evidence::PerAmplitude Evidence::calc_channel(std::size_t channel, double amplitude) const {
   const Eigen::Index n = unknowns_.size();
   PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
-  for (std::size_t s = 0; s < series_.size(); ++s) {
-    if (remainder_.set().series()[s].channel != channel) continue;
-    const OfSeries& of = series_[s];
-    const Eigen::ArrayXd scaled = amplitude * amplitude * remainder_.basis(s).strengths.array();
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const Remainder::Basis& basis = remainder_.bases()[b];
+    if (basis.channel != channel) continue;
+    const Part& of = parts_[b];
+    const Eigen::ArrayXd scaled = amplitude * amplitude * basis.strengths.array();
     const Eigen::VectorXd taken = (scaled / (1.0 + scaled)).matrix();
     sum.curvature += of.curvature - of.along.transpose() * taken.asDiagonal() * of.along;
     sum.gradient += of.gradient - of.along.transpose() * taken.cwiseProduct(of.along_residual);
@@ -70,7 +68,7 @@ Evidence::Term Evidence::solve(const Eigen::MatrixXd& curvature, const Eigen::Ve
   term.step = -factor.solve(g);
   term.chi2 = square + unknowns_.squaredNorm() + g.dot(term.step);
   const double log_m = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  term.log_value = -0.5 * (term.chi2 + log_determinant + log_m);
+  term.log_value = -0.5 * (term.chi2 + log_determinant + log_determinant_below_ + log_m);
   if (with_covariance) term.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
   return term;
 }

@@ -58,14 +58,15 @@ class Evidence {
 
   const Remainder& remainder_;
   Eigen::VectorXd unknowns_;
-  struct OfSeries {
+  double log_determinant_below_ = 0.0;
+  struct Part {                 // of a basis
     Eigen::MatrixXd curvature;  // J^T J
     Eigen::VectorXd gradient;   // J^T r
     double square = 0.0;        // r^T r
     Eigen::MatrixXd along;      // U^T J
     Eigen::VectorXd along_residual;
   };
-  std::vector<OfSeries> series_;
+  std::vector<Part> parts_;
 };
 
 /// log(sum exp).

@@ -14,6 +14,12 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
+/// What is left under a hypothesis: model error, and an unknown effect that repeats.
+struct Remainders {
+  const Remainder& of_time;
+  const Remainder& of_conditions;
+};
+
 /// A free remainder: in each channel either as small as model error, or of any size up to a hundred floors.
 AmplitudePrior free_amplitude(double smallest) {
   AmplitudePrior prior{{smallest}, {0.5}};
@@ -49,8 +55,8 @@ Amplitudes expect_model_error(const ModelError& error, const Amplitudes& signatu
   return expected;
 }
 
-void weigh(const Remainder& remainder, const Amplitudes& expected, Contender& contender) {
-  const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+void weigh(const Remainders& remainders, const Amplitudes& expected, Contender& contender) {
+  const Evidence evidence(remainders.of_time, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   std::vector<AmplitudePrior> small;
   std::vector<AmplitudePrior> free;
   for (const double amplitude : expected) {
@@ -60,18 +66,18 @@ void weigh(const Remainder& remainder, const Amplitudes& expected, Contender& co
   const Evidence::Sum sum = evidence.integrate(small);
   contender.log_evidence = sum.log_value;
   contender.amplitudes = sum.mean;
-  contender.log_remainder = evidence.integrate(free).log_value;
+  const Evidence repeated(remainders.of_conditions, contender.fit.unknowns, contender.fit.residuals,
+                          contender.fit.jacobian);
+  // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other.
+  contender.log_remainder =
+      log_sum_exp({evidence.integrate(free).log_value, repeated.integrate(free).log_value}) - std::log(2.0);
 }
 
-}  // namespace
-
-namespace {
-
 /// One fit under given model error; weighed under the error in proportion to what it changes.
-Contender fit_once(const Model& model, const Remainder& remainder, const ModelError& error, const Contender& null,
+Contender fit_once(const Model& model, const Remainders& remainders, const ModelError& error, const Contender& null,
                    const Amplitudes& amplitudes, const Eigen::VectorXd& start, int threads, int most_iterations) {
   Contender contender;
-  contender.fit = refit(model, remainder, amplitudes, start, threads, most_iterations);
+  contender.fit = refit(model, remainders.of_time, amplitudes, start, threads, most_iterations);
   if (!std::isfinite(contender.fit.cost)) {
     contender.log_evidence = contender.log_remainder = kImpossible;
     contender.signature.assign(amplitudes.size(), 0.0);
@@ -79,33 +85,32 @@ Contender fit_once(const Model& model, const Remainder& remainder, const ModelEr
     return contender;
   }
   contender.signature = measure_in_floors(model.set(), contender.fit.simulated - null.fit.simulated);
-  weigh(remainder, expect_model_error(error, contender.signature), contender);
+  weigh(remainders, expect_model_error(error, contender.signature), contender);
   return contender;
 }
 
-}  // namespace
-
-Contender fit_contender(const Model& model, const Remainder& remainder, const ModelError& error, const Contender& null,
-                        const Eigen::VectorXd& start, int threads) {
+/// Fits a hypothesis from `start`, under model error in proportion to what it changes against `null`: twice, since that
+/// change is known after the first fit only.
+Contender fit_contender(const Model& model, const Remainders& remainders, const ModelError& error,
+                        const Contender& null, const Eigen::VectorXd& start, int threads) {
   constexpr int kMost = 30;
-  const Contender first = fit_once(model, remainder, error, null, null.amplitudes, start, threads, kMost);
+  const Contender first = fit_once(model, remainders, error, null, null.amplitudes, start, threads, kMost);
   if (!std::isfinite(first.fit.cost)) return first;
-  return fit_once(model, remainder, error, null, expect_model_error(error, first.signature), first.fit.unknowns,
+  return fit_once(model, remainders, error, null, expect_model_error(error, first.signature), first.fit.unknowns,
                   threads, kMost);
 }
 
-namespace {
-
-Contender fit_null(const Model& model, const Remainder& remainder, const RaceSettings& settings) {
+Contender fit_null(const Model& model, const Remainders& remainders, const RaceSettings& settings) {
   Contender null;
   const Amplitudes channels(model.set().channels().size(), 0.0);
   const Amplitudes expected = expect_model_error(settings.model_error, channels);
-  null.fit = refit(model, remainder, expected, Eigen::VectorXd::Zero(at(model.unknown_count())), settings.threads);
+  null.fit =
+      refit(model, remainders.of_time, expected, Eigen::VectorXd::Zero(at(model.unknown_count())), settings.threads);
   if (!std::isfinite(null.fit.cost)) {
     throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
   }
   null.signature = channels;
-  weigh(remainder, expected, null);
+  weigh(remainders, expected, null);
   return null;
 }
 
@@ -122,7 +127,7 @@ std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, 
 /// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
 std::vector<Contender> refit_all(const Contender& from, const std::vector<Screened>& chosen, const Contender& null,
                                  const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                                 const Remainder& remainder, const RaceSettings& settings) {
+                                 const Remainders& remainders, const RaceSettings& settings) {
   constexpr int kFirstSteps = 4;
   constexpr double kHopeless_nats = 20.0;  // Assumed: more than the steps that are left could gain ...
   constexpr double kHopelessShare = 0.25;  // ... and so much of what the best gains
@@ -131,7 +136,7 @@ std::vector<Contender> refit_all(const Contender& from, const std::vector<Screen
   parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
     const Model model = model_of(i);
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
-    contenders[i] = fit_once(model, remainder, settings.model_error, null, from.amplitudes, start, 1, kFirstSteps);
+    contenders[i] = fit_once(model, remainders, settings.model_error, null, from.amplitudes, start, 1, kFirstSteps);
   });
   double best = std::max(from.log_evidence, from.log_remainder);
   for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
@@ -139,7 +144,7 @@ std::vector<Contender> refit_all(const Contender& from, const std::vector<Screen
     const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
                           best - std::max(kHopeless_nats, kHopelessShare * (best - from.log_evidence));
     if (hopeless) return;
-    contenders[i] = fit_contender(model_of(i), remainder, settings.model_error, null, contenders[i].fit.unknowns, 1);
+    contenders[i] = fit_contender(model_of(i), remainders, settings.model_error, null, contenders[i].fit.unknowns, 1);
   });
   return contenders;
 }
@@ -201,7 +206,7 @@ void assign_probabilities(const RaceSettings& settings, Race& race) {
 /// Pairs of the best singles with the effects that gain most on top of them: those whose score could make up for a
 /// pair's smaller prior.
 void add_pairs(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-               const Remainder& remainder, const RaceSettings& settings, Race& race) {
+               const Remainders& remainders, const RaceSettings& settings, Race& race) {
   constexpr std::size_t kFirsts = 2;
   constexpr std::size_t kSeconds = 3;
   constexpr double kWorthwhile_nats = 3.0;
@@ -215,12 +220,12 @@ void add_pairs(const PreparedSet& set, const std::vector<identification::FreePar
     }
     const Model model(set, base, first.fit.hypothesis);
     std::vector<Screened> screened =
-        screen(model, remainder, first.amplitudes, first.fit, base, others, settings.threads);
+        screen(model, remainders.of_time, first.amplitudes, first.fit, base, others, settings.threads);
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < kWorthwhile_nats; }),
                    screened.end());
     if (first.log_evidence < race.null.log_evidence || screened.empty()) continue;
-    add_contenders(refit_all(first, choose(screened, kSeconds, 0.0), race.null, set, base, remainder, settings),
+    add_contenders(refit_all(first, choose(screened, kSeconds, 0.0), race.null, set, base, remainders, settings),
                    race.contenders);
   }
 }
@@ -229,22 +234,25 @@ void add_pairs(const PreparedSet& set, const std::vector<identification::FreePar
 
 Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
               const Remainder& remainder, const RaceSettings& settings) {
+  const Amplitudes model_error(set.channels().size(), settings.model_error.baseline_floors);
+  const Remainder of_conditions(remainder, model_error);
+  const Remainders remainders{remainder, of_conditions};
   Race race;
   race.effects = settings.effects;
   const Model null(set, base, {});
   settings.progress(0.0, "baseline");
-  race.null = fit_null(null, remainder, settings);
+  race.null = fit_null(null, remainders, settings);
   settings.progress(0.1, "screening");
   race.screened =
-      screen(null, remainder, race.null.amplitudes, race.null.fit, base, settings.effects, settings.threads);
+      screen(null, remainders.of_time, race.null.amplitudes, race.null.fit, base, settings.effects, settings.threads);
   settings.progress(0.2, "refit of effects");
   constexpr double kNats = 6.0;
   constexpr std::size_t kLeast = 6;
-  add_contenders(refit_all(race.null, choose(race.screened, kLeast, kNats), race.null, set, base, remainder, settings),
+  add_contenders(refit_all(race.null, choose(race.screened, kLeast, kNats), race.null, set, base, remainders, settings),
                  race.contenders);
   assign_probabilities(settings, race);
   settings.progress(0.6, "pairs");
-  add_pairs(set, base, remainder, settings, race);
+  add_pairs(set, base, remainders, settings, race);
   assign_probabilities(settings, race);
   return race;
 }

@@ -55,9 +55,4 @@ struct RaceSettings {
 Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
               const Remainder& remainder, const RaceSettings& settings);
 
-/// Fits a hypothesis from `start`, under model error in proportion to what it changes against `null`: twice, since that
-/// change is known after the first fit only.
-Contender fit_contender(const Model& model, const Remainder& remainder, const ModelError& error, const Contender& null,
-                        const Eigen::VectorXd& start, int threads);
-
 }  // namespace rollrig::diagnosis
