@@ -83,6 +83,10 @@ Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOpt
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
+  if (lead != nullptr) {
+    weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);
+    diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
+  }
   report(1.0, "done");
   return diagnosis;
 }

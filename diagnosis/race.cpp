@@ -55,7 +55,8 @@ Amplitudes expect_model_error(const ModelError& error, const Amplitudes& signatu
   return expected;
 }
 
-void weigh(const Remainders& remainders, const Amplitudes& expected, Contender& contender) {
+void weigh(const Remainders& remainders, const ModelError& error, Contender& contender) {
+  const Amplitudes expected = expect_model_error(error, contender.signature);
   const Evidence evidence(remainders.of_time, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   std::vector<AmplitudePrior> small;
   std::vector<AmplitudePrior> free;
@@ -68,9 +69,19 @@ void weigh(const Remainders& remainders, const Amplitudes& expected, Contender& 
   contender.amplitudes = sum.mean;
   const Evidence repeated(remainders.of_conditions, contender.fit.unknowns, contender.fit.residuals,
                           contender.fit.jacobian);
-  // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other.
-  contender.log_remainder =
-      log_sum_exp({evidence.integrate(free).log_value, repeated.integrate(free).log_value}) - std::log(2.0);
+  // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other. On top of an
+  // effect it is as likely a distortion of what that effect does.
+  std::vector<double> logs{evidence.integrate(free).log_value, repeated.integrate(free).log_value};
+  if (!contender.fit.hypothesis.effects.empty()) {
+    std::vector<AmplitudePrior> distorted;
+    for (std::size_t c = 0; c < expected.size(); ++c) {
+      distorted.push_back(
+          near_amplitude(std::hypot(error.baseline_floors, error.look_alike_share * contender.signature[c])));
+    }
+    logs.push_back(evidence.integrate(distorted).log_value);
+    logs.push_back(repeated.integrate(distorted).log_value);
+  }
+  contender.log_remainder = log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
 }
 
 /// One fit under given model error; weighed under the error in proportion to what it changes.
@@ -85,7 +96,7 @@ Contender fit_once(const Model& model, const Remainders& remainders, const Model
     return contender;
   }
   contender.signature = measure_in_floors(model.set(), contender.fit.simulated - null.fit.simulated);
-  weigh(remainders, expect_model_error(error, contender.signature), contender);
+  weigh(remainders, error, contender);
   return contender;
 }
 
@@ -110,7 +121,7 @@ Contender fit_null(const Model& model, const Remainders& remainders, const RaceS
     throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
   }
   null.signature = channels;
-  weigh(remainders, expected, null);
+  weigh(remainders, settings.model_error, null);
   return null;
 }
 
@@ -182,14 +193,14 @@ void assign_probabilities(const RaceSettings& settings, Race& race) {
   const auto n = static_cast<double>(settings.effects.size());
   const double pair_count = std::max(1.0, 0.5 * n * (n - 1.0));
   std::vector<double> logs{std::log(settings.priors.none) + race.null.log_evidence,
-                           std::log(0.5 * settings.priors.unknown) + race.null.log_remainder};
+                           std::log(settings.priors.unknown) + race.null.log_remainder};
   for (const Contender& contender : race.contenders) {
     const double share = sign_share(contender.fit.hypothesis);
     const bool single = contender.fit.hypothesis.effects.size() == 1;
     const double prior = single ? settings.priors.singles / n : settings.priors.pairs / pair_count;
     logs.push_back(std::log(share * prior) + contender.log_evidence);
-    logs.push_back(single ? std::log(share * 0.5 * settings.priors.unknown / n) + contender.log_remainder
-                          : kImpossible);
+    const double look_alike = prior * settings.priors.look_alike / settings.priors.singles;
+    logs.push_back(std::log(share * look_alike) + contender.log_remainder);
   }
   const double total = log_sum_exp(logs);
   race.null.probability = std::exp(logs[0] - total);

@@ -14,13 +14,15 @@ struct RacePriors {
   double none = 0.50;
   double singles = 0.35;
   double pairs = 0.06;
-  double unknown = 0.09;  // half on top of the baseline, half on top of an effect
+  double unknown = 0.03;     // on top of the baseline
+  double look_alike = 0.06;  // on top of a single effect: like it, but something else; of pairs in proportion
 };
 
 /// Sizes of model error, in noise floors and relative.
 struct ModelError {
-  double baseline_floors = 0.1;  // Assumed: of the baseline's equations, per channel
-  double law_share = 0.05;       // Assumed: of what an effect's law changes in a channel
+  double baseline_floors = 0.1;   // Assumed: of the baseline's equations, per channel
+  double law_share = 0.05;        // Assumed: of what an effect's law changes in a channel
+  double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
 };
 
 /// One hypothesis in the race.

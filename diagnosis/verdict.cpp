@@ -180,6 +180,23 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
   return causes;
 }
 
+void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability) {
+  constexpr double kKept = 0.05;
+  if (causes.empty()) return;
+  Cause& first = causes.front();
+  if (gap.shrink_percent.has_value() && gap.shrink_ci95_percent[1] < 0.0) {
+    first.objections.push_back("it makes the runs that were left out worse, not better");
+  }
+  first.adequate = first.objections.empty();
+  if (first.adequate) return;
+  const double moved = (1.0 - kKept) * first.probability;
+  first.probability -= moved;
+  probability["unknown"] += moved;
+  for (const auto* ids : {&first.effects, &first.indistinguishable_from}) {
+    for (const std::string& id : *ids) probability[id] -= std::min(probability[id], moved);
+  }
+}
+
 std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
                                            const std::vector<Cause>& causes) {
   constexpr double kDetectable = 3.0;

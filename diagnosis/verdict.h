@@ -28,6 +28,10 @@ double expected_log_bayes_factor(const Remainder& remainder, const Contender& a,
 std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                const Remainder& remainder, const Race& race);
 
+/// Adds what the runs left out say against the first cause, and moves the probability of a cause with objections to
+/// "unknown": a true cause fails one of the tests in 1 of 20 sets or fewer, what merely looks like one often.
+void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability);
+
 /// Effects that this set would not show: detectable at less than 3 standard deviations at the middle of their prior,
 /// and not named.
 std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
