@@ -153,7 +153,7 @@ std::string where_line(const Diagnosis& diagnosis) {
     return line("Where", diagnosis.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
   }
   const Location& at = diagnosis.where.front();
-  const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of the gap",
+  const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of gap",
                                        with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
   const std::string place = fmt::format("{} in {}, {}", short_name(at.channel), at.run, at.phase);
   return line("Where", clip(place, kTextColumns - count_characters(size)) + size);
