@@ -154,21 +154,25 @@ std::vector<Contender> refit_all(const Contender& from, const std::vector<Screen
                                  const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                  const Remainders& remainders, const RaceSettings& settings) {
   constexpr int kFirstSteps = 4;
-  constexpr double kHopeless_nats = 20.0;  // Assumed: more than the steps that are left could gain ...
-  constexpr double kHopelessShare = 0.25;  // ... and so much of what the best gains
+  constexpr double kFaint_nats = 2.0;       // a screening score that cannot make a cause: one step will do
+  constexpr double kWorthwhile_nats = 1.0;  // over the baseline, below which a better fit decides nothing
+  constexpr double kHopeless_nats = 20.0;   // Assumed: more than the steps that are left could gain ...
+  constexpr double kHopelessShare = 0.25;   // ... and so much of what the best gains
   std::vector<Contender> contenders(chosen.size());
   const auto model_of = [&](std::size_t i) { return Model(set, base, from.fit.hypothesis.with(chosen[i].effect)); };
   parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
     const Model model = model_of(i);
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
-    contenders[i] = fit_once(model, remainders, settings.model_error, null, from.amplitudes, start, 1, kFirstSteps);
+    contenders[i] = fit_once(model, remainders, settings.model_error, null, from.amplitudes, start, 1,
+                             chosen[i].score < kFaint_nats ? 1 : kFirstSteps);
   });
   double best = std::max(from.log_evidence, from.log_remainder);
   for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
   parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
     const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
                           best - std::max(kHopeless_nats, kHopelessShare * (best - from.log_evidence));
-    if (hopeless) return;
+    const bool faint = contenders[i].log_evidence < null.log_evidence + kWorthwhile_nats;
+    if (hopeless || faint) return;
     contenders[i] = fit_contender(model_of(i), remainders, settings.model_error, null, contenders[i].fit.unknowns, 1);
   });
   return contenders;
