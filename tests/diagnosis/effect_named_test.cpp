@@ -1,0 +1,44 @@
+// What an effect owes to the diagnosis from its one file: a set simulated with it is named.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "diagnosis/diagnosis.h"
+#include "tests/support/drum_sets.h"
+
+using namespace rollrig;
+
+namespace {
+
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+bool is_seen_on_drum(const models::EffectInfo& info) {
+  const auto& faint = info.faint_on;
+  return models::acts_on(info, models::RigKind::kDrum) &&
+         std::find(faint.begin(), faint.end(), models::RigKind::kDrum) == faint.end();
+}
+
+}  // namespace
+
+TEST_CASE("a set simulated with an effect is named, or the effect is listed as one it would not show", "[slow]") {
+  constexpr double kLargeSize = 0.9;  // near the upper end of the prior
+  int named = 0;
+  for (const models::Effect* effect : models::all_effects()) {
+    const models::EffectInfo& info = effect->info;
+    if (!is_seen_on_drum(info)) continue;
+    INFO(info.id);
+    tests::Campaign campaign = tests::make_wide_campaign();
+    campaign.effects = {tests::make_effect_at(info.id, kLargeSize)};
+    const diagnosis::Diagnosis answer = diagnosis::diagnose(tests::simulate_campaign(campaign, 7), {});
+    if (answer.verdict == diagnosis::Verdict::kNoGap) {
+      CHECK(contains(answer.not_excluded, info.id));
+      continue;
+    }
+    REQUIRE_FALSE(answer.causes.empty());
+    const diagnosis::Cause& cause = answer.causes.front();
+    CHECK((contains(cause.effects, info.id) || contains(cause.indistinguishable_from, info.id)));
+    ++named;
+  }
+  CHECK(named >= 12);
+}
