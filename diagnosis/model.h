@@ -24,6 +24,7 @@ class Model {
   const PreparedSet& set() const { return set_; }
   const Hypothesis& hypothesis() const { return hypothesis_; }
   std::optional<std::size_t> held_out() const { return held_out_; }
+  const std::vector<identification::FreeParameter>& base() const { return base_; }
 
   std::size_t own_count() const { return own_.size(); }
   std::size_t parameter_count() const { return own_.size() + base_.size(); }

@@ -48,15 +48,28 @@ Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& diff
   return sums;
 }
 
-Amplitudes expect_model_error(const ModelError& error, const Amplitudes& signature) {
+Amplitudes expect_model_error(const ModelError& error, const Contender& contender) {
   Amplitudes expected;
-  for (const double changed : signature)
-    expected.push_back(std::hypot(error.baseline_floors, error.law_share * changed));
+  for (std::size_t c = 0; c < contender.signature.size(); ++c) {
+    expected.push_back(std::hypot(error.baseline_floors, error.law_share * contender.signature[c],
+                                  error.whole_share * contender.whole[c]));
+  }
   return expected;
 }
 
+/// All that the effects of a fit change, its base parameters held.
+Amplitudes measure_whole(const Model& model, const Fit& fit) {
+  const Model without(model.set(), model.base(), {});
+  Eigen::VectorXd simulated;
+  const Eigen::Index own = at(model.own_count());
+  if (!without.simulate(fit.unknowns.tail(fit.unknowns.size() - own), 1, simulated, nullptr, true)) {
+    return Amplitudes(model.set().channels().size(), 0.0);
+  }
+  return measure_in_floors(model.set(), fit.simulated - simulated);
+}
+
 void weigh(const Remainders& remainders, const ModelError& error, Contender& contender) {
-  const Amplitudes expected = expect_model_error(error, contender.signature);
+  const Amplitudes expected = expect_model_error(error, contender);
   const Evidence evidence(remainders.of_time, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   std::vector<AmplitudePrior> small;
   std::vector<AmplitudePrior> free;
@@ -92,10 +105,12 @@ Contender fit_once(const Model& model, const Remainders& remainders, const Model
   if (!std::isfinite(contender.fit.cost)) {
     contender.log_evidence = contender.log_remainder = kImpossible;
     contender.signature.assign(amplitudes.size(), 0.0);
+    contender.whole = contender.signature;
     contender.amplitudes = amplitudes;
     return contender;
   }
   contender.signature = measure_in_floors(model.set(), contender.fit.simulated - null.fit.simulated);
+  contender.whole = measure_whole(model, contender.fit);
   weigh(remainders, error, contender);
   return contender;
 }
@@ -107,20 +122,19 @@ Contender fit_contender(const Model& model, const Remainders& remainders, const 
   constexpr int kMost = 30;
   const Contender first = fit_once(model, remainders, error, null, null.amplitudes, start, threads, kMost);
   if (!std::isfinite(first.fit.cost)) return first;
-  return fit_once(model, remainders, error, null, expect_model_error(error, first.signature), first.fit.unknowns,
-                  threads, kMost);
+  return fit_once(model, remainders, error, null, expect_model_error(error, first), first.fit.unknowns, threads, kMost);
 }
 
 Contender fit_null(const Model& model, const Remainders& remainders, const RaceSettings& settings) {
   Contender null;
-  const Amplitudes channels(model.set().channels().size(), 0.0);
-  const Amplitudes expected = expect_model_error(settings.model_error, channels);
+  null.signature.assign(model.set().channels().size(), 0.0);
+  null.whole = null.signature;
+  const Amplitudes expected = expect_model_error(settings.model_error, null);
   null.fit =
       refit(model, remainders.of_time, expected, Eigen::VectorXd::Zero(at(model.unknown_count())), settings.threads);
   if (!std::isfinite(null.fit.cost)) {
     throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
   }
-  null.signature = channels;
   weigh(remainders, settings.model_error, null);
   return null;
 }

@@ -21,7 +21,8 @@ struct RacePriors {
 /// Sizes of model error, in noise floors and relative.
 struct ModelError {
   double baseline_floors = 0.1;   // Assumed: of the baseline's equations, per channel
-  double law_share = 0.05;        // Assumed: of what an effect's law changes in a channel
+  double law_share = 0.05;        // Assumed: of what an effect changes in a channel that nothing else can change
+  double whole_share = 0.015;     // Assumed: of all that it changes there, base parameters held
   double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
 };
 
@@ -29,7 +30,8 @@ struct ModelError {
 struct Contender {
   Fit fit;
   Amplitudes amplitudes;       // of the remainder, after the measurement
-  Amplitudes signature;        // rms by channel of what it changes against the null, in noise floors
+  Amplitudes signature;        // rms by channel of what it changes against the null's fit, in noise floors
+  Amplitudes whole;            // the same against its own fit without its effects
   double log_evidence = 0.0;   // with the remainder as small as model error
   double log_remainder = 0.0;  // with a free remainder on top
   double probability = 0.0;    // with the small remainder

@@ -28,6 +28,7 @@ struct Options {
   std::vector<std::string> only;
   std::vector<std::string> truths;
   bool leave_out_truth = false;
+  bool only_truth = false;
   int threads = 0;
 };
 
@@ -75,7 +76,7 @@ std::vector<Case> read_cases(const Options& options) {
     }
     const bool wanted = options.truths.empty() || std::find(options.truths.begin(), options.truths.end(),
                                                             one.truth_name()) != options.truths.end();
-    if (wanted && !(options.leave_out_truth && one.truth.empty())) cases.push_back(one);
+    if (wanted && !((options.leave_out_truth || options.only_truth) && one.truth.empty())) cases.push_back(one);
   }
   return cases;
 }
@@ -91,6 +92,7 @@ void diagnose_case(const Options& options, Case& one) {
       for (const std::string& id : one.truth)
         how.only.erase(std::remove(how.only.begin(), how.only.end(), id), how.only.end());
     }
+    if (options.only_truth) how.only = one.truth;
     const std::string folder = (fs::path(options.bank) / "sets" / one.set).string();
     one.answer = diagnosis::diagnose(scenarios::read_measurement_set(folder), how);
   } catch (const Interrupted&) {
@@ -204,6 +206,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", options.only, "Effects in the race")->delimiter(',');
   app.add_option("--truth", options.truths, "Only sets of these effects (none: without)")->delimiter(',');
   app.add_flag("--leave-out-truth", options.leave_out_truth, "The true effect is left out of the race");
+  app.add_flag("--only-truth", options.only_truth, "The true effect is alone in the race: what it achieves");
   app.add_option("--threads", options.threads, "Sets at the same time [as many as the machine has]");
   CLI11_PARSE(app, argc, argv);
   install_interrupt_handler();
