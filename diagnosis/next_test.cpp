@@ -228,7 +228,7 @@ std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<id
                                     const Remainder& remainder, const Race& race, int threads) {
   constexpr std::size_t kProposed = 3;
   constexpr double kWorthwhile_bits = 0.01;
-  const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, remainder, race);
+  const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, remainder, race, threads);
   if (open.size() < 2) return {};
   std::vector<JudgedTest> judged = judge_tests(set, base, open, threads);
   std::stable_sort(judged.begin(), judged.end(), [](const JudgedTest& a, const JudgedTest& b) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/verdict.h"
 
@@ -48,37 +49,47 @@ bool is_lead_and_a_trifle(const Contender& lead, const Contender& other) {
   return other.fit.hypothesis.effects.size() > lead.fit.hypothesis.effects.size();
 }
 
-/// Where in its prior a size is tried: the middle, or one prior unit off where the middle does nothing.
-double find_trial_u(const models::EffectParameter& size) {
-  const bool does_nothing =
-      size.prior.scale == models::Prior::Scale::kLinear && !size.prior.either_sign &&
-      std::abs(size.prior.centre() - size.off.value_or(0.0)) < 0.25 * (size.prior.high - size.prior.low);
-  return does_nothing ? 1.0 : 0.0;
+/// Unknowns that are moved to where they are likeliest, those in `fixed` held where they are.
+/// Equation  x = m + C_xf C_ff^-1 (f - m_f): the middle of a normal distribution m, C given f
+Eigen::VectorXd move_to_likeliest(const Eigen::VectorXd& unknowns, const Evidence::Term& term,
+                                  const std::vector<Eigen::Index>& fixed) {
+  const auto count = at(fixed.size());
+  Eigen::MatrixXd between(unknowns.size(), count);
+  Eigen::MatrixXd own(count, count);
+  Eigen::VectorXd back(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index from = fixed[static_cast<std::size_t>(i)];
+    between.col(i) = term.covariance.col(from);
+    back[i] = -term.step[from];
+    for (Eigen::Index j = 0; j < count; ++j) own(i, j) = term.covariance(from, fixed[static_cast<std::size_t>(j)]);
+  }
+  return unknowns + term.step + between * own.llt().solve(back);
 }
 
-/// `on` with one more effect, of which the prior alone is known.
-OpenHypothesis add_unseen(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                          const OpenHypothesis& on, const models::Effect& effect, double weight) {
-  const Model larger(set, base, on.hypothesis.with({&effect, 1}));
-  const Eigen::Index count = at(larger.parameter_count());
-  OpenHypothesis added{larger.hypothesis(), Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Zero(count, count), weight};
-  std::vector<Eigen::Index> place;  // of the parameters of `on`
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto p = static_cast<std::size_t>(i);
-    const bool is_own = p < larger.own_count();
-    const bool is_new = is_own && larger.hypothesis().effects[larger.own_parameters()[p].effect].effect == &effect;
-    if (!is_new) {
-      place.push_back(i);
-      continue;
-    }
-    added.spread(i, i) = 1.0;
-    if (larger.own_parameters()[p].index == 0) added.parameters[i] = find_trial_u(effect.info.parameters.front());
+/// `lead` with one more effect at the middle of its prior, everything else moved so as to make up for it, and all as
+/// uncertain as the set leaves it. None where it cannot be simulated there.
+std::optional<OpenHypothesis> add_unseen(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                         const Remainder& remainder, const Contender& lead,
+                                         const models::Effect& effect, double weight, int threads) {
+  const Model larger(set, base, lead.fit.hypothesis.with({&effect, 1}));
+  const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(effect.info.parameters.size()));
+  const Eigen::VectorXd unknowns = insert_own(larger, lead.fit, effect, middle);
+  Eigen::VectorXd residuals;
+  RowMatrix jacobian;
+  if (!larger.evaluate(unknowns, threads, residuals, &jacobian)) return std::nullopt;
+  const Evidence::Term term = Evidence(remainder, unknowns, residuals, jacobian).calc_term(lead.amplitudes, true);
+  std::vector<Eigen::Index> added;
+  for (std::size_t i = 0; i < larger.own_count(); ++i) {
+    if (larger.hypothesis().effects[larger.own_parameters()[i].effect].effect == &effect) added.push_back(at(i));
   }
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    added.parameters[place[i]] = on.parameters[at(i)];
-    for (std::size_t j = 0; j < place.size(); ++j) added.spread(place[i], place[j]) = on.spread(at(i), at(j));
+  Eigen::VectorXd parameters = move_to_likeliest(unknowns, term, added).head(at(larger.parameter_count()));
+  for (std::size_t i = 0; i < larger.own_count(); ++i) {
+    const PriorBounds bounds = larger.own_bounds(i);
+    parameters[at(i)] = std::clamp(parameters[at(i)], bounds.lower, bounds.upper);
   }
-  return added;
+  const Eigen::Index count = parameters.size();
+  return OpenHypothesis{larger.hypothesis(), parameters, term.covariance.topLeftCorner(count, count).llt().matrixL(),
+                        weight};
 }
 
 /// Effects that the set would not have shown, the best hidden first.
@@ -101,7 +112,7 @@ std::vector<const models::Effect*> find_hidden(const Race& race) {
 
 std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
                                                  const std::vector<identification::FreeParameter>& base,
-                                                 const Remainder& remainder, const Race& race) {
+                                                 const Remainder& remainder, const Race& race, int threads) {
   const std::vector<const Contender*> ranked = rank(race);
   const Contender& lead = *ranked.front();
   const bool is_baseline = &lead == &race.null;
@@ -124,8 +135,8 @@ std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
     for (const models::Effect* effect : find_hidden(race)) {
       const bool is_in = std::any_of(open.begin(), open.end(),
                                      [&](const OpenHypothesis& one) { return one.hypothesis.contains(*effect); });
-      if (!is_in && open.size() < (is_baseline ? kMostOnBaseline : kMost))
-        open.push_back(add_unseen(set, base, open.front(), *effect, least));
+      if (is_in || open.size() >= (is_baseline ? kMostOnBaseline : kMost)) continue;
+      if (auto added = add_unseen(set, base, remainder, lead, *effect, least, threads)) open.push_back(*added);
     }
   }
   double sum = 0.0;

@@ -76,7 +76,7 @@ struct Raced {
     race = run_race(set, base, remainder, settings);
   }
 
-  std::vector<OpenHypothesis> find_open() const { return find_open_hypotheses(set, base, remainder, race); }
+  std::vector<OpenHypothesis> find_open() const { return find_open_hypotheses(set, base, remainder, race, 1); }
   std::vector<JudgedTest> judge(const std::vector<OpenHypothesis>& open) const {
     return judge_tests(set, base, open, 0);
   }
@@ -262,6 +262,25 @@ TEST_CASE("without a gap the test is proposed that would show what is not exclud
   const std::vector<NextTest> proposed = raced.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().test == find_judged(raced.judge(open), "fast_steps").test.description);
+}
+
+TEST_CASE("to repeat a run that could not show an effect tells next to nothing of it", "[fast]") {
+  Raced raced(measure({}, {plan_skim_run()}), {"bearing_load_friction"});
+  raced.race.contenders.clear();  // as an effect that was not refitted
+  const std::vector<OpenHypothesis> open = raced.find_open();
+  REQUIRE(open.size() == 2);
+  const scenarios::MeasuredRun run = plan_skim_run();
+  PlannedTest again{"again", "again", 1.0, {run}, {}, false};
+  scenarios::MeasuredRun& rows = again.runs.front();
+  rows.time_s.clear();
+  rows.columns.clear();
+  for (std::size_t row = 0; row < run.time_s.size(); row += static_cast<std::size_t>(kVirtualRow_s)) {
+    rows.time_s.push_back(run.time_s[row]);
+    for (const auto& [column, values] : run.columns) rows.columns[column].push_back(values[row]);
+    for (const std::string& channel : raced.set.channels()) rows.columns[channel].push_back(0.0);
+  }
+  const std::vector<double> even{0.5, 0.5};
+  CHECK(calc_information_bits(even, predict_outcomes(raced.set, raced.base, open, again)) < 0.05);
 }
 
 TEST_CASE("with nothing open no test is proposed", "[fast]") {
