@@ -79,7 +79,7 @@ Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOpt
   diagnosis.where = find_locations(set, remainder, race.null);
   diagnosis.balance = find_balance(set, base, remainder, race.null, options.threads);
   report(0.8, "next test");
-  diagnosis.next_test = propose_tests(set, base, remainder, race, options.threads);
+  if (!checks.implausible) diagnosis.next_test = propose_tests(set, base, remainder, race, options.threads);
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);

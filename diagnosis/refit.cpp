@@ -1,6 +1,7 @@
 #include "diagnosis/refit.h"
 
 #include <ceres/ceres.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,7 @@ Fit refit(const Model& model, const Remainder& remainder, const Amplitudes& ampl
   options.parameter_tolerance = 1e-4;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // a start that cannot be simulated is an answer, not a mistake
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return fit;

@@ -127,22 +127,6 @@ TEST_CASE("a kelvin of ambient moves the zero like its minutes of drift, and non
   CHECK(drift(0.0, 5.0) == zeros);
 }
 
-TEST_CASE("the zero's drift sees the ambient on the drum, in recordings of either detail", "[fast]") {
-  tests::DrumFixture fixture;
-  sim::Program program;
-  sim::Phase warming = tests::rolling("warming", 300.0, 20.0, 5400.0);
-  warming.segments[0].inputs[rigs::index_of(rigs::DrumInput::kAmbient)].slope_per_s = 0.01;
-  program.phases = {warming};
-  models::Corner<double> corner(fixture.context(), {});
-  for (const rigs::Detail detail : {rigs::Detail::kFull, rigs::Detail::kMeasured}) {
-    rigs::QuasiStaticDrum<double> drum(corner, fixture.start(), false, detail);
-    sim::FixedGridIntegrator<double> integrator(drum);
-    const auto recording = sim::simulate<double>(drum, integrator, program);
-    CHECK(recording.channel(kAmbient)[200] == Approx(300.15));
-    CHECK(recording.channel("load_N")[200] == 5400.0);
-  }
-}
-
 TEST_CASE("a late clock writes what was, an early one what will be", "[fast]") {
   const std::vector<double> time_s = rows_every(1.0, 60.0);
   const auto line = means_of([](double t) { return 300.0 * t + 0.5 * 0.02 * t * t; }, time_s);
