@@ -90,17 +90,25 @@ Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& s
   return difference;
 }
 
-/// What a hypothesis, fitted without one run, says of every run. One step of Gauss and Newton from the fit to all runs,
-/// whose derivatives are known; the prediction itself is simulated.
-Eigen::VectorXd predict_without(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                                const Remainder& remainder, const Contender& contender, std::size_t held_out) {
+/// What a hypothesis, fitted without one run, says of every run.
+struct Prediction {
+  Eigen::VectorXd simulated;  // empty where it cannot be simulated
+  double uncertainty = 0.0;   // of the run left out: sum of the squares of its standard deviations, whitened
+};
+
+/// One step of Gauss and Newton from the fit to all runs, whose derivatives are known; the prediction is simulated.
+Prediction predict_without(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                           const Remainder& remainder, const Contender& contender, std::size_t held_out) {
   RowMatrix jacobian = contender.fit.jacobian;
   Eigen::VectorXd residuals = contender.fit.residuals;
   remainder.whiten(contender.amplitudes, jacobian);
   remainder.whiten(contender.amplitudes, residuals);
+  RowMatrix left_out = RowMatrix::Zero(jacobian.rows(), jacobian.cols());
   for (const Series& series : set.series()) {
     if (series.run != held_out) continue;
-    jacobian.middleRows(at(series.first_residual), at(series.size())).setZero();
+    auto rows = jacobian.middleRows(at(series.first_residual), at(series.size()));
+    left_out.middleRows(at(series.first_residual), at(series.size())) = rows;
+    rows.setZero();
     residuals.segment(at(series.first_residual), at(series.size())).setZero();
   }
   const Eigen::Index n = jacobian.cols();
@@ -112,9 +120,24 @@ Eigen::VectorXd predict_without(const PreparedSet& set, const std::vector<identi
     const PriorBounds bounds = model.own_bounds(i);
     unknowns[at(i)] = std::clamp(unknowns[at(i)], bounds.lower, bounds.upper);
   }
-  Eigen::VectorXd simulated;
-  if (!model.simulate(unknowns, 1, simulated, nullptr)) simulated.resize(0);
-  return simulated;
+  Prediction prediction;
+  const auto parameters = at(model.parameter_count());  // offsets are taken off anew
+  left_out.rightCols(n - parameters).setZero();
+  prediction.uncertainty = curvature.matrixL().solve(Eigen::MatrixXd(left_out.transpose())).squaredNorm();
+  if (!model.simulate(unknowns, 1, prediction.simulated, nullptr)) prediction.simulated.resize(0);
+  return prediction;
+}
+
+/// What the cause changes in a run, whitened, in squares.
+double measure_change(const PreparedSet& set, const Remainder& remainder, const Contender& null, const Contender& cause,
+                      std::size_t run) {
+  Eigen::VectorXd change = null.fit.residuals - cause.fit.residuals;
+  remainder.whiten(cause.amplitudes, change);
+  double sum = 0.0;
+  for (const Series& series : set.series()) {
+    if (series.run == run) sum += change.segment(at(series.first_residual), at(series.size())).squaredNorm();
+  }
+  return sum;
 }
 
 /// The contender with its base parameters at the files' values: only its own parameters and offsets are fitted.
@@ -199,8 +222,8 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
              const Contender& null, const Contender* cause, int threads) {
   const std::size_t runs = set.runs().size();
   const bool can_leave_out = runs > 1;
-  std::vector<Eigen::VectorXd> before(runs);
-  std::vector<Eigen::VectorXd> after(runs);
+  std::vector<Prediction> before(runs);
+  std::vector<Prediction> after(runs);
   const std::size_t hypotheses = cause != nullptr ? 2 : 1;
   parallel_for(runs * hypotheses, threads, [&](std::size_t job) {
     const std::size_t run = job / hypotheses;
@@ -212,16 +235,29 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
   Measure measured_before;
   Measure measured_after;
   Measure measured_black_box;
+  Measure certain_before;
+  Measure certain_after;
   Gap gap;
   for (std::size_t run = 0; run < runs; ++run) {
-    if (before[run].size() == 0 || (cause != nullptr && after[run].size() == 0)) continue;  // no fit without it
-    const Eigen::VectorXd difference = find_difference(set, before[run]);
+    const bool lost = before[run].simulated.size() == 0 || (cause != nullptr && after[run].simulated.size() == 0);
+    if (lost) continue;  // no fit without it
+    const Eigen::VectorXd difference = find_difference(set, before[run].simulated);
+    const Eigen::VectorXd with_cause = cause != nullptr ? find_difference(set, after[run].simulated) : difference;
     add_run(set, run, difference, measured_before);
-    add_run(set, run, cause != nullptr ? find_difference(set, after[run]) : difference, measured_after);
-    if (can_leave_out) {
-      add_run(set, run, subtract_black_box(set, difference, run), measured_black_box);
-      gap.held_out.push_back(set.runs()[run].measured.id);
-    }
+    add_run(set, run, with_cause, measured_after);
+    if (!can_leave_out) continue;
+    add_run(set, run, subtract_black_box(set, difference, run), measured_black_box);
+    gap.held_out.push_back(set.runs()[run].measured.id);
+    if (cause == nullptr) continue;
+    constexpr double kCertain = 0.25;  // Assumed: of what the cause changes, in squares
+    const double change = measure_change(set, remainder, null, *cause, run);
+    if (std::max(before[run].uncertainty, after[run].uncertainty) > kCertain * change) continue;
+    add_run(set, run, difference, certain_before);
+    add_run(set, run, with_cause, certain_after);
+  }
+  if (!certain_before.stretches.empty()) {
+    const Shrinkage certain = resample(certain_before, certain_after);
+    gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
   }
   gap.recalibrated = {gap_of(measured_before), gap_of(measured_after)};
   gap.as_calibrated.before = gap_as_calibrated(set, remainder, null);

@@ -184,7 +184,7 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   constexpr double kKept = 0.05;
   if (causes.empty()) return;
   Cause& first = causes.front();
-  if (gap.shrink_percent.has_value() && gap.shrink_ci95_percent[1] < 0.0) {
+  if (gap.worse_where_certain) {
     first.objections.push_back("it makes the runs that were left out worse, not better");
   }
   first.adequate = first.objections.empty();

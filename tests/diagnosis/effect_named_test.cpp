@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "diagnosis/diagnosis.h"
+#include "identification/replay.h"
 #include "tests/support/drum_sets.h"
+#include "tests/support/fit_study.h"
 
 using namespace rollrig;
 
@@ -19,18 +21,31 @@ bool is_seen_on_drum(const models::EffectInfo& info) {
          std::find(faint.begin(), faint.end(), models::RigKind::kDrum) == faint.end();
 }
 
+/// The campaign measured again with an effect on: what its runs would have shown, and the sensors' noise.
+scenarios::MeasurementSet measure_with(const scenarios::MeasurementSet& campaign, const models::ActiveEffect& effect) {
+  scenarios::MeasurementSet set = campaign;
+  const models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
+  for (scenarios::MeasuredRun& run : set.runs) {
+    models::Corner<double> corner(context, {effect});
+    const auto recording =
+        identification::replay_drum_run<double>(set, run, identification::make_drum_replay(run), corner);
+    for (const auto& [channel, sensor] : set.sensors) run.columns.at(channel) = recording.channel(channel);
+  }
+  return tests::add_noise(set, 7);
+}
+
 }  // namespace
 
 TEST_CASE("a set simulated with an effect is named, or the effect is listed as one it would not show", "[slow]") {
   constexpr double kLargeSize = 0.9;  // near the upper end of the prior
+  const scenarios::MeasurementSet campaign = tests::simulate_campaign(tests::make_wide_campaign());
   int named = 0;
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;
     if (!is_seen_on_drum(info)) continue;
     INFO(info.id);
-    tests::Campaign campaign = tests::make_wide_campaign();
-    campaign.effects = {tests::make_effect_at(info.id, kLargeSize)};
-    const diagnosis::Diagnosis answer = diagnosis::diagnose(tests::simulate_campaign(campaign, 7), {});
+    const auto set = measure_with(campaign, tests::make_effect_at(info.id, kLargeSize));
+    const diagnosis::Diagnosis answer = diagnosis::diagnose(set, {});
     if (answer.verdict == diagnosis::Verdict::kNoGap) {
       CHECK(contains(answer.not_excluded, info.id));
       continue;
