@@ -62,6 +62,51 @@ TEST_CASE("what the files give with an uncertainty moves within it and widens th
   }
 }
 
+namespace {
+
+/// A set free of noise whose sensors are said to be `factor` times as noisy as they are, with uncertain heat
+/// capacities.
+scenarios::MeasurementSet make_uncertain_set(double factor, double heat_capacity_sd, double gas_heat_capacity_sd) {
+  auto set = tests::make_warm_up_set("a50", "source", "quasi_static");
+  for (auto& [channel, sensor] : set.sensors) {
+    sensor.drift_sd *= factor;
+    sensor.noise_sd *= factor;
+  }
+  set.tire.standard_uncertainties.thermal.heat_capacity_J_per_K = heat_capacity_sd;
+  set.tire.standard_uncertainties.thermal.gas_heat_capacity_J_per_K = gas_heat_capacity_sd;
+  return set;
+}
+
+double find_sd(const TireFit& fit, const std::string& key) {
+  for (const auto& estimate : fit.estimates) {
+    if (estimate.key == key) return estimate.sd;
+  }
+  throw std::invalid_argument(key);
+}
+
+const char* const kHeatCapacity = "tire.thermal.heat_capacity_J_per_K";
+const char* const kGasHeatCapacity = "tire.thermal.gas_heat_capacity_J_per_K";
+
+}  // namespace
+
+TEST_CASE("where the data say little, the uncertainty of a heat capacity stays the file's", "[fast]") {
+  const TireFit fit = fit_tire(make_uncertain_set(300.0, 1250.0, 9.5), {});
+  CHECK(find_sd(fit, kHeatCapacity) == Approx(1250.0).epsilon(0.05));
+  CHECK(find_sd(fit, kGasHeatCapacity) == Approx(9.5).epsilon(0.05));
+}
+
+TEST_CASE("what the file and what the data say of a heat capacity add up", "[fast]") {
+  // Independent information adds: 1/sd^2 less the prior's is what the data say, whatever the prior.
+  const auto say = [](double prior_sd) {
+    const double sd = find_sd(fit_tire(make_uncertain_set(1.0, prior_sd, 0.0), {}), kHeatCapacity);
+    CHECK(sd < prior_sd);
+    return 1.0 / (sd * sd) - 1.0 / (prior_sd * prior_sd);
+  };
+  const double of_data = say(100.0);
+  CHECK(of_data > 0.0);
+  CHECK(say(400.0) == Approx(of_data).epsilon(0.02));
+}
+
 TEST_CASE("the answer is the same to the bit from one or two threads", "[fast]") {
   const auto set = tests::add_noise(tests::make_warm_up_set("a50", "source"), 3);
   const TireFit one = fit_tire(set, {false, {}, 1});
