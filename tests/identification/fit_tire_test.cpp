@@ -77,6 +77,14 @@ scenarios::MeasurementSet make_uncertain_set(double factor, double heat_capacity
   return set;
 }
 
+void add_other_uncertainties(scenarios::MeasurementSet& set) {
+  set.tire.standard_uncertainties.thermal.H_gas_W_per_K = 0.6;
+  set.tire.standard_uncertainties.rolling_resistance.pressure_exponent = 0.02;
+  set.rig->parasitic_uncertainties.c0_N = 0.4;
+  set.rig->parasitic_uncertainties.c1_N_s_per_m = 0.01;
+  set.rig->parasitic_uncertainties.c2_N_s2_per_m2 = 0.0003;
+}
+
 double find_sd(const TireFit& fit, const std::string& key) {
   for (const auto& estimate : fit.estimates) {
     if (estimate.key == key) return estimate.sd;
@@ -93,18 +101,38 @@ TEST_CASE("where the data say little, the uncertainty of a heat capacity stays t
   const TireFit fit = fit_tire(make_uncertain_set(300.0, 1250.0, 9.5), {});
   CHECK(find_sd(fit, kHeatCapacity) == Approx(1250.0).epsilon(0.05));
   CHECK(find_sd(fit, kGasHeatCapacity) == Approx(9.5).epsilon(0.05));
+  // Of the gas's they say little even as they are, however many other numbers are uncertain.
+  auto set = make_uncertain_set(1.0, 1250.0, 9.5);
+  add_other_uncertainties(set);
+  const double sd = find_sd(fit_tire(set, {}), kGasHeatCapacity);
+  CHECK(sd > 0.7 * 9.5);
+  CHECK(sd < 9.5);
 }
 
 TEST_CASE("what the file and what the data say of a heat capacity add up", "[fast]") {
   // Independent information adds: 1/sd^2 less the prior's is what the data say, whatever the prior.
   const auto say = [](double prior_sd) {
-    const double sd = find_sd(fit_tire(make_uncertain_set(1.0, prior_sd, 0.0), {}), kHeatCapacity);
+    auto set = make_uncertain_set(1.0, prior_sd, 9.5);
+    add_other_uncertainties(set);
+    const double sd = find_sd(fit_tire(set, {}), kHeatCapacity);
     CHECK(sd < prior_sd);
     return 1.0 / (sd * sd) - 1.0 / (prior_sd * prior_sd);
   };
   const double of_data = say(100.0);
   CHECK(of_data > 0.0);
   CHECK(say(400.0) == Approx(of_data).epsilon(0.02));
+}
+
+TEST_CASE("the more is uncertain, the less is known of everything", "[fast]") {
+  auto set = make_uncertain_set(1.0, 1250.0, 9.5);
+  const TireFit few = fit_tire(set, {});
+  add_other_uncertainties(set);
+  const TireFit many = fit_tire(set, {});
+  REQUIRE(many.estimates.size() == few.estimates.size() + 5);
+  for (const auto& estimate : few.estimates) {
+    INFO(estimate.key);
+    CHECK(find_sd(many, estimate.key) > 0.9999 * estimate.sd);
+  }
 }
 
 TEST_CASE("the answer is the same to the bit from one or two threads", "[fast]") {
