@@ -42,6 +42,16 @@ std::map<std::string, double> find_defaults(const models::Context<double>& conte
   return sd;
 }
 
+/// Whether a key names one of the lines over speed that a map over load replaces.
+bool is_replaced_by_map(const std::string& key) {
+  constexpr const char* kTable = "tire.rolling_resistance.";
+  bool replaced = false;
+  models::SpeedLines<double> lines;
+  models::SpeedLines<double>::visit(
+      lines, [&](const Field& field, double&) { replaced = replaced || key == std::string(kTable) + field.key; });
+  return replaced;
+}
+
 /// Standard uncertainties that the files give, in SI units, by key.
 std::map<std::string, double> find_given(const scenarios::MeasurementSet& set) {
   std::map<std::string, double> sd;
@@ -77,7 +87,7 @@ std::vector<FreeParameter> find_base_parameters(const scenarios::MeasurementSet&
   models::Context<double> at = context;
   std::vector<FreeParameter> parameters;
   for (const auto& [key, value] : sd) {
-    if (!context.tire.load_map.empty() && key.rfind("tire.rolling_resistance.", 0) == 0) continue;
+    if (!context.tire.load_map.empty() && is_replaced_by_map(key)) continue;
     const double start = identification::find_parameter(at, key);
     if (value > 0.0) parameters.push_back({key, start, value});
   }

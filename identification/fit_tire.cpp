@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -218,18 +219,27 @@ void measure_channels(const scenarios::MeasurementSet& set, const DrumResiduals&
   fit.chi2_per_sample = chi2 / static_cast<double>(samples);
 }
 
-Eigen::MatrixXd find_covariance(ceres::Problem& problem, double* unknowns, std::size_t count) {
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::DENSE_SVD;
-  options.null_space_rank = -1;  // rank-deficient directions are left out, not failed on
-  ceres::Covariance covariance(options);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> matrix(static_cast<Eigen::Index>(count),
-                                                                                static_cast<Eigen::Index>(count));
-  if (!covariance.Compute(std::vector<const double*>{unknowns}, &problem) ||
-      !covariance.GetCovarianceMatrix(std::vector<const double*>{unknowns}, matrix.data())) {
+/// Inverse of J^T J. The columns of J are scaled to unit length first: in SI units a heat capacity's is so much shorter
+/// than the others' that it would pass for a direction that the data do not decide.
+Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vector<double>& unknowns) {
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto count = static_cast<Eigen::Index>(residuals.unknown_count());
+  std::vector<double> at_best(residuals.residual_count());
+  RowMatrix jacobian(static_cast<Eigen::Index>(residuals.residual_count()), count);
+  residuals.evaluate(unknowns.data(), at_best.data(), jacobian.data());
+  const Eigen::VectorXd lengths = jacobian.colwise().norm();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  constexpr double kUndecided = 1e-7;  // Assumed: of unit columns, what rounding leaves of a direction without effect
+  qr.setThreshold(kUndecided);
+  if (lengths.minCoeff() > 0.0) qr.compute(jacobian * lengths.cwiseInverse().asDiagonal());
+  if (!(lengths.minCoeff() > 0.0) || !lengths.allFinite() || qr.rank() < count) {
     throw RunFailure("the fit has no covariance: the data do not decide the parameters");
   }
-  return matrix;
+  const Eigen::MatrixXd r = qr.matrixR().topRows(count).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd inverse =
+      qr.colsPermutation() * r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd scaled = lengths.cwiseInverse().asDiagonal() * inverse;
+  return scaled * scaled.transpose();
 }
 
 void require_drum_set(const scenarios::MeasurementSet& set) {
@@ -274,7 +284,7 @@ TireFit fit_tire(const scenarios::MeasurementSet& set, const FitOptions& options
   std::vector<double> at_best(residuals.residual_count());
   residuals.evaluate(unknowns.data(), at_best.data(), nullptr);
   measure_channels(set, residuals, at_best, fit);
-  put_estimates(set, start, keys, unknowns, find_covariance(problem, unknowns.data(), unknowns.size()), fit);
+  put_estimates(set, start, keys, unknowns, find_covariance(residuals, unknowns), fit);
   write_notes(set, fit);
   constexpr double kNoiseDoubled = 2.0;
   if (fit.chi2_per_sample > kNoiseDoubled) {

@@ -51,7 +51,8 @@ struct TireFit {
 /// Maximum likelihood over all runs at once, by simulation: A0, A1, B0, B1, z, f (and H) free; heat
 /// capacities, parasitic loss and whatever else the files give with an uncertainty move within it.
 /// Standard deviations from the curvature at the optimum.
-/// Errors  InputError: not a drum set, fewer than two speeds; RunFailure: no convergence
+/// Errors  InputError: not a drum set, fewer than two speeds; RunFailure: no convergence, or data that leave a
+///         parameter undecided
 /// Checked tests/identification/fit_tire_test.cpp, tests/identification/fit_coverage_test.cpp
 TireFit fit_tire(const scenarios::MeasurementSet& set, const FitOptions& options);
 

@@ -96,7 +96,7 @@ TEST_CASE("the foreign generator includes nothing of the simulator, nor the simu
 TEST_CASE("tests that doc comments name are there", "[fast]") {
   const std::regex named("tests/[a-z_0-9/]+\\.cpp");
   int checked = 0;
-  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification"}) {
+  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification", "diagnosis"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kSource / top)) {
       if (entry.path().extension() != ".h") continue;
       std::ifstream in(entry.path());

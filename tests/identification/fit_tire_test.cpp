@@ -62,6 +62,79 @@ TEST_CASE("what the files give with an uncertainty moves within it and widens th
   }
 }
 
+namespace {
+
+/// A set free of noise whose sensors are said to be `factor` times as noisy as they are, with uncertain heat
+/// capacities.
+scenarios::MeasurementSet make_uncertain_set(double factor, double heat_capacity_sd, double gas_heat_capacity_sd) {
+  auto set = tests::make_warm_up_set("a50", "source", "quasi_static");
+  for (auto& [channel, sensor] : set.sensors) {
+    sensor.drift_sd *= factor;
+    sensor.noise_sd *= factor;
+  }
+  set.tire.standard_uncertainties.thermal.heat_capacity_J_per_K = heat_capacity_sd;
+  set.tire.standard_uncertainties.thermal.gas_heat_capacity_J_per_K = gas_heat_capacity_sd;
+  return set;
+}
+
+void add_other_uncertainties(scenarios::MeasurementSet& set) {
+  set.tire.standard_uncertainties.thermal.H_gas_W_per_K = 0.6;
+  set.tire.standard_uncertainties.rolling_resistance.pressure_exponent = 0.02;
+  set.rig->parasitic_uncertainties.c0_N = 0.4;
+  set.rig->parasitic_uncertainties.c1_N_s_per_m = 0.01;
+  set.rig->parasitic_uncertainties.c2_N_s2_per_m2 = 0.0003;
+}
+
+double find_sd(const TireFit& fit, const std::string& key) {
+  for (const auto& estimate : fit.estimates) {
+    if (estimate.key == key) return estimate.sd;
+  }
+  throw std::invalid_argument(key);
+}
+
+const char* const kHeatCapacity = "tire.thermal.heat_capacity_J_per_K";
+const char* const kGasHeatCapacity = "tire.thermal.gas_heat_capacity_J_per_K";
+
+}  // namespace
+
+TEST_CASE("where the data say little, the uncertainty of a heat capacity stays the file's", "[fast]") {
+  const TireFit fit = fit_tire(make_uncertain_set(300.0, 1250.0, 9.5), {});
+  CHECK(find_sd(fit, kHeatCapacity) == Approx(1250.0).epsilon(0.05));
+  CHECK(find_sd(fit, kGasHeatCapacity) == Approx(9.5).epsilon(0.05));
+  // Of the gas's they say little even as they are, however many other numbers are uncertain.
+  auto set = make_uncertain_set(1.0, 1250.0, 9.5);
+  add_other_uncertainties(set);
+  const double sd = find_sd(fit_tire(set, {}), kGasHeatCapacity);
+  CHECK(sd > 0.7 * 9.5);
+  CHECK(sd < 9.5);
+}
+
+TEST_CASE("what the file and what the data say of a heat capacity add up", "[fast]") {
+  // Independent information adds: 1/sd^2 less the prior's is what the data say, whatever the prior.
+  const auto say = [](double prior_sd) {
+    auto set = make_uncertain_set(1.0, prior_sd, 9.5);
+    add_other_uncertainties(set);
+    const double sd = find_sd(fit_tire(set, {}), kHeatCapacity);
+    CHECK(sd < prior_sd);
+    return 1.0 / (sd * sd) - 1.0 / (prior_sd * prior_sd);
+  };
+  const double of_data = say(100.0);
+  CHECK(of_data > 0.0);
+  CHECK(say(400.0) == Approx(of_data).epsilon(0.02));
+}
+
+TEST_CASE("the more is uncertain, the less is known of everything", "[fast]") {
+  auto set = make_uncertain_set(1.0, 1250.0, 9.5);
+  const TireFit few = fit_tire(set, {});
+  add_other_uncertainties(set);
+  const TireFit many = fit_tire(set, {});
+  REQUIRE(many.estimates.size() == few.estimates.size() + 5);
+  for (const auto& estimate : few.estimates) {
+    INFO(estimate.key);
+    CHECK(find_sd(many, estimate.key) > 0.9999 * estimate.sd);
+  }
+}
+
 TEST_CASE("the answer is the same to the bit from one or two threads", "[fast]") {
   const auto set = tests::add_noise(tests::make_warm_up_set("a50", "source"), 3);
   const TireFit one = fit_tire(set, {false, {}, 1});

@@ -1,0 +1,163 @@
+#include "diagnosis/base_parameters.h"
+
+#include <catch2/catch.hpp>
+#include <map>
+#include <set>
+
+#include "models/rolling_resistance.h"
+#include "tests/diagnosis/gap_sets.h"
+
+using namespace rollrig;
+using identification::FreeParameter;
+
+namespace {
+
+constexpr double kSpeed_m_s = 80.0 / 3.6;
+
+/// A set without runs: base parameters hang on the files alone.
+scenarios::MeasurementSet make_set() { return tests::make_gap_set({}, 0); }
+
+models::Context<double> make_context(const scenarios::MeasurementSet& set) {
+  return rigs::make_context(set.tire, *set.rig, set.baseline);
+}
+
+std::map<std::string, FreeParameter> find(const scenarios::MeasurementSet& set) {
+  std::map<std::string, FreeParameter> by_key;
+  for (const FreeParameter& parameter : diagnosis::find_base_parameters(set, make_context(set))) {
+    CHECK(by_key.emplace(parameter.key, parameter).second);
+    CHECK(parameter.prior_sd_SI > 0.0);
+  }
+  return by_key;
+}
+
+/// Relative change of the tire's loss at 80 km/h and a temperature when a parameter moves by its uncertainty.
+double find_change_of_loss(const scenarios::MeasurementSet& set, const std::string& key, double temperature_K,
+                           double load_N = 5400.0) {
+  models::Context<double> context = make_context(set);
+  const FreeParameter parameter = find(set).at(key);
+  const auto loss_N = [&] {
+    return models::calc_rolling_resistance_N(context.tire, kSpeed_m_s, load_N,
+                                             context.tire.rolling_resistance.reference_pressure_Pa, temperature_K);
+  };
+  const double before = loss_N();
+  identification::find_parameter(context, key) += parameter.prior_sd_SI;
+  return std::abs(loss_N() / before - 1.0);
+}
+
+}  // namespace
+
+TEST_CASE("the identified numbers of tire and rig move, and no others", "[fast]") {
+  std::set<std::string> keys;
+  for (const auto& [key, parameter] : find(make_set())) keys.insert(key);
+  const std::set<std::string> expected{"tire.rolling_resistance.A0_N",
+                                       "tire.rolling_resistance.A1_N_s_per_m",
+                                       "tire.rolling_resistance.B0_per_degC",
+                                       "tire.rolling_resistance.B1_s_per_m_degC",
+                                       "tire.thermal.heat_capacity_J_per_K",
+                                       "tire.thermal.gas_heat_capacity_J_per_K",
+                                       "tire.thermal.H_gas_W_per_K",
+                                       "tire.thermal.z_W_per_K",
+                                       "tire.thermal.f_W_s_per_m_K",
+                                       "parasitic.c0_N",
+                                       "parasitic.c1_N_s_per_m",
+                                       "parasitic.c2_N_s2_per_m2"};
+  CHECK(keys == expected);
+}
+
+TEST_CASE("defaults are shares of what they change at 80 km/h", "[fast]") {
+  const auto set = make_set();
+  CHECK(find_change_of_loss(set, "tire.rolling_resistance.A0_N", 273.15) == Approx(0.02).epsilon(0.01));
+  CHECK(find_change_of_loss(set, "tire.rolling_resistance.A1_N_s_per_m", 273.15) == Approx(0.02).epsilon(0.01));
+  const auto& rr = set.tire.values.rolling_resistance;
+  const double fall_over_10_K = 10.0 * (rr.B0_per_K + rr.B1_s_per_m_K * kSpeed_m_s);
+  for (const char* key : {"tire.rolling_resistance.B0_per_degC", "tire.rolling_resistance.B1_s_per_m_degC"}) {
+    CHECK(find_change_of_loss(set, key, 283.15) == Approx(0.04 * fall_over_10_K).epsilon(0.02));
+  }
+  const auto base = find(set);
+  const auto& thermal = set.tire.values.thermal;
+  CHECK(base.at("tire.thermal.heat_capacity_J_per_K").prior_sd_SI == Approx(0.05 * thermal.heat_capacity_J_per_K));
+  CHECK(base.at("tire.thermal.gas_heat_capacity_J_per_K").prior_sd_SI ==
+        Approx(0.10 * thermal.gas_heat_capacity_J_per_K));
+  CHECK(base.at("tire.thermal.H_gas_W_per_K").prior_sd_SI == Approx(0.15 * thermal.H_gas_W_per_K));
+}
+
+TEST_CASE("an uncertainty of the file wins over the default", "[fast]") {
+  auto set = make_set();
+  auto& sd = set.tire.standard_uncertainties;
+  sd.rolling_resistance.A0_N = 0.123;
+  sd.thermal.heat_capacity_J_per_K = 77.0;
+  set.rig->parasitic_uncertainties.c1_N_s_per_m = 0.011;
+  const auto base = find(set);
+  CHECK(base.at("tire.rolling_resistance.A0_N").prior_sd_SI == 0.123);
+  CHECK(base.at("tire.thermal.heat_capacity_J_per_K").prior_sd_SI == 77.0);
+  CHECK(base.at("parasitic.c1_N_s_per_m").prior_sd_SI == 0.011);
+  CHECK(base.at("tire.rolling_resistance.A1_N_s_per_m").prior_sd_SI ==
+        find(make_set()).at("tire.rolling_resistance.A1_N_s_per_m").prior_sd_SI);
+}
+
+TEST_CASE("priors stand around the values of the files", "[fast]") {
+  const auto set = make_set();
+  models::Context<double> context = make_context(set);
+  for (const auto& [key, parameter] : find(set)) {
+    INFO(key);
+    CHECK(parameter.start_SI == identification::find_parameter(context, key));
+  }
+}
+
+TEST_CASE("z and f are those of the set's rig, with its uncertainty", "[fast]") {
+  auto set = make_set();
+  set.tire.standard_uncertainties.thermal.z_W_per_K = 9.0;
+  auto& on_rig = set.tire.rig_thermal.at(set.rig->name);
+  on_rig.z_sd_W_per_K = 0.7;
+  on_rig.f_sd_W_s_per_m_K = 0.05;
+  set.tire.rig_thermal["dyno_1m2"].z_sd_W_per_K = 3.0;
+  const auto base = find(set);
+  CHECK(base.at("tire.thermal.z_W_per_K").start_SI == *on_rig.z_W_per_K);
+  CHECK(base.at("tire.thermal.z_W_per_K").prior_sd_SI == 0.7);
+  CHECK(base.at("tire.thermal.f_W_s_per_m_K").start_SI == *on_rig.f_W_s_per_m_K);
+  CHECK(base.at("tire.thermal.f_W_s_per_m_K").prior_sd_SI == 0.05);
+}
+
+TEST_CASE("further numbers move only where the file gives an uncertainty", "[fast]") {
+  auto set = make_set();
+  set.tire.standard_uncertainties.rolling_resistance.pressure_exponent = 0.03;
+  set.tire.standard_uncertainties.thermal.road_share_of_z = 0.1;
+  const auto base = find(set);
+  CHECK(base.size() == find(make_set()).size() + 2);
+  CHECK(base.at("tire.rolling_resistance.pressure_exponent").prior_sd_SI == 0.03);
+  CHECK(base.at("tire.thermal.road_share_of_z").prior_sd_SI == 0.1);
+}
+
+TEST_CASE("with a map over load its lines move, each by its share, and not the lines that it replaces", "[fast]") {
+  auto set = make_set();
+  const models::SpeedLines<double> lines = set.tire.values.rolling_resistance;
+  models::SpeedLines<double> low = lines;
+  low.A0_N *= 0.5;
+  low.A1_N_s_per_m *= 0.5;
+  set.tire.values.load_map = {{low, 3000.0}, {lines, 5400.0}};
+  set.tire.standard_uncertainties.load_map.resize(2);
+  set.tire.standard_uncertainties.load_map[1].B0_per_K = 3e-4;
+  set.tire.standard_uncertainties.rolling_resistance.A0_N = 0.5;  // of a line that the map replaces
+  set.tire.standard_uncertainties.rolling_resistance.pressure_exponent = 0.03;
+  const auto base = find(set);
+  for (const char* table : {"tire.load_map.0.", "tire.load_map.1."}) {
+    for (const char* key : {"A0_N", "A1_N_s_per_m", "B0_per_degC", "B1_s_per_m_degC"}) {
+      INFO(table << key);
+      CHECK(base.count(std::string(table) + key) == 1);
+      CHECK(base.count(std::string("tire.rolling_resistance.") + key) == 0);
+    }
+  }
+  CHECK(base.at("tire.load_map.1.B0_per_degC").prior_sd_SI == 3e-4);
+  CHECK(find_change_of_loss(set, "tire.load_map.0.A0_N", 273.15, 3000.0) == Approx(0.02).epsilon(0.01));
+  CHECK(find_change_of_loss(set, "tire.load_map.1.A0_N", 273.15, 5400.0) == Approx(0.02).epsilon(0.01));
+  REQUIRE(base.count("tire.rolling_resistance.pressure_exponent") == 1);  // acts beside the map
+}
+
+TEST_CASE("a number that is zero can still move", "[fast]") {
+  auto set = make_set();
+  set.rig->parasitic.c2_N_s2_per_m2 = 0.0;
+  set.tire.rig_thermal.at(set.rig->name).z_W_per_K = 0.0;
+  const auto base = find(set);
+  CHECK(base.at("parasitic.c2_N_s2_per_m2").prior_sd_SI > 0.0);
+  CHECK(base.at("tire.thermal.z_W_per_K").prior_sd_SI > 0.0);
+}

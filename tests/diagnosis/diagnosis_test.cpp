@@ -1,0 +1,202 @@
+// Whole diagnoses, of small sets by the simulator and by the foreign generator.
+#include "diagnosis/diagnosis.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "diagnosis/diagnosis_json.h"
+#include "sim/core/error.h"
+#include "tests/blind/blind_fixture.h"
+#include "tests/diagnosis/gap_sets.h"
+#include "tests/support/drum_fixture.h"
+#include "tests/support/fit_study.h"
+
+using namespace rollrig;
+using diagnosis::Cause;
+using diagnosis::diagnose;
+using diagnosis::Diagnosis;
+using diagnosis::DiagnosisOptions;
+using diagnosis::Verdict;
+
+namespace {
+
+using Ids = std::vector<std::string>;
+
+/// Effects that the small diagnoses choose from.
+const Ids kFew{"bearing_warmup", "slow_leak", "load_exponent"};
+
+DiagnosisOptions only(const Ids& ids, int threads = 0) {
+  DiagnosisOptions options;
+  options.only = ids;
+  options.threads = threads;
+  return options;
+}
+
+/// Bearings that warm in two runs, and noise.
+const scenarios::MeasurementSet& warm_bearings() {
+  static const auto set = tests::add_noise(
+      tests::make_gap_set({tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0})}, 2), 1);
+  return set;
+}
+
+bool holds(const Ids& ids, const std::string& id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
+
+bool names(const Diagnosis& diagnosis, const std::string& id) {
+  if (diagnosis.causes.empty()) return false;
+  const Cause& first = diagnosis.causes.front();
+  return holds(first.effects, id) || holds(first.indistinguishable_from, id);
+}
+
+std::string text_of(const Diagnosis& diagnosis) { return diagnosis::make_diagnosis_json(diagnosis).dump(); }
+
+/// Properties that a diagnosis has whatever the set.
+void check_sound(const Diagnosis& diagnosis) {
+  for (const auto& [name, probability] : diagnosis.probability) {
+    INFO(name);
+    CHECK(probability >= 0.0);
+    CHECK(probability <= 1.0 + 1e-9);
+  }
+  CHECK(diagnosis.probability.count("none") == 1);
+  CHECK(diagnosis.probability.count("unknown") == 1);
+  for (const Cause& cause : diagnosis.causes) {
+    CHECK(cause.adequate == cause.objections.empty());
+    for (const auto& parameter : cause.parameters) {
+      CHECK(parameter.low_95 <= parameter.value);
+      CHECK(parameter.value <= parameter.high_95);
+    }
+  }
+  for (const diagnosis::GapView& view : {diagnosis.gap.as_calibrated, diagnosis.gap.recalibrated}) {
+    CHECK(view.before >= 0.0);
+    CHECK(view.after >= 0.0);
+  }
+  if (diagnosis.verdict == Verdict::kNoGap) CHECK_FALSE(diagnosis.gap.shrink_percent.has_value());
+}
+
+}  // namespace
+
+TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", "[fast]") {
+  const Diagnosis found = diagnose(warm_bearings(), only(kFew));
+  INFO(text_of(found));
+  check_sound(found);
+  CHECK(found.verdict == Verdict::kExplained);
+  REQUIRE_FALSE(found.causes.empty());
+  CHECK(found.causes.front().effects == Ids{"bearing_warmup"});
+  CHECK(found.probability.at("bearing_warmup") > 0.9);
+  const auto& size = found.causes.front().parameters.front();
+  CHECK(size.name == "bearing_warmup.fall_per_K");
+  CHECK(size.unit == "1/K");
+  CHECK(std::abs(size.value - 0.02) < 4.0 * size.sd);
+  REQUIRE(found.gap.shrink_percent.has_value());
+  CHECK(*found.gap.shrink_percent > 80.0);
+  REQUIRE_FALSE(found.where.empty());
+  CHECK(found.where.front().channel == "drum_torque_Nm");
+  CHECK(found.warnings.empty());
+}
+
+TEST_CASE("the same answer from one thread or two, and from runs listed in another order", "[fast]") {
+  const std::string one = text_of(diagnose(warm_bearings(), only({"bearing_warmup", "slow_leak"}, 1)));
+  CHECK(one == text_of(diagnose(warm_bearings(), only({"bearing_warmup", "slow_leak"}, 2))));
+  scenarios::MeasurementSet other = warm_bearings();
+  std::reverse(other.runs.begin(), other.runs.end());
+  CHECK(one == text_of(diagnose(other, only({"bearing_warmup", "slow_leak"}, 1))));
+}
+
+TEST_CASE("noise alone has no gap and no cause", "[fast]") {
+  const Diagnosis found = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kFew));
+  INFO(text_of(found));
+  check_sound(found);
+  CHECK(found.verdict == Verdict::kNoGap);
+  CHECK(found.probability.at("none") > 0.9);
+}
+
+TEST_CASE("effects that are left out have no probability", "[fast]") {
+  DiagnosisOptions options = only(kFew);
+  options.without = {"bearing_warmup"};
+  const Diagnosis found = diagnose(warm_bearings(), options);
+  INFO(text_of(found));
+  check_sound(found);
+  CHECK(found.probability.size() == 4);  // two effects, none, unknown
+  CHECK(found.probability.count("bearing_warmup") == 0);
+  CHECK_FALSE(names(found, "bearing_warmup"));
+  CHECK(found.verdict == Verdict::kUnexplained);  // of what is left, none fits
+}
+
+TEST_CASE("an effect that does not exist is refused, wherever it is named", "[fast]") {
+  DiagnosisOptions options;
+  options.only = {"bearing_warmpu"};
+  CHECK_THROWS_AS(diagnose(warm_bearings(), options), InputError);
+  CHECK_THROWS_WITH(diagnose(warm_bearings(), options), Catch::Contains("bearing_warmup"));
+  options = {};
+  options.without = {"nothing"};
+  CHECK_THROWS_AS(diagnose(warm_bearings(), options), InputError);
+}
+
+TEST_CASE("a set that cannot be what it says has no cause", "[fast]") {
+  scenarios::MeasurementSet set = warm_bearings();
+  for (scenarios::MeasuredRun& run : set.runs) {
+    for (double& torque : run.columns.at("drum_torque_Nm")) torque *= 3.6;
+  }
+  const Diagnosis found = diagnose(set, only({"bearing_warmup"}));
+  INFO(text_of(found));
+  CHECK(found.verdict == Verdict::kUnexplained);
+  CHECK(found.causes.empty());
+  CHECK(found.probability.at("unknown") == 1.0);
+  CHECK_FALSE(found.warnings.empty());
+}
+
+TEST_CASE("progress rises from nothing to all of it", "[fast]") {
+  std::vector<double> done;
+  DiagnosisOptions options = only({"bearing_warmup"});
+  options.progress = [&done](double share, const std::string& stage) {
+    CHECK_FALSE(stage.empty());
+    done.push_back(share);
+  };
+  diagnose(warm_bearings(), options);
+  REQUIRE(done.size() > 3);
+  CHECK(std::is_sorted(done.begin(), done.end()));
+  CHECK(done.front() == 0.0);
+  CHECK(done.back() == 1.0);
+}
+
+TEST_CASE("causes of the foreign generator are named, out of the whole catalogue", "[slow]") {
+  struct Hidden {
+    const char* effect;
+    const char* size;
+  };
+  // Large sizes of priors, so that the sets show them beyond doubt.
+  for (const Hidden& hidden : {Hidden{"bearing_warmup", "0.02"}, Hidden{"slow_leak", "3"},
+                               Hidden{"load_exponent", "1.12"}, Hidden{"clock_shift", "6"}}) {
+    const tests::BlindSet made =
+        tests::make_blind_set(std::string("--effect ") + hidden.effect + " --size " + hidden.size + " --seed 31");
+    const Diagnosis found = diagnose(made.set, {});
+    INFO(hidden.effect << "\n" << text_of(found));
+    check_sound(found);
+    CHECK(found.verdict != Verdict::kNoGap);
+    CHECK(names(found, hidden.effect));
+    REQUIRE_FALSE(found.causes.empty());
+    CHECK(found.causes.front().effects.size() + found.causes.front().indistinguishable_from.size() <= 3);
+  }
+}
+
+TEST_CASE("sets of the foreign generator without effect have no gap", "[slow]") {
+  for (const char* seed : {"41", "42", "43"}) {
+    const tests::BlindSet made = tests::make_blind_set(std::string("--effect none --seed ") + seed);
+    const Diagnosis found = diagnose(made.set, {});
+    INFO("seed " << seed << "\n" << text_of(found));
+    check_sound(found);
+    CHECK(found.verdict == Verdict::kNoGap);
+  }
+}
+
+TEST_CASE("of a set by the foreign generator the same answer from one thread or two, and in another order", "[slow]") {
+  const scenarios::MeasurementSet set = tests::make_blind_set("--effect rim_heat,slow_leak --seed 33 --runs 4").set;
+  DiagnosisOptions options;
+  options.threads = 1;
+  const std::string one = text_of(diagnose(set, options));
+  options.threads = 2;
+  CHECK(one == text_of(diagnose(set, options)));
+  scenarios::MeasurementSet other = set;
+  std::reverse(other.runs.begin(), other.runs.end());
+  CHECK(one == text_of(diagnose(other, options)));
+}

@@ -1,0 +1,219 @@
+#include "diagnosis/gap.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/diagnosis/gap_sets.h"
+#include "tests/support/drum_fixture.h"
+#include "tests/support/fit_study.h"
+
+using namespace rollrig;
+using diagnosis::Contender;
+using diagnosis::Gap;
+using diagnosis::PreparedSet;
+using diagnosis::Series;
+using tests::FittedBaseline;
+
+namespace {
+
+constexpr std::size_t kTorque = 0;
+/// Noise floors. The mean of squares over some 300 times of a drift has a standard deviation of 0.08; root of three.
+constexpr double kNoiseAlone = 0.5;
+
+Gap find(const FittedBaseline& fitted, const Contender* cause = nullptr, int threads = 0) {
+  return diagnosis::find_gap(fitted.set, fitted.base, fitted.remainder, fitted.null, cause, threads);
+}
+
+/// An effect fitted to a set by itself.
+Contender fit_effect(const FittedBaseline& fitted, const char* id) {
+  diagnosis::RaceSettings settings;
+  settings.effects = {&models::find_effect(id)};
+  const diagnosis::Race race = diagnosis::run_race(fitted.set, fitted.base, fitted.remainder, settings);
+  REQUIRE(race.contenders.size() == 1);
+  return race.contenders.front();
+}
+
+std::vector<models::ActiveEffect> warming_bearings(double fall_per_K = 0.02) {
+  return {tests::make_active(models::find_effect("bearing_warmup"), {fall_per_K, 20.0, 15.0, 1.0})};
+}
+
+/// A torque that is off by turns to either side, a minute each: nothing that a base parameter or an offset could take.
+void add_turns(double size_Nm, scenarios::MeasurementSet& set) {
+  for (scenarios::MeasuredRun& run : set.runs) {
+    tests::add_to_channel(run, "drum_torque_Nm", [size_Nm](double time_s) {
+      return static_cast<long>(time_s / 60.0) % 2 == 0 ? size_Nm : -size_Nm;
+    });
+  }
+}
+
+double floor_of_torque(const PreparedSet& set) {
+  for (const Series& series : set.series()) {
+    if (series.channel == kTorque) return series.floor;
+  }
+  throw std::logic_error("no torque");
+}
+
+double share_of_torque(const PreparedSet& set) {
+  double blocks = 0.0;
+  for (const Series& series : set.series())
+    blocks += series.channel == kTorque ? static_cast<double>(series.size()) : 0.0;
+  return blocks / static_cast<double>(set.residual_count());
+}
+
+}  // namespace
+
+TEST_CASE("of noise alone there is no gap: as often below the noise as above it", "[fast]") {
+  constexpr int kSets = 20;
+  const auto clean = tests::make_gap_set({}, 3);
+  int above = 0;
+  for (int seed = 1; seed <= kSets; ++seed) {
+    const Gap gap = find(FittedBaseline(tests::add_noise(clean, static_cast<std::uint64_t>(seed))));
+    INFO("seed " << seed);
+    CHECK(gap.as_calibrated.before < kNoiseAlone);
+    CHECK(gap.recalibrated.before < kNoiseAlone);
+    above += gap.as_calibrated.before > 0.0 ? 1 : 0;
+  }
+  INFO("above in " << above << " of " << kSets);
+  CHECK_FALSE(tests::is_rejected(above, kSets, 0.5, 0.01));
+}
+
+TEST_CASE("of noise alone nothing can shrink", "[fast]") {
+  const auto clean = tests::make_gap_set({}, 3);
+  for (const std::uint64_t seed : {1, 2}) {
+    const FittedBaseline fitted(tests::add_noise(clean, seed));
+    const Contender cause = fit_effect(fitted, "bearing_warmup");
+    const Gap gap = find(fitted, &cause);
+    INFO("seed " << seed);
+    CHECK_FALSE(gap.shrink_percent.has_value());
+    CHECK_FALSE(gap.black_box_percent.has_value());
+  }
+}
+
+TEST_CASE("of a curve that nothing explains the gap is its size, before and after recalibration", "[fast]") {
+  auto set = tests::make_gap_set({}, 3);
+  constexpr double kSize_Nm = 0.5;
+  add_turns(kSize_Nm, set);
+  const FittedBaseline fitted(tests::add_noise(set, 2));
+  const Gap gap = find(fitted);
+  const double expected = kSize_Nm / floor_of_torque(fitted.set) * std::sqrt(share_of_torque(fitted.set));
+  CHECK(gap.as_calibrated.before == Approx(expected).epsilon(0.06));
+  CHECK(gap.recalibrated.before == Approx(expected).epsilon(0.06));
+  CHECK(std::abs(*gap.recalibration_percent) < 3.0);
+  CHECK_FALSE(gap.shrink_percent.has_value());  // no cause
+  CHECK(gap.recalibrated.after == gap.recalibrated.before);
+  REQUIRE(gap.channels.size() == 3);
+  CHECK(gap.channels[kTorque].channel == "drum_torque_Nm");
+  CHECK(gap.channels[kTorque].unit == "N");
+  CHECK(gap.channels[kTorque].before == Approx(kSize_Nm / 1.0).epsilon(0.06));  // a drum of 1 m radius
+  CHECK(gap.channels[1].unit == "degC");
+  CHECK(gap.channels[1].before < 0.05);
+  CHECK(gap.channels[2].unit == "kPa");
+}
+
+TEST_CASE("twice the curve is twice the gap", "[fast]") {
+  const auto measure = [](double size_Nm) {
+    auto set = tests::make_gap_set({}, 2);
+    add_turns(size_Nm, set);
+    return find(FittedBaseline(tests::add_noise(set, 2))).recalibrated.before;
+  };
+  CHECK(measure(2.0) == Approx(2.0 * measure(1.0)).epsilon(0.03));
+}
+
+TEST_CASE("an offset of the sensor is no gap", "[fast]") {
+  auto set = tests::make_gap_set({}, 2);
+  for (scenarios::MeasuredRun& run : set.runs) {
+    tests::add_to_channel(run, "drum_torque_Nm", [](double) { return 0.9; });
+    tests::add_to_channel(run, "cavity_pressure_kPa", [](double) { return -400.0; });
+  }
+  const Gap gap = find(FittedBaseline(tests::add_noise(set, 3)));
+  CHECK(gap.recalibrated.before < kNoiseAlone);
+}
+
+TEST_CASE("the true effect shrinks the gap by all of it, on runs that the fit did not see", "[fast]") {
+  const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 4), 5));
+  const Contender cause = fit_effect(fitted, "bearing_warmup");
+  const Gap gap = find(fitted, &cause);
+  REQUIRE(gap.shrink_percent.has_value());
+  CHECK(gap.recalibrated.after < kNoiseAlone);
+  CHECK(*gap.shrink_percent == Approx(100.0 * (1.0 - gap.recalibrated.after / gap.recalibrated.before)));
+  CHECK(gap.shrink_ci95_percent[0] <= *gap.shrink_percent);
+  CHECK(gap.shrink_ci95_percent[1] >= *gap.shrink_percent);
+  CHECK(gap.held_out == std::vector<std::string>{"run_1", "run_2", "run_3", "run_4"});
+  CHECK(gap.as_calibrated.before > 1.0);
+  CHECK(gap.as_calibrated.after < 0.1 * gap.as_calibrated.before);
+  CHECK(gap.recalibrated.before < gap.as_calibrated.before);  // a part of it, recalibration hides
+  REQUIRE(gap.black_box_percent.has_value());
+  CHECK(*gap.black_box_percent < *gap.shrink_percent);
+  CHECK(gap.channels[kTorque].after < 0.15 * gap.channels[kTorque].before);
+}
+
+TEST_CASE("of a large effect that is known, next to nothing is left in the middle of five campaigns", "[slow]") {
+  const auto clean = tests::make_gap_set(warming_bearings(0.04), 4);
+  std::vector<double> percents;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const FittedBaseline fitted(tests::add_noise(clean, seed));
+    const Contender cause = fit_effect(fitted, "bearing_warmup");
+    percents.push_back(find(fitted, &cause).shrink_percent.value());
+  }
+  std::sort(percents.begin(), percents.end());
+  CHECK(percents[2] > 95.0);
+  CHECK(percents[0] > 90.0);
+}
+
+TEST_CASE("a wrong effect shrinks it less", "[fast]") {
+  const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
+  const Contender right = fit_effect(fitted, "bearing_warmup");
+  const Contender wrong = fit_effect(fitted, "slow_leak");
+  const Gap by_right = find(fitted, &right);
+  const Gap by_wrong = find(fitted, &wrong);
+  REQUIRE(by_right.shrink_percent.has_value());
+  REQUIRE(by_wrong.shrink_percent.has_value());
+  CHECK(*by_wrong.shrink_percent < 20.0);
+  CHECK(*by_right.shrink_percent > 80.0);
+  CHECK(by_wrong.recalibrated.before == by_right.recalibrated.before);
+}
+
+TEST_CASE("of one run nothing can be left out: the gap is its own", "[fast]") {
+  const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 1), 5));
+  const Contender cause = fit_effect(fitted, "bearing_warmup");
+  const Gap gap = find(fitted, &cause);
+  CHECK(gap.held_out.empty());
+  CHECK_FALSE(gap.black_box_percent.has_value());
+  CHECK(gap.recalibrated.after < gap.recalibrated.before);
+}
+
+TEST_CASE("a gap is the same to the bit from one thread or two", "[fast]") {
+  const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
+  const Contender cause = fit_effect(fitted, "bearing_warmup");
+  const Gap one = find(fitted, &cause, 1);
+  const Gap two = find(fitted, &cause, 2);
+  CHECK(one.as_calibrated.before == two.as_calibrated.before);
+  CHECK(one.recalibrated.before == two.recalibrated.before);
+  CHECK(one.recalibrated.after == two.recalibrated.after);
+  CHECK(one.shrink_percent == two.shrink_percent);
+  CHECK(one.shrink_ci95_percent == two.shrink_ci95_percent);
+  CHECK(one.black_box_percent == two.black_box_percent);
+}
+
+TEST_CASE("the interval of a shrinkage holds what other measurements of the same give", "[slow]") {
+  // 20 campaigns of the same truth: what a fit of the true effect shrinks on average lies within nearly all intervals.
+  constexpr int kSets = 20;
+  const auto clean = tests::make_gap_set(warming_bearings(), 4);
+  std::vector<Gap> gaps;
+  double mean = 0.0;
+  for (int seed = 1; seed <= kSets; ++seed) {
+    const FittedBaseline fitted(tests::add_noise(clean, static_cast<std::uint64_t>(100 + seed)));
+    const Contender cause = fit_effect(fitted, "bearing_warmup");
+    gaps.push_back(find(fitted, &cause));
+    REQUIRE(gaps.back().shrink_percent.has_value());
+    mean += *gaps.back().shrink_percent / kSets;
+  }
+  int held = 0;
+  for (const Gap& gap : gaps) {
+    held += gap.shrink_ci95_percent[0] <= mean && mean <= gap.shrink_ci95_percent[1] ? 1 : 0;
+  }
+  INFO("mean shrinkage " << mean << " %, held by " << held << " of " << kSets);
+  CHECK(mean > 90.0);
+  CHECK_FALSE(tests::is_rejected(held, kSets, 0.95, 0.01));
+}

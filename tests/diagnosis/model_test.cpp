@@ -1,0 +1,173 @@
+#include "diagnosis/model.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "diagnosis/base_parameters.h"
+#include "tests/diagnosis/gap_sets.h"
+#include "tests/support/fit_study.h"
+
+using namespace rollrig;
+using diagnosis::Hypothesis;
+using diagnosis::Model;
+using diagnosis::PreparedSet;
+using diagnosis::RowMatrix;
+using diagnosis::Series;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+const PreparedSet& two_runs() {
+  static const PreparedSet set(tests::add_noise(tests::make_gap_set({}, 2), 4));
+  return set;
+}
+
+const std::vector<identification::FreeParameter>& base() {
+  static const auto parameters = diagnosis::find_base_parameters(two_runs().source(), two_runs().context());
+  return parameters;
+}
+
+Hypothesis with(const std::vector<const char*>& ids, int sign = 1) {
+  Hypothesis hypothesis;
+  for (const char* id : ids) hypothesis = hypothesis.with({&models::find_effect(id), sign});
+  return hypothesis;
+}
+
+/// Somewhere off the priors' middles.
+Eigen::VectorXd make_unknowns(const Model& model) {
+  Eigen::VectorXd unknowns(at(model.unknown_count()));
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) unknowns[i] = 0.3 * std::sin(static_cast<double>(i + 1));
+  return unknowns;
+}
+
+void check_derivatives(const Hypothesis& hypothesis) {
+  const Model model(two_runs(), base(), hypothesis);
+  const Eigen::VectorXd unknowns = make_unknowns(model);
+  Eigen::VectorXd residuals;
+  RowMatrix jacobian;
+  REQUIRE(model.evaluate(unknowns, 0, residuals, &jacobian));
+  constexpr double kStep = 1e-4;
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
+    Eigen::VectorXd above = unknowns;
+    Eigen::VectorXd below = unknowns;
+    above[i] += kStep;
+    below[i] -= kStep;
+    Eigen::VectorXd residuals_above;
+    Eigen::VectorXd residuals_below;
+    REQUIRE(model.evaluate(above, 0, residuals_above, nullptr));
+    REQUIRE(model.evaluate(below, 0, residuals_below, nullptr));
+    const Eigen::VectorXd difference = (residuals_above - residuals_below) / (2.0 * kStep);
+    INFO(hypothesis.name() << ", unknown " << i << ", of length " << difference.norm());
+    CHECK((jacobian.col(i) - difference).norm() < 1e-4 * difference.norm() + 1e-7);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("derivatives of residuals are those of the simulation", "[fast]") {
+  check_derivatives({});
+  for (const char* id : {"bearing_warmup", "load_exponent", "rim_heat", "rubber_memory", "slow_leak",
+                         "torque_zero_drift", "tread_liner_lag"}) {
+    check_derivatives(with({id}));
+  }
+  check_derivatives(with({"bearing_warmup", "slow_leak"}));
+  check_derivatives(with({"torque_zero_drift"}, -1));
+}
+
+TEST_CASE("a clock that is late has the derivatives of its traces", "[fast]") {
+  check_derivatives(with({"clock_shift"}));
+}
+
+TEST_CASE("residuals and derivatives are the same to the bit from one thread or two", "[fast]") {
+  const Model model(two_runs(), base(), with({"bearing_warmup", "rim_heat"}));
+  const Eigen::VectorXd unknowns = make_unknowns(model);
+  Eigen::VectorXd one;
+  Eigen::VectorXd two;
+  Eigen::VectorXd alone;
+  RowMatrix jacobian_of_one;
+  RowMatrix jacobian_of_two;
+  REQUIRE(model.evaluate(unknowns, 1, one, &jacobian_of_one));
+  REQUIRE(model.evaluate(unknowns, 2, two, &jacobian_of_two));
+  REQUIRE(model.evaluate(unknowns, 1, alone, nullptr));
+  CHECK(one == two);
+  CHECK(jacobian_of_one == jacobian_of_two);
+  CHECK((one - alone).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("a run that is held out takes no part, and may be predicted all the same", "[fast]") {
+  const Model all(two_runs(), base(), with({"bearing_warmup"}));
+  const Model without(two_runs(), base(), with({"bearing_warmup"}), 1);
+  const Eigen::VectorXd unknowns = make_unknowns(all);
+  Eigen::VectorXd of_all;
+  Eigen::VectorXd of_one;
+  RowMatrix jacobian_of_all;
+  RowMatrix jacobian_of_one;
+  REQUIRE(all.evaluate(unknowns, 1, of_all, &jacobian_of_all));
+  REQUIRE(without.evaluate(unknowns, 1, of_one, &jacobian_of_one));
+  for (const Series& series : two_runs().series()) {
+    const Eigen::Index first = at(series.first_residual);
+    const Eigen::Index size = at(series.size());
+    if (series.run == 1) {
+      CHECK(of_one.segment(first, size).isZero(0.0));
+      CHECK(jacobian_of_one.middleRows(first, size).isZero(0.0));
+    } else {
+      CHECK(of_one.segment(first, size) == of_all.segment(first, size));
+      CHECK(jacobian_of_one.middleRows(first, size) == jacobian_of_all.middleRows(first, size));
+    }
+  }
+  Eigen::VectorXd simulated_by_all;
+  Eigen::VectorXd simulated;
+  REQUIRE(all.simulate(unknowns, 1, simulated_by_all, nullptr));
+  REQUIRE(without.simulate(unknowns, 1, simulated, nullptr, true));
+  CHECK(simulated == simulated_by_all);
+}
+
+TEST_CASE("at the truth, without noise, nothing is left", "[fast]") {
+  const auto effect = [] {
+    models::ActiveEffect active{&models::find_effect("bearing_warmup"), {}};
+    for (const models::EffectParameter& parameter : active.effect->info.parameters) {
+      active.parameters.push_back(diagnosis::from_prior_units(parameter, 0.0, 1).value_SI);
+    }
+    return active;
+  }();
+  const PreparedSet set(tests::make_gap_set({effect}, 2));
+  const Model model(set, base(), with({"bearing_warmup"}));
+  Eigen::VectorXd residuals;
+  REQUIRE(model.evaluate(Eigen::VectorXd::Zero(at(model.unknown_count())), 1, residuals, nullptr));
+  CHECK(residuals.cwiseAbs().maxCoeff() < 1e-3);
+  const Model none(set, base(), {});
+  REQUIRE(none.evaluate(Eigen::VectorXd::Zero(at(none.unknown_count())), 1, residuals, nullptr));
+  CHECK(residuals.cwiseAbs().maxCoeff() > 1.0);
+}
+
+TEST_CASE("residuals of the truth are of unit variance", "[fast]") {
+  // Rounding is not white where the true value holds still for minutes: its share is below 2 %.
+  const Model model(two_runs(), base(), {});
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+  Eigen::VectorXd residuals;
+  RowMatrix jacobian;
+  REQUIRE(model.evaluate(unknowns, 1, residuals, &jacobian));
+  // The sessions' offsets, which are the truth's only unknowns here, by least squares.
+  const RowMatrix offsets = jacobian.rightCols(at(two_runs().offset_count()));
+  const Eigen::VectorXd best = (offsets.transpose() * offsets).llt().solve(-offsets.transpose() * residuals);
+  const Eigen::VectorXd left = residuals + offsets * best;
+  const double freedom = static_cast<double>(left.size() - best.size());
+  CHECK(left.squaredNorm() / freedom == Approx(1.0).margin(4.0 * std::sqrt(2.0 / freedom)));
+  CHECK(best.cwiseAbs().maxCoeff() < 4.5);  // in standard deviations of an offset
+}
+
+TEST_CASE("a parameter out of its range is no hypothesis", "[fast]") {
+  const Model model(two_runs(), base(), with({"bearing_warmup"}));
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+  unknowns[0] = model.own_bounds(0).upper + 0.1;
+  Eigen::VectorXd residuals;
+  CHECK_FALSE(model.evaluate(unknowns, 1, residuals, nullptr));
+}
+
+TEST_CASE("with the base fixed, only own parameters and offsets are unknown", "[fast]") {
+  Hypothesis fixed = with({"bearing_warmup"});
+  fixed.base_fixed = true;
+  const Model model(two_runs(), base(), fixed);
+  CHECK(model.unknown_count() == model.own_count() + two_runs().offset_count());
+}

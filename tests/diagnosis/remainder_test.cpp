@@ -1,0 +1,193 @@
+#include "diagnosis/remainder.h"
+
+#include <Eigen/Dense>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/diagnosis/gap_sets.h"
+
+using namespace rollrig;
+using diagnosis::Amplitudes;
+using diagnosis::PreparedSet;
+using diagnosis::Remainder;
+using diagnosis::RowMatrix;
+using diagnosis::Series;
+
+namespace {
+
+Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+
+/// Two runs in two sessions.
+const PreparedSet& two_runs() {
+  static const PreparedSet set(tests::make_gap_set({}, 2));
+  return set;
+}
+
+/// Two runs that are the same but for their name.
+const PreparedSet& twins() {
+  static const PreparedSet set([] {
+    scenarios::MeasurementSet same = tests::make_gap_set({}, 1);
+    same.runs.push_back(same.runs.front());
+    same.runs.back().id = "run_2";
+    return same;
+  }());
+  return set;
+}
+
+/// The remainder's covariance of whitened residuals, of unit amplitude, over the whole set.
+Eigen::MatrixXd make_process(const Remainder& remainder, const Amplitudes& amplitudes) {
+  const Eigen::Index n = at(remainder.set().residual_count());
+  Eigen::MatrixXd process = Eigen::MatrixXd::Zero(n, n);
+  for (const Remainder::Basis& basis : remainder.bases()) {
+    std::vector<Eigen::Index> rows;
+    for (const std::size_t s : basis.series) {
+      const Series& series = remainder.set().series()[s];
+      for (std::size_t k = 0; k < series.size(); ++k) rows.push_back(at(series.first_residual + k));
+    }
+    REQUIRE(at(rows.size()) == basis.directions.rows());
+    const Eigen::MatrixXd part = amplitudes[basis.channel] * amplitudes[basis.channel] * basis.directions *
+                                 basis.strengths.asDiagonal() * basis.directions.transpose();
+    for (Eigen::Index i = 0; i < part.rows(); ++i) {
+      for (Eigen::Index j = 0; j < part.cols(); ++j) {
+        process(rows[static_cast<std::size_t>(i)], rows[static_cast<std::size_t>(j)]) += part(i, j);
+      }
+    }
+  }
+  return process;
+}
+
+/// What the process is before whitening, in noise floors: a row a block.
+Eigen::MatrixXd make_rows_in_floors(const Remainder& remainder, std::size_t s) {
+  const Series& series = remainder.set().series()[s];
+  for (const Remainder::Basis& basis : remainder.bases()) {
+    Eigen::Index first = 0;
+    for (const std::size_t other : basis.series) {
+      const Eigen::Index size = at(remainder.set().series()[other].size());
+      if (other == s) {
+        RowMatrix rows = basis.directions.middleRows(first, size) * basis.strengths.cwiseSqrt().asDiagonal();
+        series.whitener.undo(rows.data(), static_cast<std::size_t>(rows.cols()));
+        return rows / series.floor;
+      }
+      first += size;
+    }
+  }
+  throw std::logic_error("a series without a basis");
+}
+
+void check_inverse_root(const Remainder& remainder, const Amplitudes& amplitudes) {
+  const Eigen::MatrixXd sigma =
+      make_process(remainder, amplitudes) +
+      Eigen::MatrixXd::Identity(at(remainder.set().residual_count()), at(remainder.set().residual_count()));
+  const RowMatrix columns = RowMatrix::Random(sigma.rows(), 3);
+  RowMatrix whitened = columns;
+  remainder.whiten(amplitudes, whitened);
+  const Eigen::MatrixXd expected = columns.transpose() * sigma.llt().solve(Eigen::MatrixXd(columns));
+  CHECK((whitened.transpose() * whitened - expected).norm() < 1e-8 * expected.norm());
+  Eigen::VectorXd column = columns.col(1);
+  remainder.whiten(amplitudes, column);
+  CHECK((column - whitened.col(1)).norm() < 1e-12 * column.norm());
+}
+
+}  // namespace
+
+TEST_CASE("the squared length after whitening is r' Sigma^-1 r, of either kind", "[fast]") {
+  const Remainder of_time(two_runs());
+  check_inverse_root(of_time, {0.1, 2.0, 0.5});
+  const Remainder of_conditions(of_time, {0.2, 0.3, 0.4});
+  check_inverse_root(of_conditions, {0.1, 2.0, 0.5});
+}
+
+TEST_CASE("a remainder of no size changes nothing", "[fast]") {
+  const Remainder of_time(two_runs());
+  const Remainder of_conditions(of_time, {0.0, 0.0, 0.0});
+  const RowMatrix columns = RowMatrix::Random(at(two_runs().residual_count()), 2);
+  for (const Remainder* remainder : {&of_time, &of_conditions}) {
+    RowMatrix whitened = columns;
+    remainder->whiten({0.0, 0.0, 0.0}, whitened);
+    CHECK(whitened == columns);
+    remainder->whiten_below(whitened);
+    CHECK(whitened == columns);
+    CHECK(remainder->log_determinant_below() == 0.0);
+  }
+}
+
+TEST_CASE("a channel of no size is left alone", "[fast]") {
+  const Remainder remainder(two_runs());
+  const Eigen::VectorXd column = Eigen::VectorXd::Random(at(two_runs().residual_count()));
+  Eigen::VectorXd whitened = column;
+  remainder.whiten({0.0, 3.0, 0.0}, whitened);
+  for (const Series& series : two_runs().series()) {
+    const auto change = (whitened - column).segment(at(series.first_residual), at(series.size())).norm();
+    CHECK((change > 0.1) == (series.channel == 1));
+  }
+}
+
+TEST_CASE("of what it stands on, a remainder knows the inverse root and the determinant", "[fast]") {
+  const Remainder of_time(two_runs());
+  CHECK(of_time.log_determinant_below() == 0.0);
+  const Amplitudes amplitudes{0.2, 1.0, 0.4};
+  const Remainder of_conditions(of_time, amplitudes);
+  const Eigen::VectorXd column = Eigen::VectorXd::Random(at(two_runs().residual_count()));
+  Eigen::VectorXd below = column;
+  Eigen::VectorXd of_its_own = column;
+  of_conditions.whiten_below(below);
+  of_time.whiten(amplitudes, of_its_own);
+  CHECK(below == of_its_own);
+  const Eigen::Index n = at(two_runs().residual_count());
+  const Eigen::LLT<Eigen::MatrixXd> sigma(make_process(of_time, amplitudes) + Eigen::MatrixXd::Identity(n, n));
+  const double log_determinant = 2.0 * sigma.matrixLLT().diagonal().array().log().sum();
+  CHECK(of_conditions.log_determinant_below() == Approx(log_determinant));
+}
+
+TEST_CASE("directions are orthonormal and strengths positive", "[fast]") {
+  const Remainder of_time(two_runs());
+  const Remainder of_conditions(of_time, {0.2, 1.0, 0.4});
+  for (const Remainder* remainder : {&of_time, &of_conditions}) {
+    for (const Remainder::Basis& basis : remainder->bases()) {
+      const Eigen::Index n = basis.directions.cols();
+      CHECK((basis.directions.transpose() * basis.directions - Eigen::MatrixXd::Identity(n, n)).norm() < 1e-6);
+      CHECK(basis.strengths.minCoeff() > 0.0);
+    }
+  }
+}
+
+TEST_CASE("an amplitude is a standard deviation in noise floors, the same all along a run", "[fast]") {
+  const Remainder remainder(two_runs());
+  for (std::size_t s = 0; s < two_runs().series().size(); ++s) {
+    const Eigen::VectorXd variance = make_rows_in_floors(remainder, s).rowwise().squaredNorm();
+    CHECK(variance.maxCoeff() < 1.001);
+    CHECK(variance.minCoeff() > 0.7);  // between two hats, less
+  }
+}
+
+TEST_CASE("a remainder of time differs from run to run; one of conditions repeats", "[fast]") {
+  const Remainder of_time(twins());
+  for (const Remainder::Basis& basis : of_time.bases()) CHECK(basis.series.size() == 1);
+  const Remainder of_conditions(of_time, {0.0, 0.0, 0.0});
+  CHECK(of_conditions.bases().size() == twins().channels().size());
+  for (const Remainder::Basis& basis : of_conditions.bases()) {
+    REQUIRE(basis.series.size() == 2);
+    const Eigen::MatrixXd first = make_rows_in_floors(of_conditions, basis.series[0]);
+    const Eigen::MatrixXd second = make_rows_in_floors(of_conditions, basis.series[1]);
+    CHECK((first - second).norm() < 1e-6 * first.norm());
+  }
+}
+
+TEST_CASE("what lasts is taken for a remainder, what jumps from block to block is not", "[fast]") {
+  const Remainder remainder(two_runs());
+  const Series& series = two_runs().series().front();
+  Eigen::VectorXd slow = Eigen::VectorXd::Zero(at(two_runs().residual_count()));
+  Eigen::VectorXd fast = slow;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    slow[at(series.first_residual + k)] = std::sin(series.time_s[k] / 300.0);
+    fast[at(series.first_residual + k)] = k % 2 == 0 ? 1.0 : -1.0;
+  }
+  const auto kept = [&](Eigen::VectorXd difference) {
+    diagnosis::whiten(two_runs(), difference);
+    const double before = difference.squaredNorm();
+    remainder.whiten({100.0, 100.0, 100.0}, difference);
+    return difference.squaredNorm() / before;
+  };
+  CHECK(kept(slow) < 0.05);
+  CHECK(kept(fast) > 0.7);
+}
