@@ -174,6 +174,23 @@ TEST_CASE("a wrong effect shrinks it less", "[fast]") {
   CHECK(by_wrong.recalibrated.before == by_right.recalibrated.before);
 }
 
+TEST_CASE("a run is judged by fits that did not see it", "[fast]") {
+  // The bearings of the second run are stiffer by 0.05 N s/m, which a fit that sees it takes for its base parameters.
+  auto both = tests::make_gap_set({}, 2);
+  const double radius_m = 0.5 * both.rig->drum.diameter_m;
+  for (std::size_t row = 0; row < both.runs[1].time_s.size(); ++row) {
+    both.runs[1].columns.at("drum_torque_Nm")[row] += 0.05 * radius_m * both.runs[1].columns.at("speed_km_h")[row];
+  }
+  both = tests::add_noise(both, 4);
+  auto second = both;
+  second.runs.erase(second.runs.begin());
+  const double unseen = find(FittedBaseline(both)).channels[kTorque].before;
+  const double seen = find(FittedBaseline(second)).channels[kTorque].before;
+  INFO(unseen << " N unseen, " << seen << " N seen");
+  CHECK(unseen > 3.0 * seen);
+  CHECK(unseen > 0.2);
+}
+
 TEST_CASE("of one run nothing can be left out: the gap is its own", "[fast]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 1), 5));
   const Contender cause = fit_effect(fitted, "bearing_warmup");
