@@ -17,7 +17,7 @@ Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 /// The noise that a series' differences are expected to hold, once the best offset is taken off them.
 struct OffsetFit {
   double offset = 0.0;           // SI
-  double offset_variance = 0.0;  // of it by noise alone
+  double offset_variance = 0.0;  // of what stays of it
 };
 
 OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
@@ -34,7 +34,7 @@ OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
   }
   const double prior = series.offset_sd > 0.0 ? 1.0 / (series.offset_sd * series.offset_sd) : 1e300;
   const double offset = along / (square + prior);
-  return {offset, square / ((square + prior) * (square + prior))};
+  return {offset, 1.0 / (square + prior)};
 }
 
 /// Sums of squares above the noise, in floors, by stretch: what a resample draws.
