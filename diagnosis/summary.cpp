@@ -222,7 +222,7 @@ std::string format_summary(const Diagnosis& diagnosis) {
                      where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) +
                      shrinkage_line(diagnosis.gap);
   text +=
-      line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: every effect in the race would have shown"
+      line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                           : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
   text += next_line(diagnosis);
   if (!diagnosis.causes.empty()) {
