@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/linear_null.h"
+#include "diagnosis/linear_fit.h"
 #include "diagnosis/pushes.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr Eigen::Index kKnots = static_cast<Eigen::Index>(kPushKnots);
 constexpr int kAmplitudes = 10;  // 0.5, 1, 2 .. 256 noise floors
@@ -40,7 +38,7 @@ double measure_constant_push(const PreparedSet& set, const RowMatrix& columns) {
 /// The linear model of all pushes, in noise floors, run by run: pushes of two runs meet in the null's unknowns alone.
 class PushModel {
  public:
-  PushModel(const PreparedSet& set, const LinearNull& null, const std::vector<PushFamily>& families)
+  PushModel(const PreparedSet& set, const LinearFit& null, const std::vector<PushFamily>& families)
       : null_curvature_(null.curvature), count_(families.size()) {
     RowMatrix columns(at(set.residual_count()), at(count_) * kKnots);
     for (std::size_t f = 0; f < count_; ++f) {
@@ -221,7 +219,8 @@ std::vector<double> average_shares(const std::vector<Weighed>& all, double log_s
 std::vector<BalanceShare> find_balance(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                        const Remainder& remainder, const Contender& null, int threads) {
   const std::vector<PushFamily> families = calc_pushes(set, base, null.fit.unknowns, threads);
-  const std::vector<Weighed> all = search(PushModel(set, LinearNull(remainder, null), families), threads);
+  const std::vector<Weighed> all =
+      search(PushModel(set, LinearFit(remainder, null.amplitudes, null.fit), families), threads);
   std::vector<double> logs;
   for (const Weighed& one : all) logs.push_back(one.log_odds);
   const double log_sum = log_sum_exp(logs);

@@ -3,10 +3,10 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "scenarios/drum_conditions.h"
+
 namespace rollrig::diagnosis {
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr Eigen::Index kFeatures = 13;
 
@@ -22,7 +22,7 @@ Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
     };
     const double speed = mean("speed_km_h") / 20.0;
     const double load = mean("load_N") / 5000.0;
-    const double skim = mean("load_N") <= 1.5 * set.context().skim_load_N ? 1.0 : 0.0;
+    const double skim = mean("load_N") <= scenarios::calc_skim_limit_N(*set.source().rig) ? 1.0 : 0.0;
     const double elapsed_s = series.time_s[k] - start_s;
     const double in_phase_s = series.time_s[k] - run.measured.time_s[run.phases[series.phase[k]].first];
     features.row(at(k)) << 1.0, speed, speed * speed, load, load * speed, skim, (mean("ambient_degC") - 298.15) / 5.0,

@@ -1,6 +1,7 @@
 #pragma once
 /// What a smooth function of the inputs, without physics, makes of a discrepancy: a yardstick for named causes.
 
+#include "diagnosis/eigen_index.h"
 #include "diagnosis/prepared_set.h"
 
 #include <Eigen/Core>

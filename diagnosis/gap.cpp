@@ -1,5 +1,6 @@
 #include "diagnosis/gap.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,8 +12,6 @@
 
 namespace rollrig::diagnosis {
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// The noise that a series' differences are expected to hold, once the best offset is taken off them.
 struct OffsetFit {

@@ -4,13 +4,11 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-#include "diagnosis/linear_null.h"
+#include "diagnosis/linear_fit.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr double kLong_s = 900.0;  // Assumed: above it a warm-up shows within a phase
 constexpr double kBegin_s = 600.0;
@@ -57,7 +55,7 @@ struct Scores {
   Eigen::MatrixXd null_steps;    // of base parameters and offsets beside a stretch of size 1
 };
 
-Scores calc_scores(const LinearNull& null, const std::vector<Stretch>& stretches) {
+Scores calc_scores(const LinearFit& null, const std::vector<Stretch>& stretches) {
   // A stretch's template is 0 outside its series: templates of different series share a column.
   std::vector<Eigen::Index> column;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -87,7 +85,7 @@ Scores calc_scores(const LinearNull& null, const std::vector<Stretch>& stretches
       scores.information(at(i), at(j)) = one.dot(rows_of(j, templates).col(column[j]));
     }
   }
-  scores.null_steps = null.curvature.llt().solve(through_null);
+  scores.null_steps = null.factor.solve(through_null);
   scores.information -= through_null.transpose() * scores.null_steps;
   return scores;
 }
@@ -202,7 +200,7 @@ std::vector<Location> find_locations(const PreparedSet& set, const Remainder& re
   for (const Series& series : set.series()) add_stretches(set, series, stretches);
   const double tail = kFamilyWise / (2.0 * static_cast<double>(stretches.size()));
   const double critical = boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
-  const LinearNull linear(remainder, null);
+  const LinearFit linear(remainder, null.amplitudes, null.fit);
   const Scores scores = calc_scores(linear, stretches);
   const std::vector<Sized> listed = size_jointly(scores, select_forward(scores, critical), critical);
   if (listed.empty()) return {};

@@ -9,8 +9,6 @@
 namespace rollrig::diagnosis {
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 template <class S>
 S make_scalar(double value, double derivative, std::size_t column);
 template <>

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "diagnosis/eigen_index.h"
 #include "diagnosis/hypothesis.h"
 #include "diagnosis/prepared_set.h"
 #include "identification/parameters.h"

@@ -10,11 +10,9 @@
 namespace rollrig::diagnosis {
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 /// Means over ten seconds come as one sample a row: of a sensor whose noise they lessen, and whose rounding.
 models::SensorParameters average_sensor(models::SensorParameters sensor, double samples) {
-  const double lasting = calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
+  const double lasting = identification::calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
   const double white = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting;
   sensor.noise_sd = std::sqrt(white / samples + lasting);
   sensor.resolution = 0.0;

@@ -1,5 +1,6 @@
 #include "diagnosis/open_questions.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,8 +9,6 @@
 
 namespace rollrig::diagnosis {
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr std::size_t kMost = 6;
 constexpr std::size_t kMostOnBaseline = 9;  // single effects are cheaper to simulate than two

@@ -6,6 +6,7 @@
 
 #include "identification/replay.h"
 #include "identification/sample_selection.h"
+#include "scenarios/drum_conditions.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -53,6 +54,16 @@ std::vector<std::size_t> phase_by_row(const PreparedRun& run) {
   return of;
 }
 
+/// Rows at which the drum stands and the torque was read, into their places.
+void add_standstill_rows(const scenarios::MeasuredRun& run, const std::vector<double>& torque_Nm,
+                         std::vector<std::size_t>& rows) {
+  for (std::size_t row = 0; row < torque_Nm.size(); ++row) {
+    if (stands(run, row) && !std::isnan(torque_Nm[row])) rows.push_back(row);
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+}
+
 /// Blocks of samples: not longer than kBlock_s, in one phase, and without a gap inside that is longer than a block.
 std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::vector<double>& time_s,
                                const std::vector<std::size_t>& phase) {
@@ -86,7 +97,8 @@ PreparedSet::PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings ext
   }
   std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
   for (const scenarios::MeasuredRun& run : set_.runs) {
-    runs_.push_back({run, identification::make_drum_replay(run), find_phases(run, set_.rig->skim.load_N)});
+    runs_.push_back(
+        {run, identification::make_drum_replay(run), find_phases(run, scenarios::calc_skim_limit_N(*set_.rig))});
     for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
       if (!run.has(channels_[channel])) continue;
       const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());
@@ -105,20 +117,12 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   const models::SensorParameters& sensor = set_.sensors.at(name);
   require_sensor_error(set_, name, sensor);
   const std::vector<double>& values = run.measured.columns.at(name);
-  const std::vector<bool> settled = identification::find_settled_rows(run.measured);
-  const bool is_torque = name == "drum_torque_Nm";
-  std::vector<std::size_t> rows;
-  std::vector<double> times_s;
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    const bool is_zero_reading = extra_.torque_at_standstill && stands(run.measured, row);
-    if (std::isnan(values[row]) || (is_torque && !settled[row] && !is_zero_reading)) continue;
-    rows.push_back(row);
-    times_s.push_back(run.measured.time_s[row]);
-  }
+  std::vector<std::size_t> rows = identification::find_compared_rows(run.measured, name);
+  if (extra_.torque_at_standstill && name == "drum_torque_Nm") add_standstill_rows(run.measured, values, rows);
   if (rows.empty()) return;
   const std::vector<std::size_t> phases = phase_by_row(run);
   std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);
-  BlockWhitener whitener(sensor, times_s, blocks);
+  const Whitener whitener(sensor, identification::find_times(run.measured, rows), blocks);
   Series series{r,  channel,  offset, sensor.offset_sd, std::move(rows), std::move(blocks), {}, {},
                 {}, whitener, 0.0,    residual_count_};
   std::vector<double> floors;

@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/block_whitener.h"
 #include "diagnosis/run_phases.h"
+#include "identification/whitener.h"
 #include "scenarios/measurement_set.h"
 #include "sim/program.h"
 
 namespace rollrig::diagnosis {
+
+using identification::Block;
+using identification::Whitener;
 
 /// One channel of one run.
 struct Series {
@@ -22,7 +25,7 @@ struct Series {
   std::vector<double> time_s;      // mean time of each block
   std::vector<std::size_t> phase;  // of each block, index into the run's phases
   std::vector<double> measured;    // block means, SI
-  BlockWhitener whitener;
+  Whitener whitener;
   double floor = 0.0;              // standard deviation of a full block's mean, without offset
   std::size_t first_residual = 0;  // index of its first residual
 

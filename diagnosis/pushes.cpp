@@ -12,8 +12,6 @@ namespace {
 using models::EffectView;
 using models::Instant;
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 static_assert(kPushKnots == static_cast<std::size_t>(kJetWidth), "a pass differentiates by one family's pushes");
 
 /// The interval between knots in which a time lies; of two knots at that time, the one after them.

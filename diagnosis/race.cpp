@@ -10,8 +10,6 @@
 namespace rollrig::diagnosis {
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
 /// What is left under a hypothesis: model error, and an unknown effect that repeats.

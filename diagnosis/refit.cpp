@@ -10,8 +10,6 @@
 namespace rollrig::diagnosis {
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 /// Whitened residuals, then the unknowns themselves, whose priors are standard normal.
 class WhitenedResiduals : public ceres::CostFunction {
  public:

@@ -9,8 +9,6 @@
 namespace rollrig::diagnosis {
 namespace {
 
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
 constexpr double kScales_s[] = {120.0, 480.0};  // Assumed: shorter is noise, longer is a phase
 constexpr double kLevels = 4.0;
 
@@ -66,14 +64,11 @@ void put_hats(double x, const std::vector<double>& knots, Eigen::Ref<Eigen::RowV
 
 /// When the load of a run last changed, by row.
 std::vector<double> find_time_since_load_change(const PreparedRun& run) {
-  const std::vector<double>& load_N = run.measured.columns.at("load_N");
   const std::vector<double>& time_s = run.measured.time_s;
-  constexpr double kSameLoad = 0.01;
   std::vector<double> since_s(time_s.size(), 0.0);
   double changed_s = time_s.front();
   for (std::size_t row = 1; row < time_s.size(); ++row) {
-    const double larger = std::max(load_N[row], load_N[row - 1]);
-    if (std::abs(load_N[row] - load_N[row - 1]) > kSameLoad * larger) changed_s = time_s[row];
+    if (identification::is_load_change(run.measured, row)) changed_s = time_s[row];
     since_s[row] = time_s[row] - changed_s;
   }
   return since_s;

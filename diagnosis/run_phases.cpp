@@ -10,10 +10,8 @@
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr double kSameLoad = 0.01;       // Assumed: load control holds to 1 %
 constexpr double kShortest_s = 30.0;     // Assumed: a change of speed that is a phase of its own
 constexpr double kStandstill_m_s = 0.3;  // Assumed
-constexpr double kSkimFactor = 1.5;      // formats.md
 
 enum class Motion { kStandstill, kSteady, kChanging };
 
@@ -31,12 +29,10 @@ struct Stretch {
 };
 
 std::vector<Stretch> find_stretches(const scenarios::MeasuredRun& run) {
-  const std::vector<double>& load_N = run.columns.at("load_N");
   std::vector<Stretch> stretches;
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
     const Motion motion = motion_at(run, row);
-    const bool load_begins =
-        row > 0 && std::abs(load_N[row] - load_N[row - 1]) > kSameLoad * std::max(load_N[row], load_N[row - 1]);
+    const bool load_begins = identification::is_load_change(run, row);
     if (!stretches.empty() && !load_begins && stretches.back().motion == motion) {
       stretches.back().last = row + 1;
     } else {
@@ -77,15 +73,15 @@ double mean_of(const std::vector<double>& values, std::size_t first, std::size_t
 
 }  // namespace
 
-std::vector<RunPhase> find_phases(const scenarios::MeasuredRun& run, double skim_load_N) {
+std::vector<RunPhase> find_phases(const scenarios::MeasuredRun& run, double skim_limit_N) {
   std::vector<RunPhase> phases;
   std::map<std::string, int> seen;
   for (const Stretch& at : join_short(run, find_stretches(run))) {
     const double load_N = mean_of(run.columns.at("load_N"), at.first, at.last);
     const double last_speed_km_h = 3.6 * run.columns.at("speed_km_h")[at.last - 1];
     std::string name = fmt::format("{:.0f} km/h {:.1f} kN", last_speed_km_h, load_N / 1e3);
-    const bool numbered = load_N <= kSkimFactor * skim_load_N || at.motion != Motion::kSteady;
-    if (load_N <= kSkimFactor * skim_load_N) name = "skim";
+    const bool numbered = load_N <= skim_limit_N || at.motion != Motion::kSteady;
+    if (load_N <= skim_limit_N) name = "skim";
     if (at.motion == Motion::kChanging) name = "speed change";
     if (at.motion == Motion::kStandstill) name = "standstill";
     const int count = ++seen[name];

@@ -17,8 +17,8 @@ struct RunPhase {
 
 /// Phases of a run, in order and without a gap: they change where the load changes (by more than 1 %), and where a
 /// steady speed begins or ends. Changes of speed shorter than 30 s belong to the phase that they lead to.
-/// `skim_load_N` is the rig's; at or below 1.5 times it the tire is in skim (formats.md).
+/// At or below `skim_limit_N` the tire is in skim (scenarios::calc_skim_limit_N).
 /// Checked tests/diagnosis/run_phases_test.cpp
-std::vector<RunPhase> find_phases(const scenarios::MeasuredRun& run, double skim_load_N);
+std::vector<RunPhase> find_phases(const scenarios::MeasuredRun& run, double skim_limit_N);
 
 }  // namespace rollrig::diagnosis

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/linear_fit.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
-namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
-
-}  // namespace
-
 Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Effect& effect,
                            const Eigen::VectorXd& own) {
   Eigen::VectorXd unknowns(at(larger.unknown_count()));
@@ -25,21 +20,6 @@ Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Ef
     unknowns[i] = is_new ? own[next_own++] : fit.unknowns[from++];
   }
   return unknowns;
-}
-
-LinearJudge::LinearJudge(const Remainder& remainder, const Amplitudes& amplitudes, const Fit& fit)
-    : remainder_(remainder), amplitudes_(amplitudes), jacobian_(fit.jacobian), residual_(fit.residuals) {
-  remainder.whiten(amplitudes, jacobian_);
-  remainder.whiten(amplitudes, residual_);
-  const Eigen::Index n = jacobian_.cols();
-  curvature_.compute(jacobian_.transpose() * jacobian_ + Eigen::MatrixXd::Identity(n, n));
-}
-
-Eigen::VectorXd LinearJudge::project(Eigen::VectorXd difference) const {
-  whiten(remainder_.set(), difference);
-  remainder_.whiten(amplitudes_, difference);
-  const Eigen::VectorXd taken = curvature_.solve(jacobian_.transpose() * difference);
-  return difference - jacobian_ * taken;
 }
 
 namespace {
@@ -89,7 +69,7 @@ double scale_size(const models::EffectParameter& size, const SizeTrial& trial, d
 std::vector<Screened> screen(const Model& null, const Remainder& remainder, const Amplitudes& amplitudes,
                              const Fit& fit, const std::vector<identification::FreeParameter>& base,
                              const std::vector<const models::Effect*>& effects, int threads) {
-  const LinearJudge judge(remainder, amplitudes, fit);
+  const LinearFit linear(remainder, amplitudes, fit);
   std::vector<std::vector<Screened>> found(effects.size());
   parallel_for(effects.size(), threads, [&](std::size_t e) {
     const models::Effect& effect = *effects[e];
@@ -100,12 +80,10 @@ std::vector<Screened> screen(const Model& null, const Remainder& remainder, cons
       for (const Eigen::VectorXd& own : find_shape_trials(effect, size.u)) {
         Eigen::VectorXd simulated;
         if (!larger.simulate(insert_own(larger, fit, effect, own), 1, simulated, nullptr, true)) continue;
-        const Eigen::VectorXd signature = judge.project(simulated - fit.simulated);
-        const double square = signature.squaredNorm();
-        const double along = signature.dot(judge.residual());
-        if (!(square > 0.0)) continue;
-        Screened one{acting, own, along > 0.0 ? 0.5 * along * along / square : 0.0, std::sqrt(square), signature};
-        one.own[0] = scale_size(effect.info.parameters.front(), size, along / square);
+        const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
+        if (!(variance > 0.0)) continue;
+        Screened one{acting, own, along > 0.0 ? 0.5 * along * along / variance : 0.0, std::sqrt(variance)};
+        one.own[0] = scale_size(effect.info.parameters.front(), size, along / variance);
         of_shapes.push_back(std::move(one));
       }
       const auto best = std::max_element(of_shapes.begin(), of_shapes.end(),

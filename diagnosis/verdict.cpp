@@ -1,6 +1,7 @@
 #include "diagnosis/verdict.h"
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 
 namespace rollrig::diagnosis {
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 constexpr double kNormal95 = 1.959963984540054;
 

@@ -31,26 +31,17 @@ void DrumResiduals::collect_series() {
   std::map<std::pair<std::string, std::string>, std::size_t> offsets;  // by session and channel
   for (std::size_t r = 0; r < set_.runs.size(); ++r) {
     const scenarios::MeasuredRun& run = set_.runs[r];
-    const std::vector<bool> settled = find_settled_rows(run);
     for (const std::string& channel : scenarios::measured_channels(set_.kind)) {
       if (!run.has(channel)) continue;
       const models::SensorParameters& sensor = set_.sensors.at(channel);
-      const std::vector<double>& values = run.columns.at(channel);
-      const bool is_torque = channel == "drum_torque_Nm";
-      std::vector<std::size_t> rows;
-      std::vector<double> times_s;
-      for (std::size_t row = 0; row < values.size(); ++row) {
-        if (std::isnan(values[row]) || (is_torque && !settled[row])) continue;
-        rows.push_back(row);
-        times_s.push_back(run.time_s[row]);
-      }
+      std::vector<std::size_t> rows = find_compared_rows(run, channel);
       if (rows.empty()) continue;
       const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offset_sd_.size());
       if (fresh) offset_sd_.push_back(sensor.offset_sd);
-      ComparedSeries series{r, channel, it->second, std::move(rows), Whitener(sensor, times_s), sample_count_};
-      const std::vector<double> ones(series.rows.size(), 1.0);
-      whitened_ones_.emplace_back(series.rows.size());
-      series.whitener.apply(ones.data(), 1, whitened_ones_.back().data());
+      Whitener whitener(sensor, find_times(run, rows));
+      ComparedSeries series{r, channel, it->second, std::move(rows), std::move(whitener), sample_count_};
+      whitened_ones_.emplace_back(series.rows.size(), 1.0);
+      series.whitener.apply(whitened_ones_.back().data(), 1);
       sample_count_ += series.rows.size();
       series_.push_back(std::move(series));
     }
@@ -83,13 +74,13 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
       difference[k] = measured[series.rows[k]] - value_of(at);
       store_derivatives(at, columns, derivatives.data() + k * columns);
     }
-    series.whitener.apply(difference.data(), 1, residuals + series.first_residual);
+    series.whitener.apply(difference.data(), 1);
+    std::copy(difference.begin(), difference.end(), residuals + series.first_residual);
     if (columns == 0) continue;
-    std::vector<double> whitened(n * columns);
-    series.whitener.apply(derivatives.data(), columns, whitened.data());
+    series.whitener.apply(derivatives.data(), columns);
     for (std::size_t k = 0; k < n; ++k) {
       double* row = jacobian + (series.first_residual + k) * unknown_count() + first_column;
-      for (std::size_t c = 0; c < columns; ++c) row[c] = -whitened[k * columns + c];
+      for (std::size_t c = 0; c < columns; ++c) row[c] = -derivatives[k * columns + c];
     }
   }
 }

@@ -66,8 +66,8 @@ TEST_CASE("errors of sensors are white and of unit variance once whitened by the
         Errors errors = find_errors(made, r, channel);
         for (double& value : errors.values) value -= errors.mean;
         const identification::Whitener whitener(made.set.sensors.at(channel), errors.time_s);
-        std::vector<double> white(errors.values.size());
-        whitener.apply(errors.values.data(), 1, white.data());
+        std::vector<double> white = errors.values;
+        whitener.apply(white.data(), 1);
         for (std::size_t i = 1; i < white.size(); ++i) {
           squares += white[i] * white[i];
           neighbours += white[i] * white[i - 1];

@@ -12,14 +12,13 @@
 using namespace rollrig;
 using diagnosis::AmplitudePrior;
 using diagnosis::Amplitudes;
+using diagnosis::at;
 using diagnosis::Evidence;
 using diagnosis::PreparedSet;
 using diagnosis::Remainder;
 using diagnosis::RowMatrix;
 
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 const PreparedSet& short_set() {
   static const PreparedSet set([] {

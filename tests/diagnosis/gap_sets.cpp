@@ -1,5 +1,6 @@
 #include "tests/diagnosis/gap_sets.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <random>
 #include "diagnosis/base_parameters.h"

@@ -1,5 +1,6 @@
 #include "diagnosis/model.h"
 
+#include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "tests/support/fit_study.h"
 
 using namespace rollrig;
+using diagnosis::at;
 using diagnosis::Hypothesis;
 using diagnosis::Model;
 using diagnosis::PreparedSet;
@@ -15,8 +17,6 @@ using diagnosis::RowMatrix;
 using diagnosis::Series;
 
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 const PreparedSet& two_runs() {
   static const PreparedSet set(tests::add_noise(tests::make_gap_set({}, 2), 4));

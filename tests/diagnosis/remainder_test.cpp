@@ -8,14 +8,13 @@
 
 using namespace rollrig;
 using diagnosis::Amplitudes;
+using diagnosis::at;
 using diagnosis::PreparedSet;
 using diagnosis::Remainder;
 using diagnosis::RowMatrix;
 using diagnosis::Series;
 
 namespace {
-
-Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 /// Two runs in two sessions.
 const PreparedSet& two_runs() {

@@ -1,4 +1,4 @@
-#include "diagnosis/block_whitener.h"
+#include "identification/whitener.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <random>
 
 using namespace rollrig;
-using diagnosis::Block;
-using diagnosis::BlockWhitener;
+using identification::Block;
+using identification::Whitener;
 using models::SensorParameters;
 
 namespace {
@@ -66,7 +66,7 @@ Eigen::MatrixXd make_covariance(const SensorParameters& sensor, const Samples& s
 void check_against(const SensorParameters& sensor, double white, double lasting) {
   const Samples samples = make_irregular(300);
   const Eigen::MatrixXd covariance = make_covariance(sensor, samples, white, lasting);
-  const BlockWhitener whitener(sensor, samples.time_s, samples.blocks);
+  const Whitener whitener(sensor, samples.time_s, samples.blocks);
   REQUIRE(whitener.size() == samples.blocks.size());
   const Eigen::Index n = covariance.rows();
   RowMatrix w = RowMatrix::Identity(n, n);
@@ -87,7 +87,7 @@ struct Drawn {
 
 Drawn draw_whitened(const SensorParameters& sensor, int draws) {
   const Samples samples = make_irregular(60);
-  const BlockWhitener whitener(sensor, samples.time_s, samples.blocks);
+  const Whitener whitener(sensor, samples.time_s, samples.blocks);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> uniform(0.0, std::max(sensor.resolution, 1e-3));
   Drawn drawn;
@@ -179,18 +179,18 @@ TEST_CASE("the rounding error that lasts is what two readings of one value share
     const double mean = sum / kDraws;
     const double error = std::sqrt((squares / kDraws - mean * mean) / kDraws);
     INFO("noise " << noise_sd);
-    CHECK(std::abs(diagnosis::calc_lasting_rounding_variance(resolution, noise_sd) - mean) < 4.0 * error);
+    CHECK(std::abs(identification::calc_lasting_rounding_variance(resolution, noise_sd) - mean) < 4.0 * error);
   }
 }
 
 TEST_CASE("the rounding error that lasts has its limits", "[fast]") {
-  CHECK(diagnosis::calc_lasting_rounding_variance(0.0, 0.2) == 0.0);
-  CHECK(diagnosis::calc_lasting_rounding_variance(0.6, 0.0) == Approx(0.03));
-  CHECK(diagnosis::calc_lasting_rounding_variance(0.6, 1e-6) == Approx(0.03).epsilon(1e-3));  // goes over smoothly
-  CHECK(diagnosis::calc_lasting_rounding_variance(0.1, 0.2) < 1e-12);
+  CHECK(identification::calc_lasting_rounding_variance(0.0, 0.2) == 0.0);
+  CHECK(identification::calc_lasting_rounding_variance(0.6, 0.0) == Approx(0.03));
+  CHECK(identification::calc_lasting_rounding_variance(0.6, 1e-6) == Approx(0.03).epsilon(1e-3));  // goes over smoothly
+  CHECK(identification::calc_lasting_rounding_variance(0.1, 0.2) < 1e-12);
   double before = 1.0;
   for (double noise_sd = 0.0; noise_sd < 0.5; noise_sd += 0.05) {
-    const double now = diagnosis::calc_lasting_rounding_variance(0.6, noise_sd);
+    const double now = identification::calc_lasting_rounding_variance(0.6, noise_sd);
     CHECK(now < before);
     before = now;
   }
@@ -198,7 +198,7 @@ TEST_CASE("the rounding error that lasts has its limits", "[fast]") {
 
 TEST_CASE("whitening is linear, column by column, and can be taken back", "[fast]") {
   const Samples samples = make_irregular(100);
-  const BlockWhitener whitener({0.0, 0.3, 60.0, 0.2, 0.1}, samples.time_s, samples.blocks);
+  const Whitener whitener({0.0, 0.3, 60.0, 0.2, 0.1}, samples.time_s, samples.blocks);
   const auto n = static_cast<Eigen::Index>(whitener.size());
   const RowMatrix columns = RowMatrix::Random(n, 3);
   RowMatrix all = columns;
