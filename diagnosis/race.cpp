@@ -12,12 +12,6 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
-/// What is left under a hypothesis: model error, and an unknown effect that repeats.
-struct Remainders {
-  const Remainder& of_time;
-  const Remainder& of_conditions;
-};
-
 /// A free remainder: in each channel either as small as model error, or of any size up to a hundred floors.
 AmplitudePrior free_amplitude(double smallest) {
   AmplitudePrior prior{{smallest}, {0.5}};
@@ -66,9 +60,47 @@ Amplitudes measure_whole(const Model& model, const Fit& fit) {
   return measure_in_floors(model.set(), fit.simulated - simulated);
 }
 
-void weigh(const Remainders& remainders, const ModelError& error, Contender& contender) {
+/// What all fits of a race share.
+class Referee {
+ public:
+  Referee(const PreparedSet& set, const std::vector<identification::FreeParameter>& base, const Remainder& remainder,
+          const RaceSettings& settings)
+      : set_(set),
+        base_(base),
+        of_time_(remainder),
+        of_conditions_(remainder, Amplitudes(set.channels().size(), settings.model_error.baseline_floors)),
+        settings_(settings) {}
+
+  /// The baseline through the same optimiser as everything else.
+  Contender fit_null() const;
+
+  /// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
+  std::vector<Contender> refit_all(const Contender& from, const std::vector<Screened>& chosen,
+                                   const Contender& null) const;
+
+  std::vector<Screened> screen_on_top_of(const Contender& from,
+                                         const std::vector<const models::Effect*>& effects) const {
+    return screen(Model(set_, base_, from.fit.hypothesis), of_time_, from.amplitudes, from.fit, base_, effects,
+                  settings_.threads);
+  }
+
+ private:
+  void weigh(Contender& contender) const;
+  Contender fit_once(const Model& model, const Contender& null, const Amplitudes& amplitudes,
+                     const Eigen::VectorXd& start, int most_iterations) const;
+  Contender fit_contender(const Model& model, const Contender& null, const Eigen::VectorXd& start) const;
+
+  const PreparedSet& set_;
+  const std::vector<identification::FreeParameter>& base_;
+  const Remainder& of_time_;  // model error, and an unknown effect that follows nothing recorded
+  Remainder of_conditions_;   // an unknown effect that repeats from run to run
+  const RaceSettings& settings_;
+};
+
+void Referee::weigh(Contender& contender) const {
+  const ModelError& error = settings_.model_error;
   const Amplitudes expected = expect_model_error(error, contender);
-  const Evidence evidence(remainders.of_time, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+  const Evidence evidence(of_time_, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   std::vector<AmplitudePrior> small;
   std::vector<AmplitudePrior> free;
   for (const double amplitude : expected) {
@@ -78,8 +110,7 @@ void weigh(const Remainders& remainders, const ModelError& error, Contender& con
   const Evidence::Sum sum = evidence.integrate(small);
   contender.log_evidence = sum.log_value;
   contender.amplitudes = sum.mean;
-  const Evidence repeated(remainders.of_conditions, contender.fit.unknowns, contender.fit.residuals,
-                          contender.fit.jacobian);
+  const Evidence repeated(of_conditions_, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other. On top of an
   // effect it is as likely a distortion of what that effect does.
   std::vector<double> logs{evidence.integrate(free).log_value, repeated.integrate(free).log_value};
@@ -96,10 +127,10 @@ void weigh(const Remainders& remainders, const ModelError& error, Contender& con
 }
 
 /// One fit under given model error; weighed under the error in proportion to what it changes.
-Contender fit_once(const Model& model, const Remainders& remainders, const ModelError& error, const Contender& null,
-                   const Amplitudes& amplitudes, const Eigen::VectorXd& start, int threads, int most_iterations) {
+Contender Referee::fit_once(const Model& model, const Contender& null, const Amplitudes& amplitudes,
+                            const Eigen::VectorXd& start, int most_iterations) const {
   Contender contender;
-  contender.fit = refit(model, remainders.of_time, amplitudes, start, threads, most_iterations);
+  contender.fit = refit(model, of_time_, amplitudes, start, 1, most_iterations);
   if (!std::isfinite(contender.fit.cost)) {
     contender.log_evidence = contender.log_remainder = kImpossible;
     contender.signature.assign(amplitudes.size(), 0.0);
@@ -107,33 +138,32 @@ Contender fit_once(const Model& model, const Remainders& remainders, const Model
     contender.amplitudes = amplitudes;
     return contender;
   }
-  contender.signature = measure_in_floors(model.set(), contender.fit.simulated - null.fit.simulated);
+  contender.signature = measure_in_floors(set_, contender.fit.simulated - null.fit.simulated);
   contender.whole = measure_whole(model, contender.fit);
-  weigh(remainders, error, contender);
+  weigh(contender);
   return contender;
 }
 
 /// Fits a hypothesis from `start`, under model error in proportion to what it changes against `null`: twice, since that
 /// change is known after the first fit only.
-Contender fit_contender(const Model& model, const Remainders& remainders, const ModelError& error,
-                        const Contender& null, const Eigen::VectorXd& start, int threads) {
+Contender Referee::fit_contender(const Model& model, const Contender& null, const Eigen::VectorXd& start) const {
   constexpr int kMost = 30;
-  const Contender first = fit_once(model, remainders, error, null, null.amplitudes, start, threads, kMost);
+  const Contender first = fit_once(model, null, null.amplitudes, start, kMost);
   if (!std::isfinite(first.fit.cost)) return first;
-  return fit_once(model, remainders, error, null, expect_model_error(error, first), first.fit.unknowns, threads, kMost);
+  return fit_once(model, null, expect_model_error(settings_.model_error, first), first.fit.unknowns, kMost);
 }
 
-Contender fit_null(const Model& model, const Remainders& remainders, const RaceSettings& settings) {
+Contender Referee::fit_null() const {
+  const Model model(set_, base_, {});
   Contender null;
-  null.signature.assign(model.set().channels().size(), 0.0);
+  null.signature.assign(set_.channels().size(), 0.0);
   null.whole = null.signature;
-  const Amplitudes expected = expect_model_error(settings.model_error, null);
-  null.fit =
-      refit(model, remainders.of_time, expected, Eigen::VectorXd::Zero(at(model.unknown_count())), settings.threads);
+  const Amplitudes expected = expect_model_error(settings_.model_error, null);
+  null.fit = refit(model, of_time_, expected, Eigen::VectorXd::Zero(at(model.unknown_count())), settings_.threads);
   if (!std::isfinite(null.fit.cost)) {
     throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
   }
-  weigh(remainders, settings.model_error, null);
+  weigh(null);
   return null;
 }
 
@@ -147,31 +177,28 @@ std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, 
   return chosen;
 }
 
-/// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
-std::vector<Contender> refit_all(const Contender& from, const std::vector<Screened>& chosen, const Contender& null,
-                                 const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                                 const Remainders& remainders, const RaceSettings& settings) {
+std::vector<Contender> Referee::refit_all(const Contender& from, const std::vector<Screened>& chosen,
+                                          const Contender& null) const {
   constexpr int kFirstSteps = 4;
   constexpr double kFaint_nats = 2.0;       // a screening score that cannot make a cause: one step will do
   constexpr double kWorthwhile_nats = 1.0;  // over the baseline, below which a better fit decides nothing
   constexpr double kHopeless_nats = 20.0;   // Assumed: more than the steps that are left could gain ...
   constexpr double kHopelessShare = 0.25;   // ... and so much of what the best gains
   std::vector<Contender> contenders(chosen.size());
-  const auto model_of = [&](std::size_t i) { return Model(set, base, from.fit.hypothesis.with(chosen[i].effect)); };
-  parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
+  const auto model_of = [&](std::size_t i) { return Model(set_, base_, from.fit.hypothesis.with(chosen[i].effect)); };
+  parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
     const Model model = model_of(i);
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
-    contenders[i] = fit_once(model, remainders, settings.model_error, null, from.amplitudes, start, 1,
-                             chosen[i].score < kFaint_nats ? 1 : kFirstSteps);
+    contenders[i] = fit_once(model, null, from.amplitudes, start, chosen[i].score < kFaint_nats ? 1 : kFirstSteps);
   });
   double best = std::max(from.log_evidence, from.log_remainder);
   for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
-  parallel_for(chosen.size(), settings.threads, [&](std::size_t i) {
+  parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
     const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
                           best - std::max(kHopeless_nats, kHopelessShare * (best - from.log_evidence));
     const bool faint = contenders[i].log_evidence < null.log_evidence + kWorthwhile_nats;
     if (hopeless || faint) return;
-    contenders[i] = fit_contender(model_of(i), remainders, settings.model_error, null, contenders[i].fit.unknowns, 1);
+    contenders[i] = fit_contender(model_of(i), null, contenders[i].fit.unknowns);
   });
   return contenders;
 }
@@ -232,8 +259,7 @@ void assign_probabilities(const RaceSettings& settings, Race& race) {
 
 /// Pairs of the best singles with the effects that gain most on top of them: those whose score could make up for a
 /// pair's smaller prior.
-void add_pairs(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-               const Remainders& remainders, const RaceSettings& settings, Race& race) {
+void add_pairs(const Referee& referee, Race& race) {
   constexpr std::size_t kFirsts = 2;
   constexpr std::size_t kSeconds = 3;
   constexpr double kWorthwhile_nats = 3.0;
@@ -242,18 +268,15 @@ void add_pairs(const PreparedSet& set, const std::vector<identification::FreePar
       race.contenders.begin() + static_cast<std::ptrdiff_t>(std::min(kFirsts, race.contenders.size())));
   for (const Contender& first : firsts) {
     std::vector<const models::Effect*> others;
-    for (const models::Effect* effect : settings.effects) {
+    for (const models::Effect* effect : race.effects) {
       if (!first.fit.hypothesis.contains(*effect)) others.push_back(effect);
     }
-    const Model model(set, base, first.fit.hypothesis);
-    std::vector<Screened> screened =
-        screen(model, remainders.of_time, first.amplitudes, first.fit, base, others, settings.threads);
+    std::vector<Screened> screened = referee.screen_on_top_of(first, others);
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < kWorthwhile_nats; }),
                    screened.end());
     if (first.log_evidence < race.null.log_evidence || screened.empty()) continue;
-    add_contenders(refit_all(first, choose(screened, kSeconds, 0.0), race.null, set, base, remainders, settings),
-                   race.contenders);
+    add_contenders(referee.refit_all(first, choose(screened, kSeconds, 0.0), race.null), race.contenders);
   }
 }
 
@@ -261,25 +284,20 @@ void add_pairs(const PreparedSet& set, const std::vector<identification::FreePar
 
 Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
               const Remainder& remainder, const RaceSettings& settings) {
-  const Amplitudes model_error(set.channels().size(), settings.model_error.baseline_floors);
-  const Remainder of_conditions(remainder, model_error);
-  const Remainders remainders{remainder, of_conditions};
+  const Referee referee(set, base, remainder, settings);
   Race race;
   race.effects = settings.effects;
-  const Model null(set, base, {});
   settings.progress(0.0, "baseline");
-  race.null = fit_null(null, remainders, settings);
+  race.null = referee.fit_null();
   settings.progress(0.1, "screening");
-  race.screened =
-      screen(null, remainders.of_time, race.null.amplitudes, race.null.fit, base, settings.effects, settings.threads);
+  race.screened = referee.screen_on_top_of(race.null, settings.effects);
   settings.progress(0.2, "refit of effects");
   constexpr double kNats = 6.0;
   constexpr std::size_t kLeast = 6;
-  add_contenders(refit_all(race.null, choose(race.screened, kLeast, kNats), race.null, set, base, remainders, settings),
-                 race.contenders);
+  add_contenders(referee.refit_all(race.null, choose(race.screened, kLeast, kNats), race.null), race.contenders);
   assign_probabilities(settings, race);
   settings.progress(0.6, "pairs");
-  add_pairs(set, base, remainders, settings, race);
+  add_pairs(referee, race);
   assign_probabilities(settings, race);
   return race;
 }
