@@ -287,6 +287,7 @@ Race run_race(const PreparedSet& set, const std::vector<identification::FreePara
   const Referee referee(set, base, remainder, settings);
   Race race;
   race.effects = settings.effects;
+  race.model_error = settings.model_error;
   settings.progress(0.0, "baseline");
   race.null = referee.fit_null();
   settings.progress(0.1, "screening");

@@ -40,6 +40,7 @@ struct Contender {
 
 struct Race {
   std::vector<const models::Effect*> effects;
+  ModelError model_error;
   Contender null;
   std::vector<Screened> screened;     // on top of the null
   std::vector<Contender> contenders;  // effects and pairs, the likeliest first

@@ -17,9 +17,20 @@ constexpr double kNormal95 = 1.959963984540054;
 
 bool was_fitted(const Contender& contender) { return std::isfinite(contender.fit.cost); }
 
+/// How far a fitted size is from the value at which its effect does nothing, in prior units.
+double distance_from_off(const Model& model, const Contender& contender, std::size_t column) {
+  const models::EffectParameter& declared = model.declaration(model.own_parameters()[column]);
+  const PriorUnits value = model.own_value(column, contender.fit.unknowns[at(column)]);
+  const double off_SI = declared.off.value_or(0.0) * unit_of_key(declared.key).factor;
+  return std::abs((value.value_SI - off_SI) / value.derivative_SI);
+}
+
+/// Own parameters with their intervals. The remainder covers a law that is wrong here and there; that it may be wrong
+/// by `law_share` everywhere alike widens the size.
 std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
                                                    const std::vector<identification::FreeParameter>& base,
-                                                   const Remainder& remainder, const Contender& contender) {
+                                                   const Remainder& remainder, const Contender& contender,
+                                                   double law_share) {
   const Model model(set, base, contender.fit.hypothesis);
   const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   const Eigen::MatrixXd covariance = evidence.calc_term(contender.amplitudes, true).covariance;
@@ -29,7 +40,9 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
     const models::Effect& effect = *contender.fit.hypothesis.effects[model.own_parameters()[i].effect].effect;
     const Unit unit = unit_of_key(declared.key);
     const double u = contender.fit.unknowns[at(i)];
-    const double sd_u = std::sqrt(covariance(at(i), at(i)));
+    const bool is_size = model.own_parameters()[i].index == 0;
+    const double of_law_u = is_size ? law_share * distance_from_off(model, contender, i) : 0.0;
+    const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
     const auto value_at = [&](double shifted) { return model.own_value(i, shifted).value_SI / unit.factor; };
     ParameterEstimate estimate;
     estimate.name = fmt::format("{}.{}", effect.info.id, declared.key);
@@ -88,18 +101,10 @@ bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, co
   return boost::math::cdf(boost::math::complement(distribution, chi2)) < kChance;
 }
 
-/// A fifth of the size's distance from its off value, in prior units.
-double allowed_difference(const Model& model, const Contender& contender, std::size_t column) {
-  constexpr double kShare = 0.2;  // Assumed: what a law's idealisation may do from run to run
-  const models::EffectParameter& declared = model.declaration(model.own_parameters()[column]);
-  const PriorUnits value = model.own_value(column, contender.fit.unknowns[at(column)]);
-  const double off_SI = declared.off.value_or(0.0) * unit_of_key(declared.key).factor;
-  return kShare * std::abs((value.value_SI - off_SI) / value.derivative_SI);
-}
-
 std::vector<std::string> find_objections(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                          const Remainder& remainder, const Contender& contender) {
   constexpr double kTail = 3.0;
+  constexpr double kSizeShare = 0.2;  // Assumed: what a law's idealisation may do to the size from run to run
   std::vector<std::string> objections;
   if (contender.remainder_probability > contender.probability) {
     objections.push_back(fmt::format("something else is missing: a free remainder on top of it is {:.0f} nats likelier",
@@ -115,7 +120,8 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
           "{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", model.declaration(own).key,
           id, model.own_value(i, u).value_SI / unit_of_key(model.declaration(own).key).factor, std::abs(u)));
     }
-    if (own.index == 0 && differs_between_runs(set, remainder, contender, i, allowed_difference(model, contender, i))) {
+    if (own.index == 0 &&
+        differs_between_runs(set, remainder, contender, i, kSizeShare * distance_from_off(model, contender, i))) {
       objections.push_back(fmt::format("its size ({}) differs from run to run", model.declaration(own).key));
     }
   }
@@ -169,7 +175,7 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
     }
     for (const std::string& id : cause.effects) others.erase(id);
     cause.indistinguishable_from.assign(others.begin(), others.end());
-    cause.parameters = estimate_parameters(set, base, remainder, *lead);
+    cause.parameters = estimate_parameters(set, base, remainder, *lead, race.model_error.law_share);
     if (causes.empty()) cause.objections = find_objections(set, base, remainder, *lead);
     cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));
