@@ -170,6 +170,7 @@ Shrinkage resample(const Measure& before, const Measure& after) {
   constexpr int kResamples = 1000;
   std::vector<std::pair<Stretch, Stretch>> stretches;
   for (const auto& [where, stretch] : before.stretches) stretches.emplace_back(stretch, after.stretches.at(where));
+  if (stretches.empty()) return {};  // no run could be simulated
   RandomStream random(1, "shrinkage");
   std::vector<double> percents;
   int not_above = 0;
@@ -266,7 +267,8 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
     gap.shrink_percent = shrinkage.percent;
     gap.shrink_ci95_percent = shrinkage.ci95_percent;
   }
-  if (gap.as_calibrated.before > 0.0) {
+  const bool is_judged = !measured_before.stretches.empty();  // else no run could be simulated without its own data
+  if (is_judged && gap.as_calibrated.before > 0.0) {
     gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
   }
   if (can_leave_out && shrinkage.above_noise) {
@@ -275,6 +277,7 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
   for (std::size_t c = 0; c < set.channels().size(); ++c) {
     const ChannelUnit unit = unit_of(set, set.channels()[c]);
     const auto in_unit = [&](const Measure& measure) {
+      if (measure.channels.empty()) return 0.0;  // no run could be simulated
       return unit.per_SI * gap_of(measure.channels[c].above, measure.channels[c].blocks);
     };
     gap.channels.push_back({set.channels()[c], unit.symbol, in_unit(measured_before), in_unit(measured_after)});

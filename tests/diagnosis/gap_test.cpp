@@ -200,6 +200,22 @@ TEST_CASE("of one run nothing can be left out: the gap is its own", "[fast]") {
   CHECK(gap.recalibrated.after < gap.recalibrated.before);
 }
 
+TEST_CASE("where a fit without a run leads nowhere, nothing is said of what shrinks", "[fast]") {
+  FittedBaseline fitted(tests::add_noise(tests::make_gap_set({}, 2), 5));
+  const auto at = std::find_if(fitted.base.begin(), fitted.base.end(),
+                               [](const auto& free) { return free.key == "tire.thermal.heat_capacity_J_per_K"; });
+  REQUIRE(at != fitted.base.end());
+  // One step from here: a heat capacity far below zero, which cannot be simulated.
+  fitted.null.fit.residuals = 1e3 * fitted.null.fit.jacobian.col(at - fitted.base.begin());
+  const Contender cause = fitted.null;
+  const Gap gap = find(fitted, &cause);
+  CHECK(gap.held_out.empty());
+  CHECK_FALSE(gap.shrink_percent.has_value());
+  CHECK_FALSE(gap.recalibration_percent.has_value());
+  CHECK_FALSE(gap.black_box_percent.has_value());
+  CHECK(gap.channels.size() == 3);
+}
+
 TEST_CASE("a gap is the same to the bit from one thread or two", "[fast]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
   const Contender cause = fit_effect(fitted, "bearing_warmup");
