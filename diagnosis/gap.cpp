@@ -6,9 +6,9 @@
 #include <map>
 
 #include "diagnosis/black_box.h"
+#include "diagnosis/report_unit.h"
 #include "sim/core/parallel.h"
 #include "sim/core/random.h"
-#include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -204,18 +204,6 @@ Shrinkage resample(const Measure& before, const Measure& after) {
   return result;
 }
 
-/// The channel's unit in reports: a torque as force at the drum's surface.
-struct ChannelUnit {
-  std::string symbol;
-  double per_SI = 1.0;
-};
-
-ChannelUnit unit_of(const PreparedSet& set, const std::string& channel) {
-  if (channel == "drum_torque_Nm") return {"N", set.context().surface_curvature_per_m};
-  const Unit unit = unit_of_key(channel);
-  return {unit.symbol, 1.0 / unit.factor};
-}
-
 }  // namespace
 
 Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParameter>& base, const Remainder& remainder,
@@ -275,7 +263,7 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
     gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(measured_black_box));
   }
   for (std::size_t c = 0; c < set.channels().size(); ++c) {
-    const ChannelUnit unit = unit_of(set, set.channels()[c]);
+    const ReportUnit unit = find_report_unit(set, set.channels()[c]);
     const auto in_unit = [&](const Measure& measure) {
       if (measure.channels.empty()) return 0.0;  // no run could be simulated
       return unit.per_SI * gap_of(measure.channels[c].above, measure.channels[c].blocks);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/linear_fit.h"
-#include "sim/core/units.h"
+#include "diagnosis/report_unit.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -182,14 +182,9 @@ Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& s
   location.z = sized.z;
   location.start_s = stretch.start_s;
   location.end_s = stretch.end_s;
-  if (location.channel == "drum_torque_Nm") {
-    location.size = sized.size * set.context().surface_curvature_per_m;
-    location.unit = "N";
-  } else {
-    const Unit unit = unit_of_key(location.channel);
-    location.size = sized.size / unit.factor;
-    location.unit = unit.symbol;
-  }
+  const ReportUnit unit = find_report_unit(set, location.channel);
+  location.size = sized.size * unit.per_SI;
+  location.unit = unit.symbol;
   return location;
 }
 
