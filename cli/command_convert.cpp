@@ -13,6 +13,7 @@
 #include "sim/core/config.h"
 #include "sim/core/file_io.h"
 #include "sim/core/schema.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -47,17 +48,11 @@ void require_in(const Range& range, const std::optional<double>& value, const st
 std::optional<double> read_curvature(const std::string& text, const std::string& option) {
   if (text.empty()) return std::nullopt;
   if (text == "flat") return 0.0;
-  double diameter_m = 0.0;
-  std::size_t used = 0;
-  try {
-    diameter_m = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  if (used != text.size() || !std::isfinite(diameter_m) || diameter_m <= 0.0) {
+  const std::optional<double> diameter_m = parse_number(text);
+  if (!diameter_m.has_value() || *diameter_m <= 0.0) {
     throw bad_option(fmt::format("'{}' is not a drum", text), option, text, "a diameter in m, > 0, or flat");
   }
-  return 2.0 / diameter_m;
+  return 2.0 / *diameter_m;
 }
 
 void require_both(bool from_given, bool to_given, const std::string& from, const std::string& to) {

@@ -12,6 +12,7 @@
 #include "cli/print.h"
 #include "identification/road_load_report.h"
 #include "sim/core/file_io.h"
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::cli {
@@ -53,13 +54,7 @@ InputError option_error(const std::string& what, const std::string& option, cons
 
 double parse_edge(const std::string& text, double empty, const std::string& given) {
   if (text.empty()) return empty;
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(text, &used);
-    if (used == text.size() && std::isfinite(value)) return value;
-  } catch (const std::exception&) {
-    // told below
-  }
+  if (const std::optional<double> value = parse_number(text)) return *value;
   throw option_error(fmt::format("'{}' is not a number", text), "--bounds", given, "A=from:to,B=from:to,C=from:to");
 }
 

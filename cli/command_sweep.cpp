@@ -15,6 +15,7 @@
 #include "sim/core/csv.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -41,17 +42,6 @@ InputError bad_axis(const std::string& text) {
                      "key=a,b,c or key=from:to:step, with the keys of --set", ""});
 }
 
-double parse_number(const std::string& word, const std::string& text) {
-  try {
-    std::size_t used = 0;
-    const double value = std::stod(word, &used);
-    if (used == word.size() && std::isfinite(value)) return value;
-  } catch (const std::exception&) {
-    // reported below
-  }
-  throw bad_axis(text);
-}
-
 Axis parse_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) throw bad_axis(text);
@@ -64,13 +54,15 @@ Axis parse_axis(const std::string& text) {
   std::vector<std::string> words;
   boost::algorithm::split(words, values, [](char c) { return c == ':'; });
   if (words.size() != 3) throw bad_axis(text);
-  const double from = parse_number(words[0], text);
-  const double to = parse_number(words[1], text);
-  const double step = parse_number(words[2], text);
+  const std::optional<double> from = parse_number(words[0]);
+  const std::optional<double> to = parse_number(words[1]);
+  const std::optional<double> step = parse_number(words[2]);
+  if (!from.has_value() || !to.has_value() || !step.has_value()) throw bad_axis(text);
   constexpr double kMostValues = 10000.0;
-  if (step == 0.0 || (to - from) / step < 0.0 || (to - from) / step > kMostValues) throw bad_axis(text);
-  const int last = static_cast<int>(std::floor((to - from) / step + 1e-9));
-  for (int i = 0; i <= last; ++i) axis.values.push_back(fmt::format("{:.12g}", from + i * step));
+  const double intervals = (*to - *from) / *step;
+  if (*step == 0.0 || intervals < 0.0 || intervals > kMostValues) throw bad_axis(text);
+  const int last = static_cast<int>(std::floor(intervals + 1e-9));
+  for (int i = 0; i <= last; ++i) axis.values.push_back(fmt::format("{:.12g}", *from + i * *step));
   return axis;
 }
 

@@ -1,7 +1,6 @@
 #include "identification/coastdown_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -13,6 +12,7 @@
 #include <boost/algorithm/string/trim.hpp>
 
 #include "sim/core/csv.h"
+#include "sim/core/text.h"
 
 namespace rollrig::identification {
 namespace {
@@ -26,15 +26,6 @@ const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "ses
 const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "run",
                                            "use",      "heading",  "session", "start_time"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
-
-std::optional<double> parse_number(const std::string& text) {
-  double value = 0.0;
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (text.empty() || error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 InputError cell_error(const CsvTable& table, std::size_t row, const std::string& column, const std::string& value,
                       const std::string& what, const std::string& allowed) {

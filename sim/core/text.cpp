@@ -1,6 +1,8 @@
 #include "sim/core/text.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <sstream>
 
 namespace rollrig {
@@ -41,6 +43,15 @@ std::string clip(const std::string& text, std::size_t width) {
   const std::size_t space = kept.rfind(' ');
   if (space != std::string::npos && 3 * space >= 2 * kept.size()) kept.resize(space);
   return kept + mark;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // which from_chars does not take
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 }  // namespace rollrig

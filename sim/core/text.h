@@ -1,8 +1,10 @@
 #pragma once
-/// Plain text for a terminal.
+/// Plain text: for a terminal, and numbers that a person typed.
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace rollrig {
 
@@ -15,5 +17,9 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width 
 /// Text cut so that it has at most `width` characters, with "..." where something was cut: after a word, unless that
 /// would take more than a third.
 std::string clip(const std::string& text, std::size_t width);
+
+/// A finite number in decimal or scientific notation, with a sign or without, that is the whole of the text.
+/// Checked  tests/core/text_test.cpp
+std::optional<double> parse_number(std::string_view text);
 
 }  // namespace rollrig
