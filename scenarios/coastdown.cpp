@@ -47,9 +47,9 @@ const Scenario& scenario_coastdown() {
        "Slope and wind of the road, where given, turn round with the direction. A, B, C by generalised least squares "
        "on force against speed, at reference conditions (20 degC, 98.21 kPa, still air).",
        "source §3.4.1, §3.4.3, (3.20); SAE J2263",
-       {{"A_N", "with A_sd_N"},
-        {"B_N_per_km_h", "with B_sd_N_per_km_h"},
-        {"C_N_per_km_h2", "with C_sd_N_per_km_h2"},
+       {{"A_N", "with A_N_sd"},
+        {"B_N_per_km_h", "with B_N_per_km_h_sd"},
+        {"C_N_per_km_h2", "with C_N_per_km_h2_sd"},
         {"force_N", "at speeds of 20 to 130 km/h"},
         {"coastdowns", "of each: name, duration_s"}}},
       {rigs::RigKind::kFlat, rigs::RigKind::kDyno}, "flat", &plan, &evaluate);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace rollrig::scenarios {
 namespace {
@@ -106,14 +105,29 @@ const std::vector<double>& road_load_speeds_km_h() {
   return speeds;
 }
 
+void put_road_load(const models::RoadLoad<double>& load, const std::string& prefix, Json& json) {
+  models::RoadLoad<double>::visit(load, [&](const Field& field, const double& value) {
+    json[prefix + field.key] = unit_of_key(field.key).from_si(value);
+  });
+}
+
+std::array<std::string, 3> write_road_load(const models::RoadLoad<double>& load) {
+  Json json;
+  put_road_load(load, "", json);
+  return {fmt::format("{:.2f} N", json["A_N"].get<double>()),
+          fmt::format("{:.4f} N/(km/h)", json["B_N_per_km_h"].get<double>()),
+          fmt::format("{:.5f} N/(km/h)2", json["C_N_per_km_h2"].get<double>())};
+}
+
 Json road_load_to_json(const RoadLoadFit& fit) {
+  Json values;
+  put_road_load(fit.load, "", values);
   Json json = Json::object();
   int i = 0;
-  models::RoadLoad<double>::visit(fit.load, [&](const Field& field, const double& value) {
-    const Unit unit = unit_of_key(field.key);
-    json[field.key] = unit.from_si(value);
-    json[std::string(field.key) + "_sd"] = fit.sd(i++) / unit.factor;
-  });
+  for (const auto& [key, value] : values.items()) {
+    json[key] = value;
+    json[key + "_sd"] = fit.sd(i++) / unit_of_key(key).factor;
+  }
   json["force_N"] = Json::array();
   for (const double speed_km_h : road_load_speeds_km_h()) {
     json["force_N"].push_back({{"speed_km_h", speed_km_h}, {"force_N", fit.force_N(speed_km_h / 3.6)}});
@@ -122,10 +136,8 @@ Json road_load_to_json(const RoadLoadFit& fit) {
 }
 
 void add_road_load_lines(const RunSpec& spec, const RoadLoadFit& fit, Outcome& outcome) {
-  const Json json = road_load_to_json(fit);
-  outcome.lines.push_back({"A", fmt::format("{:.2f} N", json["A_N"].get<double>())});
-  outcome.lines.push_back({"B", fmt::format("{:.4f} N/(km/h)", json["B_N_per_km_h"].get<double>())});
-  outcome.lines.push_back({"C", fmt::format("{:.5f} N/(km/h)2", json["C_N_per_km_h2"].get<double>())});
+  const std::array<std::string, 3> texts = write_road_load(fit.load);
+  for (std::size_t i = 0; i < texts.size(); ++i) outcome.lines.push_back({std::string(1, "ABC"[i]), texts[i]});
   const bool road = spec.rig.kind == rigs::RigKind::kFlat;
   ResultTable table{
       road ? "Force at reference conditions" : "Force of rollers and vehicle, as tested", {"km/h", "N"}, {}};

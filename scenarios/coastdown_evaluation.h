@@ -1,6 +1,9 @@
 #pragma once
 /// Coastdowns as part of a procedure: how they are driven, and the road load that is read off them.
 
+#include <array>
+#include <string>
+
 #include "scenarios/road_load_fit.h"
 #include "scenarios/vehicle_program.h"
 
@@ -51,6 +54,12 @@ RoadLoadFit fit_vehicle_coastdowns(const CoastdownData& data, const RunSpec& spe
 /// Speeds at which forces are shown and judged: 20 to 130 km/h.
 const std::vector<double>& road_load_speeds_km_h();
 
+/// Sets A, B, C in the keys and units of files, each key after `prefix`.
+void put_road_load(const models::RoadLoad<double>& load, const std::string& prefix, Json& json);
+/// A, B, C as a person reads them, with their units.
+std::array<std::string, 3> write_road_load(const models::RoadLoad<double>& load);
+
+/// A, B, C, each with `<key>_sd`, and the force over road_load_speeds_km_h().
 Json road_load_to_json(const RoadLoadFit& fit);
 void add_road_load_lines(const RunSpec& spec, const RoadLoadFit& fit, Outcome& outcome);
 

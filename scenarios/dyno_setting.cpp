@@ -108,12 +108,6 @@ Load measure(const RunSpec& spec, Settings& settings, const Load& set, const sim
       .load;
 }
 
-void put(const char* prefix, const Load& load, Json& json) {
-  Load::visit(load, [&](const Field& field, const double& value) {
-    json[std::string(prefix) + field.key] = unit_of_key(field.key).from_si(value);
-  });
-}
-
 /// Energies of rolling resistance of all tires over the highway sections (Table 4.2).
 void put_highway(const RunSpec& spec, const Settings& settings, Outcome& outcome) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
@@ -138,8 +132,8 @@ void report(const Settings& settings, const Load& target, const Load& set, const
             Outcome& outcome) {
   const Load difference = sum(found, target, -1.0);
   const double largest_N = find_largest_N(difference);
-  put("set_", set, outcome.result);
-  put("target_", target, outcome.result);
+  put_road_load(set, "set_", outcome.result);
+  put_road_load(target, "target_", outcome.result);
   outcome.result["iterations"] = iterations;
   outcome.result["largest_difference_N"] = largest_N;
   outcome.result["within_criterion"] = largest_N <= settings.criterion_N;
@@ -156,14 +150,8 @@ void report(const Settings& settings, const Load& target, const Load& set, const
                           fmt::format("{:.1f}", models::calc_road_load_N(set, speed_m_s))});
   }
   outcome.tables.push_back(std::move(table));
-  const auto show = [&outcome](const char* label, const char* prefix) {
-    outcome.lines.push_back({label, fmt::format("{:.2f} N, {:.4f} N/(km/h), {:.5f} N/(km/h)2",
-                                                outcome.result[std::string(prefix) + "A_N"].get<double>(),
-                                                outcome.result[std::string(prefix) + "B_N_per_km_h"].get<double>(),
-                                                outcome.result[std::string(prefix) + "C_N_per_km_h2"].get<double>())});
-  };
-  show("Target", "target_");
-  show("Set", "set_");
+  outcome.lines.push_back({"Target", fmt::format("{}", fmt::join(write_road_load(target), ", "))});
+  outcome.lines.push_back({"Set", fmt::format("{}", fmt::join(write_road_load(set), ", "))});
   outcome.lines.push_back({"Corrections", fmt::format("{}", iterations)});
   outcome.lines.push_back(
       {"Largest difference", fmt::format("{:.2f} N (criterion {:g} N)", largest_N, settings.criterion_N)});
