@@ -7,7 +7,7 @@
 
 #include "models/contact_force_element.h"
 #include "rigs/drum_actuators.h"
-#include "rigs/multibody_guard.h"
+#include "rigs/simbody_system.h"
 #include "sim/core/error.h"
 
 namespace rollrig::rigs {
@@ -47,19 +47,15 @@ constexpr double kCylinderLag_N = 1e-5;
 
 }  // namespace
 
-class MultibodyDrum::Implementation {
+class MultibodyDrum::Implementation : public SimbodySystem {
  public:
   Implementation(Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded)
-      : corner_(corner),
+      : SimbodySystem(make_drum_integrals(Detail::kFull), make_drum_stores(Detail::kFull),
+                      make_drum_channels(corner.states(), surface_recorded, Detail::kFull)),
+        corner_(corner),
         start_(std::move(start)),
         surface_recorded_(surface_recorded),
         contact_port_(find_contact_port(corner)),
-        integrals_(make_drum_integrals(Detail::kFull)),
-        stores_(make_drum_stores(Detail::kFull)),
-        channels_(make_drum_channels(corner.states(), surface_recorded, Detail::kFull)),
-        matter_(system_),
-        forces_(system_),
-        gravity_(forces_, matter_, Vec3(0, -kStandardGravity_m_s2, 0)),
         drum_(matter_.Ground(), Transform(),
               make_rotor(kDrumMass_kg, corner.context().machine_inertia_kg_m2 * contact_port_.machine_inertia_factor),
               Transform()),
@@ -71,24 +67,18 @@ class MultibodyDrum::Implementation {
         contact_(new ContactForceElement(
             forces_, matter_,
             {wheel_.getMobilizedBodyIndex(), drum_.getMobilizedBodyIndex(), carriage_.getMobilizedBodyIndex()}, corner,
-            [this](const SimTK::State& state) {
-              return read_drum_inputs<double>(segment_, state.getTime() - segment_start_s_, surface_recorded_);
-            })),
+            [this](const SimTK::State& state) { return find_inputs(state.getTime()); })),
         actuators_(new DrumActuators(
             forces_, matter_,
             {drum_.getMobilizedBodyIndex(), carriage_.getMobilizedBodyIndex(), wheel_.getMobilizedBodyIndex()}, rig,
             *contact_, corner.context())) {
-    matter_.setShowDefaultGeometry(false);
     contact_->update_contact_parameters(contact_port_.slip_compliance_per_N);
     SimTK::Force::Custom(forces_, contact_);
     SimTK::Force::Custom(forces_, actuators_);
-    state_ = system_.realizeTopology();
-    system_.realizeModel(state_);
+    realize_topology();
   }
 
-  std::size_t state_count() const { return static_cast<std::size_t>(state_.getNY()); }
-
-  std::vector<double> state_tolerances() const {
+  std::vector<double> state_tolerances() const override {
     const double spring_N_per_m = slip_spring_N_per_m();
     std::vector<double> tolerances{kAngle_rad,
                                    kHeight_m,
@@ -103,25 +93,20 @@ class MultibodyDrum::Implementation {
     return tolerances;
   }
 
-  const std::vector<sim::Integral>& integrals() const { return integrals_; }
-  const std::vector<sim::Store>& stores() const { return stores_; }
-  const std::vector<sim::Channel>& channels() const { return channels_; }
   const models::Inflation<double>& inflation() const { return contact_->inflation(); }
 
-  void initialize(const sim::Segment& first, double time_s, double* y) {
-    segment_ = first;
-    segment_start_s_ = time_s;
+  void initialize(const sim::Segment& first, double time_s, double* y) override {
+    take_segment(first, time_s);
     actuators_->set_motor(true);
     contact_->set_inflation(start_.inflation());
     SimTK::Vector& z = forces_.updZ(state_);
     z = 0.0;
     corner_.initialize(start_.tire_temperature_K, start_.history, &z[contact_->first_z() + 1]);
     set_equilibrium(time_s);
-    const SimTK::Vector& all = state_.getY();
-    std::copy(&all[0], &all[0] + all.size(), y);
+    copy_state(y);
   }
 
-  void begin_phase(const sim::Phase& phase, double* y) {
+  void begin_phase(const sim::Phase& phase, double, double* y) override {
     for (const sim::Command& command : phase.commands) {
       if (command.name == kSetPressure) {
         models::Inflation<double> inflation = contact_->inflation();
@@ -136,38 +121,22 @@ class MultibodyDrum::Implementation {
     state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
   }
 
-  void begin_segment(const sim::Segment& segment, double time_s, double* y) {
+  void begin_segment(const sim::Segment& segment, double time_s, double* y, double*) override {
     const double former_N = find_acting(time_s, y).load_N;
-    segment_ = segment;
-    segment_start_s_ = time_s;
-    state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
+    take_segment(segment, time_s);
     y[kSlipState + static_cast<std::size_t>(actuators_->lag_z() - contact_->first_z())] +=
         former_N - find_acting(time_s, y).load_N;
   }
 
-  void evaluate(double time_s, const double* y, double* rates, double* integrands) {
-    set_state(time_s, y);
-    if (rates != nullptr) {
-      system_.realize(state_, SimTK::Stage::Acceleration);
-      const SimTK::Vector& y_dot = state_.getYDot();
-      std::copy(&y_dot[0], &y_dot[0] + y_dot.size(), rates);
-    }
-    if (integrands != nullptr) {
-      system_.realize(state_, SimTK::Stage::Dynamics);
-      fill_integrands(integrands);
-    }
-  }
-
-  double watch(const std::string& name, double time_s, const double* y) {
+  double watch(const std::string& name, double time_s, const double* y) override {
     if (name == kWatchTireTemperature) return y[corner_offset() + corner_.state_of(Node::kRubber)];
     if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);
     set_state(time_s, y);
     return y[kSpeeds] / corner_.context().surface_curvature_per_m;
   }
 
-  void observe(double time_s, const double* y, double* values) {
-    const models::InputPort<double> inputs =
-        read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_);
+  void observe(double time_s, const double* y, double* values) override {
+    const models::InputPort<double> inputs = find_inputs(time_s);
     if (actuators_->motor_on()) require_speed_held(time_s, y);
     *values++ = actuators_->motor_on() ? inputs.speed_m_s : y[kSpeeds] / corner_.context().surface_curvature_per_m;
     *values++ = inputs.load_N;
@@ -176,7 +145,7 @@ class MultibodyDrum::Implementation {
     for (std::size_t i = 2; i < corner_.state_count(); ++i) *values++ = y[corner_offset() + i];
   }
 
-  void calc_stored(double time_s, const double* y, double* stored_J) {
+  void calc_stored(double time_s, const double* y, double* stored_J) override {
     set_state(time_s, y);
     system_.realize(state_, SimTK::Stage::Dynamics);
     const ContactEvaluation& at = contact_->evaluation(state_);
@@ -221,12 +190,8 @@ class MultibodyDrum::Implementation {
 
   static constexpr std::size_t corner_offset() { return kSlipState + 1; }
 
-  void set_state(double time_s, const double* y) {
-    const SimTK::Vector& present = state_.getY();
-    if (state_.getTime() == time_s && std::equal(y, y + present.size(), &present[0])) return;
-    state_.setTime(time_s);
-    SimTK::Vector& all = state_.updY();
-    std::copy(y, y + all.size(), &all[0]);
+  models::InputPort<double> find_inputs(double time_s) const {
+    return read_drum_inputs<double>(segment_, time_in_segment_s(time_s), surface_recorded_);
   }
 
   /// Inputs as they really act.
@@ -273,7 +238,7 @@ class MultibodyDrum::Implementation {
         actuators_->find_integral_rad(torque_Nm, now.acting.speed_m_s, now.acting.load_N);
   }
 
-  void fill_integrands(double* integrands) const {
+  void fill_integrands(double* integrands) const override {
     const ContactEvaluation& at = contact_->evaluation(state_);
     const ActuatorEvaluation drive = actuators_->evaluate(state_, at.now.acting);
     const double carriage_m_s = carriage_.getOneU(state_, 0);
@@ -306,60 +271,24 @@ class MultibodyDrum::Implementation {
   DrumStart<double> start_;
   bool surface_recorded_;
   models::ContactPort<double> contact_port_;
-  std::vector<sim::Integral> integrals_;
-  std::vector<sim::Store> stores_;
-  std::vector<sim::Channel> channels_;
-  sim::Segment segment_;
-  double segment_start_s_ = 0.0;
-
-  SimTK::MultibodySystem system_;
-  SimTK::SimbodyMatterSubsystem matter_;
-  SimTK::GeneralForceSubsystem forces_;
-  SimTK::Force::UniformGravity gravity_;
   MobilizedBody::Pin drum_;
   MobilizedBody::Slider carriage_;
   MobilizedBody::Pin wheel_;
   ContactForceElement* contact_;  // both owned by the force subsystem
   DrumActuators* actuators_;
-  SimTK::State state_;
 };
 
 const Transform MultibodyDrum::Implementation::kUpwards(Rotation(SimTK::Pi / 2, SimTK::ZAxis), Vec3(0));
 const Transform MultibodyDrum::Implementation::kReversed(Rotation(SimTK::Pi, SimTK::XAxis), Vec3(0));
 
 MultibodyDrum::MultibodyDrum(Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded)
-    : implementation_(std::make_unique<Implementation>(corner, rig, std::move(start), surface_recorded)) {}
-MultibodyDrum::~MultibodyDrum() = default;
+    : MultibodyRig(
+          guarded([&] { return std::make_unique<Implementation>(corner, rig, std::move(start), surface_recorded); })),
+      implementation_(static_cast<Implementation&>(system())) {}
 
-std::size_t MultibodyDrum::state_count() const { return implementation_->state_count(); }
-std::vector<double> MultibodyDrum::state_tolerances() const { return implementation_->state_tolerances(); }
-const std::vector<sim::Integral>& MultibodyDrum::integrals() const { return implementation_->integrals(); }
-const std::vector<sim::Store>& MultibodyDrum::stores() const { return implementation_->stores(); }
-const std::vector<sim::Channel>& MultibodyDrum::channels() const { return implementation_->channels(); }
-void MultibodyDrum::initialize(const sim::Segment& first, double time_s, double* state) {
-  guarded([&] { implementation_->initialize(first, time_s, state); });
-}
-void MultibodyDrum::begin_phase(const sim::Phase& phase, double, double* state) {
-  implementation_->begin_phase(phase, state);
-}
-void MultibodyDrum::begin_segment(const sim::Segment& segment, double time_s, double* state, double*) {
-  implementation_->begin_segment(segment, time_s, state);
-}
-void MultibodyDrum::evaluate(double time_s, const double* state, double* rates, double* integrands) {
-  guarded([&] { implementation_->evaluate(time_s, state, rates, integrands); });
-}
-double MultibodyDrum::watch(const std::string& name, double time_s, const double* state) {
-  return implementation_->watch(name, time_s, state);
-}
-void MultibodyDrum::observe(double time_s, const double* state, double* values) {
-  implementation_->observe(time_s, state, values);
-}
-void MultibodyDrum::calc_stored(double time_s, const double* state, double* stored_J) {
-  guarded([&] { implementation_->calc_stored(time_s, state, stored_J); });
-}
-const models::Inflation<double>& MultibodyDrum::inflation() const { return implementation_->inflation(); }
+const models::Inflation<double>& MultibodyDrum::inflation() const { return implementation_.inflation(); }
 DrumForces MultibodyDrum::find_forces(double time_s, const double* state) {
-  return guarded([&] { return implementation_->find_forces(time_s, state); });
+  return guarded([&] { return implementation_.find_forces(time_s, state); });
 }
 
 }  // namespace rollrig::rigs

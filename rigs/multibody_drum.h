@@ -2,12 +2,9 @@
 /// The drum rig as a multibody system in Simbody: drum on a pin, carriage on a vertical slider with its
 /// load cylinder, wheel and tire on a pin, contact element between wheel and drum.
 
-#include <memory>
-#include <vector>
-
 #include "rigs/drum_channels.h"
+#include "rigs/multibody_rig.h"
 #include "rigs/rig_file.h"
-#include "sim/ode_system.h"
 
 namespace rollrig::rigs {
 
@@ -30,26 +27,9 @@ struct DrumForces {
 /// deflection, corner states, integral of the motor's speed error).
 /// Energy    both audits of baseline.md
 /// Checked   tests/rigs/multibody_drum_test.cpp, tests/rigs/fidelities_test.cpp
-class MultibodyDrum : public sim::OdeSystem<double> {
+class MultibodyDrum : public MultibodyRig {
  public:
   MultibodyDrum(models::Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded);
-  ~MultibodyDrum() override;
-  MultibodyDrum(const MultibodyDrum&) = delete;
-  MultibodyDrum& operator=(const MultibodyDrum&) = delete;
-
-  std::size_t state_count() const override;
-  std::vector<double> state_tolerances() const override;
-  const std::vector<sim::Integral>& integrals() const override;
-  const std::vector<sim::Store>& stores() const override;
-  const std::vector<sim::Channel>& channels() const override;
-
-  void initialize(const sim::Segment& first, double time_s, double* state) override;
-  void begin_phase(const sim::Phase& phase, double time_s, double* state) override;
-  void begin_segment(const sim::Segment& segment, double time_s, double* state, double* integrals) override;
-  void evaluate(double time_s, const double* state, double* rates, double* integrands) override;
-  double watch(const std::string& name, double time_s, const double* state) override;
-  void observe(double time_s, const double* state, double* values) override;
-  void calc_stored(double time_s, const double* state, double* stored_J) override;
 
   const models::Inflation<double>& inflation() const;
   /// Everything at one state, joint reactions included.
@@ -57,7 +37,7 @@ class MultibodyDrum : public sim::OdeSystem<double> {
 
  private:
   class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  Implementation& implementation_;  // owned by MultibodyRig
 };
 
 }  // namespace rollrig::rigs

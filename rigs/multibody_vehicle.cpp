@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "models/contact_force_element.h"
-#include "rigs/multibody_guard.h"
+#include "rigs/simbody_system.h"
 #include "rigs/vehicle_bodies.h"
 #include "rigs/vehicle_drive.h"
 #include "sim/core/error.h"
@@ -34,38 +34,27 @@ constexpr double kSpeedIntegral_m = 1e-5;
 
 }  // namespace
 
-class MultibodyVehicle::Implementation {
+class MultibodyVehicle::Implementation : public SimbodySystem {
  public:
   Implementation(std::vector<Corner<double>>& corners, const VehicleLayout& layout, const VehicleFile& vehicle,
                  const RigFile& rig, VehicleStart<double> start, bool surface_recorded)
-      : corners_(corners),
+      : SimbodySystem(make_vehicle_integrals(layout), make_vehicle_stores(),
+                      make_vehicle_channels(layout, corners.front().states(), surface_recorded)),
+        corners_(corners),
         layout_(layout),
         start_(std::move(start)),
         surface_recorded_(surface_recorded),
         contact_port_(find_contact_port(corners.front())),
-        integrals_(make_vehicle_integrals(layout)),
-        stores_(make_vehicle_stores()),
-        channels_(make_vehicle_channels(layout, corners.front().states(), surface_recorded)),
         roller_radius_m_(rig.drum.diameter_m / 2.0),
-        matter_(system_),
-        forces_(system_),
-        gravity_(forces_, matter_, Vec3(0, -kStandardGravity_m_s2, 0)),
         bodies_(add_vehicle_bodies(matter_, layout, vehicle, rig, corners.front().context().tire,
                                    contact_port_.vehicle_mass_factor)) {
-    matter_.setShowDefaultGeometry(false);
     add_forces(vehicle, rig);
-    state_ = system_.realizeTopology();
-    system_.realizeModel(state_);
+    realize_topology();
     first_u_ = static_cast<std::size_t>(state_.getNQ());
     first_z_ = first_u_ + static_cast<std::size_t>(state_.getNU());
   }
 
-  std::size_t state_count() const { return static_cast<std::size_t>(state_.getNY()); }
-  const std::vector<sim::Integral>& integrals() const { return integrals_; }
-  const std::vector<sim::Store>& stores() const { return stores_; }
-  const std::vector<sim::Channel>& channels() const { return channels_; }
-
-  std::vector<double> state_tolerances() const {
+  std::vector<double> state_tolerances() const override {
     std::vector<double> tolerances(state_count(), 0.0);
     const auto put = [&](const SimTK::MobilizedBody& body, double position, double speed) {
       tolerances[static_cast<std::size_t>(body.getFirstQIndex(state_))] = position;
@@ -86,9 +75,8 @@ class MultibodyVehicle::Implementation {
     return tolerances;
   }
 
-  void initialize(const sim::Segment& first, double time_s, double* y) {
-    segment_ = first;
-    segment_start_s_ = time_s;
+  void initialize(const sim::Segment& first, double time_s, double* y) override {
+    take_segment(first, time_s);
     drive_->set_driver(true);
     state_.updY() = 0.0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -98,11 +86,10 @@ class MultibodyVehicle::Implementation {
     }
     state_.setTime(time_s);
     set_equilibrium();
-    const SimTK::Vector& all = state_.getY();
-    std::copy(&all[0], &all[0] + all.size(), y);
+    copy_state(y);
   }
 
-  void begin_phase(const sim::Phase& phase, double* y) {
+  void begin_phase(const sim::Phase& phase, double, double* y) override {
     for (const sim::Command& command : phase.commands) {
       if (command.name == kSetPressure) {
         for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -120,35 +107,19 @@ class MultibodyVehicle::Implementation {
     state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
   }
 
-  void begin_segment(const sim::Segment& segment, double time_s) {
-    segment_ = segment;
-    segment_start_s_ = time_s;
-    state_.invalidateAllCacheAtOrAbove(SimTK::Stage::Time);
+  void begin_segment(const sim::Segment& segment, double time_s, double*, double*) override {
+    take_segment(segment, time_s);
   }
 
-  void evaluate(double time_s, const double* y, double* rates, double* integrands) {
-    set_state(time_s, y);
-    if (rates != nullptr) {
-      system_.realize(state_, SimTK::Stage::Acceleration);
-      const SimTK::Vector& y_dot = state_.getYDot();
-      std::copy(&y_dot[0], &y_dot[0] + y_dot.size(), rates);
-    }
-    if (integrands != nullptr) {
-      system_.realize(state_, SimTK::Stage::Dynamics);
-      fill_vehicle_integrands(integrands);
-      for (std::size_t i = 0; i < corners_.size(); ++i) fill_wheel_integrands(i, integrands);
-    }
-  }
-
-  double watch(const std::string& name, double time_s, const double* y) {
+  double watch(const std::string& name, double time_s, const double* y) override {
     if (name == kWatchTireTemperature) return y[slip_state(0) + 1 + corners_.front().state_of(Node::kRubber)];
     if (name != kWatchSpeed) throw std::invalid_argument("vehicle: cannot watch " + name);
-    set_state(time_s, y);
+    realize_at(time_s, y);
     return calc_speed_m_s();
   }
 
-  void observe(double time_s, const double* y, double* values) {
-    set_state(time_s, y);
+  void observe(double time_s, const double* y, double* values) override {
+    realize_at(time_s, y);
     const models::InputPort<double> inputs = program_inputs(time_s);
     if (drive_->driver_on()) require_speed_held(time_s);
     *values++ = drive_->driver_on() ? inputs.speed_m_s : calc_speed_m_s();
@@ -160,8 +131,8 @@ class MultibodyVehicle::Implementation {
     }
   }
 
-  void calc_stored(double time_s, const double* y, double* stored_J) {
-    set_state(time_s, y);
+  void calc_stored(double time_s, const double* y, double* stored_J) override {
+    realize_at(time_s, y);
     system_.realize(state_, SimTK::Stage::Dynamics);
     double tires_J = 0.0;
     double slip_J = 0.0;
@@ -180,7 +151,7 @@ class MultibodyVehicle::Implementation {
   }
 
   VehicleForces find_forces(double time_s, const double* y) {
-    set_state(time_s, y);
+    realize_at(time_s, y);
     system_.realize(state_, SimTK::Stage::Acceleration);
     const DriveEvaluation& drive = drive_->evaluation(state_);
     VehicleForces forces;
@@ -220,7 +191,7 @@ class MultibodyVehicle::Implementation {
   std::size_t driver_state() const { return first_z_ + static_cast<std::size_t>(drive_->integral_z()); }
 
   models::InputPort<double> program_inputs(double time_s) const {
-    return read_vehicle_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_);
+    return read_vehicle_inputs<double>(segment_, time_in_segment_s(time_s), surface_recorded_);
   }
 
   void add_forces(const VehicleFile& vehicle, const RigFile& rig) {
@@ -245,13 +216,8 @@ class MultibodyVehicle::Implementation {
     suspension_stiffness_N_per_m_ = vehicle.suspension.stiffness_N_per_m;
   }
 
-  void set_state(double time_s, const double* y) {
-    const SimTK::Vector& present = state_.getY();
-    if (state_.getTime() != time_s || !std::equal(y, y + present.size(), &present[0])) {
-      state_.setTime(time_s);
-      SimTK::Vector& all = state_.updY();
-      std::copy(y, y + all.size(), &all[0]);
-    }
+  void realize_at(double time_s, const double* y) {
+    set_state(time_s, y);
     system_.realize(state_, SimTK::Stage::Velocity);
   }
 
@@ -323,6 +289,11 @@ class MultibodyVehicle::Implementation {
     const double torque_Nm =
         at.couple_Nm - wheel.motor_Nm + wheel.brake_Nm + (is_flat() ? at.now.parasitic_N * at.loaded_radius_m : 0.0);
     state_.updY()[static_cast<int>(slip_state(i))] = torque_Nm / at.loaded_radius_m / slip_spring_N_per_m();
+  }
+
+  void fill_integrands(double* integrands) const override {
+    fill_vehicle_integrands(integrands);
+    for (std::size_t i = 0; i < corners_.size(); ++i) fill_wheel_integrands(i, integrands);
   }
 
   void fill_vehicle_integrands(double* integrands) const {
@@ -432,22 +403,11 @@ class MultibodyVehicle::Implementation {
   VehicleStart<double> start_;
   bool surface_recorded_;
   models::ContactPort<double> contact_port_;
-  std::vector<sim::Integral> integrals_;
-  std::vector<sim::Store> stores_;
-  std::vector<sim::Channel> channels_;
   double roller_radius_m_;
   double suspension_stiffness_N_per_m_ = 0.0;
-  sim::Segment segment_;
-  double segment_start_s_ = 0.0;
-
-  SimTK::MultibodySystem system_;
-  SimTK::SimbodyMatterSubsystem matter_;
-  SimTK::GeneralForceSubsystem forces_;
-  SimTK::Force::UniformGravity gravity_;
   VehicleBodies bodies_;
   std::vector<ContactForceElement*> contacts_;  // these and the drive are owned by the force subsystem
   VehicleDrive* drive_ = nullptr;
-  SimTK::State state_;
   std::size_t first_u_ = 0;
   std::size_t first_z_ = 0;
 };
@@ -455,39 +415,13 @@ class MultibodyVehicle::Implementation {
 MultibodyVehicle::MultibodyVehicle(std::vector<Corner<double>>& corners, const VehicleLayout& layout,
                                    const VehicleFile& vehicle, const RigFile& rig, VehicleStart<double> start,
                                    bool surface_recorded)
-    : implementation_(guarded([&] {
+    : MultibodyRig(guarded([&] {
         return std::make_unique<Implementation>(corners, layout, vehicle, rig, std::move(start), surface_recorded);
-      })) {}
-MultibodyVehicle::~MultibodyVehicle() = default;
+      })),
+      implementation_(static_cast<Implementation&>(system())) {}
 
-std::size_t MultibodyVehicle::state_count() const { return implementation_->state_count(); }
-std::vector<double> MultibodyVehicle::state_tolerances() const { return implementation_->state_tolerances(); }
-const std::vector<sim::Integral>& MultibodyVehicle::integrals() const { return implementation_->integrals(); }
-const std::vector<sim::Store>& MultibodyVehicle::stores() const { return implementation_->stores(); }
-const std::vector<sim::Channel>& MultibodyVehicle::channels() const { return implementation_->channels(); }
-void MultibodyVehicle::initialize(const sim::Segment& first, double time_s, double* state) {
-  guarded([&] { implementation_->initialize(first, time_s, state); });
-}
-void MultibodyVehicle::begin_phase(const sim::Phase& phase, double, double* state) {
-  implementation_->begin_phase(phase, state);
-}
-void MultibodyVehicle::begin_segment(const sim::Segment& segment, double time_s, double*, double*) {
-  implementation_->begin_segment(segment, time_s);
-}
-void MultibodyVehicle::evaluate(double time_s, const double* state, double* rates, double* integrands) {
-  guarded([&] { implementation_->evaluate(time_s, state, rates, integrands); });
-}
-double MultibodyVehicle::watch(const std::string& name, double time_s, const double* state) {
-  return guarded([&] { return implementation_->watch(name, time_s, state); });
-}
-void MultibodyVehicle::observe(double time_s, const double* state, double* values) {
-  guarded([&] { implementation_->observe(time_s, state, values); });
-}
-void MultibodyVehicle::calc_stored(double time_s, const double* state, double* stored_J) {
-  guarded([&] { implementation_->calc_stored(time_s, state, stored_J); });
-}
 VehicleForces MultibodyVehicle::find_forces(double time_s, const double* state) {
-  return guarded([&] { return implementation_->find_forces(time_s, state); });
+  return guarded([&] { return implementation_.find_forces(time_s, state); });
 }
 
 }  // namespace rollrig::rigs

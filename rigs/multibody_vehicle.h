@@ -3,9 +3,9 @@
 /// heave (and pitch on the road), an upright on its suspension for each wheel, wheel and roller on pins, contact
 /// elements between them.
 
-#include <memory>
 #include <vector>
 
+#include "rigs/multibody_rig.h"
 #include "rigs/vehicle_channels.h"
 
 namespace rollrig::rigs {
@@ -39,34 +39,17 @@ struct VehicleForces {
 /// State    q, u of all joints, then z: slip deflection and corner states of each wheel, the driver's integral
 /// Energy   both audits of baseline.md; work of the rollers counts against the simulated inertia's energy
 /// Checked  tests/rigs/multibody_vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
-class MultibodyVehicle : public sim::OdeSystem<double> {
+class MultibodyVehicle : public MultibodyRig {
  public:
   MultibodyVehicle(std::vector<models::Corner<double>>& corners, const VehicleLayout& layout,
                    const VehicleFile& vehicle, const RigFile& rig, VehicleStart<double> start, bool surface_recorded);
-  ~MultibodyVehicle() override;
-  MultibodyVehicle(const MultibodyVehicle&) = delete;
-  MultibodyVehicle& operator=(const MultibodyVehicle&) = delete;
-
-  std::size_t state_count() const override;
-  std::vector<double> state_tolerances() const override;
-  const std::vector<sim::Integral>& integrals() const override;
-  const std::vector<sim::Store>& stores() const override;
-  const std::vector<sim::Channel>& channels() const override;
-
-  void initialize(const sim::Segment& first, double time_s, double* state) override;
-  void begin_phase(const sim::Phase& phase, double time_s, double* state) override;
-  void begin_segment(const sim::Segment& segment, double time_s, double* state, double* integrals) override;
-  void evaluate(double time_s, const double* state, double* rates, double* integrands) override;
-  double watch(const std::string& name, double time_s, const double* state) override;
-  void observe(double time_s, const double* state, double* values) override;
-  void calc_stored(double time_s, const double* state, double* stored_J) override;
 
   /// Everything at one state, joint reactions included.
   VehicleForces find_forces(double time_s, const double* state);
 
  private:
   class Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  Implementation& implementation_;  // owned by MultibodyRig
 };
 
 }  // namespace rollrig::rigs
