@@ -119,6 +119,13 @@ Prediction predict_without(const PreparedSet& set, const std::vector<identificat
     const PriorBounds bounds = model.own_bounds(i);
     unknowns[at(i)] = std::clamp(unknowns[at(i)], bounds.lower, bounds.upper);
   }
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    // One step from a set that is not of this tire may lead out of physics.
+    constexpr double kMostRelative = 0.9;
+    const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
+    double& u = unknowns[at(model.own_count() + i)];
+    if (most > 0.0) u = std::clamp(u, -most, most);
+  }
   Prediction prediction;
   const auto parameters = at(model.parameter_count());  // offsets are taken off anew
   left_out.rightCols(n - parameters).setZero();
@@ -140,7 +147,7 @@ double measure_change(const PreparedSet& set, const Remainder& remainder, const 
 }
 
 /// The contender with its base parameters at the files' values: only its own parameters and offsets are fitted.
-double gap_as_calibrated(const PreparedSet& set, const Remainder& remainder, const Contender& contender) {
+Measure measure_as_calibrated(const PreparedSet& set, const Remainder& remainder, const Contender& contender) {
   Contender fixed = contender;
   const Model model(set, {}, contender.fit.hypothesis);
   fixed.fit.unknowns.resize(at(model.unknown_count()));
@@ -150,11 +157,11 @@ double gap_as_calibrated(const PreparedSet& set, const Remainder& remainder, con
   constexpr int kMost = 6;
   const Eigen::VectorXd simulated =
       refit(model, remainder, contender.amplitudes, fixed.fit.unknowns, 1, kMost).simulated;
-  if (simulated.size() == 0) return 0.0;
   Measure measure;
+  if (simulated.size() == 0) return measure;
   const Eigen::VectorXd difference = find_difference(set, simulated);
   for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(set, run, difference, measure);
-  return gap_of(measure);
+  return measure;
 }
 
 struct Shrinkage {
@@ -247,19 +254,25 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
     const Shrinkage certain = resample(certain_before, certain_after);
     gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
   }
+  const Measure calibrated = measure_as_calibrated(set, remainder, null);
+  const bool is_judged = !measured_before.stretches.empty();
+  if (!is_judged) {  // no run can be simulated without its own data: retuning is not known to help
+    measured_before = calibrated;
+    measured_after = calibrated;
+  }
   gap.recalibrated = {gap_of(measured_before), gap_of(measured_after)};
-  gap.as_calibrated.before = gap_as_calibrated(set, remainder, null);
-  gap.as_calibrated.after = cause != nullptr ? gap_as_calibrated(set, remainder, *cause) : gap.as_calibrated.before;
+  gap.as_calibrated.before = gap_of(calibrated);
+  gap.as_calibrated.after =
+      cause != nullptr ? gap_of(measure_as_calibrated(set, remainder, *cause)) : gap.as_calibrated.before;
   const Shrinkage shrinkage = resample(measured_before, measured_after);
-  if (shrinkage.above_noise && cause != nullptr) {
+  if (is_judged && shrinkage.above_noise && cause != nullptr) {
     gap.shrink_percent = shrinkage.percent;
     gap.shrink_ci95_percent = shrinkage.ci95_percent;
   }
-  const bool is_judged = !measured_before.stretches.empty();  // else no run could be simulated without its own data
   if (is_judged && gap.as_calibrated.before > 0.0) {
     gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
   }
-  if (can_leave_out && shrinkage.above_noise) {
+  if (is_judged && can_leave_out && shrinkage.above_noise) {
     gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(measured_black_box));
   }
   for (std::size_t c = 0; c < set.channels().size(); ++c) {

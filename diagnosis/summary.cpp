@@ -181,7 +181,8 @@ std::string gap_lines(const Diagnosis& diagnosis) {
   const Gap& gap = diagnosis.gap;
   std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned", gap.as_calibrated.before,
                                    gap.recalibrated.before);
-  if (!diagnosis.causes.empty()) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
+  const bool is_caused = !diagnosis.causes.empty() && diagnosis.verdict != Verdict::kNoGap;
+  if (is_caused) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
   std::vector<std::string> channels;
   for (const ChannelGap& at : gap.channels) {
     channels.push_back(
@@ -191,13 +192,16 @@ std::string gap_lines(const Diagnosis& diagnosis) {
   return line("Gap", floors) + line("  in units", units);
 }
 
-std::string shrinkage_line(const Gap& gap) {
+std::string shrinkage_line(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
     const std::size_t runs = gap.held_out.size();
     const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held-out run{}", runs, runs == 1 ? "" : "s");
     parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
                                 whole(gap.shrink_ci95_percent[1]), on));
+  } else if (diagnosis.verdict == Verdict::kUnexplained && diagnosis.causes.empty()) {
+    parts.emplace_back("no cause to shrink it by");
   } else {
     parts.emplace_back("nothing above the noise to shrink");
   }
@@ -220,7 +224,7 @@ std::string next_line(const Diagnosis& diagnosis) {
 std::string format_summary(const Diagnosis& diagnosis) {
   std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + alternatives_line(diagnosis) +
                      where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) +
-                     shrinkage_line(diagnosis.gap);
+                     shrinkage_line(diagnosis);
   text +=
       line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                           : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));

@@ -31,6 +31,7 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) 
   TableReader reader(table, "[[run]]");
   MeasuredRun run;
   run.id = reader.text("id");
+  if (run.id.empty()) throw reader.problem("id", "a run needs a name", "a text that is not empty");
   run.file = (fs::path(folder) / reader.text("file")).string();
   run.session = reader.text("session");
   run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", kTemperatureRange, ""});

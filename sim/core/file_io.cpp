@@ -124,7 +124,9 @@ void require_writable(const std::string& path) {
   }
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
   if (!fs::is_directory(folder)) throw file_problem(fmt::format("no such folder '{}'", folder.string()), path);
-  if (::access(folder.c_str(), W_OK) != 0 && ::access(path.c_str(), W_OK) != 0) {
+  // A file is replaced as a whole, which its folder must allow; what is no file (/dev/null) is written to as it is.
+  const bool is_replaced = !fs::exists(path) || fs::is_regular_file(path);
+  if (::access((is_replaced ? folder.string() : path).c_str(), W_OK) != 0) {
     throw file_problem(fmt::format("cannot write '{}': {}", path, std::strerror(errno)), path);
   }
 }

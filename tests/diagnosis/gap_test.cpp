@@ -213,6 +213,8 @@ TEST_CASE("where a fit without a run leads nowhere, nothing is said of what shri
   CHECK_FALSE(gap.shrink_percent.has_value());
   CHECK_FALSE(gap.recalibration_percent.has_value());
   CHECK_FALSE(gap.black_box_percent.has_value());
+  CHECK(gap.recalibrated.before == gap.as_calibrated.before);
+  CHECK(gap.recalibrated.after == gap.as_calibrated.before);
   CHECK(gap.channels.size() == 3);
 }
 
