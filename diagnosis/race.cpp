@@ -188,8 +188,13 @@ std::vector<Contender> Referee::refit_all(const Contender& from, const std::vect
   const auto model_of = [&](std::size_t i) { return Model(set_, base_, from.fit.hypothesis.with(chosen[i].effect)); };
   parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
     const Model model = model_of(i);
+    const int steps = chosen[i].score < kFaint_nats ? 1 : kFirstSteps;
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
-    contenders[i] = fit_once(model, null, from.amplitudes, start, chosen[i].score < kFaint_nats ? 1 : kFirstSteps);
+    contenders[i] = fit_once(model, null, from.amplitudes, start, steps);
+    if (std::isfinite(contenders[i].fit.cost)) return;
+    // Where it cannot be simulated with what makes up for its absence: from the middle of all priors.
+    const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(model.unknown_count()));
+    contenders[i] = fit_once(model, null, from.amplitudes, middle, steps);
   });
   double best = std::max(from.log_evidence, from.log_remainder);
   for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
@@ -267,6 +272,7 @@ void add_pairs(const Referee& referee, Race& race) {
       race.contenders.begin(),
       race.contenders.begin() + static_cast<std::ptrdiff_t>(std::min(kFirsts, race.contenders.size())));
   for (const Contender& first : firsts) {
+    if (!(first.log_evidence >= race.null.log_evidence)) continue;  // nor where it could not be fitted
     std::vector<const models::Effect*> others;
     for (const models::Effect* effect : race.effects) {
       if (!first.fit.hypothesis.contains(*effect)) others.push_back(effect);
@@ -275,7 +281,7 @@ void add_pairs(const Referee& referee, Race& race) {
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < kWorthwhile_nats; }),
                    screened.end());
-    if (first.log_evidence < race.null.log_evidence || screened.empty()) continue;
+    if (screened.empty()) continue;
     add_contenders(referee.refit_all(first, choose(screened, kSeconds, 0.0), race.null), race.contenders);
   }
 }
