@@ -191,6 +191,16 @@ TEST_CASE("causes of the foreign generator are named, out of the whole catalogue
   }
 }
 
+TEST_CASE("a strong effect is fitted where the baseline's fit has gone too far to start from", "[slow]") {
+  // The baseline makes up for this rim with gas that no rim can be added to.
+  const tests::BlindSet made = tests::make_blind_set("--effect rim_heat --seed 1683349374382471792");
+  const Diagnosis found = diagnose(made.set, only({"rim_heat"}));
+  INFO(text_of(found));
+  CHECK(found.verdict == Verdict::kExplained);
+  CHECK(names(found, "rim_heat"));
+  CHECK(found.gap.recalibrated.after < 0.1 * found.gap.recalibrated.before);
+}
+
 TEST_CASE("sets of the foreign generator without effect have no gap", "[slow]") {
   for (const char* seed : {"41", "42", "43"}) {
     const tests::BlindSet made = tests::make_blind_set(std::string("--effect none --seed ") + seed);
