@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/explain.h"
+#include "diagnosis/fleet.h"
 #include "diagnosis/summary.h"
 #include "models/effect.h"
 #include "sim/core/error.h"
@@ -55,25 +56,46 @@ void require_consistent(const Options& options) {
   }
 }
 
+/// Calls `diagnose` with what the options ask for, and shows how far it is.
+template <class Diagnose>
+auto with_progress(const Options& options, const Diagnose& diagnose) {
+  ProgressLine progress("diagnose", options.quiet);
+  diagnosis::DiagnosisOptions how{options.without, options.only, options.threads};
+  how.progress = [&progress](double done, const std::string& stage) {
+    progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
+  };
+  return diagnose(how);
+}
+
+void give(const Options& options, const Json& json, const std::string& text) {
+  if (!options.json.empty()) write_output(options.json, json.dump(2) + "\n");
+  if (!options.quiet && options.json != "-") std::cout << text;
+}
+
+/// A folder of sets.
+int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
+  require_writable(options.json);
+  const diagnosis::Fleet fleet = with_progress(
+      options, [&sets](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose_fleet(sets, how); });
+  give(options, diagnosis::make_fleet_json(fleet), diagnosis::format_fleet(fleet));
+  const bool failed = std::any_of(fleet.members.begin(), fleet.members.end(),
+                                  [](const diagnosis::FleetMember& member) { return !member.failure.empty(); });
+  return failed ? kRunFailed : kDone;
+}
+
 int diagnose_command(const Options& options) {
   require_consistent(options);
   if (!options.explain.empty()) {
     std::cout << diagnosis::explain_effect(options.explain);
     return kDone;
   }
+  const std::vector<std::string> sets = diagnosis::find_sets(options.set);
+  if (!sets.empty()) return diagnose_all(options, sets);
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   require_writable(options.json);
-  diagnosis::Diagnosis result;
-  {
-    ProgressLine progress("diagnose", options.quiet);
-    diagnosis::DiagnosisOptions how{options.without, options.only, options.threads};
-    how.progress = [&progress](double done, const std::string& stage) {
-      progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
-    };
-    result = diagnosis::diagnose(set, how);
-  }
-  if (!options.json.empty()) write_output(options.json, diagnosis::make_diagnosis_json(result).dump(2) + "\n");
-  if (!options.quiet && options.json != "-") std::cout << diagnosis::format_summary(result);
+  const auto result =
+      with_progress(options, [&set](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose(set, how); });
+  give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result));
   return kDone;
 }
 
@@ -83,7 +105,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   CLI::App* command =
       app.add_subcommand("diagnose", "Why a measurement and the simulation differ: where, by which effect, how much");
   auto options = std::make_shared<Options>();
-  command->add_option("set", options->set, "Folder of a measurement set, or its set.toml");
+  command->add_option("set", options->set, "Folder of a measurement set, or its set.toml; or a folder of such folders");
   command->add_option("--explain", options->explain,
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
                       "which test splits them; also none, unknown");

@@ -1,0 +1,74 @@
+#pragma once
+/// Several measurement sets at once: one table, and which effects come back from set to set.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/diagnosis.h"
+#include "sim/core/json.h"
+
+namespace rollrig::diagnosis {
+
+/// One set of a fleet.
+struct FleetMember {
+  std::string folder;   // as named to the program
+  std::string machine;  // name of its rig or vehicle
+  std::string tire;     // name
+  std::optional<Diagnosis> diagnosis;
+  std::string failure;  // why there is none
+};
+
+/// What sets share.
+enum class Shared { kMachine, kTire, kMachineAndTire };
+
+/// An effect over all sets that share a machine, a tire, or both.
+struct Recurrence {
+  std::string effect;
+  Shared shared = Shared::kMachine;
+  std::string name;                 // of what is shared
+  std::size_t sets = 0;             // that share it
+  std::size_t named_in = 0;         // of these
+  double probability = 0.0;         // that it acts in all of them
+  std::optional<double> mean_size;  // weighted by the sets' uncertainties, in `unit`; none where named in no set
+  double mean_size_sd = 0.0;
+  std::string unit;
+  std::optional<double> same_size_p;  // chance of sizes that differ this much if they are one; none below two sizes
+};
+
+struct Fleet {
+  std::vector<FleetMember> members;
+  std::vector<Recurrence>
+      recurrences;  // the likeliest first; of each effect the widest group in which that is likelier than not
+};
+
+/// Folders below `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself.
+std::vector<std::string> find_sets(const std::string& folder);
+
+/// Probability that an effect acts in all sets of a group, rather than in each by itself or not.
+/// Equation  log odds = log(q/(1-q)) + sum over sets of log(b/(q b + 1 - q)), b = P/(1-P) (1-q)/q
+/// Symbols   q prior probability of the effect, P its probability in a set; b Bayes factor of the set for it
+/// Validity  sets with sessions of their own. Of one set P/(P + 1 - q), a half at most: one set cannot show that an
+/// effect
+///           comes back
+/// Checked   tests/diagnosis/fleet_test.cpp
+double calc_recurrence_probability(const std::vector<double>& in_sets, double prior);
+
+/// Which effects come back with the machine or with the tire. An effect is listed where it is named in one set at
+/// least and more likely than not acts in all that share something, two sets at least.
+/// Source  Assumed: q = 0.02, about what a single effect has in a race of the whole catalogue
+std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members);
+
+/// Diagnoses every set of a folder, several at a time.
+/// Errors  InputError: a set that cannot be read, before any is diagnosed. A diagnosis that fails is noted, and the
+///         others go on
+Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options);
+
+/// One line a set, then what comes back; 80 columns.
+std::string format_fleet(const Fleet& fleet);
+
+/// rollrig-fleet/1: `sets` (each `folder`, `machine`, `tire`, `failure`, `diagnosis` as of one set), `recurring`.
+Json make_fleet_json(const Fleet& fleet);
+
+}  // namespace rollrig::diagnosis
