@@ -1,0 +1,119 @@
+#include "tools/skim_question.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/diagnosis_json.h"
+#include "models/effect.h"
+#include "scenarios/run_spec.h"
+#include "sim/core/file_io.h"
+#include "sim/core/parallel.h"
+#include "sim/core/units.h"
+
+namespace rollrig::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own, which goes with the object.
+class Scratch {
+ public:
+  Scratch() {
+    std::string name = (fs::temp_directory_path() / "rollrig-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+scenarios::MeasurementSet measure(const std::string& tire, const std::string& assignment) {
+  ConfigTable document = scenarios::make_run_document("transient_skim");
+  const auto set = [&document](const char* key, const std::string& value) {
+    set_config_value(document, key, value, "tools/skim_question");
+  };
+  set("tire", tire);
+  set("fidelity", "quasi_static");
+  set("sensors", "source");
+  scenarios::set_run_value(document, assignment);
+  const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
+  const Scratch scratch;
+  for (const auto& [name, content] :
+       scenarios::write_measurement_set(spec, spec.scenario->run(spec, {}), "transient")) {
+    write_output((scratch.path() / name).string(), content);
+  }
+  return scenarios::read_measurement_set(scratch.path().string());
+}
+
+/// What is named, "or" between what cannot be told apart; else the verdict.
+std::string find_named(const diagnosis::Diagnosis& found) {
+  if (found.verdict != diagnosis::Verdict::kExplained) return diagnosis::name_of(found.verdict);
+  const diagnosis::Cause& cause = found.causes.front();
+  std::string text = fmt::format("`{}`", fmt::join(cause.effects, "` with `"));
+  for (const std::string& id : cause.indistinguishable_from) text += " or `" + id + "`";
+  return text;
+}
+
+}  // namespace
+
+SkimAnswer ask(const std::string& tire, const std::string& effect, const std::string& parameter, double size) {
+  const std::string key = effect + "." + parameter;
+  const auto set = measure(tire, fmt::format("effects.{}={}", key, size));
+  diagnosis::DiagnosisOptions options;
+  options.threads = 1;
+  const diagnosis::Diagnosis found = diagnosis::diagnose(set, options);
+  return {tire,
+          effect,
+          size,
+          unit_of_key(parameter).symbol,
+          find_named(found),
+          found.probability.at("bearing_warmup"),
+          found.probability.at("tire_loss_in_skim"),
+          found.next_test.empty() ? "" : found.next_test.front().test};
+}
+
+std::vector<SkimAnswer> ask_all() {
+  struct Question {
+    const char* tire;
+    const char* effect;
+    double of_range;  // 0 the prior's lower end, 1 its upper end
+  };
+  std::vector<Question> questions;
+  for (const char* effect : {"bearing_warmup", "tire_loss_in_skim"}) {
+    for (const char* tire : {"a40", "a50", "a60"}) questions.push_back({tire, effect, 0.5});
+    questions.push_back({"a50", effect, 0.0});
+    questions.push_back({"a50", effect, 1.0});
+  }
+  std::vector<SkimAnswer> answers(questions.size());
+  parallel_for(questions.size(), 0, [&](std::size_t i) {
+    const models::EffectParameter& size = models::find_effect(questions[i].effect).info.parameters.front();
+    const double value = questions[i].of_range == 0.0   ? size.prior.low
+                         : questions[i].of_range == 1.0 ? size.prior.high
+                                                        : size.prior.centre();
+    answers[i] = ask(questions[i].tire, questions[i].effect, size.key, value);
+  });
+  return answers;
+}
+
+std::string make_skim_table(const std::vector<SkimAnswer>& answers) {
+  std::string text =
+      "| tire | at work | size | named | `bearing_warmup` | `tire_loss_in_skim` | next test |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const SkimAnswer& one : answers) {
+    text += fmt::format("| {} | `{}` | {:.3g} {} | {} | {:.2f} | {:.2f} | {} |\n", one.tire, one.truth, one.size,
+                        one.size_unit, one.named, one.bearing_warmup, one.tire_loss_in_skim, one.next_test);
+  }
+  return text;
+}
+
+}  // namespace rollrig::tools
