@@ -239,13 +239,16 @@ double sign_share(const Hypothesis& hypothesis) {
 
 void assign_probabilities(const RaceSettings& settings, Race& race) {
   const auto n = static_cast<double>(settings.effects.size());
-  const double pair_count = std::max(1.0, 0.5 * n * (n - 1.0));
+  const auto prior_of = [&](std::size_t effects) {  // of each of its kind
+    if (effects == 1) return settings.priors.singles / n;
+    if (effects == 2) return settings.priors.pairs / std::max(1.0, n * (n - 1.0) / 2.0);
+    return settings.priors.triples / std::max(1.0, n * (n - 1.0) * (n - 2.0) / 6.0);
+  };
   std::vector<double> logs{std::log(settings.priors.none) + race.null.log_evidence,
                            std::log(settings.priors.unknown) + race.null.log_remainder};
   for (const Contender& contender : race.contenders) {
     const double share = sign_share(contender.fit.hypothesis);
-    const bool single = contender.fit.hypothesis.effects.size() == 1;
-    const double prior = single ? settings.priors.singles / n : settings.priors.pairs / pair_count;
+    const double prior = prior_of(contender.fit.hypothesis.effects.size());
     logs.push_back(std::log(share * prior) + contender.log_evidence);
     const double look_alike = prior * settings.priors.look_alike / settings.priors.singles;
     logs.push_back(std::log(share * look_alike) + contender.log_remainder);
@@ -262,16 +265,15 @@ void assign_probabilities(const RaceSettings& settings, Race& race) {
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
 }
 
-/// Pairs of the best singles with the effects that gain most on top of them: those whose score could make up for a
-/// pair's smaller prior.
-void add_pairs(const Referee& referee, Race& race) {
-  constexpr std::size_t kFirsts = 2;
-  constexpr std::size_t kSeconds = 3;
+/// On top of the best `firsts` hypotheses of so many effects the `seconds` effects that gain most: those whose score
+/// could make up for the smaller prior.
+void add_on_top(const Referee& referee, std::size_t effects, std::size_t firsts, std::size_t seconds, Race& race) {
   constexpr double kWorthwhile_nats = 3.0;
-  std::vector<Contender> firsts(
-      race.contenders.begin(),
-      race.contenders.begin() + static_cast<std::ptrdiff_t>(std::min(kFirsts, race.contenders.size())));
-  for (const Contender& first : firsts) {
+  std::vector<Contender> lower;
+  for (const Contender& contender : race.contenders) {
+    if (contender.fit.hypothesis.effects.size() == effects && lower.size() < firsts) lower.push_back(contender);
+  }
+  for (const Contender& first : lower) {
     if (!(first.log_evidence >= race.null.log_evidence)) continue;  // nor where it could not be fitted
     std::vector<const models::Effect*> others;
     for (const models::Effect* effect : race.effects) {
@@ -282,8 +284,17 @@ void add_pairs(const Referee& referee, Race& race) {
                                   [](const Screened& one) { return one.score < kWorthwhile_nats; }),
                    screened.end());
     if (screened.empty()) continue;
-    add_contenders(referee.refit_all(first, choose(screened, kSeconds, 0.0), race.null), race.contenders);
+    add_contenders(referee.refit_all(first, choose(screened, seconds, 0.0), race.null), race.contenders);
   }
+}
+
+/// Whether the likeliest hypothesis is one of so many effects, alone or with a remainder.
+bool asks_for(const Race& race, std::size_t effects) {
+  const auto probability_of = [](const Contender& one) { return one.probability + one.remainder_probability; };
+  const auto likeliest =
+      std::max_element(race.contenders.begin(), race.contenders.end(),
+                       [&](const Contender& a, const Contender& b) { return probability_of(a) < probability_of(b); });
+  return likeliest != race.contenders.end() && likeliest->fit.hypothesis.effects.size() == effects;
 }
 
 }  // namespace
@@ -304,8 +315,13 @@ Race run_race(const PreparedSet& set, const std::vector<identification::FreePara
   add_contenders(referee.refit_all(race.null, choose(race.screened, kLeast, kNats), race.null), race.contenders);
   assign_probabilities(settings, race);
   settings.progress(0.6, "pairs");
-  add_pairs(referee, race);
+  add_on_top(referee, 1, 2, 3, race);
   assign_probabilities(settings, race);
+  if (asks_for(race, 2)) {
+    settings.progress(0.9, "triples");
+    add_on_top(referee, 2, 1, 2, race);
+    assign_probabilities(settings, race);
+  }
   return race;
 }
 

@@ -13,9 +13,11 @@ namespace rollrig::diagnosis {
 struct RacePriors {
   double none = 0.50;
   double singles = 0.35;
-  double pairs = 0.06;
-  double unknown = 0.03;     // on top of the baseline
-  double look_alike = 0.06;  // on top of a single effect: like it, but something else; of pairs in proportion
+  double pairs = 0.05;
+  double triples = 0.01;
+  double unknown = 0.03;  // on top of the baseline
+  double look_alike =
+      0.06;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
 };
 
 /// Sizes of model error, in noise floors and relative.
@@ -43,7 +45,7 @@ struct Race {
   ModelError model_error;
   Contender null;
   std::vector<Screened> screened;     // on top of the null
-  std::vector<Contender> contenders;  // effects and pairs, the likeliest first
+  std::vector<Contender> contenders;  // effects, pairs and triples, the likeliest first
   double unknown_probability = 0.0;   // all hypotheses with a free remainder
 };
 
@@ -55,8 +57,9 @@ struct RaceSettings {
   std::function<void(double done, const std::string& stage)> progress = [](double, const std::string&) {};
 };
 
-/// Screens, refits every effect that could matter from its best start, then pairs on top of the best, and weighs all.
-/// Errors  RunFailure: the baseline cannot be fitted
+/// Screens, refits every effect that could matter from its best start, then pairs on top of the best, then triples on
+/// top of the best pair where two effects are asked for, and weighs all. Errors  RunFailure: the baseline cannot be
+/// fitted
 Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
               const Remainder& remainder, const RaceSettings& settings);
 
