@@ -50,6 +50,13 @@ struct InputPort {
   S air_density_ratio{};     // to the reference density; 1 in the baseline
 };
 
+/// What the record shows of a true speed where that of the programme is not followed, as while a rig coasts.
+template <class S>
+S calc_recorded_speed_m_s(const S& true_m_s, const InputPort<S>& recorded, const InputPort<S>& acting) {
+  if (value_of(acting.speed_m_s) == value_of(recorded.speed_m_s)) return true_m_s;
+  return true_m_s * (recorded.speed_m_s / acting.speed_m_s);
+}
+
 /// What the mechanics do at this instant: given by the multibody system, or by equilibrium.
 template <class S>
 struct Motion {

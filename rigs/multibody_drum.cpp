@@ -131,14 +131,13 @@ class MultibodyDrum::Implementation : public SimbodySystem {
   double watch(const std::string& name, double time_s, const double* y) override {
     if (name == kWatchTireTemperature) return y[corner_offset() + corner_.state_of(Node::kRubber)];
     if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);
-    set_state(time_s, y);
-    return y[kSpeeds] / corner_.context().surface_curvature_per_m;
+    return find_recorded_speed_m_s(time_s, y);
   }
 
   void observe(double time_s, const double* y, double* values) override {
     const models::InputPort<double> inputs = find_inputs(time_s);
     if (actuators_->motor_on()) require_speed_held(time_s, y);
-    *values++ = actuators_->motor_on() ? inputs.speed_m_s : y[kSpeeds] / corner_.context().surface_curvature_per_m;
+    *values++ = actuators_->motor_on() ? inputs.speed_m_s : find_recorded_speed_m_s(time_s, y);
     *values++ = inputs.load_N;
     *values++ = inputs.ambient_K;
     if (surface_recorded_) *values++ = inputs.surface_K;
@@ -200,6 +199,14 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     models::Instant<double> now;
     contact_->evaluate_inputs(state_, now);
     return now.acting;
+  }
+
+  /// Of the drum as it turns, whether the motor drives it or not.
+  double find_recorded_speed_m_s(double time_s, const double* y) {
+    const models::InputPort<double> acting = find_acting(time_s, y);
+    return models::calc_recorded_speed_m_s(
+        y[kSpeeds] / corner_.context().surface_curvature_per_m,
+        read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_), acting);
   }
 
   /// The recorded speed is the set point; a motor that does not follow it is a failed run, not a result.

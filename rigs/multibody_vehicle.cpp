@@ -115,14 +115,14 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     if (name == kWatchTireTemperature) return y[slip_state(0) + 1 + corners_.front().state_of(Node::kRubber)];
     if (name != kWatchSpeed) throw std::invalid_argument("vehicle: cannot watch " + name);
     realize_at(time_s, y);
-    return calc_speed_m_s();
+    return calc_recorded_speed_m_s(time_s);
   }
 
   void observe(double time_s, const double* y, double* values) override {
     realize_at(time_s, y);
     const models::InputPort<double> inputs = program_inputs(time_s);
     if (drive_->driver_on()) require_speed_held(time_s);
-    *values++ = drive_->driver_on() ? inputs.speed_m_s : calc_speed_m_s();
+    *values++ = drive_->driver_on() ? inputs.speed_m_s : calc_recorded_speed_m_s(time_s);
     *values++ = inputs.ambient_K;
     if (surface_recorded_) *values++ = inputs.surface_K;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -226,6 +226,11 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     return drive_->evaluation(state_).speed_m_s;
   }
 
+  double calc_recorded_speed_m_s(double time_s) const {
+    const double true_m_s = calc_speed_m_s();
+    return models::calc_recorded_speed_m_s(true_m_s, program_inputs(time_s), drive_->evaluation(state_).acting);
+  }
+
   /// The recorded speed is the set point; a driver who does not keep it is a failed run, not a result.
   void require_speed_held(double time_s) const {
     constexpr double kShare = 0.02;     // Assumed: about the tolerance of drive cycles, 2 mph
@@ -245,22 +250,26 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   /// Steady rolling at the first inputs: restraint carried, no slip, driver in balance.
   void set_equilibrium() {
     system_.realize(state_, SimTK::Stage::Velocity);
-    const models::InputPort<double> acting = drive_->evaluation(state_).acting;
-    const double speed_m_s = acting.speed_m_s;
+    const DriveEvaluation drive = drive_->evaluation(state_);
+    const double speed_m_s = drive.acting.speed_m_s;
     const models::TireParameters<double>& tire = corners_.front().context().tire;
-    // The restraint is the same at every wheel, so that the body sinks without pitching.
-    const double restraint_N = acting.load_N - layout_.wheels.front().static_load_N;
-    const double upright_m = restraint_N / suspension_stiffness_N_per_m_;
-    bodies_.heave.setOneQ(state_, 0, -upright_m - restraint_N / tire.stiffness.vertical_N_per_m);
+    // The body sinks by the mean restraint; where wheels differ it finds its pitch by itself.
+    double mean_restraint_N = 0.0;
+    for (const auto& wheel : drive.wheels) mean_restraint_N += wheel.restraint_N;
+    mean_restraint_N /= static_cast<double>(drive.wheels.size());
+    const double tire_N_per_m = tire.stiffness.vertical_N_per_m;
+    const double heave_m = -mean_restraint_N / suspension_stiffness_N_per_m_ - mean_restraint_N / tire_N_per_m;
+    bodies_.heave.setOneQ(state_, 0, heave_m);
     if (is_flat()) bodies_.sled.setOneU(state_, 0, speed_m_s);
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const VehicleBodies::Wheel& wheel = bodies_.wheels[i];
+      const double restraint_N = drive.wheels[i].restraint_N;
       const double loaded_radius_m = calc_loaded_radius_m(tire, layout_.wheels[i].static_load_N + restraint_N);
-      wheel.upright.setOneQ(state_, 0, upright_m);
+      wheel.upright.setOneQ(state_, 0, -heave_m - restraint_N / tire_N_per_m);
       wheel.wheel.setOneU(state_, 0, speed_m_s / loaded_radius_m);
       if (!is_flat()) wheel.roller.setOneU(state_, 0, speed_m_s / roller_radius_m_);
     }
-    set_driver_in_balance(acting);
+    set_driver_in_balance(drive.acting);
   }
 
   void set_driver_in_balance(const models::InputPort<double>& acting) {

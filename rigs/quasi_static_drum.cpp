@@ -34,8 +34,8 @@ void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S*
   now_.recorded.air_density_ratio = S(1.0);
   now_.inflation = start_.inflation();
   corner_.initialize(start_.tire_temperature_K, start_.history, state + kFirstCornerState);
-  state[kSpeedState] = S(first.inputs[index_of(DrumInput::kSpeed)].start);
   find_motion(time_s, state);
+  state[kSpeedState] = now_.acting.speed_m_s;
 }
 
 template <class S>
@@ -57,8 +57,8 @@ void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_
   const S before_J = calc_mechanical_J();
   segment_ = segment;
   segment_start_s_ = time_s;
-  if (motor_on_) state[kSpeedState] = S(segment.inputs[index_of(DrumInput::kSpeed)].start);
   find_motion(time_s, state);
+  if (motor_on_) state[kSpeedState] = now_.acting.speed_m_s;
   if (detail_ == Detail::kFull) integrals[index_of(DrumIntegral::kKnotWork)] += calc_mechanical_J() - before_J;
 }
 
@@ -111,7 +111,7 @@ S QuasiStaticDrum<S>::calc_mechanical_J() const {
 template <class S>
 void QuasiStaticDrum<S>::evaluate(double time_s, const S* state, S* rates, S* integrands) {
   find_motion(time_s, state);
-  rates[kSpeedState] = motor_on_ ? now_.recorded.acceleration_m_s2 : now_.motion.acceleration_m_s2;
+  rates[kSpeedState] = now_.motion.acceleration_m_s2;
   corner_.calc_rates(state + kFirstCornerState, now_, rates + kFirstCornerState);
   fill_integrands(integrands);
 }
@@ -149,14 +149,14 @@ S QuasiStaticDrum<S>::watch(const std::string& name, double time_s, const S* sta
   if (name == kWatchTireTemperature) return state[kFirstCornerState + corner_.state_of(Node::kRubber)];
   if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);
   find_motion(time_s, state);
-  return now_.motion.speed_m_s;
+  return find_recorded_speed_m_s();
 }
 
 template <class S>
 void QuasiStaticDrum<S>::observe(double time_s, const S* state, S* values) {
   if (detail_ == Detail::kMeasured) return;
   find_motion(time_s, state);
-  *values++ = motor_on_ ? now_.recorded.speed_m_s : now_.motion.speed_m_s;
+  *values++ = motor_on_ ? now_.recorded.speed_m_s : find_recorded_speed_m_s();
   *values++ = now_.recorded.load_N;
   *values++ = now_.recorded.ambient_K;
   if (surface_recorded_) *values++ = now_.recorded.surface_K;

@@ -47,6 +47,9 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   void find_motion(double time_s, const S* state);
   void fill_integrands(S* integrands) const;
   S calc_effective_mass_kg() const;
+  S find_recorded_speed_m_s() const {
+    return models::calc_recorded_speed_m_s(now_.motion.speed_m_s, now_.recorded, now_.acting);
+  }
   S calc_mechanical_J() const;
 
   models::Corner<S>& corner_;

@@ -34,13 +34,13 @@ void QuasiStaticVehicle<S>::initialize(const sim::Segment& first, double time_s,
   segment_ = first;
   segment_start_s_ = time_s;
   driver_on_ = true;
-  state[kSpeedState] = S(first.inputs[index_of(VehicleInput::kSpeed)].start);
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     wheels_[i] = {};
     wheels_[i].now.inflation = start_.inflation();
     corners_[i].initialize(start_.tire_temperature_K, start_.history, state + first_state_of(i));
   }
   find_motion(time_s, state);
+  state[kSpeedState] = speed_m_s_;
 }
 
 template <class S>
@@ -62,14 +62,14 @@ template <class S>
 void QuasiStaticVehicle<S>::begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) {
   segment_ = segment;
   segment_start_s_ = time_s;
-  const S start_m_s = S(segment.inputs[index_of(VehicleInput::kSpeed)].start);
-  if (!driver_on_ || value_of(start_m_s) == value_of(state[kSpeedState])) return;
+  const double start_m_s = segment.inputs[index_of(VehicleInput::kSpeed)].start;  // as recorded
+  if (!driver_on_ || start_m_s == value_of(state[kSpeedState])) return;
   const S former_m_s = state[kSpeedState];
-  state[kSpeedState] = start_m_s;
   find_motion(time_s, state);
+  state[kSpeedState] = speed_m_s_;
   const S moving_kg = body_mass_kg_ + calc_wheel_inertia_kg();
   integrals[index_of(VehicleIntegral::kKnotWork)] +=
-      0.5 * moving_kg * (start_m_s * start_m_s - former_m_s * former_m_s);
+      0.5 * moving_kg * (speed_m_s_ * speed_m_s_ - former_m_s * former_m_s);
 }
 
 /// Ports up to the losses of one wheel at the common speed.
@@ -283,16 +283,15 @@ template <class S>
 S QuasiStaticVehicle<S>::watch(const std::string& name, double time_s, const S* state) {
   if (name == kWatchTireTemperature) return state[first_state_of(0) + corners_.front().state_of(Node::kRubber)];
   if (name != kWatchSpeed) throw std::invalid_argument("vehicle: cannot watch " + name);
-  if (!driver_on_) return state[kSpeedState];
   find_motion(time_s, state);
-  return speed_m_s_;
+  return find_recorded_speed_m_s();
 }
 
 template <class S>
 void QuasiStaticVehicle<S>::observe(double time_s, const S* state, S* values) {
   find_motion(time_s, state);
   const models::InputPort<S>& recorded = wheels_.front().now.recorded;
-  *values++ = driver_on_ ? recorded.speed_m_s : speed_m_s_;
+  *values++ = driver_on_ ? recorded.speed_m_s : find_recorded_speed_m_s();
   *values++ = recorded.ambient_K;
   if (surface_recorded_) *values++ = recorded.surface_K;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {

@@ -68,6 +68,9 @@ class QuasiStaticVehicle : public sim::OdeSystem<S> {
   void fill_vehicle_integrands(S* integrands) const;
   void fill_wheel_integrands(std::size_t wheel, S* integrands) const;
   S calc_kinetic_J() const;
+  S find_recorded_speed_m_s() const {
+    return models::calc_recorded_speed_m_s(speed_m_s_, wheels_.front().now.recorded, wheels_.front().now.acting);
+  }
 
   std::vector<models::Corner<S>>& corners_;
   VehicleLayout layout_;

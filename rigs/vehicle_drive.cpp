@@ -83,11 +83,22 @@ void VehicleDrive::find_suspension(const State& state, std::size_t i, DriveEvalu
   out.suspension_damper_N = suspension_.damping_N_s_per_m * upright.getOneU(state, 0);
 }
 
+/// What presses on a wheel beyond its share of the weight.
+double VehicleDrive::find_restraint_N(const State& state, std::size_t i, const DriveEvaluation& at) const {
+  const double static_N = layout_.wheels[i].static_load_N;
+  if (i == 0) return at.acting.load_N - static_N;
+  models::Instant<double> now;
+  now.recorded = program_inputs(state.getTime());
+  now.recorded.load_N = static_N;
+  bodies_.wheels[i].contact->apply_inputs(state, now);
+  return now.acting.load_N - static_N;
+}
+
 void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::ForceDemand<double>& demand,
                               DriveEvaluation& at) const {
   const WheelPlace& place = layout_.wheels[i];
   DriveEvaluation::Wheel& out = at.wheels[i];
-  out.restraint_N = at.acting.load_N - layout_.wheels.front().static_load_N;
+  out.restraint_N = find_restraint_N(state, i, at);
   out.radius_m = calc_loaded_radius_m(context_.tire, place.static_load_N + out.restraint_N);
   const double radius_m = out.radius_m;
   const double rim_m_s = matter_.getMobilizedBody(bodies_.wheels[i].wheel).getOneU(state, 0) * radius_m;

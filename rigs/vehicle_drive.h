@@ -30,7 +30,8 @@ struct DriveEvaluation {
     double roller_Nm = 0.0;  // on the roller
     double suspension_N = 0.0;
     double suspension_damper_N = 0.0;
-    double restraint_N = 0.0;  // of the tie-downs, downwards on the body (effect tie_down_load)
+    double restraint_N = 0.0;  // beyond the wheel's share of the weight, downwards on the body: of the tie-downs
+                               // (effect tie_down_load), or not in the record (load_record)
   };
   std::vector<Wheel> wheels;
   double tie_down_N = 0.0;  // along the vehicle
@@ -95,6 +96,7 @@ class VehicleDrive : public SimTK::Force::Custom::Implementation {
   void find_demand(const SimTK::State& state, DriveEvaluation& at) const;
   void find_wheel(const SimTK::State& state, std::size_t i, const models::ForceDemand<double>& demand,
                   DriveEvaluation& at) const;
+  double find_restraint_N(const SimTK::State& state, std::size_t i, const DriveEvaluation& at) const;
   void share_among_rollers(DriveEvaluation& at) const;
   void find_suspension(const SimTK::State& state, std::size_t i, DriveEvaluation& at) const;
   double calc_feedforward_N(const models::InputPort<double>& acting) const;

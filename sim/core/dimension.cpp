@@ -78,6 +78,11 @@ DimensionedScalar log(const DimensionedScalar& x) {
   return {std::log(x.value())};
 }
 
+DimensionedScalar sin(const DimensionedScalar& x) {
+  require_dimensionless(x, "sin");
+  return {std::sin(x.value())};
+}
+
 DimensionedScalar tanh(const DimensionedScalar& x) {
   require_dimensionless(x, "tanh");
   return {std::tanh(x.value())};

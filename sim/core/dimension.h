@@ -90,6 +90,7 @@ inline bool operator>=(const DimensionedScalar& a, const DimensionedScalar& b) {
 
 DimensionedScalar exp(const DimensionedScalar& x);
 DimensionedScalar log(const DimensionedScalar& x);
+DimensionedScalar sin(const DimensionedScalar& x);
 DimensionedScalar tanh(const DimensionedScalar& x);
 DimensionedScalar pow(const DimensionedScalar& base, const DimensionedScalar& exponent);
 DimensionedScalar sqrt(const DimensionedScalar& x);

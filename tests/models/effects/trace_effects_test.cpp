@@ -4,11 +4,12 @@
 #include <functional>
 #include <limits>
 
-#include "tests/support/hand_fed_corner.h"
+#include "tests/support/trace_port.h"
 
 using namespace rollrig;
 using models::RigKind;
 using models::TracePort;
+using tests::run_trace;
 using tests::switch_on;
 
 namespace {
@@ -38,28 +39,11 @@ std::vector<double> means_of(const std::function<double(double)>& integral, cons
   return means;
 }
 
-template <class S>
-void run_trace(const models::ActiveEffect& active, const models::Context<S>& context, TracePort<S>& port) {
-  std::vector<S> parameters;
-  for (std::size_t i = 0; i < active.parameters.size(); ++i) {
-    parameters.push_back(
-        quantity<S>(active.parameters[i], unit_of_key(active.effect->info.parameters[i].key).dimension));
-  }
-  port.context = &context;
-  active.effect->hooks<S>().trace(models::EffectView<S>(parameters.data(), nullptr), port);
-}
-
 /// One channel after the effect.
 std::vector<double> apply(const models::ActiveEffect& active, const std::vector<double>& time_s,
                           const std::vector<double>& values, const std::string& name = kLiner,
                           RigKind kind = RigKind::kDrum, const std::vector<double>& ambient_K = {}) {
-  const auto context = tests::make_context_on(kind);
-  TracePort<double> port;
-  port.time_s = time_s;
-  port.channels.push_back({name, values});
-  if (!ambient_K.empty()) port.channels.push_back({kAmbient, ambient_K});
-  run_trace(active, context, port);
-  return port.channels.front().values;
+  return tests::apply_trace(active, time_s, {name, values}, kind, {{kAmbient, ambient_K}});
 }
 
 std::vector<double> shift(double late_s, const std::vector<double>& time_s, const std::vector<double>& values) {
@@ -257,13 +241,14 @@ TEST_CASE("trace effects keep the dimensions of the channels", "[fast]") {
   const auto context = models::convert_context<Q>(tests::make_context_on(RigKind::kDrum));
   const Dimension torque = dimension::kForce * dimension::kLength;
   for (const double size : {0.0, 3.0, -3.0}) {
-    for (const char* id : {"torque_zero_drift", "clock_shift"}) {
+    for (const char* id : {"torque_zero_drift", "clock_shift", "torque_gain", "load_cross_talk", "pressure_record"}) {
       INFO(id);
       TracePort<Q> port;
       port.time_s = {0.0, 1.0, 3.0};
       for (const auto& [name, of] : std::vector<std::pair<std::string, Dimension>>{{kTorque, torque},
                                                                                    {kLoss, dimension::kForce},
                                                                                    {kAmbient, dimension::kTemperature},
+                                                                                   {"load_N", dimension::kForce},
                                                                                    {kLiner, dimension::kTemperature},
                                                                                    {kPressure, dimension::kPressure}}) {
         port.channels.push_back({name, {Q(1.0, of), Q(2.0, of), Q(4.0, of)}});

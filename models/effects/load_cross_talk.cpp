@@ -1,0 +1,68 @@
+/// Load leaks into the torque measurement.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct LoadCrossTalk {
+  enum Parameter { kAngle };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "load_cross_talk";
+    info.summary =
+        "Part of the load stands in the direction in which force is measured, at every speed and temperature alike";
+    info.equation = "torque <- torque + R Fz sin d, loss force <- loss force + Fz sin d; Fz as recorded";
+    info.source =
+        "misaligned load, as ISO 28580 corrects by turning both ways; Fz sin(d), 0 to 0.5 mrad: effects.md. Means over "
+        "the sample, with a row's load held until the next. Assumed: either sign; the recorded load, whose own error "
+        "would change a small force by a small share";
+    info.parameters = {{"angle_mrad",
+                        between(-20.0, 20.0),
+                        {0.05, 0.5, Prior::Scale::kLog, true},
+                        "d, between the load and the normal to the direction of the force",
+                        0.0}};
+    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
+    info.visible_in = {"drum_torque_Nm", "loss_force_N"};
+    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.confused_with = {"bearing_load_friction"};
+    info.splitting_tests = {"the same run with reversed rotation", "torque at standstill at several loads"};
+    return info;
+  }
+
+  /// Mean load over every sample, as loggers average a load that holds from row to row.
+  template <class S>
+  static std::vector<S> calc_means(const std::vector<double>& time_s, const std::vector<S>& load_N) {
+    std::vector<S> means = load_N;
+    for (std::size_t i = 1; i + 1 < time_s.size(); ++i) {
+      const double share = (time_s[i] - time_s[i - 1]) / (time_s[i + 1] - time_s[i - 1]);  // that lies before the row
+      means[i] += S(share) * (load_N[i - 1] - load_N[i]);
+    }
+    if (time_s.size() > 1) means.back() = load_N[time_s.size() - 2];
+    return means;
+  }
+
+  template <class S>
+  static void trace(const EffectView<S>& self, TracePort<S>& port) {
+    using std::sin;
+    const std::vector<S>* load_N = port.find("load_N");
+    if (load_N == nullptr) return;
+    const std::vector<S> mean_N = calc_means(port.time_s, *load_N);
+    const S share = sin(self.parameter(kAngle));
+    std::vector<S>* torque_Nm = port.find("drum_torque_Nm");
+    std::vector<S>* loss_N = port.find("loss_force_N");
+    for (std::size_t i = 0; i < mean_N.size(); ++i) {
+      if (torque_Nm != nullptr) (*torque_Nm)[i] += mean_N[i] * share / port.context->surface_curvature_per_m;
+      if (loss_N != nullptr) (*loss_N)[i] += mean_N[i] * share;
+    }
+  }
+};
+
+}  // namespace
+
+const Effect& effect_load_cross_talk() {
+  static const Effect effect = make_effect<LoadCrossTalk>();
+  return effect;
+}
+
+}  // namespace rollrig::models

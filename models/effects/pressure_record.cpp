@@ -1,0 +1,49 @@
+/// The pressure sensor of the cavity reads too much or too little.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct PressureRecord {
+  enum Parameter { kOffset };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "pressure_record";
+    info.summary =
+        "The sensor of the cavity's pressure reads off by a constant; the pressure itself, set by another gauge, is as "
+        "it "
+        "should be, so that loss and temperature know nothing of it";
+    info.equation = "cavity pressure <- cavity pressure + o";
+    info.source =
+        "constant, 2 to 15 kPa: effects.md, in the port of the measured channels (baseline.md). cold_pressure_kPa is "
+        "read on the setting gauge (formats.md), which stays right: what is off is the reading of the cavity's sensor. "
+        "Assumed: either sign, the same in every run";
+    info.parameters = {{"offset_kPa",
+                        between(-200.0, 200.0),
+                        {2.0, 15.0, Prior::Scale::kLog, true},
+                        "o, reading less true pressure",
+                        0.0}};
+    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
+    info.visible_in = {"cavity_pressure_kPa"};
+    info.clean_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC"};
+    info.splitting_tests = {"sensor and setting gauge read at one time, on the cold tire"};
+    return info;
+  }
+
+  template <class S>
+  static void trace(const EffectView<S>& self, TracePort<S>& port) {
+    std::vector<S>* pressure_Pa = port.find("cavity_pressure_kPa");
+    if (pressure_Pa == nullptr) return;
+    for (S& value : *pressure_Pa) value += self.parameter(kOffset);
+  }
+};
+
+}  // namespace
+
+const Effect& effect_pressure_record() {
+  static const Effect effect = make_effect<PressureRecord>();
+  return effect;
+}
+
+}  // namespace rollrig::models

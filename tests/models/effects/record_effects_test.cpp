@@ -1,0 +1,137 @@
+// Effects of which the record differs from what acts: speed, load, pressure, and the scale of torque.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "tests/support/trace_port.h"
+
+using namespace rollrig;
+using models::RigKind;
+using tests::apply_trace;
+using tests::HandFedCorner;
+using tests::make_context_on;
+using tests::NamedChannel;
+using tests::switch_on;
+
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The load that acts on a tire of 5400 N reference load.
+double find_acting_N(const models::ActiveEffect& effect, double recorded_N, RigKind kind = RigKind::kDrum) {
+  HandFedCorner<double> at(make_context_on(kind), {effect});
+  at.inputs.load_N = recorded_N;
+  return at.evaluate().acting.load_N;
+}
+
+}  // namespace
+
+TEST_CASE("a wrong speed record turns the tire faster than it says, and the record stays", "[fast]") {
+  for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
+    HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0})});
+    HandFedCorner<double> right(make_context_on(kind), {});
+    wrong.inputs.speed_m_s = 20.0;
+    wrong.inputs.acceleration_m_s2 = 0.4;
+    right.inputs.speed_m_s = 21.0;
+    wrong.advance(900.0);
+    right.advance(900.0);
+    CHECK(wrong.now.recorded.speed_m_s == 20.0);
+    CHECK(wrong.now.acting.acceleration_m_s2 == Approx(0.42));
+    CHECK(wrong.now.rolling_resistance_N == Approx(right.now.rolling_resistance_N));
+    CHECK(wrong.now.parasitic_N == Approx(right.now.parasitic_N));
+    CHECK(wrong.temperature_K(models::Node::kRubber) == Approx(right.temperature_K(models::Node::kRubber)));
+    CHECK(wrong.now.heat.heat_in_W == Approx(wrong.now.rolling_resistance_N * 21.0));
+  }
+}
+
+TEST_CASE("a wrong load record is a scale, an offset, or some of both, and the error at the reference load is the size",
+          "[fast]") {
+  for (const double offset_share : {0.0, 0.3, 1.0}) {
+    for (const double percent : {4.0, -4.0}) {
+      const auto effect = switch_on("load_record", {percent, offset_share});
+      CHECK(find_acting_N(effect, 5400.0) == Approx(5400.0 * (1.0 + 0.01 * percent)));
+      // a straight line in the recorded load
+      const double slope = (find_acting_N(effect, 4000.0) - find_acting_N(effect, 2000.0)) / 2000.0;
+      CHECK(slope == Approx(1.0 + 0.01 * percent * (1.0 - offset_share)));
+    }
+  }
+  CHECK(find_acting_N(switch_on("load_record", {4.0, 1.0}), 200.0) == Approx(416.0));
+  CHECK(find_acting_N(switch_on("load_record", {4.0, 0.0}), 200.0) == Approx(208.0));
+}
+
+TEST_CASE("an error of the load record neither pulls at a tire nor puts down one that is lifted", "[fast]") {
+  CHECK(find_acting_N(switch_on("load_record", {-5.0, 1.0}), 200.0) == 0.0);
+  CHECK(find_acting_N(switch_on("load_record", {5.0, 1.0}), 0.0) == 0.0);
+  CHECK(find_acting_N(switch_on("load_record", {5.0, 0.0}), 5000.0, RigKind::kFlat) == 5000.0);  // no record there
+}
+
+TEST_CASE("tie-downs add to the true load, not to the record", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+                           {switch_on("load_record", {2.0, 0.0}), switch_on("tie_down_load", {100.0})});
+  at.inputs.load_N = 5000.0;
+  CHECK(at.evaluate().acting.load_N == Approx(5200.0));
+}
+
+TEST_CASE("the pressure sensor's error is in its channel alone, the same at every row", "[fast]") {
+  const auto effect = switch_on("pressure_record", {-8.0});
+  const std::vector<double> values{250e3, kNan, 270e3};
+  const auto shown = apply_trace(effect, {0.0, 1.0, 2.0}, {"cavity_pressure_kPa", values});
+  CHECK(shown[0] == 242e3);
+  CHECK(std::isnan(shown[1]));
+  CHECK(shown[2] == 262e3);
+  for (const char* other : {"drum_torque_Nm", "liner_temperature_degC"}) {
+    CHECK(apply_trace(effect, {0.0, 1.0}, {other, {3.0, 4.0}}) == std::vector<double>{3.0, 4.0});
+  }
+}
+
+TEST_CASE("a wrong pressure sensor does not change the pressure that the tire rolls on", "[fast]") {
+  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("pressure_record", {15.0})});
+  HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+  CHECK(with.evaluate().pressure_Pa == without.evaluate().pressure_Pa);
+  CHECK(with.now.pressure_Pa == Approx(280e3));  // as the setting gauge said
+  CHECK(with.now.rolling_resistance_N == without.now.rolling_resistance_N);
+}
+
+TEST_CASE("a scale of torque is on torque, loss force and traction force, in both directions of power", "[fast]") {
+  const auto effect = switch_on("torque_gain", {2.5});
+  const std::vector<double> values{40.0, -20.0, 0.0};
+  const std::vector<double> time_s{0.0, 1.0, 2.0};
+  for (const auto& [name, kind] : std::vector<std::pair<std::string, RigKind>>{{"drum_torque_Nm", RigKind::kDrum},
+                                                                               {"loss_force_N", RigKind::kDyno},
+                                                                               {"traction_force_N", RigKind::kFlat}}) {
+    const auto shown = apply_trace(effect, time_s, {name, values}, kind);
+    CHECK(shown[0] == Approx(41.0));
+    CHECK(shown[1] == Approx(-20.5));
+    CHECK(shown[2] == 0.0);
+  }
+  CHECK(apply_trace(effect, time_s, {"liner_temperature_degC", values}) == values);
+}
+
+TEST_CASE("load leaks into the torque by its angle, by the drum's radius, whatever the torque is", "[fast]") {
+  const auto effect = switch_on("load_cross_talk", {0.4});
+  const std::vector<double> time_s{0.0, 1.0, 2.0};
+  const NamedChannel load{"load_N", {5000.0, 5000.0, 5000.0}};
+  for (const double torque_Nm : {0.0, 60.0}) {
+    const auto shown =
+        apply_trace(effect, time_s, {"drum_torque_Nm", {torque_Nm, torque_Nm, torque_Nm}}, RigKind::kDrum, {load});
+    CHECK(shown[1] - torque_Nm == Approx(2.0));  // 5 kN, 0.4 mrad, R = 1 m
+  }
+  const std::vector<double> zeros(3, 0.0);
+  CHECK(apply_trace(effect, time_s, {"loss_force_N", zeros}, RigKind::kDyno, {load})[1] == Approx(2.0));
+  CHECK(apply_trace(switch_on("load_cross_talk", {-0.4}), time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum,
+                    {load})[1] == Approx(-2.0));
+  CHECK(apply_trace(effect, time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum) == zeros);  // no load, no leak
+}
+
+TEST_CASE("beside a step of the load a sample has the mean of what held before and after", "[fast]") {
+  const auto effect = switch_on("load_cross_talk", {1.0});
+  const std::vector<double> time_s{0.0, 1.0, 4.0, 5.0};
+  const NamedChannel load{"load_N", {1000.0, 1000.0, 3000.0, 3000.0}};  // steps at 4 s
+  const auto shown =
+      apply_trace(effect, time_s, {"drum_torque_Nm", std::vector<double>(4, 0.0)}, RigKind::kDrum, {load});
+  const double sine = std::sin(1e-3);
+  CHECK(shown[0] == Approx(1000.0 * sine));
+  CHECK(shown[1] == Approx(1000.0 * sine));
+  CHECK(shown[2] == Approx((1.5 * 1000.0 + 0.5 * 3000.0) / 2.0 * sine));
+  CHECK(shown[3] == Approx(3000.0 * sine));
+}
