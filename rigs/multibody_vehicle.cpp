@@ -253,12 +253,9 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     const DriveEvaluation drive = drive_->evaluation(state_);
     const double speed_m_s = drive.acting.speed_m_s;
     const models::TireParameters<double>& tire = corners_.front().context().tire;
-    // The body sinks by the mean restraint; where wheels differ it finds its pitch by itself.
-    double mean_restraint_N = 0.0;
-    for (const auto& wheel : drive.wheels) mean_restraint_N += wheel.restraint_N;
-    mean_restraint_N /= static_cast<double>(drive.wheels.size());
+    const double sinks_by_N = drive.wheels.front().on_body_N;  // the same at every wheel: the body does not pitch
     const double tire_N_per_m = tire.stiffness.vertical_N_per_m;
-    const double heave_m = -mean_restraint_N / suspension_stiffness_N_per_m_ - mean_restraint_N / tire_N_per_m;
+    const double heave_m = -sinks_by_N / suspension_stiffness_N_per_m_ - sinks_by_N / tire_N_per_m;
     bodies_.heave.setOneQ(state_, 0, heave_m);
     if (is_flat()) bodies_.sled.setOneU(state_, 0, speed_m_s);
     for (std::size_t i = 0; i < corners_.size(); ++i) {
@@ -361,7 +358,9 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   /// Power of the roller's motor, of the rest of the vehicle through it, and of the restraint.
   double calc_given_W(std::size_t i, const DriveEvaluation::Wheel& wheel, const DriveEvaluation& at) const {
     const Vec3 axle_m_s = bodies_.body.findStationVelocityInGround(state_, Vec3(layout_.wheels[i].axle_x_m, 0, 0));
-    const double restraint_W = -(wheel.restraint_N + bodies_.wheels[i].ballast_N) * axle_m_s[1];
+    const Vec3 upright_m_s = bodies_.wheels[i].upright.getBodyOriginVelocity(state_);
+    const double restraint_W =
+        -(wheel.on_body_N + bodies_.wheels[i].ballast_N) * axle_m_s[1] - wheel.on_upright_N * upright_m_s[1];
     if (is_flat()) return restraint_W;
     const double assist_Nm = at.assist_N * roller_radius_m_ / static_cast<double>(corners_.size());
     return restraint_W + (wheel.roller_Nm + assist_Nm) * bodies_.wheels[i].roller.getOneU(state_, 0);

@@ -94,6 +94,18 @@ double VehicleDrive::find_restraint_N(const State& state, std::size_t i, const D
   return now.acting.load_N - static_N;
 }
 
+/// Body and uprights are pressed so that every contact at rest has its own restraint, though the body cannot pitch.
+void VehicleDrive::share_restraint(DriveEvaluation& at) const {
+  double mean_N = 0.0;
+  for (const DriveEvaluation::Wheel& wheel : at.wheels) mean_N += wheel.restraint_N;
+  mean_N /= static_cast<double>(at.wheels.size());
+  const double give = suspension_.stiffness_N_per_m / context_.tire.stiffness.vertical_N_per_m;
+  for (DriveEvaluation::Wheel& wheel : at.wheels) {
+    wheel.on_body_N = mean_N;
+    wheel.on_upright_N = (wheel.restraint_N - mean_N) * (1.0 + give);
+  }
+}
+
 void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::ForceDemand<double>& demand,
                               DriveEvaluation& at) const {
   const WheelPlace& place = layout_.wheels[i];
@@ -148,6 +160,7 @@ void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
   at.motor_N = demand.motor_N;
   at.assist_N = demand.motor_N - demand.friction_N * fade(at.speed_m_s);  // less what the own wheels do
   for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) find_wheel(state, i, demand, at);
+  share_restraint(at);
   if (is_flat()) {
     at.drag_N = calc_body_drag_N(at.speed_m_s, at.acting);
     at.grade_N = models::calc_grade_N(layout_.mass_kg, at.acting.slope);
@@ -199,7 +212,8 @@ void VehicleDrive::calcForce(const State& state, SimTK::Vector_<SpatialVec>& bod
     body_forces[own.wheel][0] += Vec3(0, 0, -hub_Nm);
     body_forces[own.upright][0] += Vec3(0, 0, hub_Nm);
     const Vec3 arm_m(layout_.wheels[i].axle_x_m, 0, 0);
-    const Vec3 down_N = -(wheel.restraint_N + own.ballast_N) * up;
+    body_forces[own.upright][1] -= wheel.on_upright_N * up;
+    const Vec3 down_N = -(wheel.on_body_N + own.ballast_N) * up;
     body_forces[bodies_.body] += SpatialVec(SimTK::cross(arm_m, down_N), down_N);
     if (is_flat()) continue;
     const double assist_Nm = at.assist_N * roller_radius_m_ / static_cast<double>(bodies_.wheels.size());

@@ -30,8 +30,10 @@ struct DriveEvaluation {
     double roller_Nm = 0.0;  // on the roller
     double suspension_N = 0.0;
     double suspension_damper_N = 0.0;
-    double restraint_N = 0.0;  // beyond the wheel's share of the weight, downwards on the body: of the tie-downs
-                               // (effect tie_down_load), or not in the record (load_record)
+    double restraint_N = 0.0;   // on the contact beyond the wheel's share of the weight: of the tie-downs (effect
+                                // tie_down_load), or not in the record (load_record)
+    double on_body_N = 0.0;     // of it, downwards on the body: the mean of all wheels
+    double on_upright_N = 0.0;  // downwards on the upright, for the rest, and for what the suspension gives in to it
   };
   std::vector<Wheel> wheels;
   double tie_down_N = 0.0;  // along the vehicle
@@ -97,6 +99,7 @@ class VehicleDrive : public SimTK::Force::Custom::Implementation {
   void find_wheel(const SimTK::State& state, std::size_t i, const models::ForceDemand<double>& demand,
                   DriveEvaluation& at) const;
   double find_restraint_N(const SimTK::State& state, std::size_t i, const DriveEvaluation& at) const;
+  void share_restraint(DriveEvaluation& at) const;
   void share_among_rollers(DriveEvaluation& at) const;
   void find_suspension(const SimTK::State& state, std::size_t i, DriveEvaluation& at) const;
   double calc_feedforward_N(const models::InputPort<double>& acting) const;

@@ -28,8 +28,8 @@ struct CavityVolume {
         {"load_power", between(0.3, 3.0), {0.8, 1.5}, "m, of the load"},
         {"growth_ratio", between(-2.0, 5.0), {0.0, 0.5}, "q, growth at 120 km/h relative to e"},
         {"setting_ratio", between(-2.0, 3.0), {0.0, 1.0}, "l, contraction at which the pressure was set, of e"}};
-    info.faint_on = {RigKind::kFlat};  // one load, no pressure channel
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "cavity_pressure_kPa"};
+    info.faint_on = {RigKind::kFlat};           // one load, no pressure channel
+    info.visible_in = {"cavity_pressure_kPa"};  // the loss follows by half a percent at most
     info.splitting_tests = {"load off and on at constant liner temperature, pressure logged",
                             "pressure at standstill at several loads"};
     return info;

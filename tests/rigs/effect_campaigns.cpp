@@ -45,7 +45,7 @@ sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects) {
   start.tire_temperature_K = Jet(fixture.initial_K);
   start.cold_pressure_Pa = Jet(fixture.cold_pressure_Pa);
   start.ambient_pressure_Pa = Jet(fixture.rig.environment.ambient_pressure_Pa);
-  rigs::QuasiStaticDrum<Jet> drum(corner, start, false, rigs::Detail::kMeasured);
+  rigs::QuasiStaticDrum<Jet> drum(corner, start, false, rigs::Detail::kFull);  // trace effects read the load
   sim::FixedGridIntegrator<Jet> integrator(drum);
   sim::Recording<Jet> recording = sim::simulate<Jet>(
       drum, integrator, rigs::refine_near_standstill(drum_program(), rigs::index_of(rigs::DrumInput::kSpeed)));
