@@ -204,9 +204,8 @@ class MultibodyDrum::Implementation : public SimbodySystem {
   /// Of the drum as it turns, whether the motor drives it or not.
   double find_recorded_speed_m_s(double time_s, const double* y) {
     const models::InputPort<double> acting = find_acting(time_s, y);
-    return models::calc_recorded_speed_m_s(
-        y[kSpeeds] / corner_.context().surface_curvature_per_m,
-        read_drum_inputs<double>(segment_, time_s - segment_start_s_, surface_recorded_), acting);
+    return models::calc_recorded_speed_m_s(y[kSpeeds] / corner_.context().surface_curvature_per_m, find_inputs(time_s),
+                                           acting);
   }
 
   /// The recorded speed is the set point; a motor that does not follow it is a failed run, not a result.

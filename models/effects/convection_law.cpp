@@ -26,7 +26,7 @@ struct ConvectionLaw {
         {"other_air_m_s", between(0.05, 20.0), {0.3, 3.0, Prior::Scale::kLog}, "u, air that moves at standstill"}};
     info.faint_on = {RigKind::kFlat};  // some K cooler costs a few parts in a thousand of what accelerating takes
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
-    info.confused_with = {"standing_wave", "rim_heat", "cell_air_warming"};
+    info.confused_with = {"standing_wave"};
     info.splitting_tests = {"fan on and off at 120 km/h", "speed steps 80, 120, 40 km/h on the warm tire",
                             "soak with temperature and pressure logged"};
     return info;

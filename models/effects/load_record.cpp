@@ -29,7 +29,7 @@ struct LoadRecord {
                        {"offset_share", between(0.0, 1.0), {0.0, 0.5}, "g, of the error, that is an offset"}};
     info.acts_on = {RigKind::kDrum, RigKind::kDyno};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
-    info.confused_with = {"torque_gain", "tie_down_load", "load_exponent"};
+    info.confused_with = {"torque_gain", "tie_down_load"};
     info.splitting_tests = {"dead weights or a second load cell under the tire",
                             "skim at 50, 100, 200 and 400 N, extrapolated to zero"};
     return info;

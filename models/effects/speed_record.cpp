@@ -27,7 +27,7 @@ struct SpeedRecord {
                         0.0}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
                        "cavity_pressure_kPa"};
-    info.confused_with = {"inertia_error", "load_record"};
+    info.confused_with = {"inertia_error"};
     info.splitting_tests = {"hand tachometer on drum or roller", "revolutions counted over a minute",
                             "ramps of several accelerations with the tire lifted"};
     return info;

@@ -17,7 +17,7 @@ struct TieDownLoad {
         {"added_load_N", between(-1000.0, 3000.0), {50.0, 400.0, Prior::Scale::kLog}, "dF, of one wheel", 0.0}};
     info.acts_on = {RigKind::kDyno};
     info.visible_in = {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
-    info.confused_with = {"curvature_exponent"};
+    info.confused_with = {"curvature_exponent", "load_record"};
     info.splitting_tests = {"tie-downs slack and tight", "wheel load cells under the rollers"};
     return info;
   }

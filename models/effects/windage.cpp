@@ -22,7 +22,6 @@ struct Windage {
         {"speed_power", between(0.5, 4.0), {1.8, 2.2}, "n, power of the speed"}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N"};
     info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
-    info.confused_with = {"standing_wave"};
     info.splitting_tests = {"drum alone and with the tire in skim, at several speeds",
                             "speed sweep with the tire's temperature logged: windage leaves it as it is",
                             "smooth covers over the sides of tire and rim"};
