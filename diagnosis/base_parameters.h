@@ -1,6 +1,8 @@
 #pragma once
 /// The baseline's own numbers and how well they are known: what a recalibration may move, and how far.
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "identification/parameters.h"
@@ -8,11 +10,23 @@
 
 namespace rollrig::diagnosis {
 
-/// A0, A1, B0, B1, heat capacities, H, z, f of the tire and c0, c1, c2 of the rig, each normal around the file's value
-/// with the file's standard uncertainty. Where the file gives none, a default:
-/// A0, A1 2 % of the loss at 80 km/h; B0, B1 4 %; heat capacities 5 % (rubber) and 10 % (gas); H 15 %;
-/// z and f 8 %; c0, c1, c2 5 % of their value and 1 % of the parasitic force at 80 km/h.
-/// Further numbers of [rolling_resistance] and [thermal] move only where the file gives an uncertainty.
+/// Standard uncertainties in SI units, by key: those that the files give, and defaults for where they give none.
+struct Uncertainties {
+  std::map<std::string, double> given;
+  std::map<std::string, double> usual;
+};
+
+/// Groups of numbers that a kind of set moves (kinds/measurement_kind.h).
+/// A0, A1: 2 % of the loss at 80 km/h; B0, B1: 4 %. Further numbers of [rolling_resistance] where the file gives one.
+void add_loss_law(const models::TireFile& tire, const models::Context<double>& context, Uncertainties& uncertainties);
+/// Heat capacities: 5 % (rubber) and 10 % (gas); H: 15 %; z and f: 8 %. Further numbers of [thermal] likewise.
+void add_heat_balance(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
+                      Uncertainties& uncertainties);
+/// c0, c1, c2: 5 % of their value and 1 % of the parasitic force at 80 km/h.
+void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties);
+
+/// What the set's kind moves, each normal around the file's value with the file's standard uncertainty or, where the
+/// file gives none, the default.
 /// Source  Assumed: the defaults, from the spread between calibrations of one tire (docs/published.md)
 /// Checked tests/diagnosis/base_parameters_test.cpp
 std::vector<identification::FreeParameter> find_base_parameters(const scenarios::MeasurementSet& set,

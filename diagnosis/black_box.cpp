@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "scenarios/drum_conditions.h"
+#include "diagnosis/kinds/measurement_kind.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -14,6 +14,7 @@ constexpr Eigen::Index kFeatures = 13;
 Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
   const PreparedRun& run = set.runs()[series.run];
   const double start_s = run.measured.time_s.front();
+  const double skim_limit_N = set.kind().skim_limit_N(set.source());
   Eigen::MatrixXd features(at(series.size()), kFeatures);
   for (std::size_t k = 0; k < series.size(); ++k) {
     const auto mean = [&](const char* column) {
@@ -22,7 +23,7 @@ Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
     };
     const double speed = mean("speed_km_h") / 20.0;
     const double load = mean("load_N") / 5000.0;
-    const double skim = mean("load_N") <= scenarios::calc_skim_limit_N(*set.source().rig) ? 1.0 : 0.0;
+    const double skim = mean("load_N") <= skim_limit_N ? 1.0 : 0.0;
     const double elapsed_s = series.time_s[k] - start_s;
     const double in_phase_s = series.time_s[k] - run.measured.time_s[run.phases[series.phase[k]].first];
     features.row(at(k)) << 1.0, speed, speed * speed, load, load * speed, skim, (mean("ambient_degC") - 298.15) / 5.0,

@@ -5,6 +5,7 @@
 #include "diagnosis/balance.h"
 #include "diagnosis/base_parameters.h"
 #include "diagnosis/gap.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/locations.h"
 #include "diagnosis/next_test.h"
 #include "diagnosis/race.h"
@@ -25,7 +26,7 @@ std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSe
     for (const std::string& id : *named) models::find_effect(id);  // throws where unknown
   }
   std::vector<const models::Effect*> effects;
-  const models::RigKind kind = set.rig->kind;
+  const models::RigKind kind = kind_of(set).rig_kind();
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;
     const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/replay.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
@@ -96,9 +96,8 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   const PreparedRun& run = set_.runs()[r];
   sim::Recording<S> recording;
   try {
-    recording = identification::replay_drum_run<S>(
-        set_.source(), run.measured, run.replay, corner,
-        set_.extra().rim_thermocouple ? rigs::Detail::kFull : rigs::Detail::kMeasured);
+    recording = run.replay->simulate(set_.source(), run.measured, corner,
+                                     set_.extra().rim_thermocouple ? rigs::Detail::kFull : rigs::Detail::kMeasured);
   } catch (const RunFailure&) {
     return false;
   }

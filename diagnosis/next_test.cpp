@@ -29,9 +29,11 @@ scenarios::MeasurementSet make_virtual_set(const PreparedSet& set, const Planned
   scenarios::MeasurementSet made;
   made.path = set.source().path;
   made.name = test.id;
+  made.kind = set.source().kind;
   made.baseline = set.source().baseline;
   made.tire = set.source().tire;
   made.rig = set.source().rig;
+  made.vehicle = set.source().vehicle;
   made.runs = test.runs;
   const double samples = std::max(1.0, kVirtualRow_s / find_sample_interval_s(set));
   for (const auto& [channel, sensor] : set.source().sensors) made.sensors[channel] = average_sensor(sensor, samples);

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "identification/replay.h"
-#include "identification/sample_selection.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "models/corner.h"
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
@@ -19,8 +18,6 @@ using scenarios::MeasuredRun;
 using scenarios::MeasurementSet;
 
 // Assumed, see RunMisfit.
-constexpr double kForce_N = 20.0;
-constexpr double kForceShare = 0.3;
 constexpr double kTemperature_K = 5.0;
 constexpr double kRiseShare = 0.4;
 constexpr double kPressure_Pa = 15e3;
@@ -29,7 +26,8 @@ constexpr double kUncompared = 1.05;  // just outside
 
 double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel, std::size_t row,
                       double simulated) {
-  if (channel == "drum_torque_Nm") return 0.5 * set.rig->drum.diameter_m * kForce_N + kForceShare * std::abs(simulated);
+  const MeasurementKind& kind = kind_of(set);
+  if (channel == kind.force_channel(set).name) return kind.calc_force_tolerance(set, simulated);
   if (channel == "cavity_pressure_kPa") {
     return kPressure_Pa + kPressureShare * std::abs(simulated - run.cold_pressure_Pa);
   }
@@ -38,7 +36,7 @@ double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const s
 
 ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel,
                                   const std::vector<double>& simulated) {
-  const std::vector<std::size_t> rows = find_compared_rows(run, channel);
+  const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
   const std::vector<double>& measured = run.columns.at(channel);
   const Unit unit = unit_of_key(channel);
   ChannelMisfit misfit{channel, rows.size()};
@@ -66,9 +64,9 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
 }  // namespace
 
 sim::Recording<double> replay_baseline(const MeasurementSet& set, const MeasuredRun& run) {
-  models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {});
-  sim::Recording<double> recording =
-      identification::replay_drum_run(set, run, identification::make_drum_replay(run), corner);
+  const MeasurementKind& kind = kind_of(set);
+  models::Corner<double> corner(kind.make_context(set), {});
+  sim::Recording<double> recording = kind.make_replay(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
   for (std::size_t c = 0; c < recording.channels.size(); ++c) {
     const std::vector<double>& values = recording.values[c];
     if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
@@ -77,17 +75,10 @@ sim::Recording<double> replay_baseline(const MeasurementSet& set, const Measured
   return recording;
 }
 
-std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) {
-  std::vector<std::size_t> rows;
-  if (!run.has(channel)) return rows;
-  const std::vector<double>& values = run.columns.at(channel);
-  const bool is_torque = channel == "drum_torque_Nm";
-  const std::vector<bool> settled =
-      is_torque ? identification::find_settled_rows(run) : std::vector<bool>(values.size(), true);
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    if (!std::isnan(values[row]) && settled[row]) rows.push_back(row);
-  }
-  return rows;
+std::vector<std::size_t> find_compared_rows(const MeasurementSet& set, const MeasuredRun& run,
+                                            const std::string& channel) {
+  if (!run.has(channel)) return {};
+  return kind_of(set).find_compared_rows(run, channel);
 }
 
 double RunMisfit::worst() const {

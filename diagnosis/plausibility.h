@@ -9,12 +9,13 @@
 
 namespace rollrig::diagnosis {
 
-/// A run with the inputs that it recorded, simulated with tire and rig as the files give them, no effect on.
+/// A run with the inputs that it recorded, simulated with tire and machine as the files give them, no effect on.
 /// Throws RunFailure.
 sim::Recording<double> replay_baseline(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run);
 
-/// Rows of a channel that are compared: those with a sample, of a torque also settled and over 20 km/h.
-std::vector<std::size_t> find_compared_rows(const scenarios::MeasuredRun& run, const std::string& channel);
+/// Rows of a channel that are compared, as the set's kind has it; none where the run does not have the channel.
+std::vector<std::size_t> find_compared_rows(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
+                                            const std::string& channel);
 
 struct ChannelMisfit {
   std::string channel;
@@ -27,10 +28,11 @@ constexpr double kLargestMisfit = 10.0;
 
 /// How far a run lies from its simulation, in units of what uncertain parameters and effects of the
 /// catalogue can make.
-/// Equation  u = (y - h)/tolerance; tolerance of a torque 20 N R + 0.3 |h|, of a temperature
-///           5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|
+/// Equation  u = (y - h)/tolerance; tolerance of a force as the set's kind has it (of a drum's torque 20 N R + 0.3
+/// |h|), of a
+///           temperature 5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|
 /// Symbols   y measured, h simulated, R drum radius [m]
-///           A torque with samples of which none can be compared counts as just outside: its speed may not be one.
+///           A force with samples of which none can be compared counts as just outside: its speed may not be one.
 /// Source    Assumed: an effect at the upper end of its prior, with the pressure record off by 15 kPa and the air
 ///           at the tire by 6 K (effects.md), stays below 1; of draws from the priors at most 1 in 100 is above 2
 /// Checked   tests/diagnosis/set_checks_test.cpp

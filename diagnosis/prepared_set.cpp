@@ -4,20 +4,14 @@
 #include <cmath>
 #include <map>
 
-#include "identification/replay.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "identification/sample_selection.h"
-#include "scenarios/drum_conditions.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
 constexpr double kBlock_s = 10.0;  // design: work on 10 s means
 constexpr double kSlack_s = 1e-6;
-
-void require_drum_set(const scenarios::MeasurementSet& set) {
-  if (set.kind == scenarios::SetKind::kDrum) return;
-  throw InputError({"a diagnosis needs a drum set", set.path, 0, "rig", "", "a rig with kind = \"drum\"", ""});
-}
 
 void require_sensor_error(const scenarios::MeasurementSet& set, const std::string& channel,
                           const models::SensorParameters& sensor) {
@@ -35,7 +29,7 @@ bool has_sample(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
 }
 
-/// Whether the drum stands still over a row and its neighbours.
+/// Whether the surface stands still over a row and its neighbours.
 bool stands(const scenarios::MeasuredRun& run, std::size_t row) {
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
   const std::size_t last = std::min(row + 1, speed_m_s.size() - 1);
@@ -54,11 +48,11 @@ std::vector<std::size_t> phase_by_row(const PreparedRun& run) {
   return of;
 }
 
-/// Rows at which the drum stands and the torque was read, into their places.
-void add_standstill_rows(const scenarios::MeasuredRun& run, const std::vector<double>& torque_Nm,
+/// Rows at which the surface stands and the force was read, into their places.
+void add_standstill_rows(const scenarios::MeasuredRun& run, const std::vector<double>& force,
                          std::vector<std::size_t>& rows) {
-  for (std::size_t row = 0; row < torque_Nm.size(); ++row) {
-    if (stands(run, row) && !std::isnan(torque_Nm[row])) rows.push_back(row);
+  for (std::size_t row = 0; row < force.size(); ++row) {
+    if (stands(run, row) && !std::isnan(force[row])) rows.push_back(row);
   }
   std::sort(rows.begin(), rows.end());
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
@@ -83,10 +77,11 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 
 }  // namespace
 
-PreparedSet::PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings extra) : extra_(extra), set_(set) {
-  require_drum_set(set_);
+PreparedSet::PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings extra)
+    : extra_(extra), set_(set), kind_(&kind_of(set)) {
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
-  context_ = rigs::make_context(set_.tire, *set_.rig, set_.baseline);
+  for (scenarios::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
+  context_ = kind_->make_context(set_);
   std::vector<std::string> readable = scenarios::measured_channels(set_.kind);
   if (extra_.rim_thermocouple) readable.push_back(kRimTemperature);
   for (const std::string& channel : readable) {
@@ -97,8 +92,7 @@ PreparedSet::PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings ext
   }
   std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
   for (const scenarios::MeasuredRun& run : set_.runs) {
-    runs_.push_back(
-        {run, identification::make_drum_replay(run), find_phases(run, scenarios::calc_skim_limit_N(*set_.rig))});
+    runs_.push_back({run, kind_->make_replay(set_, run), kind_->find_phases(set_, run)});
     for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
       if (!run.has(channels_[channel])) continue;
       const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());
@@ -117,8 +111,9 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   const models::SensorParameters& sensor = set_.sensors.at(name);
   require_sensor_error(set_, name, sensor);
   const std::vector<double>& values = run.measured.columns.at(name);
-  std::vector<std::size_t> rows = identification::find_compared_rows(run.measured, name);
-  if (extra_.torque_at_standstill && name == "drum_torque_Nm") add_standstill_rows(run.measured, values, rows);
+  std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, name);
+  if (extra_.force_at_standstill && name == kind_->force_channel(set_).name)
+    add_standstill_rows(run.measured, values, rows);
   if (rows.empty()) return;
   const std::vector<std::size_t> phases = phase_by_row(run);
   std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);

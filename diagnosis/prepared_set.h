@@ -1,15 +1,19 @@
 #pragma once
 /// A measured set made ready for comparison: runs in a fixed order, blocks of samples, whitening, sensor offsets.
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "diagnosis/run_phases.h"
 #include "identification/whitener.h"
+#include "models/ports.h"
 #include "scenarios/measurement_set.h"
-#include "sim/program.h"
 
 namespace rollrig::diagnosis {
+
+class MeasurementKind;
+class RunReplay;
 
 using identification::Block;
 using identification::Whitener;
@@ -41,27 +45,28 @@ struct Series {
 
 struct PreparedRun {
   scenarios::MeasuredRun measured;
-  sim::Program replay;
+  std::shared_ptr<const RunReplay> replay;
   std::vector<RunPhase> phases;
 };
 
 /// What a test may read beyond a measurement set's columns.
 struct ExtraReadings {
-  bool torque_at_standstill = false;  // where the drum stands: the sensor's zero
-  bool rim_thermocouple = false;      // channel kRimTemperature
+  bool force_at_standstill = false;  // where the surface stands: the sensor's zero
+  bool rim_thermocouple = false;     // channel kRimTemperature
 };
 constexpr const char* kRimTemperature = "rim_temperature_degC";
 
 /// Runs are put in the order of their ids, so that the order in the file does not matter.
-/// Blocks are 10 s long and end where a phase or an averaging gap does; torque within 30 s of a load change or a kink
-/// of the speed and below 20 km/h is left out.
-/// Errors  InputError: not a drum set; no sample in any channel; a sensor without any error
+/// Blocks are 10 s long and end where a phase or an averaging gap does. What depends on the kind of the set
+/// (kinds/measurement_kind.h): which rows are compared, the phases, how a run is simulated.
+/// Errors  InputError: no sample in any channel; a sensor without any error; what the set's kind needs is not there
 class PreparedSet {
  public:
   explicit PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings extra = {});
 
   const scenarios::MeasurementSet& source() const { return set_; }
   const ExtraReadings& extra() const { return extra_; }
+  const MeasurementKind& kind() const { return *kind_; }
   const models::Context<double>& context() const { return context_; }
   const std::vector<PreparedRun>& runs() const { return runs_; }
   const std::vector<std::string>& channels() const { return channels_; }
@@ -74,6 +79,7 @@ class PreparedSet {
 
   ExtraReadings extra_;
   scenarios::MeasurementSet set_;  // with its runs in order
+  const MeasurementKind* kind_;
   models::Context<double> context_;
   std::vector<PreparedRun> runs_;
   std::vector<std::string> channels_;

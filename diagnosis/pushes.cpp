@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
-#include "identification/replay.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
@@ -54,8 +55,8 @@ struct TimePush {
   }
 };
 
-struct DrumTorquePush : TimePush {
-  static models::EffectInfo info() { return describe("drum torque"); }
+struct ForcePush : TimePush {
+  static models::EffectInfo info() { return describe("force"); }
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>&, models::ParasiticPort<S>& port) {
     port.extra_force_N += calc(self, quantity<S>(1.0, dimension::kForce));
@@ -109,11 +110,12 @@ struct BoundaryPush : TimePush {
   }
 };
 
-const std::vector<models::Effect>& simulated_pushes() {
-  static const std::vector<models::Effect> pushes{
-      models::make_effect<DrumTorquePush>(), models::make_effect<TireLossPush>(), models::make_effect<TireHeatPush>(),
-      models::make_effect<GasHeatPush>(),    models::make_effect<GasMassPush>(),  models::make_effect<BoundaryPush>()};
-  return pushes;
+const models::Effect& effect_of(Push push) {
+  static const std::map<Push, models::Effect> effects{
+      {Push::kForce, models::make_effect<ForcePush>()},       {Push::kTireLoss, models::make_effect<TireLossPush>()},
+      {Push::kTireHeat, models::make_effect<TireHeatPush>()}, {Push::kGasHeat, models::make_effect<GasHeatPush>()},
+      {Push::kGasMass, models::make_effect<GasMassPush>()},   {Push::kBoundary, models::make_effect<BoundaryPush>()}};
+  return effects.at(push);
 }
 
 /// A part of a run in which a push is continuous.
@@ -156,7 +158,7 @@ void simulate_push(const PreparedSet& set, const models::Context<double>& contex
     corner.effects()[0].parameters[kPushKnots + i] = Jet(0.0, static_cast<int>(i));
   }
   const PreparedRun& run = set.runs()[r];
-  const auto recording = identification::replay_drum_run<Jet>(set.source(), run.measured, run.replay, corner);
+  const auto recording = run.replay->simulate(set.source(), run.measured, corner, rigs::Detail::kMeasured);
   for (const Series& series : set.series()) {
     if (series.run != r) continue;
     const std::vector<Jet>& simulated = recording.channel(set.channels()[series.channel]);
@@ -212,16 +214,16 @@ std::vector<PushFamily> calc_pushes(const PreparedSet& set, const std::vector<id
   }
   std::vector<std::vector<double>> knots_s;
   for (const PreparedRun& run : set.runs()) knots_s.push_back(find_push_knots(run));
-  const auto& pushes = simulated_pushes();
+  const std::vector<NamedPush> pushes = set.kind().pushes();
   std::vector<PushFamily> families;
-  for (const models::Effect& push : pushes) {
-    families.push_back({push.info.id, RowMatrix::Zero(at(set.residual_count()), at(kPushKnots))});
+  for (const NamedPush& push : pushes) {
+    families.push_back({push.name, RowMatrix::Zero(at(set.residual_count()), at(kPushKnots))});
   }
   const std::size_t runs = set.runs().size();
   parallel_for(runs * pushes.size(), threads, [&](std::size_t job) {
     const std::size_t run = job / pushes.size();
     const std::size_t push = job % pushes.size();
-    simulate_push(set, context, run, knots_s[run], families[push], pushes[push]);
+    simulate_push(set, context, run, knots_s[run], families[push], effect_of(pushes[push].push));
   });
   constexpr std::array<std::pair<const char*, const char*>, 3> kSensors{
       {{"liner_temperature_degC", "temperature sensor"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
@@ -71,37 +72,23 @@ Mistake exchange(const MeasurementSet& set, const Field& a, const Field& b) {
   return {fmt::format("the columns {} and {} are exchanged", a.key, b.key), undo};
 }
 
-/// The numbers of the file are `factor` x + `offset` in the unit of the column.
-Mistake wrong_unit(const char* column, double factor, double offset, const char* text) {
-  const auto undo = [column, factor, offset](MeasuredRun& run) {
-    if (!run.has(column)) return false;
-    const Unit unit = unit_of_key(column);
-    for (double& value : run.columns.at(column)) value = unit.to_si(factor * unit.from_si(value) + offset);
+Mistake wrong_unit(const WrongUnit& wrong) {
+  const auto undo = [wrong](MeasuredRun& run) {
+    if (!run.has(wrong.column)) return false;
+    const Unit unit = unit_of_key(wrong.column);
+    for (double& value : run.columns.at(wrong.column)) {
+      value = unit.to_si(wrong.factor * unit.from_si(value) + wrong.offset);
+    }
     return true;
   };
-  return {std::string(column) + " " + text, undo};
-}
-
-/// A torque too large by a factor is not among them: bearings of a very cold rig come near it, and it is far outside
-/// all else anyway.
-std::vector<Mistake> list_wrong_units() {
-  constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
-  constexpr double kBar_kPa = 100.0;
-  return {wrong_unit("speed_km_h", 3.6, 0.0, "holds m/s"),
-          wrong_unit("speed_km_h", 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"),
-          wrong_unit("load_N", kStandardGravity_m_s2, 0.0, "holds kgf"),
-          wrong_unit("cavity_pressure_kPa", 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"),
-          wrong_unit("cavity_pressure_kPa", kBar_kPa, 0.0, "holds bar"),
-          wrong_unit("cavity_pressure_kPa", kPsi_kPa, 0.0, "holds psi"),
-          wrong_unit("liner_temperature_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"),
-          wrong_unit("ambient_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"),
-          wrong_unit("drum_torque_Nm", 3.6, 0.0, "is too small by a factor of 3.6"),
-          wrong_unit("drum_torque_Nm", -1.0, 0.0, "has the other sign: positive drives")};
+  return {wrong.column + " " + wrong.text, undo};
 }
 
 std::vector<Mistake> list_mistakes(const MeasurementSet& set, Mistakes which) {
   std::vector<Mistake> mistakes;
-  if (which == Mistakes::kAll) mistakes = list_wrong_units();
+  if (which == Mistakes::kAll) {
+    for (const WrongUnit& wrong : kind_of(set).list_wrong_units()) mistakes.push_back(wrong_unit(wrong));
+  }
   const std::vector<Field> columns = list_columns(set);
   for (std::size_t a = 0; a < columns.size(); ++a) {
     for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
@@ -118,6 +105,19 @@ double calc_squares_without(const Mistake& mistake, const MeasurementSet& set, s
 }
 
 }  // namespace
+
+std::vector<WrongUnit> list_common_wrong_units() {
+  constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
+  constexpr double kBar_kPa = 100.0;
+  return {{"speed_km_h", 3.6, 0.0, "holds m/s"},
+          {"speed_km_h", 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
+          {"load_N", kStandardGravity_m_s2, 0.0, "holds kgf"},
+          {"cavity_pressure_kPa", 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},
+          {"cavity_pressure_kPa", kBar_kPa, 0.0, "holds bar"},
+          {"cavity_pressure_kPa", kPsi_kPa, 0.0, "holds psi"},
+          {"liner_temperature_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"},
+          {"ambient_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"}};
+}
 
 std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<std::size_t>& odd_runs, Mistakes which,
                                   int threads) {

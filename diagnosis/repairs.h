@@ -17,6 +17,17 @@ struct Repair {
   std::vector<std::size_t> runs;  // in which it was made
 };
 
+/// A mistake with a unit that a kind of set is prone to: the numbers of the file, times `factor` and plus `offset`, in
+/// the unit of the column, are right.
+struct WrongUnit {
+  std::string column;
+  double factor = 1.0;
+  double offset = 0.0;
+  std::string text;  // after the column's name
+};
+/// Those of columns that several kinds have: speed, load, pressure and temperatures.
+std::vector<WrongUnit> list_common_wrong_units();
+
 /// Which mistakes are tried: where a column stands still, a factor may fit it by chance.
 enum class Mistakes { kAll, kExchanges };
 

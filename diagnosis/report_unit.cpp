@@ -1,11 +1,13 @@
 #include "diagnosis/report_unit.h"
 
+#include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 
 ReportUnit find_report_unit(const PreparedSet& set, const std::string& channel) {
-  if (channel == "drum_torque_Nm") return {"N", set.context().surface_curvature_per_m};
+  const ForceChannel force = set.kind().force_channel(set.source());
+  if (channel == force.name) return {"N", force.newtons_per_SI};
   const Unit unit = unit_of_key(channel);
   return {unit.symbol, 1.0 / unit.factor};
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/plausibility.h"
 #include "diagnosis/repairs.h"
 #include "diagnosis/tire_checks.h"
@@ -28,13 +29,6 @@ bool has_samples(const MeasuredRun& run, const std::string& channel) {
 }
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
-
-void require_drum(const MeasurementSet& set) {
-  if (set.kind == scenarios::SetKind::kDrum) return;
-  throw InputError({fmt::format("the set is of kind {}, which is not diagnosed yet",
-                                set.kind == scenarios::SetKind::kDyno ? "dyno" : "road"),
-                    set.path, 0, "", "", "a set measured on a drum", ""});
-}
 
 void require_noise(const MeasurementSet& set) {
   for (const auto& [channel, sensor] : set.sensors) {
@@ -72,18 +66,19 @@ void check_samples(const MeasurementSet& set, SetChecks& checks) {
                     "samples of one of " + join(channels), ""});
 }
 
-/// Torque that never settles cannot be compared.
-void check_torque(const MeasurementSet& set, SetChecks& checks) {
+/// A force that never settles cannot be compared.
+void check_force(const MeasurementSet& set, SetChecks& checks) {
+  const ForceChannel force = kind_of(set).force_channel(set);
   std::vector<std::size_t> without;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
-    const bool measured = has_samples(set.runs[r], "drum_torque_Nm");
-    if (measured && find_compared_rows(set.runs[r], "drum_torque_Nm").empty()) without.push_back(r);
+    const bool measured = has_samples(set.runs[r], force.name);
+    if (measured && find_compared_rows(set, set.runs[r], force.name).empty()) without.push_back(r);
   }
   if (without.empty()) return;
   checks.warnings.push_back(fmt::format(
-      "no torque of {} is compared: all of it is slower than {:.0f} km/h or within {:.0f} s of a change of load or "
+      "no {} of {} is compared: all of it is slower than {:.0f} km/h or within {:.0f} s of a change of load or "
       "acceleration",
-      name_runs(set, without), identification::kTrustedSpeed_m_s * 3.6, identification::kSettling_s));
+      force.word, name_runs(set, without), identification::kTrustedSpeed_m_s * 3.6, identification::kSettling_s));
 }
 
 /// Whether two columns hold the same numbers, which are not all one number.
@@ -146,7 +141,7 @@ void require_simulated(const MeasurementSet& set, const std::vector<RunMisfit>& 
     if (misfits[r].failure.empty()) continue;
     throw InputError({fmt::format("run '{}' cannot be simulated: {}", set.runs[r].id, misfits[r].failure),
                       set.runs[r].file, 0, "", "",
-                      repair.has_value() ? "it looks as if " + repair->text : "inputs that a drum test can have", ""});
+                      repair.has_value() ? "it looks as if " + repair->text : "inputs that such a test can have", ""});
   }
 }
 
@@ -186,7 +181,7 @@ void check_stuck(const MeasurementSet& set, const Replays& replays, int threads,
 void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
   const std::vector<std::string> channels = scenarios::measured_channels(kept.kind);
   for (const MeasuredRun& run : kept.runs) {
-    const auto is_left = [&run](const std::string& channel) { return !find_compared_rows(run, channel).empty(); };
+    const auto is_left = [&](const std::string& channel) { return !find_compared_rows(kept, run, channel).empty(); };
     if (checks.doubtful.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
   }
   const DoubtfulRows& first = checks.doubtful.front();
@@ -220,11 +215,11 @@ void check_plausibility(const MeasurementSet& kept, const Replays& replays, int 
 }  // namespace
 
 SetChecks check_set(const MeasurementSet& set, int threads) {
-  require_drum(set);
+  kind_of(set);  // throws where the set lacks what its kind needs
   require_noise(set);
   SetChecks checks;
   check_samples(set, checks);
-  check_torque(set, checks);
+  check_force(set, checks);
   check_runs(set, checks);
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);

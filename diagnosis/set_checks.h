@@ -16,14 +16,14 @@ struct SetChecks {
   bool implausible = false;            // columns, units or files cannot be what they are said to be: name no cause
 };
 
-/// Looks at a drum set before it is diagnosed.
+/// Looks at a set before it is diagnosed.
 ///
 /// Warns of runs and channels without samples, one run alone, the same samples in two runs, and what
 /// tire_checks.h says. Marks rows of stuck sensors (stuck_sensors.h). Marks a set implausible when one mistake
 /// with columns or units, undone, takes nine tenths of what is odd in it (repairs.h), or when a channel of a run
 /// lies far outside what uncertain parameters and effects of the catalogue can make (plausibility.h).
 /// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
-/// Errors    InputError: not a drum set; nothing measured; a sensor without any noise; every sensor stuck;
+/// Errors    InputError: nothing measured; a sensor without any noise; every sensor stuck;
 ///           a run that cannot be simulated
 /// Checked   tests/diagnosis/set_checks_test.cpp
 SetChecks check_set(const scenarios::MeasurementSet& set, int threads = 0);

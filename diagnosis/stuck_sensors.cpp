@@ -19,7 +19,7 @@ constexpr double kStuckNoises = 6.0;
 void find_stuck_rows(const MeasurementSet& set, std::size_t r, const std::string& channel,
                      const std::vector<double>& expected, Stuck& stuck) {
   const MeasuredRun& run = set.runs[r];
-  const std::vector<std::size_t> rows = find_compared_rows(run, channel);
+  const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
   if (rows.empty()) return;
   const std::vector<double>& measured = run.columns.at(channel);
   const models::SensorParameters& sensor = set.sensors.at(channel);

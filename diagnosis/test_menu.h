@@ -1,5 +1,5 @@
 #pragma once
-/// Tests of a tire on a drum rig that could be run next, as programs that can be simulated before.
+/// Tests that could be run next, as programs that can be simulated before.
 
 #include <string>
 #include <vector>

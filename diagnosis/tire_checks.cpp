@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/kinds/measurement_kind.h"
 #include "identification/sample_selection.h"
-#include "models/parasitic_loss.h"
 #include "scenarios/assets.h"
 
 namespace rollrig::diagnosis {
@@ -53,15 +53,18 @@ struct Level {
 
 void add_level(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated,
                Level& level) {
-  const double radius_m = 0.5 * set.rig->drum.diameter_m;
+  const MeasurementKind& kind = kind_of(set);
+  const std::string force = kind.force_channel(set).name;
   const double loaded_N = identification::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N;
-  for (const std::size_t row : find_compared_rows(run, "drum_torque_Nm")) {
+  for (const std::size_t row : find_compared_rows(set, run, force)) {
     const bool steady =
         std::abs(identification::find_acceleration(run, row)) <= identification::kSteadyAcceleration_m_s2;
     if (!steady || run.columns.at("load_N")[row] <= loaded_N) continue;
-    const double parasitic_N = models::calc_parasitic_N(set.rig->parasitic, run.columns.at("speed_km_h")[row]);
-    level.measured_N += run.columns.at("drum_torque_Nm")[row] / radius_m - parasitic_N;
-    level.simulated_N += simulated.channel("drum_torque_Nm")[row] / radius_m - parasitic_N;
+    const auto measured_N = kind.find_tire_force_N(set, run, row, run.columns.at(force)[row]);
+    const auto simulated_N = kind.find_tire_force_N(set, run, row, simulated.channel(force)[row]);
+    if (!measured_N.has_value() || !simulated_N.has_value()) return;
+    level.measured_N += *measured_N;
+    level.simulated_N += *simulated_N;
   }
 }
 

@@ -1,0 +1,104 @@
+/// Sets measured on a drum rig: one tire, load and speed set, the motor's torque measured.
+#include <cmath>
+
+#include "diagnosis/kinds/kinds.h"
+#include "identification/sample_selection.h"
+#include "models/parasitic_loss.h"
+#include "scenarios/drum_conditions.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+class DrumReplay : public RunReplay {
+ public:
+  explicit DrumReplay(const MeasuredRun& run) : program_(identification::make_drum_replay(run)) {}
+
+  sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
+                                  rigs::Detail detail) const override {
+    return identification::replay_drum_run<double>(set, run, program_, corner, detail);
+  }
+  sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
+                               rigs::Detail detail) const override {
+    return identification::replay_drum_run<Jet>(set, run, program_, corner, detail);
+  }
+
+ private:
+  sim::Program program_;
+};
+
+class DrumKind : public MeasurementKind {
+ public:
+  models::RigKind rig_kind() const override { return models::RigKind::kDrum; }
+
+  models::Context<double> make_context(const MeasurementSet& set) const override {
+    return rigs::make_context(set.tire, *set.rig, set.baseline);
+  }
+
+  std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
+    return std::make_shared<DrumReplay>(run);
+  }
+
+  ForceChannel force_channel(const MeasurementSet& set) const override {
+    return {"drum_torque_Nm", "torque", 2.0 / set.rig->drum.diameter_m};
+  }
+
+  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
+    return identification::find_compared_rows(run, channel);
+  }
+
+  std::vector<RunPhase> find_phases(const MeasurementSet& set, const MeasuredRun& run) const override {
+    return diagnosis::find_phases(run, skim_limit_N(set));
+  }
+
+  double skim_limit_N(const MeasurementSet& set) const override { return scenarios::calc_skim_limit_N(*set.rig); }
+
+  Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
+    Uncertainties uncertainties;
+    add_loss_law(set.tire, context, uncertainties);
+    add_heat_balance(set.tire, set.rig->name, context, uncertainties);
+    add_parasitic_loss(*set.rig, uncertainties);
+    return uncertainties;
+  }
+
+  std::vector<NamedPush> pushes() const override {
+    return {{"drum torque", Push::kForce}, {"tire loss", Push::kTireLoss}, {"tire heat", Push::kTireHeat},
+            {"gas heat", Push::kGasHeat},  {"gas mass", Push::kGasMass},   {"boundary", Push::kBoundary}};
+  }
+
+  double usual_ambient_K(const MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
+
+  std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_drum_tests(set); }
+
+  double calc_force_tolerance(const MeasurementSet& set, double simulated) const override {
+    constexpr double kForce_N = 20.0;  // Assumed, as kShare: see RunMisfit
+    constexpr double kShare = 0.3;
+    return 0.5 * set.rig->drum.diameter_m * kForce_N + kShare * std::abs(simulated);
+  }
+
+  /// A torque too large by a factor is not among them: bearings of a very cold rig come near it, and it is far outside
+  /// all else anyway.
+  std::vector<WrongUnit> list_wrong_units() const override {
+    std::vector<WrongUnit> wrong = list_common_wrong_units();
+    wrong.push_back({"drum_torque_Nm", 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({"drum_torque_Nm", -1.0, 0.0, "has the other sign: positive drives"});
+    return wrong;
+  }
+
+  std::optional<double> find_tire_force_N(const MeasurementSet& set, const MeasuredRun& run, std::size_t row,
+                                          double torque_Nm) const override {
+    const double radius_m = 0.5 * set.rig->drum.diameter_m;
+    return torque_Nm / radius_m - models::calc_parasitic_N(set.rig->parasitic, run.columns.at("speed_km_h")[row]);
+  }
+};
+
+}  // namespace
+
+const MeasurementKind& drum_kind() {
+  static const DrumKind kind;
+  return kind;
+}
+
+}  // namespace rollrig::diagnosis

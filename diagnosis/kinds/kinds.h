@@ -1,0 +1,12 @@
+#pragma once
+/// The kinds that there are, and their menus of tests. For the files of this folder alone: others ask kind_of().
+
+#include "diagnosis/kinds/measurement_kind.h"
+
+namespace rollrig::diagnosis {
+
+const MeasurementKind& drum_kind();
+
+std::vector<PlannedTest> make_drum_tests(const PreparedSet& set);
+
+}  // namespace rollrig::diagnosis

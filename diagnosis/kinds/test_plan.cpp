@@ -1,0 +1,96 @@
+#include "diagnosis/kinds/test_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/kinds/measurement_kind.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr double kSetUp_h = 0.5;
+constexpr double kSoak_h = 3.0;
+constexpr double kAcceleration_km_h_s = 1.0;
+
+}  // namespace
+
+TestConditions find_test_conditions(const PreparedSet& set) {
+  std::vector<double> pressures_Pa;
+  for (const PreparedRun& run : set.runs()) pressures_Pa.push_back(run.measured.cold_pressure_Pa);
+  std::nth_element(pressures_Pa.begin(), pressures_Pa.begin() + static_cast<std::ptrdiff_t>(pressures_Pa.size() / 2),
+                   pressures_Pa.end());
+  double load_N = 0.0;
+  for (const PreparedRun& run : set.runs()) {
+    const std::vector<double>& loads_N = run.measured.columns.at("load_N");
+    load_N = std::max(load_N, *std::max_element(loads_N.begin(), loads_N.end()));
+  }
+  return {load_N, set.context().skim_load_N, pressures_Pa[pressures_Pa.size() / 2],
+          set.kind().usual_ambient_K(set.source()), set.channels()};
+}
+
+RunPlan::RunPlan(const TestConditions& conditions, double first_km_h)
+    : conditions_(conditions), speed_km_h_(first_km_h) {
+  run_.initial_tire_temperature_K = conditions.ambient_K;
+  run_.cold_pressure_Pa = conditions.pressure_Pa;
+}
+
+RunPlan& RunPlan::roll(double minutes, double load_N, double speed_km_h, bool read) {
+  load_N_ = load_N;
+  read_ = read;
+  const double change_km_h = speed_km_h - speed_km_h_;
+  const double start_km_h = speed_km_h_;
+  const auto ramp = static_cast<int>(std::ceil(std::abs(change_km_h) / kAcceleration_km_h_s / kVirtualRow_s - 1e-9));
+  for (int i = 0; i < ramp; ++i) add_row(start_km_h + change_km_h * i / ramp);
+  const auto steady = static_cast<int>(std::lround(60.0 * minutes / kVirtualRow_s));
+  for (int i = 0; i < steady; ++i) add_row(speed_km_h);
+  speed_km_h_ = speed_km_h;
+  return *this;
+}
+
+RunPlan& RunPlan::at_pressure(double pressure_Pa) {
+  run_.cold_pressure_Pa = pressure_Pa;
+  return *this;
+}
+
+RunPlan& RunPlan::on_surface(double surface_K) {
+  surface_K_ = surface_K;
+  return *this;
+}
+
+scenarios::MeasuredRun RunPlan::finish() {
+  add_row(speed_km_h_);
+  return run_;
+}
+
+void RunPlan::add_row(double speed_km_h) {
+  const bool first = run_.time_s.empty();
+  run_.time_s.push_back(first ? 0.0 : run_.time_s.back() + kVirtualRow_s);
+  run_.columns["speed_km_h"].push_back(speed_km_h / 3.6);
+  run_.columns["load_N"].push_back(load_N_);
+  run_.columns["ambient_degC"].push_back(conditions_.ambient_K);
+  if (surface_K_ > 0.0) run_.columns["surface_temperature_degC"].push_back(surface_K_);
+  for (const std::string& channel : conditions_.channels) {
+    run_.columns[channel].push_back(read_ ? 0.0 : std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+RunPlan begin_warm(const TestConditions& at) {
+  return RunPlan(at, kUsual_km_h).roll(kWarmUp_min, at.load_N, kUsual_km_h, false);
+}
+
+RunPlan begin_cold(const TestConditions& at) { return {at, kUsual_km_h}; }
+
+PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs) {
+  PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false};
+  for (std::size_t i = 0; i < test.runs.size(); ++i) {
+    test.runs[i].id = fmt::format("{}-{}", id, i + 1);
+    test.runs[i].session = "next";
+    test.hours += test.runs[i].time_s.back() / 3600.0;
+  }
+  return test;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,58 @@
+#pragma once
+/// Runs of a menu of tests, written stage by stage.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "diagnosis/test_menu.h"
+
+namespace rollrig::diagnosis {
+
+constexpr double kUsual_km_h = 80.0;  // ISO 28580
+constexpr double kWarmUp_min = 30.0;  // the source's warm-up
+
+/// What does not change from test to test.
+struct TestConditions {
+  double load_N = 0.0;
+  double skim_N = 0.0;
+  double pressure_Pa = 0.0;
+  double ambient_K = 0.0;
+  std::vector<std::string> channels;
+};
+
+/// The set's highest load, on which the tire is known to run, its middle pressure, and the ambient in which its runs
+/// began on average.
+TestConditions find_test_conditions(const PreparedSet& set);
+
+/// A run from soaked at the ambient.
+class RunPlan {
+ public:
+  RunPlan(const TestConditions& conditions, double first_km_h);
+
+  /// Goes to a speed at once with the new load, then holds both.
+  RunPlan& roll(double minutes, double load_N, double speed_km_h, bool read = true);
+  RunPlan& stand(double minutes, double load_N, bool read = true) { return roll(minutes, load_N, 0.0, read); }
+  RunPlan& at_pressure(double pressure_Pa);
+  RunPlan& on_surface(double surface_K);
+
+  scenarios::MeasuredRun finish();
+
+ private:
+  void add_row(double speed_km_h);
+
+  TestConditions conditions_;
+  scenarios::MeasuredRun run_;
+  double speed_km_h_;
+  double load_N_ = 0.0;
+  double surface_K_ = 0.0;  // 0: not recorded
+  bool read_ = true;
+};
+
+/// A run on a warm tire: its first half hour at the usual speed is not read.
+RunPlan begin_warm(const TestConditions& at);
+RunPlan begin_cold(const TestConditions& at);
+
+PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs);
+
+}  // namespace rollrig::diagnosis
