@@ -20,6 +20,8 @@ struct DrumConditions {
   double run_up_s = 0.0;
   double window_s = 0.0;
   double margin_s = 0.0;
+  std::optional<double> rest_before_s;  // before the soak, after driving; absent: nothing remembers
+  bool started_warm = false;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -56,8 +58,14 @@ constexpr double kShortestRange_s = 20.0;  // Assumed: shorter stretches of a lo
 /// Source    formats.md: the rig's skim load x 1.5
 double calc_skim_limit_N(const rigs::RigFile& rig);
 
+/// Throws InputError when a load would press the tire flat.
+void check_tire_carries(const RunSpec& spec, const char* key, double load_N);
+
 /// Throws InputError when a load could not be told from a skim test, or would press the tire flat.
 void check_test_load(const RunSpec& spec, const char* key, double load_N);
+
+/// The pressure of the tire's [iso_28580]. Throws InputError when it has none.
+double find_default_pressure_Pa(const RunSpec& spec);
 
 /// Load and skim times of the source's cycles (§3.2.1 items 7 and 8).
 struct CycleTimes {

@@ -56,6 +56,13 @@ void DrumProgram::begin_test(const std::string& set_run_id, double pressure_Pa, 
   change_speed("run-up", conditions_.run_up_s, speed_m_s);
 }
 
+void DrumProgram::begin_test_under(const std::string& set_run_id, double pressure_Pa, double speed_m_s, double load_N) {
+  soak_and_inflate(pressure_Pa);
+  open_set_run(set_run_id);
+  load_N_ = load_N;
+  if (speed_m_s > 0.0) change_speed("run-up", conditions_.run_up_s, speed_m_s);
+}
+
 void DrumProgram::end_test() {
   close_set_run();
   load_N_ = skim_load_N_;
@@ -87,6 +94,14 @@ void DrumProgram::roll(const std::string& name, double duration_s, double load_N
   check_readable(name, duration_s);
   load_N_ = load_N;
   append(name, duration_s, speed_m_s_);
+}
+
+void DrumProgram::follow(const std::string& name, const MeasuredRun& run) {
+  sim::Phase phase = make_replay(run).phases.front();
+  phase.name = name;
+  program_.phases.push_back(std::move(phase));
+  speed_m_s_ = run.columns.at("speed_km_h").back();
+  load_N_ = run.columns.at("load_N").back();
 }
 
 void DrumProgram::end_at_tire_temperature(double temperature_K) {

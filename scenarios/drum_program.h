@@ -6,6 +6,7 @@
 
 #include "rigs/drum_channels.h"
 #include "scenarios/drum_conditions.h"
+#include "scenarios/measurement_set.h"
 #include "sim/program.h"
 
 namespace rollrig::scenarios {
@@ -19,12 +20,16 @@ class DrumProgram {
   void soak_and_inflate(double pressure_Pa);
   /// Soak, inflation, and run-up to test speed at skim load: the start of one run of a measurement set.
   void begin_test(const std::string& set_run_id, double pressure_Pa, double speed_m_s);
+  /// The same, run up under a load of its own; without run-up where the test starts at standstill.
+  void begin_test_under(const std::string& set_run_id, double pressure_Pa, double speed_m_s, double load_N);
   /// Back to standstill at skim load.
   void end_test();
   /// Speed changes evenly, load stays.
   void change_speed(const std::string& name, double duration_s, double speed_m_s);
   /// Constant speed under a load. Throws InputError when the phase is too short to be found and averaged.
   void roll(const std::string& name, double duration_s, double load_N);
+  /// Follows given inputs, `run`'s first row being now: load held from row to row, all else linear (formats.md).
+  void follow(const std::string& name, const MeasuredRun& run);
   /// Ends the phase appended last when the tire reaches a temperature from below.
   void end_at_tire_temperature(double temperature_K);
   /// The time at this point of the program becomes 0; the first call counts.

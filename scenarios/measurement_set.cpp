@@ -38,6 +38,7 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) 
   run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
   run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
   run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
+  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
   reader.finish();
   return run;
 }
@@ -144,6 +145,15 @@ std::vector<std::string> measured_channels(SetKind kind) {
 
 SetKind kind_of(rigs::RigKind kind) { return kind == rigs::RigKind::kDrum ? SetKind::kDrum : SetKind::kDyno; }
 
+MeasuredRun read_drum_inputs(const std::string& file) {
+  MeasuredRun run;
+  run.id = fs::path(file).stem().string();
+  run.file = file;
+  read_run_columns(columns_of(SetKind::kDrum), run);
+  for (const std::string& channel : measured_channels(SetKind::kDrum)) run.columns.erase(channel);
+  return run;
+}
+
 MeasurementSet read_measurement_set(const std::string& folder) {
   MeasurementSet set;
   set.path = set_file_of(folder);
@@ -218,8 +228,6 @@ sim::Program make_replay(const MeasuredRun& run) {
   return program;
 }
 
-namespace {
-
 std::string write_sensors(const models::SensorSet& sensors) {
   std::string text;
   for (const auto& [channel, sensor] : sensors) {
@@ -232,6 +240,8 @@ std::string write_sensors(const models::SensorSet& sensors) {
   }
   return text;
 }
+
+namespace {
 
 bool is_measured(const std::string& column) {
   const std::vector<std::string> measured = measured_channels(SetKind::kDrum);
@@ -287,6 +297,9 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
         "\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"session\"\n"
         "initial_tire_temperature_degC = {1:.10g}\ncold_pressure_kPa = {2:.10g}\n",
         run.id, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3);
+    if (run.rest_before_s.has_value()) set += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_s / 60.0);
+    if (run.started_warm) set += "tire_state = \"warm\"\n";
+    if (run.force_at_standstill) set += "force_at_standstill = true\n";
     files[run.id + ".csv"] = write_run_csv(outcome.recording, run, columns);
   }
   files["set.toml"] = set;

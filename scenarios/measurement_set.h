@@ -32,6 +32,8 @@ struct MeasuredRun {
   double cold_pressure_Pa = 0.0;
   std::optional<double> rest_before_s;
   bool started_warm = false;
+  bool force_at_standstill =
+      false;  // the force read while the surface stands, nothing holding it, is the sensor's zero
   std::vector<double> time_s;
   std::map<std::string, std::vector<double>> columns;  // SI by column name; NaN where there is no sample
 
@@ -53,12 +55,19 @@ struct MeasurementSet {
 /// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
 MeasurementSet read_measurement_set(const std::string& folder);
 
+/// The inputs of a drum run from a run file of a set, or from one with the given columns alone; measured columns are
+/// not kept. Throws InputError.
+MeasuredRun read_drum_inputs(const std::string& file);
+
 /// The kind of a rig's sets.
 SetKind kind_of(rigs::RigKind kind);
 
 /// A program that follows the recorded inputs of a drum run: speed, ambient and surface linear between
 /// rows, load held from row to row. Rows are its samples.
 sim::Program make_replay(const MeasuredRun& run);
+
+/// Tables [sensors.<channel>] of sets and run files.
+std::string write_sensors(const models::SensorSet& sensors);
 
 /// The files of a set with the runs that `outcome` marks: set.toml, tire.toml, rig.toml and one CSV a run.
 std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,

@@ -58,6 +58,9 @@ struct SetRun {
   double end_s = 0.0;
   double initial_tire_temperature_K = 0.0;
   double cold_pressure_Pa = 0.0;  // gauge, at that temperature
+  std::optional<double> rest_before_s;
+  bool started_warm = false;
+  bool force_at_standstill = false;
 };
 
 struct Outcome {

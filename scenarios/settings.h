@@ -11,6 +11,12 @@
 
 namespace rollrig::scenarios {
 
+/// A path in a file, relative to that file's folder; on the command line relative to the working folder.
+struct FilePath {
+  std::string path;  // as it is opened
+};
+void read_member(TableReader& reader, const Field& field, FilePath& member);
+
 namespace detail {
 
 inline std::string show_in_unit(const Field& field, double si_value) {
@@ -25,6 +31,7 @@ inline std::string show_default(const Field& field, const int&) {
 inline std::string show_default(const Field& field, const std::optional<double>& member) {
   return member.has_value() ? show_in_unit(field, *member) : "see text";
 }
+inline std::string show_default(const Field&, const FilePath&) { return "required"; }
 inline std::string show_default(const Field&, const Choice& member) {
   return member.value.empty() ? "see text" : member.value;
 }
@@ -38,6 +45,7 @@ template <class Member>
 std::string show_range(const Field& field, const Member&) {
   return field.range.to_string();
 }
+inline std::string show_range(const Field&, const FilePath&) { return "path"; }
 inline std::string show_range(const Field&, const Choice& member) {
   return boost::algorithm::join(member.allowed, " or ");
 }
@@ -48,6 +56,7 @@ inline Json to_json(const Field& field, const std::optional<double>& member) {
   return member.has_value() ? Json(unit_of_key(field.key).from_si(*member)) : Json();
 }
 inline Json to_json(const Field&, const Choice& member) { return member.value; }
+inline Json to_json(const Field&, const FilePath& member) { return member.path; }
 inline Json to_json(const Field& field, const std::vector<double>& member) {
   Json list = Json::array();
   for (const double item : member) list.push_back(unit_of_key(field.key).from_si(item));
