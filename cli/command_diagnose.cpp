@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/explain.h"
 #include "diagnosis/fleet.h"
+#include "diagnosis/plan_files.h"
 #include "diagnosis/summary.h"
 #include "models/effect.h"
 #include "sim/core/error.h"
@@ -21,6 +23,8 @@ struct Options {
   std::string set;
   std::string explain;
   std::string json;
+  std::string plan;
+  bool force = false;
   std::vector<std::string> without;
   std::vector<std::string> only;
   int threads = 0;
@@ -47,6 +51,9 @@ void require_consistent(const Options& options) {
     throw usage(options.set.empty() ? "nothing to diagnose or to explain" : "a set and --explain exclude each other",
                 options.set.empty() ? "set" : "--explain", options.explain,
                 "a folder with a measurement set, or --explain and the name of an effect");
+  }
+  if (!options.plan.empty() && options.set.empty()) {
+    throw usage("there is no test to plan without a set", "--plan", options.plan, "a set beside it");
   }
   require_effects("--without", options.without);
   require_effects("--only", options.only);
@@ -83,6 +90,15 @@ int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
   return failed ? kRunFailed : kDone;
 }
 
+/// Writes the first proposed test into the folder. What it says to a person: where it is, or that there is none.
+std::string write_plan(const scenarios::MeasurementSet& set, const diagnosis::Diagnosis& result, OutputFolder& folder) {
+  const auto files = diagnosis::write_plan(set, result);
+  if (files.empty()) return fmt::format("no test is proposed, so no plan is written to {}/\n", folder.path());
+  for (const auto& [name, content] : files) folder.add(name, content);
+  folder.commit();
+  return fmt::format("next test written to {0}/: {0}/plan.txt says how\n", folder.path());
+}
+
 int diagnose_command(const Options& options) {
   require_consistent(options);
   if (!options.explain.empty()) {
@@ -90,12 +106,24 @@ int diagnose_command(const Options& options) {
     return kDone;
   }
   const std::vector<std::string> sets = diagnosis::find_sets(options.set);
-  if (!sets.empty()) return diagnose_all(options, sets);
+  if (!sets.empty()) {
+    if (!options.plan.empty()) {
+      throw InputError({"a plan is made for one set", "command line", 0, "--plan", options.plan,
+                        "the folder of one set, without sets below it", ""});
+    }
+    return diagnose_all(options, sets);
+  }
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   require_writable(options.json);
+  std::optional<OutputFolder> plan;
+  if (!options.plan.empty()) {
+    diagnosis::require_plannable(set, options.plan);
+    plan.emplace(options.plan, options.force);
+  }
   const auto result =
       with_progress(options, [&set](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose(set, how); });
-  give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result));
+  const std::string planned = plan.has_value() ? write_plan(set, result, *plan) : "";
+  give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result) + planned);
   return kDone;
 }
 
@@ -110,6 +138,9 @@ void add_diagnose_command(CLI::App& app, Action& action) {
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
                       "which test splits them; also none, unknown");
   command->add_option("--json", options->json, "File for the diagnosis, - for standard output");
+  command->add_option("--plan", options->plan,
+                      "Folder for the first proposed next test as run files, with a plan for a person");
+  command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
   command->add_option("--without", options->without, "Effects left out of the race: a,b")->delimiter(',');
   command->add_option("--only", options->only, "The only effects in the race: a,b")->delimiter(',');
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")

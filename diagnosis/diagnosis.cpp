@@ -8,6 +8,7 @@
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/locations.h"
 #include "diagnosis/next_test.h"
+#include "diagnosis/open_questions.h"
 #include "diagnosis/race.h"
 #include "diagnosis/set_checks.h"
 #include "diagnosis/verdict.h"
@@ -80,7 +81,11 @@ Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOpt
   diagnosis.where = find_locations(set, remainder, race.null);
   diagnosis.balance = find_balance(set, base, remainder, race.null, options.threads);
   report(0.8, "next test");
-  if (!checks.implausible) diagnosis.next_test = propose_tests(set, base, remainder, race, options.threads);
+  if (!checks.implausible) {
+    const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, remainder, race, options.threads);
+    diagnosis.next_test = propose_tests(set, base, open, options.threads);
+    diagnosis.next_sensor = propose_sensors(set, base, open);
+  }
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);

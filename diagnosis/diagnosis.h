@@ -86,6 +86,19 @@ struct NextTest {
   std::string test;
   std::vector<std::string> splits;
   double expected_bits_per_hour = 0.0;
+  double hours = 0.0;                             // of the rig
+  bool soaked = false;                            // every run starts after a soak
+  bool force_at_standstill = false;
+  std::vector<std::string> by_hand = {};          // what is done at the rig beside the runs, a sentence each
+  std::vector<scenarios::MeasuredRun> runs = {};  // their inputs
+};
+
+/// A sensor that the rig has not, and what it would add to an ordinary run.
+struct NextSensor {
+  std::string sensor;
+  std::vector<std::string> splits;  // beyond what the run splits without it
+  double expected_bits = 0.0;       // likewise
+  double hours = 0.0;               // to fit it
 };
 
 struct Diagnosis {
@@ -97,6 +110,7 @@ struct Diagnosis {
   std::vector<Location> where;  // the largest share first
   std::vector<BalanceShare> balance;
   std::vector<NextTest> next_test;
+  std::vector<NextSensor> next_sensor;
   std::vector<std::string> not_excluded;  // effects that this set would not show
   std::vector<std::string> warnings;      // about the data, a sentence each
 };

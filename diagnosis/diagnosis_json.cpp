@@ -82,8 +82,16 @@ Json make_diagnosis_json(const Diagnosis& diagnosis) {
     return {{"name", share.name}, {"share_percent", number(share.share_percent)}};
   };
   const auto make_next_test = [](const NextTest& next) -> Json {
-    return {
-        {"test", next.test}, {"splits", next.splits}, {"expected_bits_per_hour", number(next.expected_bits_per_hour)}};
+    return {{"test", next.test},
+            {"splits", next.splits},
+            {"expected_bits_per_hour", number(next.expected_bits_per_hour)},
+            {"hours", number(next.hours)}};
+  };
+  const auto make_next_sensor = [](const NextSensor& next) -> Json {
+    return {{"sensor", next.sensor},
+            {"splits", next.splits},
+            {"expected_bits", number(next.expected_bits)},
+            {"hours", number(next.hours)}};
   };
   return {{"format", "rollrig-diagnosis/1"},
           {"set", diagnosis.set},
@@ -94,6 +102,7 @@ Json make_diagnosis_json(const Diagnosis& diagnosis) {
           {"where", list(diagnosis.where, make_location)},
           {"balance", list(diagnosis.balance, make_balance)},
           {"next_test", list(diagnosis.next_test, make_next_test)},
+          {"next_sensor", list(diagnosis.next_sensor, make_next_sensor)},
           {"not_excluded", diagnosis.not_excluded},
           {"warnings", diagnosis.warnings}};
 }

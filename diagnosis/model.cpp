@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/rig_sensors.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
@@ -25,18 +26,6 @@ Jet make_scalar<Jet>(double value, double derivative, std::size_t column) {
 void store_derivatives(double, RowMatrix*, std::size_t, std::size_t, std::size_t) {}
 void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::size_t first, std::size_t count) {
   for (std::size_t c = 0; c < count; ++c) (*out)(at(row), at(first + c)) = value.v[at(c)];
-}
-
-/// A channel of a recording. A rim that the hypothesis knows nothing of takes no heat from the tire: it is as warm as
-/// the air.
-template <class S>
-std::vector<S> take_channel(const sim::Recording<S>& recording, const scenarios::MeasuredRun& run,
-                            const std::string& name) {
-  const bool has = std::any_of(recording.channels.begin(), recording.channels.end(),
-                               [&](const sim::Channel& channel) { return channel.name == name; });
-  if (has || name != kRimTemperature) return recording.channel(name);
-  const std::vector<double>& ambient_K = run.columns.at("ambient_degC");
-  return {ambient_K.begin(), ambient_K.end()};
 }
 
 }  // namespace
@@ -97,7 +86,7 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   sim::Recording<S> recording;
   try {
     recording = run.replay->simulate(set_.source(), run.measured, corner,
-                                     set_.extra().rim_thermocouple ? rigs::Detail::kFull : rigs::Detail::kMeasured);
+                                     set_.extra().sensors.empty() ? rigs::Detail::kMeasured : rigs::Detail::kFull);
   } catch (const RunFailure&) {
     return false;
   }
@@ -105,7 +94,8 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
       std::min<std::size_t>(kJetWidth, parameters.size() - std::min(first_column, parameters.size()));
   for (const Series& series : set_.series()) {
     if (series.run != r) continue;
-    const std::vector<S> simulated = take_channel(recording, run.measured, set_.channels()[series.channel]);
+    const std::vector<S> simulated =
+        read_channel(set_, run.measured, corner, recording, set_.channels()[series.channel]);
     for (std::size_t k = 0; k < series.size(); ++k) {
       const S mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
       if (!std::isfinite(value_of(mean))) return false;

@@ -3,7 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
+#include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/rig_sensors.h"
 #include "diagnosis/verdict.h"
 #include "sim/core/parallel.h"
 
@@ -37,9 +41,7 @@ scenarios::MeasurementSet make_virtual_set(const PreparedSet& set, const Planned
   made.runs = test.runs;
   const double samples = std::max(1.0, kVirtualRow_s / find_sample_interval_s(set));
   for (const auto& [channel, sensor] : set.source().sensors) made.sensors[channel] = average_sensor(sensor, samples);
-  // Assumed: thermocouple good for 0.1 K; hub bearings and radiation keep a rim that takes no heat within 2 K of the
-  // air.
-  if (test.extra.rim_thermocouple) made.sensors[kRimTemperature] = {2.0, 0.05, 60.0, 0.1, 0.0};
+  for (const std::string& channel : test.extra.sensors) made.sensors[channel] = find_rig_sensor(channel).error;
   return made;
 }
 
@@ -136,13 +138,17 @@ std::vector<PredictedOutcome> reduce(const std::vector<Prediction>& predictions,
   return outcomes;
 }
 
-}  // namespace
+/// All hypotheses on a test, whitened: a row for each block mean, the clocks' difference last.
+struct Whitened {
+  std::vector<Prediction> predictions;  // empty where one cannot be simulated
+  RowMatrix offsets;
+  std::vector<std::string> channels;  // of each row; empty for the clocks
+};
 
-std::vector<PredictedOutcome> predict_outcomes(const PreparedSet& set,
-                                               const std::vector<identification::FreeParameter>& base,
-                                               const std::vector<OpenHypothesis>& open, const PlannedTest& test) {
+Whitened predict(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                 const std::vector<OpenHypothesis>& open, const PlannedTest& test) {
   const PreparedSet virtual_set(make_virtual_set(set, test), test.extra);
-  std::vector<Prediction> predictions;
+  Whitened whitened;
   for (const OpenHypothesis& one : open) {
     const Model model(virtual_set, base, one.hypothesis);
     Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
@@ -151,30 +157,66 @@ std::vector<PredictedOutcome> predict_outcomes(const PreparedSet& set,
     RowMatrix derivatives;
     if (!model.simulate(unknowns, 1, prediction.mean, &derivatives)) return {};
     prediction.spread = derivatives * one.spread;
-    predictions.push_back(std::move(prediction));
+    whitened.predictions.push_back(std::move(prediction));
   }
   const Remainder remainder(virtual_set);
-  const Amplitudes amplitudes = find_model_error(virtual_set, predictions);
-  RowMatrix offsets = make_offsets(virtual_set);
+  const Amplitudes amplitudes = find_model_error(virtual_set, whitened.predictions);
+  whitened.offsets = make_offsets(virtual_set);
   const auto whiten_fully = [&](auto& columns) {
     whiten(virtual_set, columns);
     remainder.whiten(amplitudes, columns);
   };
-  whiten_fully(offsets);
+  whiten_fully(whitened.offsets);
+  for (const Series& series : virtual_set.series()) {
+    whitened.channels.insert(whitened.channels.end(), series.size(), virtual_set.channels()[series.channel]);
+  }
   for (std::size_t i = 0; i < open.size(); ++i) {
-    whiten_fully(predictions[i].mean);
-    whiten_fully(predictions[i].spread);
+    whiten_fully(whitened.predictions[i].mean);
+    whiten_fully(whitened.predictions[i].spread);
     if (test.clock_pulse) {
       const Model model(virtual_set, base, open[i].hypothesis);
-      add_clock_reading(model, open[i], find_sample_interval_s(set), predictions[i]);
+      add_clock_reading(model, open[i], find_sample_interval_s(set), whitened.predictions[i]);
     }
-    predictions[i].spread = compress(predictions[i].spread);
   }
   if (test.clock_pulse) {
-    offsets.conservativeResize(offsets.rows() + 1, Eigen::NoChange);
-    offsets.bottomRows(1).setZero();
+    whitened.channels.emplace_back();
+    whitened.offsets.conservativeResize(whitened.offsets.rows() + 1, Eigen::NoChange);
+    whitened.offsets.bottomRows(1).setZero();
   }
+  return whitened;
+}
+
+/// Outcomes as far as the channels of `wanted` show them. Noise and model error of a channel do not depend on another,
+/// so that whitened rows may be left out.
+std::vector<PredictedOutcome> find_outcomes(const Whitened& whitened,
+                                            const std::function<bool(const std::string&)>& wanted) {
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < whitened.channels.size(); ++i) {
+    if (wanted(whitened.channels[i])) rows.push_back(at(i));
+  }
+  std::vector<Prediction> predictions;
+  for (const Prediction& one : whitened.predictions) {
+    Prediction kept{Eigen::VectorXd(at(rows.size())), RowMatrix(at(rows.size()), one.spread.cols())};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      kept.mean[at(i)] = one.mean[rows[i]];
+      kept.spread.row(at(i)) = one.spread.row(rows[i]);
+    }
+    kept.spread = compress(kept.spread);
+    predictions.push_back(std::move(kept));
+  }
+  RowMatrix offsets(at(rows.size()), whitened.offsets.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i) offsets.row(at(i)) = whitened.offsets.row(rows[i]);
   return reduce(predictions, offsets);
+}
+
+}  // namespace
+
+std::vector<PredictedOutcome> predict_outcomes(const PreparedSet& set,
+                                               const std::vector<identification::FreeParameter>& base,
+                                               const std::vector<OpenHypothesis>& open, const PlannedTest& test) {
+  const Whitened whitened = predict(set, base, open, test);
+  if (whitened.predictions.empty()) return {};
+  return find_outcomes(whitened, [](const std::string&) { return true; });
 }
 
 namespace {
@@ -185,27 +227,43 @@ bool are_told_apart(const PredictedOutcome& a, const PredictedOutcome& b) {
   return 4.0 * calc_overlap_distance_nats(a, b) >= kToldApart_nats;
 }
 
+/// What a test splits.
+struct Splits {
+  std::vector<std::string> effects;
+  bool likeliest = false;  // tells two of the likeliest hypotheses apart
+};
+
 /// Effects in one hypothesis of a pair and not in the other, of all pairs of a likeliest hypothesis and any other that
 /// are told apart.
-void find_splits(const std::vector<OpenHypothesis>& open, const std::vector<PredictedOutcome>& outcomes,
-                 JudgedTest& judged) {
+Splits find_splits(const std::vector<OpenHypothesis>& open,
+                   const std::function<bool(std::size_t, std::size_t)>& are_apart) {
+  Splits splits;
   const auto add = [&](const Hypothesis& in, const Hypothesis& not_in) {
     for (const ActingEffect& on : in.effects) {
       const std::string& id = on.effect->info.id;
-      const bool known = std::find(judged.splits.begin(), judged.splits.end(), id) != judged.splits.end();
-      if (!known && !not_in.contains(*on.effect)) judged.splits.push_back(id);
+      const bool known = std::find(splits.effects.begin(), splits.effects.end(), id) != splits.effects.end();
+      if (!known && !not_in.contains(*on.effect)) splits.effects.push_back(id);
     }
   };
   const auto is_likeliest = [&](std::size_t i) { return open[i].probability >= open.front().probability; };
   for (std::size_t i = 0; i < open.size() && is_likeliest(i); ++i) {
     for (std::size_t j = i + 1; j < open.size(); ++j) {
-      if (!are_told_apart(outcomes[i], outcomes[j])) continue;
+      if (!are_apart(i, j)) continue;
       add(open[i].hypothesis, open[j].hypothesis);
       add(open[j].hypothesis, open[i].hypothesis);
-      judged.splits_likeliest = judged.splits_likeliest || is_likeliest(j);
+      splits.likeliest = splits.likeliest || is_likeliest(j);
     }
   }
+  return splits;
 }
+
+std::vector<double> list_probabilities(const std::vector<OpenHypothesis>& open) {
+  std::vector<double> probabilities;
+  for (const OpenHypothesis& one : open) probabilities.push_back(one.probability);
+  return probabilities;
+}
+
+constexpr double kWorthwhile_bits = 0.01;
 
 }  // namespace
 
@@ -213,22 +271,22 @@ std::vector<JudgedTest> judge_tests(const PreparedSet& set, const std::vector<id
                                     const std::vector<OpenHypothesis>& open, int threads) {
   std::vector<JudgedTest> judged;
   for (PlannedTest& test : make_test_menu(set)) judged.push_back({std::move(test), 0.0, {}, false});
-  std::vector<double> probabilities;
-  for (const OpenHypothesis& one : open) probabilities.push_back(one.probability);
+  const std::vector<double> probabilities = list_probabilities(open);
   parallel_for(judged.size(), threads, [&](std::size_t i) {
     const std::vector<PredictedOutcome> outcomes = predict_outcomes(set, base, open, judged[i].test);
     if (outcomes.empty()) return;
     judged[i].bits = calc_information_bits(probabilities, outcomes);
-    find_splits(open, outcomes, judged[i]);
+    const Splits splits =
+        find_splits(open, [&](std::size_t a, std::size_t b) { return are_told_apart(outcomes[a], outcomes[b]); });
+    judged[i].splits = splits.effects;
+    judged[i].splits_likeliest = splits.likeliest;
   });
   return judged;
 }
 
 std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                                    const Remainder& remainder, const Race& race, int threads) {
+                                    const std::vector<OpenHypothesis>& open, int threads) {
   constexpr std::size_t kProposed = 3;
-  constexpr double kWorthwhile_bits = 0.01;
-  const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, remainder, race, threads);
   if (open.size() < 2) return {};
   std::vector<JudgedTest> judged = judge_tests(set, base, open, threads);
   std::stable_sort(judged.begin(), judged.end(), [](const JudgedTest& a, const JudgedTest& b) {
@@ -238,8 +296,42 @@ std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<id
   std::vector<NextTest> proposed;
   for (const JudgedTest& one : judged) {
     if (proposed.size() == kProposed) break;
-    if (one.bits >= kWorthwhile_bits) proposed.push_back({one.test.description, one.splits, one.bits / one.test.hours});
+    if (one.bits < kWorthwhile_bits) continue;
+    proposed.push_back({one.test.description, one.splits, one.bits / one.test.hours, one.test.hours, one.test.soaked,
+                        one.test.extra.force_at_standstill, one.test.by_hand, one.test.runs});
   }
+  return proposed;
+}
+
+std::vector<NextSensor> propose_sensors(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                        const std::vector<OpenHypothesis>& open) {
+  const std::optional<PlannedTest> run = open.size() < 2 ? std::nullopt : set.kind().make_sensor_test(set);
+  if (!run.has_value()) return {};
+  const Whitened whitened = predict(set, base, open, *run);
+  if (whitened.predictions.empty()) return {};
+  const std::vector<std::string>& added = run->extra.sensors;
+  const auto is_added = [&](const std::string& channel) {
+    return std::find(added.begin(), added.end(), channel) != added.end();
+  };
+  const std::vector<double> probabilities = list_probabilities(open);
+  const std::vector<PredictedOutcome> without =
+      find_outcomes(whitened, [&](const std::string& channel) { return !is_added(channel); });
+  const double bits_without = calc_information_bits(probabilities, without);
+  std::vector<NextSensor> proposed;
+  for (const std::string& sensor : added) {
+    const std::vector<PredictedOutcome> with =
+        find_outcomes(whitened, [&](const std::string& channel) { return channel == sensor || !is_added(channel); });
+    const double bits = calc_information_bits(probabilities, with) - bits_without;
+    if (bits < kWorthwhile_bits) continue;
+    const Splits splits = find_splits(open, [&](std::size_t a, std::size_t b) {
+      return are_told_apart(with[a], with[b]) && !are_told_apart(without[a], without[b]);
+    });
+    const RigSensor& named = find_rig_sensor(sensor);
+    proposed.push_back({named.description, splits.effects, bits, named.hours});
+  }
+  std::stable_sort(proposed.begin(), proposed.end(), [](const NextSensor& a, const NextSensor& b) {
+    return a.expected_bits / a.hours > b.expected_bits / b.hours;
+  });
   return proposed;
 }
 

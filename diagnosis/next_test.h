@@ -36,6 +36,14 @@ std::vector<JudgedTest> judge_tests(const PreparedSet& set, const std::vector<id
 /// Source  design of the method, decision 9
 /// Checked tests/diagnosis/next_test_test.cpp
 std::vector<NextTest> propose_tests(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                                    const Remainder& remainder, const Race& race, int threads);
+                                    const std::vector<OpenHypothesis>& open, int threads);
+
+/// Sensors that the rig could be given, by what they would add to an ordinary run (MeasurementKind::make_sensor_test)
+/// in bits an hour of fitting them, the best first. Left out: those that add less than 0.01 bits.
+/// Equation  bits = I(run with the sensor) - I(the same run without), I as calc_information_bits
+/// Validity  as predict_outcomes; I is a bound from below, and a difference of two bounds is an estimate
+/// Checked   tests/diagnosis/next_test_test.cpp
+std::vector<NextSensor> propose_sensors(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                        const std::vector<OpenHypothesis>& open);
 
 }  // namespace rollrig::diagnosis

@@ -78,12 +78,14 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 }  // namespace
 
 PreparedSet::PreparedSet(const scenarios::MeasurementSet& set, ExtraReadings extra)
-    : extra_(extra), set_(set), kind_(&kind_of(set)) {
+    : extra_(std::move(extra)), set_(set), kind_(&kind_of(set)) {
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   for (scenarios::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
   context_ = kind_->make_context(set_);
   std::vector<std::string> readable = scenarios::measured_channels(set_.kind);
-  if (extra_.rim_thermocouple) readable.push_back(kRimTemperature);
+  for (const std::string& channel : extra_.sensors) {
+    if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
+  }
   for (const std::string& channel : readable) {
     const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(), [&](const scenarios::MeasuredRun& run) {
       return run.has(channel) && has_sample(run.columns.at(channel));
@@ -112,8 +114,8 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   require_sensor_error(set_, name, sensor);
   const std::vector<double>& values = run.measured.columns.at(name);
   std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, name);
-  if (extra_.force_at_standstill && name == kind_->force_channel(set_).name)
-    add_standstill_rows(run.measured, values, rows);
+  const bool reads_zero = extra_.force_at_standstill || run.measured.force_at_standstill;
+  if (reads_zero && name == kind_->force_channel(set_).name) add_standstill_rows(run.measured, values, rows);
   if (rows.empty()) return;
   const std::vector<std::size_t> phases = phase_by_row(run);
   std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);

@@ -52,9 +52,8 @@ struct PreparedRun {
 /// What a test may read beyond a measurement set's columns.
 struct ExtraReadings {
   bool force_at_standstill = false;  // where the surface stands: the sensor's zero
-  bool rim_thermocouple = false;     // channel kRimTemperature
+  std::vector<std::string> sensors;  // channels of sensors that the rig has not (rig_sensors.h)
 };
-constexpr const char* kRimTemperature = "rim_temperature_degC";
 
 /// Runs are put in the order of their ids, so that the order in the file does not matter.
 /// Blocks are 10 s long and end where a phase or an averaging gap does. What depends on the kind of the set

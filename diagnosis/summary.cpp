@@ -232,6 +232,11 @@ std::string format_summary(const Diagnosis& diagnosis) {
   if (!diagnosis.causes.empty()) {
     for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
   }
+  if (!diagnosis.next_sensor.empty()) {
+    const NextSensor& next = diagnosis.next_sensor.front();
+    text += note("Sensor", fmt::format("{} ({:.1g} bits more on an ordinary run, {:.2g} h to fit)", next.sensor,
+                                       next.expected_bits, next.hours));
+  }
   for (const std::string& warning : diagnosis.warnings) text += note("Warning", warning);
   return text;
 }

@@ -16,6 +16,8 @@ struct PlannedTest {
   std::vector<scenarios::MeasuredRun> runs;  // a row every 10 s; in measured columns 0 where read, else NaN
   ExtraReadings extra;
   bool clock_pulse = false;  // an electrical pulse on both loggers, which reads the difference of their clocks
+  bool soaked = false;       // every run starts after a soak, else its first half hour warms the tire
+  std::vector<std::string> by_hand = {};  // what is done at the rig beside the runs, a sentence each
 };
 
 constexpr double kVirtualRow_s = 10.0;  // design: work on 10 s means
@@ -26,8 +28,11 @@ constexpr double kVirtualRow_s = 10.0;  // design: work on 10 s means
 /// ambient 3 h before each run that starts cold (ISO 28580, thermal conditioning of passenger-car tires), and speed
 /// changes go at 1 km/h a second (Assumed). Where a run need not start cold, its first half hour warms the tire and is
 /// not read.
-/// Not in the menu, since no effect of the catalogue needs them yet or no channel shows them: reversed rotation (load
-/// cross-talk), a dead weight on the torque sensor (torque gain), a fan (convection), load cells in straps.
+/// Reversed rotation: what moves the sensor's zero keeps its sign, all else turns over with the rotation; a session of
+/// its own, since the drum was stopped. Weights on a lever: torque that is known (Assumed: to much better than the
+/// sensor).
+/// Not in the menu, since nothing that is recorded would say that they were done: a fan, a coasting drum with known
+/// mass added.
 /// Checked   tests/diagnosis/next_test_test.cpp
 std::vector<PlannedTest> make_test_menu(const PreparedSet& set);
 

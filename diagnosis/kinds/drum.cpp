@@ -71,6 +71,9 @@ class DrumKind : public MeasurementKind {
   double usual_ambient_K(const MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
 
   std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_drum_tests(set); }
+  std::optional<PlannedTest> make_sensor_test(const PreparedSet& set) const override {
+    return make_drum_sensor_test(set);
+  }
 
   double calc_force_tolerance(const MeasurementSet& set, double simulated) const override {
     constexpr double kForce_N = 20.0;  // Assumed, as kShare: see RunMisfit

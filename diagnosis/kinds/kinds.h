@@ -8,5 +8,6 @@ namespace rollrig::diagnosis {
 const MeasurementKind& drum_kind();
 
 std::vector<PlannedTest> make_drum_tests(const PreparedSet& set);
+PlannedTest make_drum_sensor_test(const PreparedSet& set);
 
 }  // namespace rollrig::diagnosis

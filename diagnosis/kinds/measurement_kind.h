@@ -67,6 +67,8 @@ class MeasurementKind {
   // Which tests could come next, and in which air.
   virtual double usual_ambient_K(const scenarios::MeasurementSet& set) const = 0;
   virtual std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const = 0;
+  /// An ordinary run with every sensor that could be added; none where no sensor's reading is predicted.
+  virtual std::optional<PlannedTest> make_sensor_test(const PreparedSet& /*set*/) const { return std::nullopt; }
 
   // Whether a set can be what it says it is.
   /// By how much the force channel may differ from its simulation, in SI units (plausibility.h).

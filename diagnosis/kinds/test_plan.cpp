@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/rig_sensors.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -60,8 +61,20 @@ RunPlan& RunPlan::on_surface(double surface_K) {
   return *this;
 }
 
+RunPlan& RunPlan::hang(double torque_Nm) {
+  hung_Nm_ = torque_Nm;
+  return *this;
+}
+
+RunPlan& RunPlan::reversed() {
+  run_.columns[kReversed] = {};
+  return *this;
+}
+
 scenarios::MeasuredRun RunPlan::finish() {
   add_row(speed_km_h_);
+  const auto hangs = [](double torque_Nm) { return torque_Nm != 0.0; };
+  if (std::any_of(hung_by_row_Nm_.begin(), hung_by_row_Nm_.end(), hangs)) run_.columns[kHungTorque] = hung_by_row_Nm_;
   return run_;
 }
 
@@ -71,6 +84,7 @@ void RunPlan::add_row(double speed_km_h) {
   run_.columns["speed_km_h"].push_back(speed_km_h / 3.6);
   run_.columns["load_N"].push_back(load_N_);
   run_.columns["ambient_degC"].push_back(conditions_.ambient_K);
+  hung_by_row_Nm_.push_back(hung_Nm_);
   if (surface_K_ > 0.0) run_.columns["surface_temperature_degC"].push_back(surface_K_);
   for (const std::string& channel : conditions_.channels) {
     run_.columns[channel].push_back(read_ ? 0.0 : std::numeric_limits<double>::quiet_NaN());
@@ -84,10 +98,10 @@ RunPlan begin_warm(const TestConditions& at) {
 RunPlan begin_cold(const TestConditions& at) { return {at, kUsual_km_h}; }
 
 PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs) {
-  PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false};
+  PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false, soaks > 0};
   for (std::size_t i = 0; i < test.runs.size(); ++i) {
     test.runs[i].id = fmt::format("{}-{}", id, i + 1);
-    test.runs[i].session = "next";
+    test.runs[i].session = test.runs[i].has(kReversed) ? "next, reversed" : "next";
     test.hours += test.runs[i].time_s.back() / 3600.0;
   }
   return test;

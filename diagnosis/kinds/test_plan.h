@@ -35,6 +35,10 @@ class RunPlan {
   RunPlan& stand(double minutes, double load_N, bool read = true) { return roll(minutes, load_N, 0.0, read); }
   RunPlan& at_pressure(double pressure_Pa);
   RunPlan& on_surface(double surface_K);
+  /// From now on a known torque hangs on the drum.
+  RunPlan& hang(double torque_Nm);
+  /// The whole run in the other direction of rotation.
+  RunPlan& reversed();
 
   scenarios::MeasuredRun finish();
 
@@ -46,6 +50,8 @@ class RunPlan {
   double speed_km_h_;
   double load_N_ = 0.0;
   double surface_K_ = 0.0;  // 0: not recorded
+  double hung_Nm_ = 0.0;
+  std::vector<double> hung_by_row_Nm_;
   bool read_ = true;
 };
 

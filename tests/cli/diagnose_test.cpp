@@ -153,3 +153,26 @@ TEST_CASE("the example program diagnoses through the library", "[slow]") {
   CHECK_THAT(missing.err, Contains("error:"));
 }
 #endif
+
+TEST_CASE("a plan is run from anywhere, and what it writes is diagnosed", "[slow]") {
+  const SetFolder made("--set effects.bearing_warmup.fall_per_K=0.02");
+  const std::string race = " --only bearing_warmup,torque_zero_drift";
+  const auto planned = run_program("diagnose set --plan next" + race, made.folder.path());
+  INFO(planned.out << planned.err);
+  REQUIRE(planned.status == 0);
+  CHECK_THAT(planned.out, Contains("plan.txt"));
+  const std::string next = made.folder.file("next");
+  for (const char* name : {"plan.txt", "run-1.toml", "tire.toml", "rig.toml"}) CHECK(fs::exists(next + "/" + name));
+  const TemporaryFolder elsewhere;
+  const auto run =
+      run_program("run " + next + "/run-1.toml --fidelity quasi_static --write-set paper --quiet", elsewhere.path());
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  const auto diagnosed = run_program("diagnose paper --json why.json --quiet" + race, elsewhere.path());
+  INFO(diagnosed.err);
+  REQUIRE(diagnosed.status == 0);
+  CHECK(json::parse(read_file(elsewhere.file("why.json")))["verdict"] == "no_gap");  // nothing was switched on
+  const auto again = run_program("diagnose set --plan next" + race, made.folder.path());
+  CHECK(again.status == 2);  // the folder holds the first plan
+  CHECK_THAT(again.err, Contains("--force"));
+}

@@ -63,7 +63,7 @@ TEST_CASE("without a gap there is no shrinkage, and lists are empty, not absent"
   CHECK(json["gap"]["shrink_percent"].is_null());
   CHECK(json["gap"]["shrink_ci95_percent"].is_null());
   CHECK(json["gap"]["recalibration_percent"].is_null());
-  for (const char* key : {"causes", "where", "balance", "next_test", "not_excluded", "warnings"}) {
+  for (const char* key : {"causes", "where", "balance", "next_test", "next_sensor", "not_excluded", "warnings"}) {
     INFO(key);
     CHECK(json[key] == Json::array());
   }

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "diagnosis/base_parameters.h"
+#include "diagnosis/kinds/kinds.h"
 #include "diagnosis/verdict.h"
 #include "identification/replay.h"
 #include "scenarios/sensor_file.h"
@@ -80,7 +81,7 @@ struct Raced {
   std::vector<JudgedTest> judge(const std::vector<OpenHypothesis>& open) const {
     return judge_tests(set, base, open, 0);
   }
-  std::vector<NextTest> propose(int threads = 0) const { return propose_tests(set, base, remainder, race, threads); }
+  std::vector<NextTest> propose(int threads = 0) const { return propose_tests(set, base, find_open(), threads); }
 
   PreparedSet set;
   std::vector<identification::FreeParameter> base;
@@ -267,6 +268,66 @@ TEST_CASE("without a gap the test is proposed that would show what is not exclud
   const std::vector<NextTest> proposed = raced.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().test == find_judged(raced.judge(open), "fast_steps").test.description);
+}
+
+TEST_CASE("a sensor tells what it is for, and nothing of what it does not see", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const auto find = [](const std::vector<NextSensor>& sensors, const std::string& word) -> const NextSensor* {
+    for (const NextSensor& one : sensors) {
+      if (one.sensor.find(word) != std::string::npos) return &one;
+    }
+    return nullptr;
+  };
+  const auto propose = [&](const std::vector<std::string>& effects) {
+    return propose_sensors(raced.set, raced.base, make_open(raced, effects));
+  };
+  const std::vector<NextSensor> surface = propose({"none", "surface_warming"});
+  REQUIRE(find(surface, "surface") != nullptr);
+  CHECK(surface.front().sensor == find(surface, "surface")->sensor);
+  CHECK(surface.front().expected_bits > 0.0);
+  CHECK(surface.front().expected_bits <= 1.0);
+  const std::vector<NextSensor> rim = propose({"none", "rim_heat"});
+  REQUIRE(find(rim, "rim") != nullptr);
+  CHECK(find(rim, "load cell") == nullptr);
+  CHECK(find(rim, "light barrier") == nullptr);
+  // Bearings or tire: only the spindle's force knows which, among all that could be fitted.
+  const std::vector<NextSensor> bearings = propose({"bearing_warmup", "tire_loss_in_skim"});
+  for (const NextSensor& one : bearings) CHECK(one.expected_bits >= 0.01);
+  CHECK(find(bearings, "surface") == nullptr);
+  CHECK(find(bearings, "gauge") == nullptr);
+  // Nothing but the torque's own zero drifts: no other sensor sees it, but one of the same force does.
+  const std::vector<NextSensor> zero = propose({"none", "torque_zero_drift"});
+  for (const NextSensor& one : zero) CHECK(find({one}, "spindle") != nullptr);
+}
+
+TEST_CASE("identical hypotheses and a lone one leave no sensor worth its hours", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  CHECK(propose_sensors(raced.set, raced.base, make_open(raced, {"rim_heat", "rim_heat"})).empty());
+  CHECK(propose_sensors(raced.set, raced.base, make_open(raced, {"rim_heat"})).empty());
+}
+
+TEST_CASE("a sensor that the rig has is not proposed", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const PlannedTest test = make_drum_sensor_test(raced.set);
+  for (const std::string& channel : raced.set.channels()) {
+    CHECK(std::find(test.extra.sensors.begin(), test.extra.sensors.end(), channel) == test.extra.sensors.end());
+  }
+  CHECK(test.extra.sensors.size() >= 5);
+}
+
+TEST_CASE("weights on a lever read the zero and reversed rotation turns it over", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const auto zeros = raced.judge(make_open(raced, {"none", "torque_zero_drift"}));
+  // The drift is the same with weights on; a tire standing for minutes shows less of it than before and after a run.
+  CHECK(find_judged(zeros, "dead_weights").bits < find_judged(zeros, "standstill_torque").bits);
+  // Friction that goes with load keeps its sign in reversed rotation: turning round does not hide it.
+  const auto friction = raced.judge(make_open(raced, {"none", "bearing_load_friction"}));
+  CHECK(find_judged(friction, "reversed_rotation").bits > 0.05);
+  CHECK(find_judged(friction, "dead_weights").bits < 0.01);
+  const auto inertia = raced.judge(make_open(raced, {"none", "inertia_error"}));
+  const double by_ramps = find_judged(inertia, "ramps").bits;
+  CHECK(by_ramps > find_judged(inertia, "drum_alone").bits);
+  CHECK(by_ramps > 0.1);
 }
 
 TEST_CASE("to repeat a run that could not show an effect tells next to nothing of it", "[fast]") {

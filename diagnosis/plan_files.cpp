@@ -1,0 +1,165 @@
+#include "diagnosis/plan_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/core/csv.h"
+#include "sim/core/text.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+/// Whether a row says nothing that its neighbours do not: the load goes on, all else lies on a straight line.
+bool is_between(const MeasuredRun& run, const std::vector<std::string>& columns, std::size_t row) {
+  constexpr double kSame = 1e-9;
+  const double share = (run.time_s[row] - run.time_s[row - 1]) / (run.time_s[row + 1] - run.time_s[row - 1]);
+  return std::all_of(columns.begin(), columns.end(), [&](const std::string& name) {
+    const std::vector<double>& values = run.columns.at(name);
+    const double before = values[row - 1];
+    const double expected = name == "load_N" ? before : before + share * (values[row + 1] - before);
+    return std::abs(values[row] - expected) <= kSame * (1.0 + std::abs(expected));
+  });
+}
+
+std::string write_inputs(const MeasuredRun& run) {
+  std::vector<std::string> columns{"speed_km_h", "load_N", "ambient_degC"};
+  if (run.has("surface_temperature_degC")) columns.emplace_back("surface_temperature_degC");
+  std::vector<std::string> header{"time_s"};
+  header.insert(header.end(), columns.begin(), columns.end());
+  CsvWriter csv(header);
+  for (std::size_t row = 0; row < run.time_s.size(); ++row) {
+    const bool is_end = row == 0 || row + 1 == run.time_s.size();
+    if (!is_end && is_between(run, columns, row)) continue;
+    csv.begin_row();
+    csv.add(run.time_s[row]);
+    for (const std::string& column : columns) csv.add(unit_of_key(column).from_si(run.columns.at(column)[row]));
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+/// The interval of the set's own rows, as far as a run takes it.
+double find_sample_interval_s(const MeasurementSet& set) {
+  const std::vector<double>& time_s = set.runs.front().time_s;
+  const double mean_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  return std::clamp(std::round(100.0 * mean_s) / 100.0, 0.01, 60.0);
+}
+
+std::string write_run_file(const MeasurementSet& set, const NextTest& test, std::size_t index) {
+  constexpr double kSoak_h = 3.0;  // test_menu.h
+  const MeasuredRun& run = test.runs[index];
+  const bool is_combined = set.baseline == models::Baseline::kCombined;
+  std::string text = fmt::format(
+      "# Run {} of {}: {}\nformat = \"rollrig-run/1\"\nscenario = \"program\"\ntire = \"tire.toml\"\nrig = "
+      "\"rig.toml\"\nbaseline = \"{}\"\nseed = {}\nsample_interval_s = {:.10g}\n",
+      index + 1, test.runs.size(), test.test, is_combined ? "combined" : "constant_rrc", index + 1,
+      find_sample_interval_s(set));
+  text += fmt::format(
+      "\n[settings]\nprogram = \"{}.csv\"\npressure_kPa = {:.10g}\ninitial_tire_temperature_degC = {:.10g}\n"
+      "soak_h = {:.10g}\n",
+      run.id, run.cold_pressure_Pa / 1e3, run.initial_tire_temperature_K - kZeroCelsius_K, test.soaked ? kSoak_h : 0.0);
+  if (test.force_at_standstill) text += "force_at_standstill = \"yes\"\n";
+  return text + scenarios::write_sensors(set.sensors);
+}
+
+/// One stage of a run: what is held, and how long.
+struct Stage {
+  double load_N = 0.0;
+  double speed_m_s = 0.0;
+  double duration_s = 0.0;
+};
+
+/// Stages of constant load and speed; changes of speed count to what follows.
+std::vector<Stage> find_stages(const MeasuredRun& run) {
+  const std::vector<double>& load_N = run.columns.at("load_N");
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  std::vector<Stage> stages;
+  double since_s = run.time_s.front();
+  for (std::size_t row = 0; row + 1 < run.time_s.size(); ++row) {
+    if (speed_m_s[row + 1] != speed_m_s[row]) continue;  // on the way
+    const double end_s = run.time_s[row + 1];
+    const bool goes_on = !stages.empty() && stages.back().load_N == load_N[row] &&
+                         stages.back().speed_m_s == speed_m_s[row] && since_s == run.time_s[row];
+    if (goes_on) {
+      stages.back().duration_s += end_s - since_s;
+    } else {
+      stages.push_back({load_N[row], speed_m_s[row], end_s - since_s});
+    }
+    since_s = end_s;
+  }
+  return stages;
+}
+
+std::string describe_stage(const Stage& stage) {
+  const std::string load = stage.load_N > 0.0 ? fmt::format("{:.0f} N", stage.load_N) : "tire lifted";
+  const std::string speed = stage.speed_m_s > 0.0 ? fmt::format("{:.0f} km/h", 3.6 * stage.speed_m_s) : "standstill";
+  return fmt::format("     {:6.1f} min   {:<11}  {}\n", stage.duration_s / 60.0, speed, load);
+}
+
+std::string describe_run(const NextTest& test, std::size_t index) {
+  const MeasuredRun& run = test.runs[index];
+  const double ambient_degC = run.columns.at("ambient_degC").front() - kZeroCelsius_K;
+  std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
+                                 (run.time_s.back() - run.time_s.front()) / 60.0);
+  text += fmt::format("     {} {:.1f} degC, {:.1f} kPa set at that temperature\n",
+                      test.soaked ? "soak for 3 h at" : "any tire temperature, the first stage warms it; air",
+                      ambient_degC, run.cold_pressure_Pa / 1e3);
+  for (const Stage& stage : find_stages(run)) text += describe_stage(stage);
+  return text;
+}
+
+std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
+  std::string text = fmt::format("Next test for the set '{}'\n\n{}\n", set.name, wrap(test.test, 2));
+  text += test.splits.empty() ? "  Splits: it narrows down what is open\n"
+                              : wrap(fmt::format("Splits: {}", fmt::join(test.splits, ", ")), 2);
+  text += fmt::format("  Takes {:.1f} h of the rig, set-up included; expected {:.2g} bits an hour\n\n", test.hours,
+                      test.expected_bits_per_hour);
+  text += "At the rig, in this order\n\n";
+  for (std::size_t i = 0; i < test.runs.size(); ++i) text += describe_run(test, i) + "\n";
+  for (const std::string& step : test.by_hand) text += wrap(step, 2);
+  if (!test.by_hand.empty()) text += "\n";
+  text += "On paper first: what the simulation without any effect expects, as a set\n\n";
+  for (std::size_t i = 0; i < test.runs.size(); ++i) {
+    text += fmt::format("  rollrig run run-{0}.toml --write-set set-{0}\n", i + 1);
+  }
+  text +=
+      "\n  With --set effects.<id>.<parameter>=... the same with an effect on.\n\nAfterwards: put the runs into the "
+      "set's set.toml and diagnose it again\n";
+  const char* zero = test.force_at_standstill ? "  force_at_standstill = true\n" : "";
+  for (const MeasuredRun& run : test.runs) {
+    text += fmt::format(
+        "\n  [[run]]\n  id = \"{0}\"\n  file = \"{0}.csv\"\n  session = \"{1}\"\n  initial_tire_temperature_degC = "
+        "{2:.10g}  # as it was\n  cold_pressure_kPa = {3:.10g}  # as it was\n{4}",
+        run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> write_plan(const MeasurementSet& set, const Diagnosis& diagnosis) {
+  std::map<std::string, std::string> files;
+  if (diagnosis.next_test.empty()) return files;
+  const NextTest& test = diagnosis.next_test.front();
+  for (std::size_t i = 0; i < test.runs.size(); ++i) {
+    files[fmt::format("run-{}.toml", i + 1)] = write_run_file(set, test, i);
+    files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i]);
+  }
+  files["tire.toml"] = set.tire.content.empty() ? models::write_tire(set.tire) : set.tire.content;
+  files["rig.toml"] = set.rig->content.empty() ? rigs::write_rig(*set.rig) : set.rig->content;
+  files["plan.txt"] = write_plan_text(set, test);
+  return files;
+}
+
+void require_plannable(const MeasurementSet& set, const std::string& folder) {
+  if (set.kind == scenarios::SetKind::kDrum) return;
+  throw InputError({"plans are written for drum sets, and this one is none", set.path, 0, "--plan", folder,
+                    "a set measured on a drum; next_test in --json names the test for any set", ""});
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,119 @@
+#include "diagnosis/plan_files.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/kinds/kinds.h"
+#include "scenarios/run_spec.h"
+#include "scenarios/sensor_file.h"
+#include "tests/diagnosis/hand_made.h"
+#include "tests/support/drum_fixture.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace rollrig;
+using namespace rollrig::diagnosis;
+
+namespace {
+
+/// A set of one short run at 2 Hz; what it measured is of no matter here.
+scenarios::MeasurementSet make_set() {
+  scenarios::MeasurementSet set;
+  set.path = "set.toml";
+  set.name = "campaign";
+  set.tire = tests::read_asset_tire();
+  set.rig = tests::read_asset_rig();
+  set.sensors = scenarios::read_sensor_asset("source");
+  scenarios::MeasuredRun run;
+  run.id = "one";
+  run.session = "day";
+  run.initial_tire_temperature_K = 298.15;
+  run.cold_pressure_Pa = 260e3;
+  for (int i = 0; i < 600; ++i) {
+    run.time_s.push_back(0.5 * i);
+    run.columns["speed_km_h"].push_back(80.0 / 3.6);
+    run.columns["load_N"].push_back(5000.0);
+    run.columns["ambient_degC"].push_back(298.15);
+    for (const auto& [channel, sensor] : set.sensors) run.columns[channel].push_back(300.0);
+  }
+  set.runs = {run};
+  return set;
+}
+
+Diagnosis propose(const PlannedTest& test) {
+  Diagnosis made = tests::make_explained();
+  made.next_test = {{test.description, {"bearing_warmup"}, 0.4, test.hours, test.soaked, test.extra.force_at_standstill, test.by_hand, test.runs}};
+  return made;
+}
+
+/// Value of a column at a time: a load holds, all else goes straight.
+double value_at(const scenarios::MeasuredRun& run, const std::string& column, double time_s) {
+  const auto next = std::upper_bound(run.time_s.begin(), run.time_s.end(), time_s);
+  const auto after = static_cast<std::size_t>(next - run.time_s.begin());
+  const std::vector<double>& values = run.columns.at(column);
+  if (after == run.time_s.size() || column == "load_N") return values[after - 1];
+  const double share = (time_s - run.time_s[after - 1]) / (run.time_s[after] - run.time_s[after - 1]);
+  return values[after - 1] + share * (values[after] - values[after - 1]);
+}
+
+}  // namespace
+
+TEST_CASE("every test of the menu becomes run files whose inputs are the test's", "[fast]") {
+  const scenarios::MeasurementSet set = make_set();
+  for (const PlannedTest& test : make_drum_tests(PreparedSet(set))) {
+    INFO(test.id);
+    const tests::TemporaryFolder folder;
+    const auto files = write_plan(set, propose(test));
+    for (const auto& [name, content] : files) tests::write_file(folder.file(name), content);
+    CHECK(files.size() == 3 + 2 * test.runs.size());
+    for (std::size_t i = 0; i < test.runs.size(); ++i) {
+      const scenarios::MeasuredRun& wanted = test.runs[i];
+      const std::string file = folder.file("run-" + std::to_string(i + 1) + ".toml");
+      const scenarios::RunSpec spec = scenarios::read_run_spec(read_config(file), folder.path());
+      CHECK_NOTHROW(spec.scenario->check(spec));
+      CHECK(spec.scenario->text.name == "program");
+      CHECK(spec.sample_interval_s == Approx(0.5));  // the set's own
+      CHECK(spec.sensors->size() == set.sensors.size());
+      CHECK(spec.tire.name == set.tire.name);
+      const scenarios::MeasuredRun written = scenarios::read_drum_inputs(folder.file(wanted.id + ".csv"));
+      CHECK(written.time_s.size() < 60);  // for a person
+      CHECK(written.has("surface_temperature_degC") == wanted.has("surface_temperature_degC"));
+      double worst = 0.0;
+      for (const std::string column : {"speed_km_h", "load_N", "ambient_degC"}) {
+        for (std::size_t row = 0; row < wanted.time_s.size(); ++row) {
+          worst =
+              std::max(worst, std::abs(value_at(written, column, wanted.time_s[row]) - wanted.columns.at(column)[row]));
+        }
+      }
+      CHECK(worst < 1e-5);
+      CHECK_THAT(files.at("plan.txt"), Catch::Contains("run-" + std::to_string(i + 1) + ".toml"));
+    }
+    for (const std::string& step : test.by_hand) {
+      const std::string first_words = step.substr(0, step.find(' ', 12));
+      CHECK_THAT(files.at("plan.txt"), Catch::Contains(first_words));
+    }
+  }
+}
+
+TEST_CASE("the stages of a plan last as long as its runs, less the changes of speed", "[fast]") {
+  const scenarios::MeasurementSet set = make_set();
+  for (const PlannedTest& test : make_drum_tests(PreparedSet(set))) {
+    if (test.id != "speed_steps") continue;
+    const std::string plan = write_plan(set, propose(test)).at("plan.txt");
+    for (const char* stage : {"20.0 min   80 km/h", "20.0 min   120 km/h", "20.0 min   40 km/h", "soak for 3 h"}) {
+      CHECK_THAT(plan, Catch::Contains(stage));
+    }
+  }
+}
+
+TEST_CASE("where no test is proposed there is no plan", "[fast]") {
+  CHECK(write_plan(make_set(), tests::make_no_gap()).empty());
+}
+
+TEST_CASE("a plan needs a drum", "[fast]") {
+  scenarios::MeasurementSet set = make_set();
+  CHECK_NOTHROW(require_plannable(set, "plan"));
+  set.kind = scenarios::SetKind::kRoad;
+  CHECK_THROWS_AS(require_plannable(set, "plan"), InputError);
+}
