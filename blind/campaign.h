@@ -10,16 +10,25 @@
 
 namespace blind {
 
-/// Part of a run between two events: the speed runs linearly, the load stands. Ends lie on whole seconds.
+/// Part of a run between two events: the speed runs linearly, the load stands. Ends lie on whole seconds. On a dyno
+/// and on the road a leg lasts one second.
 struct Leg {
   double start_s = 0.0;
   double duration_s = 0.0;
   double start_m_s = 0.0;
   double end_m_s = 0.0;
   double load_N = 0.0;
+  double start_longitudinal_N = 0.0;  // of one wheel on the roller
+  double end_longitudinal_N = 0.0;
+  double start_elevation_m = 0.0;
+  double end_elevation_m = 0.0;
+  double start_distance_m = 0.0;
 
   double end_s() const { return start_s + duration_s; }
   double acceleration_m_s2() const { return (end_m_s - start_m_s) / duration_s; }
+  double mean_m_s() const { return 0.5 * (start_m_s + end_m_s); }
+  /// Rise over way, the same all along.
+  double slope() const;
 };
 
 /// Air at the tire over a run: a slow swing and a slope.
@@ -40,8 +49,11 @@ struct RunPlan {
   double cold_pressure_kPa = 280.0;
   double initial_degC = 25.0;
   std::optional<double> rest_before_min;  // none: soaked
+  bool started_warm = false;              // right after another run
   Air air;
   std::vector<Leg> legs;
+
+  std::size_t index = 0;  // in the campaign
 
   double end_s() const { return legs.back().end_s(); }
 };
@@ -53,6 +65,12 @@ struct Campaign {
 
 /// One of several kinds of campaign, by seed, with its first `runs` runs. It does not depend on the effect.
 Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+Campaign draw_drum_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+Campaign draw_road_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+
+/// Slow swing and slope of the air about `mean_degC`, within a degree or so.
+Air draw_air(Draws& draws, double mean_degC);
 
 constexpr int kMostRuns = 6;
 

@@ -79,7 +79,56 @@ std::vector<std::optional<double>> read_sizes(const std::string& list, const std
   return sizes;
 }
 
+Kind read_kind(const std::string& name) {
+  for (std::size_t i = 0; i < kKindNames.size(); ++i) {
+    if (name == kKindNames[i]) return static_cast<Kind>(i);
+  }
+  const std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
+  throw InputError({fmt::format("unknown kind '{}'", name), "--kind", name, fmt::format("{}", fmt::join(known, ", ")),
+                    find_nearest(name, known)});
+}
+
+std::string list_kinds(Grounds grounds) {
+  std::vector<std::string> names;
+  if ((grounds & kDrumGround) != 0) names.emplace_back("drum");
+  if ((grounds & kDynoGround) != 0) names.emplace_back("dyno");
+  if ((grounds & kRoadGround) != 0) names.emplace_back("road (combined)");
+  if ((grounds & kConstantGround) != 0) names.emplace_back("road (constant_rrc)");
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Throws where an effect is nowhere to be found on sets of a kind, or all of them not together.
+void check_grounds(const std::vector<std::string>& ids, Kind kind, bool drawn) {
+  for (const std::string& id : ids) {
+    if (find_common_grounds({id}, kind, drawn) != kNowhere) continue;
+    const EffectKind& effect = *find_effect_kind(id);
+    throw InputError({fmt::format("{} has no {} on a {}", id, drawn ? "visible trace" : "place", name_of(kind)),
+                      "--kind", name_of(kind), list_kinds(drawn ? effect.drawn : effect.acts), ""});
+  }
+}
+
+/// The law of a road set, where it is given.
+std::optional<bool> read_baseline(const std::string& name, const std::vector<std::string>& ids, Kind kind) {
+  if (name.empty()) return std::nullopt;
+  if (kind != Kind::kRoad) {
+    throw InputError({"rig sets have the combined law", "--baseline", name, "--kind road beside it", ""});
+  }
+  const std::vector<std::string> known{"combined", "constant_rrc"};
+  if (std::find(known.begin(), known.end(), name) == known.end()) {
+    throw InputError({fmt::format("unknown baseline '{}'", name), "--baseline", name, "combined, constant_rrc",
+                      find_nearest(name, known)});
+  }
+  const bool is_constant = name == "constant_rrc";
+  const Grounds grounds = find_common_grounds(ids, kind, false);
+  if ((grounds & (is_constant ? kConstantGround : kRoadGround)) == 0) {
+    throw InputError({"the effect has no place against this law", "--baseline", name, list_kinds(grounds), ""});
+  }
+  return is_constant;
+}
+
 struct MakeOptions {
+  std::string kind = name_of(Kind::kDrum);
+  std::string baseline;
   std::string effects = kNone;
   std::string sizes;
   std::string out;
@@ -105,6 +154,12 @@ void check_places(const MakeOptions& options) {
 int make_command(MakeOptions options) {
   options.order.effects = read_effects(options.effects);
   options.order.sizes = read_sizes(options.sizes, options.order.effects);
+  options.order.kind = read_kind(options.kind);
+  check_grounds(options.order.effects, options.order.kind, false);
+  if (find_common_grounds(options.order.effects, options.order.kind, false) == kNowhere) {
+    throw InputError({"these effects are not found against one law", "--effect", options.effects, "", ""});
+  }
+  options.order.constant_rrc = read_baseline(options.baseline, options.order.effects, options.order.kind);
   check_places(options);
   StagedFolder set(options.out, "--out");
   std::optional<StagedFolder> without;
@@ -118,16 +173,23 @@ int make_command(MakeOptions options) {
   return kDone;
 }
 
-int bank_command(BankOrder order, const std::string& effects) {
-  order.effects = read_effects(effects);
-  if (effects.empty()) {
-    for (const EffectKind* kind : effect_kinds()) order.effects.push_back(kind->id);
-  }
+struct BankOptions {
+  std::string kind = name_of(Kind::kDrum);
+  std::string effects;
+  BankOrder order;
+};
+
+int bank_command(const BankOptions& options) {
+  BankOrder order = options.order;
+  order.kind = read_kind(options.kind);
+  order.effects = read_effects(options.effects);
+  if (options.effects.empty()) order.effects = drawn_effects(order.kind, false);
+  check_grounds(order.effects, order.kind, true);
   if (order.pairs > 0 && order.effects.size() < 2) {
     throw InputError({"a pair needs two effects", "--pairs", std::to_string(order.pairs), "two or more --effects", ""});
   }
-  const std::size_t all =
-      static_cast<std::size_t>(order.each) * order.effects.size() + static_cast<std::size_t>(order.none + order.pairs);
+  const std::size_t all = static_cast<std::size_t>(order.each) * order.effects.size() +
+                          static_cast<std::size_t>(order.none + order.pairs + order.outside);
   if (all == 0) throw InputError({"the bank has no sets", "--each", "0", "one set at least", ""});
   const auto progress = [](std::size_t done, std::size_t of) {
     if (::isatty(STDERR_FILENO) != 0) std::cerr << fmt::format("\r{} of {} sets{}", done, of, done == of ? "\n" : "");
@@ -142,8 +204,10 @@ int bank_command(BankOrder order, const std::string& effects) {
 
 int list_command() {
   for (const EffectKind* kind : effect_kinds()) {
-    std::cout << fmt::format("{}\n  size     {} [{}]; {:g} does nothing\n  law      {}\n", kind->id, kind->meaning,
-                             kind->unit, kind->neutral, kind->law);
+    std::cout << fmt::format(
+        "{}{}\n  size     {} [{}]; {:g} does nothing\n  law      {}\n  made on  {}\n  drawn on {}\n", kind->id,
+        kind->outside ? " (outside of the catalogue)" : "", kind->meaning, kind->unit, kind->neutral, kind->law,
+        list_kinds(kind->acts), list_kinds(kind->drawn));
   }
   return kDone;
 }
@@ -165,6 +229,8 @@ std::string find_nearest_option(const CLI::App& app, int argc, char** argv) {
 
 CLI::App* add_make(CLI::App& app, MakeOptions& options) {
   CLI::App* make = app.add_subcommand("make", "One measurement set");
+  make->add_option("--kind", options.kind, "drum, dyno or road [drum]");
+  make->add_option("--baseline", options.baseline, "Of a road set: combined or constant_rrc [drawn]");
   make->add_option("--effect", options.effects, "Effect, two as a,b, or none [none]");
   make->add_option("--size", options.sizes, "Its size in its own unit, for two a,b [drawn]");
   make->add_option("--seed", options.order.seed, "Decides all that is drawn [1]");
@@ -178,14 +244,18 @@ CLI::App* add_make(CLI::App& app, MakeOptions& options) {
   return make;
 }
 
-CLI::App* add_bank(CLI::App& app, BankOrder& order, std::string& effects) {
+CLI::App* add_bank(CLI::App& app, BankOptions& options) {
   constexpr int kMostSets = 2000;
+  BankOrder& order = options.order;
   CLI::App* bank = app.add_subcommand("bank", "A bank of sets in shuffled order, with one sealed truth");
+  bank->add_option("--kind", options.kind, "drum, dyno or road [drum]");
   bank->add_option("--seed", order.seed, "Decides all that is drawn [1]");
   bank->add_option("--each", order.each, "Sets of each effect [20]")->check(CLI::Range(0, kMostSets));
   bank->add_option("--none", order.none, "Sets without effect [100]")->check(CLI::Range(0, kMostSets));
   bank->add_option("--pairs", order.pairs, "Sets of two effects [0]")->check(CLI::Range(0, kMostSets));
-  bank->add_option("--effects", effects, "Effects, as a,b,c [all]");
+  bank->add_option("--outside", order.outside, "Sets with an effect outside of the catalogue [0]")
+      ->check(CLI::Range(0, kMostSets));
+  bank->add_option("--effects", options.effects, "Effects, as a,b,c [all of the catalogue that the kind shows]");
   bank->add_option("--runs", order.runs, "Number of runs of a set [6]")->check(CLI::Range(1, kMostRuns));
   bank->add_flag("--counterfactual", order.counterfactual, "Also each set without effect and without noise");
   bank->add_option("--out", order.out, "Folder of the bank, new or empty")->required();
@@ -196,10 +266,9 @@ int parse_and_run(int argc, char** argv) {
   CLI::App app{"rollrig_blind: measurement sets with a known hidden cause, for judging a diagnosis"};
   app.require_subcommand(1);
   MakeOptions make;
-  BankOrder bank;
-  std::string bank_effects;
+  BankOptions bank;
   const CLI::App* make_app = add_make(app, make);
-  const CLI::App* bank_app = add_bank(app, bank, bank_effects);
+  const CLI::App* bank_app = add_bank(app, bank);
   app.add_subcommand("list", "Effects, their sizes and laws");
   try {
     app.parse(argc, argv);
@@ -213,7 +282,7 @@ int parse_and_run(int argc, char** argv) {
   if (make_app->parsed()) {
     status = make_command(make);
   } else if (bank_app->parsed()) {
-    status = bank_command(bank, bank_effects);
+    status = bank_command(bank);
   } else {
     status = list_command();
   }

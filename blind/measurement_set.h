@@ -17,6 +17,8 @@ struct SetOrder {
   std::vector<std::string> effects;          // none: the baseline
   std::vector<std::optional<double>> sizes;  // one an effect; none: drawn
   std::uint64_t seed = 1;
+  Kind kind = Kind::kDrum;
+  std::optional<bool> constant_rrc;  // of a road set; none: drawn among what the effects allow
   int runs = kMostRuns;
   bool noise_free = false;
   bool nominal_base = false;
@@ -30,6 +32,9 @@ struct MadeSet {
   Files counterfactual;  // the same without effect and without noise
   nlohmann::ordered_json truth;
 };
+
+/// Where all of `effects` are to be found together; with `drawn`, where banks have them.
+Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, bool drawn);
 
 /// Makes a set. Its files are a function of the order and nothing else.
 MadeSet make_set(const SetOrder& order, bool with_counterfactual);

@@ -1,5 +1,5 @@
 #pragma once
-/// The physics of tire and drum rig, in equations of its own.
+/// The physics of tire and rig or vehicle, in equations of its own.
 ///
 /// The same physics as rollrig's baseline in another form: the rubber is a wall of radial layers between tread
 /// and liner, each with its own loss at its own temperature; the cavity holds an amount of gas with an internal
@@ -25,7 +25,7 @@ struct Wall {
 
 /// What a laboratory could read at one instant, before its instruments.
 struct Reading {
-  double force_N = 0.0;  // at the drum's surface, without inertia
+  double force_N = 0.0;  // at the surface of drum or roller; of the whole vehicle on the road; without inertia
   double liner_degC = 0.0;
   double pressure_kPa = 0.0;
 };
@@ -43,11 +43,16 @@ class Plant {
   Reading read(double time_s, const double* state) const;
   double load_at(double time_s) const;
   double speed_at(double time_s) const;
-  /// Inertia of drum and wheel, as a mass at the surface.
+  /// Inertia that the measured force has in it, as a mass at the surface: of drum and wheel, or of the vehicle.
   double moving_mass_kg(double load_N) const;
+  /// Whether the friction brakes of a vehicle on the road act.
+  bool friction_brakes_at(double time_s) const;
 
  private:
   Instant find_instant(double time_s, const double* state) const;
+  double recorded_speed_at(double time_s) const;
+  double vehicle_friction_N(double time_s) const;
+  double calc_vehicle_N(const Instant& now) const;
   void find_losses(const double* state, Instant& now, std::vector<double>& layer_loss_N) const;
 
   const Specimen& specimen_;
@@ -60,6 +65,7 @@ class Plant {
   double gas_mol_ = 0.0;
   double cavity_m3_ = 0.0;
   double curvature_factor_ = 1.0;
+  bool follows_law_ = true;  // of temperature, pressure and speed; else a constant coefficient
   Leg leg_;
   double load_before_N_ = 0.0;
   double load_step_s_ = 0.0;

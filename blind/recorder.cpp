@@ -51,11 +51,15 @@ struct SystemDerivatives {
   }
 };
 
+double find_lever(const Specimen& specimen) {
+  return specimen.kind == Kind::kDrum ? 0.5 * specimen.drum_diameter_m : 1.0;
+}
+
 /// What a leg is asked for: at each cell's start the temperature and pressure, at two points within it, by Gauss'
 /// rule, the force.
 class Collector {
  public:
-  explicit Collector(const Specimen& specimen) : specimen_(specimen) {}
+  explicit Collector(const Specimen& specimen) : specimen_(specimen), lever_(find_lever(specimen)) {}
 
   /// The next time that is wanted.
   double next_s() const { return static_cast<double>(cell_) * kStep_s + kPoints[point_]; }
@@ -66,34 +70,36 @@ class Collector {
     if (point_ == 0) {
       liner.push_back(reading.liner_degC);
       pressure.push_back(reading.pressure_kPa);
-      torque_Nm.push_back(find_inertia_Nm(plant, time_s));
+      force.push_back(find_inertia(plant, time_s));
+      if (plant.friction_brakes_at(time_s)) force.back() = std::nan("");
     } else {
       const double since_s = time_s - load_step_s;
       const double swing_Nm = specimen_.controller_swing_Nm * load_change_N / specimen_.reference_load_N *
                               std::exp(-since_s / specimen_.controller_time_s) *
                               std::cos(specimen_.controller_frequency_rad_s * since_s);
-      torque_Nm.back() += 0.5 * (0.5 * specimen_.drum_diameter_m * reading.force_N + swing_Nm);
+      force.back() += 0.5 * (lever_ * reading.force_N + swing_Nm);
     }
     point_ = (point_ + 1) % kPoints.size();
     if (point_ == 0) ++cell_;
   }
 
-  std::vector<double> torque_Nm;  // means over cells
-  std::vector<double> liner;      // at the start of each cell
+  std::vector<double> force;  // of the first channel: means over cells
+  std::vector<double> liner;  // at the start of each cell
   std::vector<double> pressure;
 
  private:
   static constexpr double kGauss = 0.57735026918962576;  // 1/sqrt(3)
   static constexpr std::array<double, 3> kPoints{0.0, 0.5 * kStep_s*(1.0 - kGauss), 0.5 * kStep_s*(1.0 + kGauss)};
 
-  /// Torque that the momentum gained over a cell takes.
-  double find_inertia_Nm(const Plant& plant, double time_s) const {
+  /// Torque or force that the momentum gained over a cell takes.
+  double find_inertia(const Plant& plant, double time_s) const {
     const double gained_m_s = plant.speed_at(time_s + kStep_s) - plant.speed_at(time_s);
     const double mass_kg = plant.moving_mass_kg(plant.load_at(time_s + 0.5 * kStep_s));
-    return 0.5 * specimen_.drum_diameter_m * mass_kg * gained_m_s / kStep_s;
+    return lever_ * mass_kg * gained_m_s / kStep_s;
   }
 
   const Specimen& specimen_;
+  double lever_ = 1.0;
   std::size_t cell_ = 0;
   std::size_t point_ = 0;
 };
@@ -126,6 +132,26 @@ Vector integrate_leg(const Plant& plant, const Leg& leg, const LoadStep& step, V
   return state;
 }
 
+/// Marches over a leg in steps of one cell; within them the state is taken as linear.
+Vector march_leg(const Plant& plant, const Leg& leg, Vector state, Collector& collector) {
+  odeint::rosenbrock4<double> stepper;
+  const auto system = std::make_pair(System{plant}, SystemDerivatives{plant});
+  const auto steps = static_cast<int>(std::lround(leg.duration_s / kStep_s));
+  Vector next = state;
+  Vector between = state;
+  for (int i = 0; i < steps; ++i) {
+    const double from_s = leg.start_s + i * kStep_s;
+    stepper.do_step(system, state, from_s, next, kStep_s);
+    while (collector.next_s() < from_s + kStep_s - 1e-9) {
+      const double part = (collector.next_s() - from_s) / kStep_s;
+      between = (1.0 - part) * state + part * next;
+      collector.take(plant, &between[0], 0.0, 0.0);
+    }
+    state = next;
+  }
+  return state;
+}
+
 Collector simulate(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run) {
   Plant plant(specimen, effects, run);
   const std::vector<double> start = plant.start();
@@ -134,12 +160,16 @@ Collector simulate(const Specimen& specimen, const std::vector<std::unique_ptr<E
   Collector collector(specimen);
   std::vector<Leg> legs = run.legs;
   const Leg& last = legs.back();
-  legs.push_back({last.end_s(), kMargin_s, last.end_m_s, last.end_m_s, last.load_N});
+  Leg margin{last.end_s(), kMargin_s, last.end_m_s, last.end_m_s, last.load_N};
+  margin.start_longitudinal_N = margin.end_longitudinal_N = last.end_longitudinal_N;
+  margin.start_elevation_m = margin.end_elevation_m = last.end_elevation_m;
+  legs.push_back(margin);
   LoadStep step{legs.front().load_N, 0.0};
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0 && legs[i].load_N != legs[i - 1].load_N) step = {legs[i - 1].load_N, legs[i].start_s};
     plant.enter(legs[i], step.before_N, step.time_s);
-    state = integrate_leg(plant, legs[i], step, std::move(state), collector);
+    state = specimen.kind == Kind::kDrum ? integrate_leg(plant, legs[i], step, std::move(state), collector)
+                                         : march_leg(plant, legs[i], std::move(state), collector);
   }
   return collector;
 }
@@ -155,6 +185,10 @@ void fill_given(const RunPlan& run, RunRecord& record) {
     record.time_s.push_back(time_s);
     record.speed_km_h.push_back(3.6 * (now.start_m_s + now.acceleration_m_s2() * (time_s - now.start_s)));
     record.load_N.push_back(now.load_N);
+    const double part = (time_s - now.start_s) / now.duration_s;
+    const auto between = [part](double start, double end) { return start + part * (end - start); };
+    record.longitudinal_N.push_back(between(now.start_longitudinal_N, now.end_longitudinal_N));
+    record.elevation_m.push_back(between(now.start_elevation_m, now.end_elevation_m));
     record.ambient_degC.push_back(run.air.at(time_s));
   }
 }
@@ -191,16 +225,17 @@ RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr
   Collector collected = simulate(specimen, effects, run);
   RunRecord record;
   record.specimen = &specimen;
+  record.lever = find_lever(specimen);
   fill_given(run, record);
   record.liner = Signal(kStep_s, std::move(collected.liner));
   record.pressure = Signal(kStep_s, std::move(collected.pressure));
-  const std::vector<double>& cells = collected.torque_Nm;
+  const std::vector<double>& cells = collected.force;
   for (std::size_t row = 0; row < record.time_s.size(); ++row) {
     const std::size_t after = 2 * row;  // cells of half a second
     const bool is_first = row == 0;
     const bool is_last = row + 1 == record.time_s.size();
-    record.torque_Nm.push_back(is_first ? cells[after]
-                                        : (is_last ? cells[after - 1] : 0.5 * (cells[after - 1] + cells[after])));
+    record.force.push_back(is_first ? cells[after]
+                                    : (is_last ? cells[after - 1] : 0.5 * (cells[after - 1] + cells[after])));
     record.liner_degC.push_back(record.sample(record.liner, row));
     record.pressure_kPa.push_back(record.sample(record.pressure, row));
   }

@@ -24,14 +24,18 @@ class Signal {
   std::vector<double> integral_;  // up to each point
 };
 
-/// A run as it would be recorded by perfect instruments: rows at 1 Hz, and signals to sample anew from.
+/// A run as it would be recorded by perfect instruments: rows at 1 Hz, and signals to sample anew from. Columns that
+/// a kind does not have are filled as well, and not written.
 struct RunRecord {
   const Specimen* specimen = nullptr;
   std::vector<double> time_s;
   std::vector<double> speed_km_h;
   std::vector<double> load_N;
   std::vector<double> ambient_degC;
-  std::vector<double> torque_Nm;
+  std::vector<double> longitudinal_N;
+  std::vector<double> elevation_m;
+  std::vector<double> force;  // of the first channel in its unit; NaN where a vehicle's friction brakes act
+  double lever = 1.0;         // of that channel, unit over N at the surface
   std::vector<double> liner_degC;
   std::vector<double> pressure_kPa;
   Signal liner;     // of the tire, beyond the end of the run by kMargin_s
@@ -43,7 +47,8 @@ struct RunRecord {
 
 constexpr double kMargin_s = 30.0;
 
-/// Simulates a run: linearly implicit fourth-order Rosenbrock steps of free size, restarted at each event.
+/// Simulates a run by linearly implicit Rosenbrock steps of order 4: on a drum of free size, restarted at each event;
+/// where the speed has a knot each second, of half a second.
 RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run);
 
 }  // namespace blind

@@ -1,17 +1,22 @@
 #pragma once
 /// Emulated sensors: session offset, drift, noise, rounding, drop-outs (formats.md, "Sensors").
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "blind/kind.h"
+
 namespace blind {
 
-enum class Channel : std::size_t { kTorque, kLiner, kPressure, kCount };
-constexpr std::size_t kChannelCount = static_cast<std::size_t>(Channel::kCount);
-constexpr std::array<const char*, kChannelCount> kChannelNames{"drum_torque_Nm", "liner_temperature_degC",
-                                                               "cavity_pressure_kPa"};
+/// A measured column and the logger that takes it.
+struct Channel {
+  const char* name;
+  const char* logger;
+};
+
+/// The first of them is the force.
+const std::vector<Channel>& channels_of(Kind kind);
 
 /// Error sizes of one channel, in its unit.
 struct Sensor {
@@ -26,17 +31,17 @@ struct Sensor {
   double floor() const;
 };
 
-using Sensors = std::array<Sensor, kChannelCount>;
+using Sensors = std::vector<Sensor>;  // one a channel
 
-Sensors draw_sensors(std::uint64_t seed);
-std::string write_sensors(const Sensors& sensors);
+Sensors draw_sensors(std::uint64_t seed, Kind kind);
+std::string write_sensors(Kind kind, const Sensors& sensors);
 
 /// Adds what the sensor makes of the true values, then takes samples away (NaN).
 /// Drift starts stationary in every run and channel and goes on through missing samples; rounding comes last.
 void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& session, const std::string& run,
-                  Channel channel, const std::vector<double>& time_s, std::vector<double>& values);
+                  const Channel& channel, const std::vector<double>& time_s, std::vector<double>& values);
 
 /// Takes samples away: single ones, and gaps that temperature and pressure share, since one logger takes both.
-void drop_samples(std::uint64_t seed, const std::string& run, Channel channel, std::vector<double>& values);
+void drop_samples(std::uint64_t seed, const std::string& run, const Channel& channel, std::vector<double>& values);
 
 }  // namespace blind

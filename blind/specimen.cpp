@@ -40,16 +40,41 @@ void draw_nominal(Draws& draws, Specimen& specimen) {
   set(Base::kC2, "c2_N_s2_per_m2", draws.uniform(0.003, 0.005));
 }
 
-/// Relative standard uncertainties about which a laboratory would know its numbers, and the true values.
-void draw_truth(Draws& draws, bool nominal_base, Specimen& specimen) {
-  constexpr std::array<double, kBaseCount> kRelative{0.02, 0.02, 0.04, 0.04, 0.05, 0.10,
-                                                     0.15, 0.08, 0.08, 0.07, 0.07, 0.07};
-  for (std::size_t i = 0; i < kBaseCount; ++i) {
+/// Relative standard uncertainties about which a laboratory would know its numbers.
+constexpr std::array<double, kBaseCount> kRelative{0.02, 0.02, 0.04, 0.04, 0.05, 0.10, 0.15, 0.08,
+                                                   0.08, 0.07, 0.07, 0.07, 0.01, 0.10, 0.03, 0.06};
+
+/// Uncertainties and true values.
+void draw_truth(Draws& draws, bool nominal_base, Base first, Base last, Specimen& specimen) {
+  for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
     Identified& number = specimen.base[i];
     number.sd = round_to(std::abs(number.nominal) * kRelative[i] * draws.uniform(0.75, 1.25), 3);
     const double step = draws.normal();
     number.truth = nominal_base ? number.nominal : number.nominal + number.sd * step;
   }
+}
+
+/// Assumed: passenger cars, by their segments' catalogues. Streams of its own, so that a drum set does not see it.
+void draw_vehicle(Draws& draws, bool nominal_base, Specimen& specimen) {
+  const auto set = [&specimen](Base which, const char* key, double nominal) {
+    specimen.base[static_cast<std::size_t>(which)] = {key, round_to(nominal, 4), 0.0, 0.0};
+  };
+  const double mass_kg = draws.uniform(1750.0, 2350.0);
+  set(Base::kMass, "mass_kg", mass_kg);
+  set(Base::kRotatingMass, "rotating_mass_kg", mass_kg * draws.uniform(0.025, 0.045));
+  set(Base::kDragArea, "drag_area_m2", draws.uniform(0.55, 0.8));
+  set(Base::kRrc, "rrc_N_per_kN", draws.uniform(6.5, 10.5));
+  draw_truth(draws, nominal_base, Base::kMass, Base::kRrc, specimen);
+  const bool is_driven = draws.happens(0.65);
+  const bool is_front = draws.happens(0.5);
+  specimen.drive_share = is_driven ? (draws.happens(0.3) ? 0.25 : 0.5) : 0.0;
+  specimen.brake_share = is_front ? draws.uniform(0.3, 0.36) : draws.uniform(0.14, 0.2);
+  specimen.regeneration_m_s2 = round_to(draws.uniform(1.2, 2.0), 2);
+}
+
+void draw_roller(Draws& draws, Specimen& specimen) {
+  specimen.drum_diameter_m = draws.happens(0.7) ? 1.2 : 1.2192;  // 1.2192 m: the 48 inch roller
+  specimen.drum_inertia_kg_m2 = round_to(draws.uniform(90.0, 150.0), 3);
 }
 
 void draw_machine(Draws& draws, Specimen& specimen) {
@@ -82,14 +107,29 @@ std::string write_identified(const Specimen& specimen, Base first, Base last) {
 
 }  // namespace
 
-Specimen draw_specimen(std::uint64_t seed, bool nominal_base) {
+bool Specimen::gives(Base which) const {
+  if (kind != Kind::kRoad) return which <= Base::kC2;
+  if (constant_rrc) return which >= Base::kMass;
+  return which <= Base::kF || (which >= Base::kMass && which < Base::kRrc);
+}
+
+Specimen draw_specimen(const SpecimenOrder& order) {
   Specimen specimen;
-  Draws nominal(seed, "specimen/nominal");
-  Draws machine(seed, "specimen/machine");
-  Draws truth(seed, "specimen/truth");
+  specimen.kind = order.kind;
+  specimen.constant_rrc = order.constant_rrc;
+  Draws nominal(order.seed, "specimen/nominal");
+  Draws machine(order.seed, "specimen/machine");
+  Draws truth(order.seed, "specimen/truth");
+  Draws vehicle(order.seed, "specimen/vehicle");
+  Draws roller(order.seed, "specimen/roller");
   draw_nominal(nominal, specimen);
   draw_machine(machine, specimen);
-  draw_truth(truth, nominal_base, specimen);
+  draw_truth(truth, order.nominal_base, Base::kA0, Base::kC2, specimen);
+  draw_vehicle(vehicle, order.nominal_base, specimen);
+  if (order.kind == Kind::kDyno) draw_roller(roller, specimen);
+  if (order.kind == Kind::kRoad) {  // the vehicle's bearings are in what is called its tires' loss
+    for (const Base none : {Base::kC0, Base::kC1, Base::kC2}) specimen.base[static_cast<std::size_t>(none)].truth = 0.0;
+  }
   return specimen;
 }
 
@@ -99,6 +139,9 @@ std::string write_tire(const Specimen& specimen) {
                       specimen.outer_diameter_m, specimen.section_width_m, specimen.rim_diameter_m);
   text += fmt::format("mass_kg = {:.10g}\nwheel_mass_kg = {:.10g}\nspin_inertia_kg_m2 = {:.10g}\n",
                       specimen.tire_mass_kg, specimen.wheel_mass_kg, specimen.spin_inertia_kg_m2);
+  if (specimen.constant_rrc) {
+    return text + "\n[constant]\n" + write_identified(specimen, Base::kRrc, Base::kRrc);
+  }
   text += fmt::format("\n[stiffness]\nvertical_N_per_m = {:.10g}\nvertical_damping_N_s_per_m = 300\n",
                       specimen.vertical_N_per_m);
   text += "slip_stiffness_N = 75000\nrelaxation_length_m = 0.3\n\n[rolling_resistance]\n";
@@ -112,12 +155,23 @@ std::string write_tire(const Specimen& specimen) {
 }
 
 std::string write_rig(const Specimen& specimen) {
-  std::string text = "format = \"rollrig-rig/1\"\nname = \"laboratory\"\nkind = \"drum\"\n\n[drum]\n";
+  const bool is_drum = specimen.kind == Kind::kDrum;
+  std::string text = fmt::format("format = \"rollrig-rig/1\"\nname = \"laboratory\"\nkind = \"{}\"\n\n[{}]\n",
+                                 name_of(specimen.kind), is_drum ? "drum" : "roller");
   text += fmt::format("diameter_m = {:.10g}\ninertia_kg_m2 = {:.10g}\n\n[parasitic]\n", specimen.drum_diameter_m,
                       specimen.drum_inertia_kg_m2);
   text += write_identified(specimen, Base::kC0, Base::kC2);
-  text += fmt::format("\n[environment]\nambient_degC = {:.10g}\n\n[skim]\nload_N = {:.10g}\n", specimen.ambient_degC,
-                      specimen.skim_load_N);
+  text += fmt::format("\n[environment]\nambient_degC = {:.10g}\n", specimen.ambient_degC);
+  if (is_drum) text += fmt::format("\n[skim]\nload_N = {:.10g}\n", specimen.skim_load_N);
+  return text;
+}
+
+std::string write_vehicle(const Specimen& specimen) {
+  std::string text = "format = \"rollrig-vehicle/1\"\nname = \"car\"\n";
+  text += write_identified(specimen, Base::kMass, Base::kDragArea);
+  text += fmt::format("tires = {:.0f}\n\n[powertrain]\nregeneration_limit_m_s2 = {:.10g}\n", specimen.tires,
+                      specimen.regeneration_m_s2);
+  text += fmt::format("regeneration_fade_km_h = {:.10g}\n", 3.6 * specimen.regeneration_fade_m_s);
   return text;
 }
 

@@ -1,16 +1,35 @@
 #pragma once
-/// The tire and the rig of a set: what their files say, with what uncertainty, and what is true.
+/// The tire and the rig or the vehicle of a set: what their files say, with what uncertainty, and what is true.
 
 #include <array>
 #include <cstdint>
 #include <string>
 
 #include "blind/draws.h"
+#include "blind/kind.h"
 
 namespace blind {
 
-/// Numbers that somebody has identified, so that the file has them with an uncertainty.
-enum class Base : std::size_t { kA0, kA1, kB0, kB1, kC, kCGas, kH, kZ, kF, kC0, kC1, kC2, kCount };
+/// Numbers that somebody has identified, so that the file has them with an uncertainty: of tire, rig, vehicle.
+enum class Base : std::size_t {
+  kA0,
+  kA1,
+  kB0,
+  kB1,
+  kC,
+  kCGas,
+  kH,
+  kZ,
+  kF,
+  kC0,
+  kC1,
+  kC2,
+  kMass,
+  kRotatingMass,
+  kDragArea,
+  kRrc,
+  kCount
+};
 constexpr std::size_t kBaseCount = static_cast<std::size_t>(Base::kCount);
 
 struct Identified {
@@ -22,6 +41,8 @@ struct Identified {
 
 /// Everything of the laboratory that stays the same over a set. Values in the units of their names.
 struct Specimen {
+  Kind kind = Kind::kDrum;
+  bool constant_rrc = false;  // the law before any effect is a constant coefficient; on the road
   std::array<Identified, kBaseCount> base;
 
   double outer_diameter_m = 0.0;
@@ -46,13 +67,29 @@ struct Specimen {
   double controller_time_s = 1.5;
   double controller_frequency_rad_s = 2.0;
 
+  // The vehicle on a dyno or on the road.
+  double tires = 4.0;
+  double drive_share = 0.0;  // of the motor's force at the wheel on the roller
+  double brake_share = 0.0;  // of the braking force at that wheel
+  double regeneration_m_s2 = 1.5;
+  double regeneration_fade_m_s = 10.0 / 3.6;
+
   double truth(Base which) const { return base[static_cast<std::size_t>(which)].truth; }
+  /// Whether the files of this set have a number.
+  bool gives(Base which) const;
 };
 
-/// Draws a tire and a rig. With `nominal_base` the truth is what the files say.
-Specimen draw_specimen(std::uint64_t seed, bool nominal_base);
+/// What is to be drawn.
+struct SpecimenOrder {
+  std::uint64_t seed = 1;
+  Kind kind = Kind::kDrum;
+  bool constant_rrc = false;
+  bool nominal_base = false;  // the truth is what the files say
+};
+Specimen draw_specimen(const SpecimenOrder& order);
 
 std::string write_tire(const Specimen& specimen);
 std::string write_rig(const Specimen& specimen);
+std::string write_vehicle(const Specimen& specimen);
 
 }  // namespace blind

@@ -18,12 +18,11 @@ class TorqueZeroDrift : public Effect {
   }
 
   void trace(RunRecord& record) const override {
-    const double drum_m = 0.5 * record.specimen->drum_diameter_m;
     const double final_N = rate_N_per_10min_ * kSpan_s / 600.0 / (1.0 - std::exp(-kSpan_s / time_s_));
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
       const double amplifier_N = final_N * (1.0 - std::exp(-record.time_s[row] / time_s_));
       const double air_N = air_ * rate_N_per_10min_ * (record.ambient_degC[row] - record.ambient_degC.front());
-      record.torque_Nm[row] += drum_m * (amplifier_N + air_N);
+      record.force[row] += record.lever * (amplifier_N + air_N);
     }
   }
 
