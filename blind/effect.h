@@ -69,6 +69,9 @@ struct RunStart {
   double first_load_N = 0.0;
 };
 
+/// Heat of a warm tire at 80 km/h and the reference load: what effects driven by heat are measured by.
+double warm_heating_W(const Specimen& specimen);
+
 using Shape = std::vector<std::pair<std::string, double>>;
 
 /// One hidden cause with its size and shape.

@@ -7,8 +7,6 @@
 namespace blind {
 namespace {
 
-constexpr double kSpeed80_m_s = 80.0 / 3.6;
-
 double round_to(double value, int digits) {
   const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0 - digits);
   return std::round(value / step) * step;

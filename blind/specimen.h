@@ -10,6 +10,8 @@
 
 namespace blind {
 
+constexpr double kSpeed80_m_s = 80.0 / 3.6;  // to which sizes and shapes of effects refer
+
 /// Numbers that somebody has identified, so that the file has them with an uncertainty: of tire, rig, vehicle.
 enum class Base : std::size_t {
   kA0,

@@ -7,7 +7,6 @@ namespace blind {
 namespace {
 
 constexpr double kSoaked_degC = 25.0;
-constexpr double kSpeed80_m_s = 80.0 / 3.6;
 
 class BearingWarmup : public Effect {
  public:

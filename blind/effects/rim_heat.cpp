@@ -6,8 +6,6 @@
 namespace blind {
 namespace {
 
-constexpr double kSpeed80_m_s = 80.0 / 3.6;
-
 class RimHeat : public Effect {
  public:
   RimHeat(double tire_W_per_K, Draws& draws) : tire_W_per_K_(tire_W_per_K) {

@@ -46,6 +46,8 @@ const EffectKind kind_tire_loss_in_skim{
     "the rubber",
     [](double size, Draws& draws, const Specimen& specimen) -> std::unique_ptr<Effect> {
       return std::make_unique<TireLossInSkim>(size, draws, specimen);
-    }};
+    },
+    kDrumGround,
+    kDrumGround};
 
 }  // namespace blind

@@ -1,0 +1,48 @@
+/// The curvature of drum or roller counts otherwise than the standard says.
+#include <algorithm>
+#include <cmath>
+
+#include "blind/effect.h"
+
+namespace blind {
+namespace {
+
+class CurvatureExponent : public Effect {
+ public:
+  CurvatureExponent(double exponent, Draws& draws) : exponent_(exponent) {
+    load_power_ = draws.uniform(0.0, 0.5);
+    shape = {{"load_power", load_power_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    const double load = std::max(1.0, now.load_N) / now.specimen->reference_load_N;
+    const double excess = (exponent_ - 1.0) * std::pow(load, load_power_);
+    now.loss_factor *= 1.0 + excess * (now.curvature_factor - 1.0) / now.curvature_factor;
+  }
+
+ private:
+  double exponent_;
+  double load_power_ = 0.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_curvature_exponent;
+const EffectKind kind_curvature_exponent{
+    "curvature_exponent",
+    "1",
+    "exponent of the correction factor near 1, at the reference load",
+    1.0,
+    -1.0,
+    3.0,
+    normal(0.6, 1.4, 0.3, 1.7),
+    false,
+    0.08,
+    "what the curvature adds counts n-fold, K -> 1 + n (K - 1), the more the higher the load",
+    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
+      return std::make_unique<CurvatureExponent>(size, draws);
+    },
+    kRigGrounds | kRoadGround,
+    kDynoGround | kRoadGround};
+
+}  // namespace blind

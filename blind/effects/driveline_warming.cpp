@@ -1,0 +1,75 @@
+/// Oil of axle and wheel bearings: Vogel viscosity, warmed by its own friction and what it transmits.
+#include <algorithm>
+#include <cmath>
+
+#include "blind/effect.h"
+
+namespace blind {
+namespace {
+
+class DrivelineWarming : public Effect {
+ public:
+  DrivelineWarming(double force_N, Draws& draws) : force_N_(force_N) {
+    time_s_ = 60.0 * draws.from(log_normal(15.0, 60.0, 11.0, 80.0));
+    rise_dK_ = draws.uniform(20.0, 50.0);
+    viscous_power_ = draws.uniform(0.4, 0.7);
+    air_share_ = draws.uniform(0.0, 0.4);
+    shape = {{"time_constant_min", time_s_ / 60.0},
+             {"rise_dK", rise_dK_},
+             {"power_of_viscosity", viscous_power_},
+             {"share_of_ambient", air_share_}};
+  }
+
+  std::size_t state_count() const override { return 1; }
+
+  void start(const RunStart& start, double* rise_dK) const override {
+    if (!start.rest_before_min.has_value()) return;
+    rise_dK[0] = 0.7 * rise_dK_ * std::exp(-60.0 * *start.rest_before_min / time_s_);
+  }
+
+  void act(const double* rise_dK, Instant& now) const override { now.rig_force_N += force_N_ * friction(rise_dK, now); }
+
+  void rates(const double* rise_dK, const Instant& now, double* rates) const override {
+    const double x = now.speed_m_s / kSpeed80_m_s;
+    const double transmitted = 0.3 * std::abs(now.longitudinal_N) / 500.0;
+    rates[0] = (rise_dK_ * x * (1.6 * friction(rise_dK, now) + transmitted) - rise_dK[0]) / time_s_;
+  }
+
+ private:
+  /// Friction over that of oil at 23 degC.
+  double friction(const double* rise_dK, const Instant& now) const {
+    constexpr double kVogel_K = 900.0;
+    constexpr double kVogel_degC = 110.0;
+    constexpr double kSoaked_degC = 23.0;
+    const double oil_degC = kSoaked_degC + rise_dK[0] + air_share_ * (now.ambient_degC - kSoaked_degC);
+    return std::exp(viscous_power_ * kVogel_K * (1.0 / (oil_degC + kVogel_degC) - 1.0 / (kSoaked_degC + kVogel_degC)));
+  }
+
+  double force_N_;
+  double time_s_ = 1.0;
+  double rise_dK_ = 0.0;
+  double viscous_power_ = 0.5;
+  double air_share_ = 0.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_driveline_warming;
+const EffectKind kind_driveline_warming{
+    "driveline_warming",
+    "N",
+    "friction of one wheel, soaked at 23 degC",
+    0.0,
+    0.0,
+    200.0,
+    log_normal(3.0, 25.0, 2.0, 35.0),
+    false,
+    0.0,
+    "power of a viscosity by Vogel, at the temperature of oil that its own friction and the transmitted force warm",
+    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
+      return std::make_unique<DrivelineWarming>(size, draws);
+    },
+    kVehicleGrounds,
+    kVehicleGrounds};
+
+}  // namespace blind

@@ -1,0 +1,58 @@
+/// More or less turns than is reckoned with, and hangs on softly.
+#include <cmath>
+
+#include "blind/effect.h"
+
+namespace blind {
+namespace {
+
+class InertiaError : public Effect {
+ public:
+  InertiaError(double percent, Draws& draws, const Specimen& specimen) {
+    follows_s_ = draws.uniform(0.3, 1.5);
+    const double radius_m = 0.5 * specimen.drum_diameter_m;
+    on_road_ = specimen.kind == Kind::kRoad;
+    const double mass_kg = on_road_ ? specimen.truth(Base::kMass) + specimen.truth(Base::kRotatingMass)
+                                    : specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
+    excess_kg_ = 0.01 * percent * mass_kg;
+    shape = {{"follows_s", follows_s_}};
+  }
+
+  std::size_t state_count() const override { return 1; }
+
+  void act(const double* behind_m_s, Instant& now) const override {
+    const double force_N = excess_kg_ * behind_m_s[0] / follows_s_;
+    (on_road_ ? now.body_force_N : now.rig_force_N) += force_N;
+  }
+
+  void rates(const double* behind_m_s, const Instant& now, double* rates) const override {
+    rates[0] = now.acceleration_m_s2 - behind_m_s[0] / follows_s_;
+  }
+
+ private:
+  double excess_kg_ = 0.0;
+  double follows_s_ = 1.0;
+  bool on_road_ = false;
+};
+
+}  // namespace
+
+extern const EffectKind kind_inertia_error;
+const EffectKind kind_inertia_error{
+    "inertia_error",
+    "percent",
+    "true over reckoned inertia of drum, roller or vehicle, less one",
+    0.0,
+    -30.0,
+    30.0,
+    log_normal(0.3, 4.0, 0.25, 6.0),
+    true,
+    0.0,
+    "the difference hangs on through a soft coupling and follows the speed with a lag of first order",
+    [](double size, Draws& draws, const Specimen& specimen) -> std::unique_ptr<Effect> {
+      return std::make_unique<InertiaError>(size, draws, specimen);
+    },
+    kEveryGround,
+    kEveryGround};
+
+}  // namespace blind

@@ -1,0 +1,49 @@
+/// The load acts a little along the way of the drum, more so as the frame bends.
+#include <cmath>
+
+#include "blind/effect.h"
+#include "blind/recorder.h"
+
+namespace blind {
+namespace {
+
+class LoadCrossTalk : public Effect {
+ public:
+  LoadCrossTalk(double angle_mrad, Draws& draws) : angle_(1e-3 * angle_mrad) {
+    bending_ = draws.uniform(0.0, 0.5);
+    shape = {{"bending_share", bending_}};
+  }
+
+  void trace(RunRecord& record) const override {
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      const double load_N = record.load_N[row];
+      const double angle = angle_ * (1.0 - bending_ + bending_ * load_N / record.specimen->reference_load_N);
+      record.force[row] += record.lever * load_N * std::sin(angle);
+    }
+  }
+
+ private:
+  double angle_;
+  double bending_ = 0.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_load_cross_talk;
+const EffectKind kind_load_cross_talk{"load_cross_talk",
+                                      "mrad",
+                                      "angle of the load off the vertical at the reference load",
+                                      0.0,
+                                      -5.0,
+                                      5.0,
+                                      log_normal(0.08, 0.5, 0.05, 0.8),
+                                      true,
+                                      0.0,
+                                      "Fz sin(d) with an angle that has a fixed part and one that grows with the load",
+                                      [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
+                                        return std::make_unique<LoadCrossTalk>(size, draws);
+                                      },
+                                      kRigGrounds,
+                                      kDrumGround};
+
+}  // namespace blind

@@ -1,0 +1,53 @@
+/// Work of the slip under drive and brake force, by the brush model.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "blind/effect.h"
+
+namespace blind {
+namespace {
+
+class SlipLoss : public Effect {
+ public:
+  SlipLoss(double stiffness_kN, Draws& draws) : stiffness_N_(1e3 * stiffness_kN) {
+    friction_ = draws.uniform(0.7, 1.1);
+    shape = {{"friction", friction_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    if (std::isinf(stiffness_N_)) return;
+    const double force_N = std::abs(now.longitudinal_N);
+    const double grip_N = friction_ * std::max(1.0, now.load_N);
+    const double sticking = std::cbrt(std::max(0.0, 1.0 - force_N / grip_N));
+    const double slip = 3.0 * grip_N / stiffness_N_ * (1.0 - sticking);
+    now.rig_force_N += force_N * slip;
+    now.tread_heat_W += force_N * slip * now.speed_m_s;
+  }
+
+ private:
+  double stiffness_N_;
+  double friction_ = 1.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_slip_loss;
+const EffectKind kind_slip_loss{
+    "slip_loss",
+    "kN",
+    "force over slip where both are small",
+    std::numeric_limits<double>::infinity(),
+    5.0,
+    std::numeric_limits<double>::infinity(),
+    log_normal(60.0, 250.0, 45.0, 330.0),
+    false,
+    0.0,
+    "brush model with parabolic pressure, F over slip bends down to the friction limit; heats the tread",
+    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
+      return std::make_unique<SlipLoss>(size, draws);
+    },
+    kDynoGround,
+    kDynoGround};
+
+}  // namespace blind
