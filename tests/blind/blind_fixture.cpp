@@ -1,5 +1,7 @@
 #include "tests/blind/blind_fixture.h"
 
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -9,23 +11,32 @@
 #include "rigs/standstill_grid.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
+#include "tests/blind/vehicle_replay.h"
 #include "tests/support/run_program.h"
 
 namespace rollrig::tests {
 namespace {
 
-const std::vector<std::string> kChannels{"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
+/// Channels that the runs of a set have, the force first.
+std::vector<std::string> find_channels(const scenarios::MeasurementSet& set) {
+  std::vector<std::string> channels;
+  for (const std::string& channel : scenarios::measured_channels(set.kind)) {
+    if (set.runs.front().has(channel)) channels.push_back(channel);
+  }
+  return channels;
+}
 
-/// Sums squares of a difference over rows, the torque 30 s after changes of load or acceleration left out.
+/// Sums squares of a difference over rows, a drum's torque 30 s after changes of load or acceleration left out.
 class FloorSum {
  public:
   explicit FloorSum(const scenarios::MeasurementSet& set) : set_(set) {}
 
   void add(const scenarios::MeasuredRun& run, const std::string& channel, const std::vector<double>& other) {
-    const std::vector<bool> settled = identification::find_settled_rows(run);
+    std::vector<bool> settled(run.time_s.size(), true);
+    if (channel == "drum_torque_Nm") settled = identification::find_settled_rows(run);
     const std::vector<double>& own = run.columns.at(channel);
     for (std::size_t row = 0; row < own.size(); ++row) {
-      if (std::isnan(own[row]) || std::isnan(other[row]) || (channel == kChannels[0] && !settled[row])) continue;
+      if (std::isnan(own[row]) || std::isnan(other[row]) || !settled[row]) continue;
       const double floors = (own[row] - other[row]) / calc_floor(set_, channel);
       sum_[channel] += floors * floors;
       count_[channel] += 1.0;
@@ -72,6 +83,18 @@ BlindSet make_blind_set(const std::string& arguments) {
           Json::parse(read_file(truth))};
 }
 
+BlindSet make_effect_set(const std::string& kind, const std::string& effect, const std::string& size, int seed) {
+  return make_blind_set(
+      fmt::format("--kind {} --effect {} --size {} --seed {} --noise-free --nominal-base", kind, effect, size, seed));
+}
+
+std::vector<double> find_difference(const BlindSet& made, std::size_t run, const std::string& channel) {
+  std::vector<double> difference = made.set.runs[run].columns.at(channel);
+  const std::vector<double>& without = made.counterfactual.runs[run].columns.at(channel);
+  for (std::size_t row = 0; row < difference.size(); ++row) difference[row] -= without[row];
+  return difference;
+}
+
 double calc_floor(const scenarios::MeasurementSet& set, const std::string& channel) {
   constexpr double kFarApart_s = 1e6;  // so that the drift of both means has nothing in common
   return std::sqrt(0.5 * models::calc_difference_variance(set.sensors.at(channel), 10, 1.0, kFarApart_s));
@@ -80,8 +103,13 @@ double calc_floor(const scenarios::MeasurementSet& set, const std::string& chann
 Floors compare_with_baseline(const scenarios::MeasurementSet& set) {
   FloorSum sum(set);
   for (const scenarios::MeasuredRun& run : set.runs) {
+    if (set.kind != scenarios::SetKind::kDrum) {
+      const auto baseline = replay_vehicle(set, run);
+      for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.at(channel));
+      continue;
+    }
     const sim::Recording<double> baseline = replay(set, run);
-    for (const std::string& channel : kChannels) sum.add(run, channel, baseline.channel(channel));
+    for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.channel(channel));
   }
   return sum.take();
 }
@@ -89,7 +117,7 @@ Floors compare_with_baseline(const scenarios::MeasurementSet& set) {
 Floors compare(const scenarios::MeasurementSet& a, const scenarios::MeasurementSet& b) {
   FloorSum sum(a);
   for (std::size_t r = 0; r < a.runs.size(); ++r) {
-    for (const std::string& channel : kChannels) sum.add(a.runs[r], channel, b.runs[r].columns.at(channel));
+    for (const std::string& channel : find_channels(a)) sum.add(a.runs[r], channel, b.runs[r].columns.at(channel));
   }
   return sum.take();
 }

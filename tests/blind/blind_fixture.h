@@ -20,6 +20,12 @@ struct BlindSet {
 /// Runs `rollrig_blind make <arguments>`, which must work, and reads what it writes.
 BlindSet make_blind_set(const std::string& arguments);
 
+/// A set with one effect of that size, without noise and with the files' parameters. `kind` may have further options.
+BlindSet make_effect_set(const std::string& kind, const std::string& effect, const std::string& size, int seed = 21);
+
+/// Difference that the effects make, by row of a run.
+std::vector<double> find_difference(const BlindSet& made, std::size_t run, const std::string& channel);
+
 /// Noise floor of a channel: standard deviation of a mean over 10 samples at 1 Hz, without the offset; SI.
 double calc_floor(const scenarios::MeasurementSet& set, const std::string& channel);
 

@@ -1,7 +1,9 @@
 // What every set and bank of the foreign generator must be: repeatable, and silent about its cause.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <sstream>
@@ -32,24 +34,28 @@ std::map<std::string, std::string> make_files(const std::string& arguments) {
   return read_folder(folder.file("set"));
 }
 
-/// The first columns of a CSV: what the rig was told.
+/// The first columns of a CSV: what rig or vehicle was told, or reports.
 std::string given_columns(const std::string& csv) {
   std::istringstream in(csv);
   std::string given;
+  const int columns = csv.find("longitudinal_force_N") < csv.find('\n') ? 5 : 4;
   for (std::string line; std::getline(in, line);) {
     std::size_t end = 0;
-    for (int comma = 0; comma < 4; ++comma) end = line.find(',', end + 1);
+    for (int comma = 0; comma < columns; ++comma) end = line.find(',', end + 1);
     given += line.substr(0, end) + "\n";
   }
   return given;
 }
 
-std::vector<std::string> effect_names() {
+/// Effects that can be made on a kind, as `list` says.
+std::vector<std::string> effect_names(const std::string& kind) {
   const auto listed = run_blind("list");
   std::istringstream in(listed.out);
   std::vector<std::string> names;
+  std::string name;
   for (std::string line; std::getline(in, line);) {
-    if (!line.empty() && line.front() != ' ') names.push_back(line);
+    if (!line.empty() && line.front() != ' ') name = line.substr(0, line.find(' '));
+    if (line.rfind("  made on", 0) == 0 && line.find(kind) != std::string::npos) names.push_back(name);
   }
   return names;
 }
@@ -69,20 +75,131 @@ TEST_CASE("the same order gives the same set to the bit, another seed another se
 }
 
 TEST_CASE("nothing but the measured values depends on the effect", "[fast]") {
-  const auto none = make_files("--effect none --seed 11");
-  for (const std::string& effect : effect_names()) {
-    const auto with = make_files("--effect " + effect + " --seed 11");
-    REQUIRE(with.size() == none.size());
-    for (const auto& [name, content] : none) {
-      INFO(effect << ", " << name);
-      REQUIRE(with.count(name) == 1);
-      if (fs::path(name).extension() == ".csv") {
-        CHECK(given_columns(with.at(name)) == given_columns(content));
-      } else {
-        CHECK(with.at(name) == content);
+  const std::map<std::string, std::string> options{
+      {"drum", "--kind drum"},
+      {"dyno", "--kind dyno --runs 1"},
+      {"road (combined)", "--kind road --baseline combined --runs 2"},
+      {"road (constant_rrc)", "--kind road --baseline constant_rrc --runs 2"}};
+  for (const auto& [kind, option] : options) {
+    const auto none = make_files(option + " --effect none --seed 11");
+    for (const std::string& effect : effect_names(kind)) {
+      const auto with = make_files(option + " --effect " + effect + " --seed 11");
+      REQUIRE(with.size() == none.size());
+      for (const auto& [name, content] : none) {
+        INFO(kind << ", " << effect << ", " << name);
+        REQUIRE(with.count(name) == 1);
+        if (fs::path(name).extension() == ".csv") {
+          CHECK(given_columns(with.at(name)) == given_columns(content));
+        } else {
+          CHECK(with.at(name) == content);
+        }
       }
     }
   }
+}
+
+TEST_CASE("a bank of each kind has what its kind shows, and effects outside of the catalogue where asked", "[fast]") {
+  for (const std::string kind : {"drum", "dyno", "road"}) {
+    const TemporaryFolder folder;
+    const auto made =
+        run_blind(fmt::format("bank --kind {} --seed 7305 --each 1 --none 1 --pairs 3 --outside 9 --runs 1 "
+                              "--out {}",
+                              kind, folder.file("bank")));
+    INFO(kind << "\n" << made.err);
+    REQUIRE(made.status == 0);
+    const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+    std::set<std::string> effects;
+    for (const auto& [number, set] : truth.at("sets").items()) {
+      for (const Json& effect : set.at("effects")) effects.insert(effect.at("id").get<std::string>());
+      const auto read = scenarios::read_measurement_set(folder.file("bank/sets/" + number));
+      CHECK(std::string(kind) == (read.kind == scenarios::SetKind::kDrum
+                                      ? "drum"
+                                      : (read.kind == scenarios::SetKind::kDyno ? "dyno" : "road")));
+    }
+    CHECK(effects.count("speed_record") == 1);
+    CHECK(effects.count("speed_interference") == 1);
+    CHECK(effects.count("slip_loss") == (kind == "dyno" ? 1 : 0));
+    CHECK(effects.count("wind_and_grade") == (kind == "road" ? 1 : 0));
+    CHECK(effects.count("windage") == (kind == "road" ? 0 : 1));
+  }
+}
+
+TEST_CASE("what a kind does not show is refused, with the kinds that do", "[fast]") {
+  const auto refused = run_blind("make --kind drum --effect wind_and_grade --out nowhere");
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Catch::Contains("road"));
+  CHECK(run_blind("make --kind drums --effect none --out nowhere").status == 2);
+  CHECK(run_blind("make --kind road --baseline combined --effect tire_temperature --out nowhere").status == 2);
+  CHECK(run_blind("make --kind drum --baseline combined --effect none --out nowhere").status == 2);
+  CHECK(run_blind("bank --kind drum --effects brake_heat --each 1 --out nowhere").status == 2);
+  CHECK_FALSE(fs::exists("nowhere"));
+}
+
+TEST_CASE("dyno campaigns: three to five runs of one to two hours, cycles and constant speeds, rests", "[fast]") {
+  std::set<std::string> kinds;
+  bool rests = false;
+  bool brakes = false;
+  bool drives = false;
+  for (int seed = 1; seed <= 8; ++seed) {
+    const BlindSet made = make_blind_set(fmt::format("--kind dyno --effect none --seed {}", seed));
+    kinds.insert(made.truth.at("campaign").get<std::string>());
+    CHECK(made.set.runs.size() >= 3);
+    CHECK(made.set.runs.size() <= 5);
+    for (const scenarios::MeasuredRun& run : made.set.runs) {
+      INFO("seed " << seed << ", " << run.id);
+      rests = rests || run.rest_before_s.has_value();
+      CHECK(run.time_s.back() >= 3600.0);
+      CHECK(run.time_s.back() <= 7300.0);
+      const auto& v = run.columns.at("speed_km_h");
+      const auto& loss_N = run.columns.at("loss_force_N");
+      for (std::size_t row = 0; row < v.size(); ++row) {
+        if (v[row] < 20.0 / 3.6 - 1e-9 && !std::isnan(loss_N[row])) FAIL_CHECK("a loss at " << v[row] << " m/s");
+      }
+      const auto& force_N = run.columns.at("longitudinal_force_N");
+      brakes = brakes || *std::min_element(force_N.begin(), force_N.end()) < -300.0;
+      drives = drives || *std::max_element(force_N.begin(), force_N.end()) > 500.0;
+    }
+  }
+  CHECK(kinds.size() >= 3);
+  CHECK(rests);
+  CHECK(brakes);
+  CHECK(drives);
+}
+
+TEST_CASE("road trips: cold and warm starts, hills, traction empty where friction brakes act", "[fast]") {
+  bool warm = false;
+  std::set<models::Baseline> baselines;
+  double coldest_K = 400.0;
+  double hottest_K = 0.0;
+  for (int seed = 1; seed <= 8; ++seed) {
+    const BlindSet made = make_blind_set(fmt::format("--kind road --effect none --seed {} --noise-free", seed));
+    baselines.insert(made.set.baseline);
+    REQUIRE(made.set.vehicle.has_value());
+    CHECK(made.set.vehicle->uncertainties.mass_kg > 0.0);
+    const double mass_kg = made.set.vehicle->body.mass_kg;
+    for (const scenarios::MeasuredRun& run : made.set.runs) {
+      INFO("seed " << seed << ", " << run.id);
+      warm = warm || run.started_warm;
+      coldest_K = std::min(coldest_K, run.initial_tire_temperature_K);
+      hottest_K = std::max(hottest_K, run.initial_tire_temperature_K);
+      CHECK(run.time_s.back() > 900.0);
+      CHECK(run.time_s.back() < 5400.0);
+      int empty = 0;
+      const auto& v = run.columns.at("speed_km_h");
+      const auto& force_N = run.columns.at("traction_force_N");
+      for (std::size_t row = 0; row < v.size(); ++row) {
+        empty += std::isnan(force_N[row]) && v[row] > 6.0 ? 1 : 0;
+        if (force_N[row] < -1.1 * mass_kg * made.set.vehicle->powertrain.regeneration_limit_m_s2) {
+          FAIL_CHECK(force_N[row] << " N is more than the motor brakes");
+        }
+      }
+      CHECK(empty < static_cast<int>(v.size()) / 4);
+    }
+  }
+  CHECK(warm);
+  CHECK(baselines.size() == 2);
+  CHECK(coldest_K < 283.0);
+  CHECK(hottest_K > 293.0);
 }
 
 TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") {
@@ -127,6 +244,7 @@ TEST_CASE("a bank is shuffled, numbered, repeatable, and its truth has the hash 
     CHECK(fs::is_directory(folder.file("bank/sets/" + number)));
     CHECK_NOTHROW(scenarios::read_measurement_set(folder.file("bank/sets/" + number)));
   }
+  CHECK(truth.contains("kind") == false);  // of a drum: as it always was
   CHECK(by_count == std::map<std::size_t, int>{{0, 6}, {1, 6}, {2, 2}});
   CHECK(order.find("------") == std::string::npos);  // not as they were listed
   for (const auto& [name, content] : files) {
