@@ -15,10 +15,13 @@ class LoadRecord : public Effect {
 
   void enter(const double*, Instant& now) const override {
     const double offset_N = offset_share_ * now.specimen->reference_load_N;
-    now.load_N = std::max(5.0, now.load_N + error_ * (offset_N + (1.0 - offset_share_) * now.load_N));
+    const double more_N = error_ * (offset_N + (1.0 - offset_share_) * now.load_N);
+    now.load_N += std::max(more_N, -kLeastLeft * std::max(0.0, now.load_N));  // a tire cannot pull
   }
 
  private:
+  static constexpr double kLeastLeft = 0.97;
+
   double error_;
   double offset_share_ = 0.0;
 };

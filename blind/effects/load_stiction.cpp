@@ -19,7 +19,7 @@ class LoadStiction : public Effect {
   void start(const RunStart& start, double* piston_N) const override { piston_N[0] = start.first_load_N - band_N_; }
 
   void enter(const double* piston_N, Instant& now) const override {
-    now.load_N = std::max(5.0, now.load_N + piston_N[0] - now.target_load_N);
+    now.load_N += std::clamp(piston_N[0] - now.target_load_N, -band_N_, band_N_);
   }
 
   void rates(const double* piston_N, const Instant& now, double* rates) const override {

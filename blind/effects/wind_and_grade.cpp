@@ -13,7 +13,7 @@ class WindAndGrade : public Effect {
     gusts_ = draws.uniform(0.1, 0.3);
     days_ = draws.uniform(0.0, 0.3);
     slope_ = 0.01 * draws.uniform(-0.25, 0.25);
-    side_ = draws.uniform(0.0, 0.1);
+    side_ = draws.uniform(0.0, 0.05);
     for (double& phase : phases_) phase = draws.uniform(0.0, 6.2831853);
     shape = {{"gusts_share", gusts_},
              {"days_share", days_},

@@ -19,7 +19,9 @@ using State = std::array<double, 2>;  // rubber, gas
 models::Context<double> make_vehicle_context(const scenarios::MeasurementSet& set) {
   if (set.rig.has_value()) return rigs::make_context(set.tire, *set.rig, set.baseline);
   models::Context<double> context;
-  context.tire = set.tire.parameters_on("", set.baseline);
+  // A constant coefficient needs no more than the geometry, so the file may lack what a rig needs.
+  const bool is_constant = set.baseline == models::Baseline::kConstantRrc;
+  context.tire = is_constant ? set.tire.values : set.tire.parameters_on("", set.baseline);
   context.rig_kind = models::RigKind::kFlat;
   context.baseline = set.baseline;
   return context;
