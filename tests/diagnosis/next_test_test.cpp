@@ -212,8 +212,7 @@ TEST_CASE("warming bearings and a drifting zero are split by the torque at stand
   REQUIRE(!proposed.empty());
   std::vector<JudgedTest> judged = raced.judge(open);
   const std::string best = find_described(judged, proposed.front().test).test.id;
-  INFO(best);
-  CHECK((best == "standstill_torque" || best == "drum_alone"));  // the menu's row
+  CHECK((best == "standstill_torque" || best == "standstill_at_loads" || best == "drum_alone"));  // the zero is read
   CHECK(proposed.front().splits.size() == 2);
   CHECK(proposed.front().expected_bits_per_hour > 2.0 * calc_mean_bits_per_hour(judged));
   open.resize(2);  // without both at once
