@@ -9,7 +9,7 @@
 
 namespace blind {
 
-/// A distribution of which about two thirds lie between `low` and `high`.
+/// A distribution of which about two thirds lie between `low` and `high`, more where it is cut off close by.
 struct Spread {
   enum class Form {
     kNormal,     // low and high one standard deviation from the mean

@@ -81,9 +81,11 @@ Json make_bank_truth(const std::string& arguments) {
 
 }  // namespace
 
-TEST_CASE("sizes lie in the catalogue's ranges about two times in three, base parameters scatter as stated", "[slow]") {
+TEST_CASE("sizes lie mostly but not always in the catalogue's ranges, base parameters scatter as stated", "[slow]") {
   constexpr int kEach = 60;
   Drawn drawn;
+  int inside = 0;
+  int all = 0;
   for (const char* bank :
        {"--kind drum", "--kind road", "--kind dyno --effects slip_loss,brake_heat,tie_down_load,curvature_exponent"}) {
     const Json truth = make_bank_truth(fmt::format("{} --seed 77 --each {}", bank, kEach));
@@ -92,10 +94,16 @@ TEST_CASE("sizes lie in the catalogue's ranges about two times in three, base pa
     for (auto& [id, count] : drawn.inside) {
       INFO(bank << ", " << id << ": " << count - before[id] << " of " << kEach);
       if (count == before[id]) continue;
-      CHECK(count - before[id] > 0.45 * kEach);  // two thirds less more than three standard errors
-      CHECK(count - before[id] < 0.9 * kEach);
+      // Two thirds before sizes far out are drawn again, so two thirds at least: less more than three standard errors.
+      CHECK(count - before[id] > 0.45 * kEach);
+      CHECK(count - before[id] < kEach);
+      inside += count - before[id];
+      all += kEach;
     }
   }
+  INFO(inside << " of " << all << " inside");
+  CHECK(inside > 0.67 * all);
+  CHECK(inside < 0.90 * all);
   CHECK(drawn.inside.size() == kRanges.size());
   for (const auto& [key, sum] : drawn.sums) {
     INFO(key);
