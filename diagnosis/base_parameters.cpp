@@ -44,6 +44,11 @@ Put put_given(Uncertainties& uncertainties) {
 
 void add_loss_law(const models::TireFile& tire, const models::Context<double>& context, Uncertainties& uncertainties) {
   const Put put = put_given(uncertainties);
+  if (context.baseline == models::Baseline::kConstantRrc) {
+    put("tire.constant.rrc_N_per_kN", tire.standard_uncertainties.constant.rrc);
+    uncertainties.usual["tire.constant.rrc_N_per_kN"] = 0.05 * context.tire.constant.rrc;
+    return;
+  }
   models::RollingResistanceParameters<double>::visit(tire.standard_uncertainties.rolling_resistance,
                                                      [&](const Field& field, const double& member) {
                                                        put(std::string("tire.rolling_resistance.") + field.key, member);
@@ -95,6 +100,16 @@ void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties)
   usual["parasitic.c1_N_s_per_m"] = 0.05 * rig.c1_N_s_per_m + 0.01 * parasitic_N / kReferenceSpeed_m_s;
   usual["parasitic.c2_N_s2_per_m2"] =
       0.05 * rig.c2_N_s2_per_m2 + 0.01 * parasitic_N / (kReferenceSpeed_m_s * kReferenceSpeed_m_s);
+}
+
+void add_vehicle(const rigs::VehicleFile& file, Uncertainties& uncertainties) {
+  const Put put = put_given(uncertainties);
+  rigs::VehicleBody::visit(file.uncertainties, [&](const Field& field, const double& member) {
+    put(std::string("vehicle.") + field.key, member);
+  });
+  uncertainties.usual["vehicle.mass_kg"] = 0.03 * file.body.mass_kg;
+  uncertainties.usual["vehicle.rotating_mass_kg"] = 0.3 * file.body.rotating_mass_kg;
+  uncertainties.usual["vehicle.drag_area_m2"] = 0.05 * file.body.drag_area_m2;
 }
 
 std::vector<FreeParameter> find_base_parameters(const scenarios::MeasurementSet& set,

@@ -17,13 +17,16 @@ struct Uncertainties {
 };
 
 /// Groups of numbers that a kind of set moves (kinds/measurement_kind.h).
-/// A0, A1: 2 % of the loss at 80 km/h; B0, B1: 4 %. Further numbers of [rolling_resistance] where the file gives one.
+/// The law of the set's baseline. A0, A1: 2 % of the loss at 80 km/h; B0, B1: 4 %; the constant coefficient: 5 %.
+/// Further numbers of [rolling_resistance] where the file gives one.
 void add_loss_law(const models::TireFile& tire, const models::Context<double>& context, Uncertainties& uncertainties);
 /// Heat capacities: 5 % (rubber) and 10 % (gas); H: 15 %; z and f: 8 %. Further numbers of [thermal] likewise.
 void add_heat_balance(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
                       Uncertainties& uncertainties);
 /// c0, c1, c2: 5 % of their value and 1 % of the parasitic force at 80 km/h.
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties);
+/// Mass: 3 %; rotating mass: 30 %; drag area: 5 %.
+void add_vehicle(const rigs::VehicleFile& file, Uncertainties& uncertainties);
 
 /// What the set's kind moves, each normal around the file's value with the file's standard uncertainty or, where the
 /// file gives none, the default.

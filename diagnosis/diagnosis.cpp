@@ -27,11 +27,11 @@ std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSe
     for (const std::string& id : *named) models::find_effect(id);  // throws where unknown
   }
   std::vector<const models::Effect*> effects;
-  const models::RigKind kind = kind_of(set).rig_kind();
+  const models::RigKind kind = kind_of(set).rig_kind();  // and the set's baseline: some effects it has already
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;
     const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();
-    if (!models::acts_on(info, kind) || faint) continue;
+    if (!models::acts_in(info, kind, set.baseline) || faint) continue;
     if (holds(options.without, info.id) || (!options.only.empty() && !holds(options.only, info.id))) continue;
     effects.push_back(effect);
   }

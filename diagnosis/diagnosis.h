@@ -122,10 +122,10 @@ struct DiagnosisOptions {
   std::function<void(double done, const std::string& stage)> progress = {};
 };
 
-/// The diagnosis of a measurement set of kind drum.
+/// The diagnosis of a measurement set of any kind, against either baseline.
 /// Method  docs/diagnosis.md
-/// Errors  InputError: not a drum set; an unknown effect; nothing measured. RunFailure: no fit converges
-/// Checked tests/diagnosis/diagnosis_test.cpp
+/// Errors  InputError: a file lacks what the set's kind needs; an unknown effect; nothing measured. RunFailure: no fit
+/// converges Checked tests/diagnosis/diagnosis_test.cpp
 Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options);
 
 }  // namespace rollrig::diagnosis

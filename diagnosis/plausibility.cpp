@@ -34,18 +34,27 @@ double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const s
   return kTemperature_K + kRiseShare * std::abs(simulated - run.columns.at("ambient_degC")[row]);
 }
 
+/// Of one sample, what its sensor makes of its own.
+double calc_noise(const MeasurementSet& set, const std::string& channel) {
+  const auto sensor = set.sensors.find(channel);
+  return sensor == set.sensors.end() ? 0.0 : std::hypot(sensor->second.noise_sd, sensor->second.drift_sd);
+}
+
 ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel,
                                   const std::vector<double>& simulated) {
   const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
   const std::vector<double>& measured = run.columns.at(channel);
   const Unit unit = unit_of_key(channel);
   ChannelMisfit misfit{channel, rows.size()};
+  const double noise = calc_noise(set, channel);
   double squares = 0.0;
+  double noise_squares = 0.0;
   double measured_sum = 0.0;
   double simulated_sum = 0.0;
   for (const std::size_t row : rows) {
-    const double off =
-        std::abs(measured[row] - simulated[row]) / calc_tolerance(set, run, channel, row, simulated[row]);
+    const double tolerance = calc_tolerance(set, run, channel, row, simulated[row]);
+    const double off = std::abs(measured[row] - simulated[row]) / tolerance;
+    noise_squares += noise * noise / (tolerance * tolerance);
     const double held = std::isfinite(off) ? std::min(off, kLargestMisfit) : kLargestMisfit;
     squares += held * held;
     measured_sum += unit.from_si(measured[row]);
@@ -56,7 +65,7 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
     misfit.rms = sampled ? kUncompared : 0.0;
     return misfit;
   }
-  misfit.rms = std::sqrt(squares / static_cast<double>(rows.size()));
+  misfit.rms = std::sqrt(std::max(0.0, squares - noise_squares) / static_cast<double>(rows.size()));
   misfit.ratio = measured_sum / simulated_sum;
   return misfit;
 }

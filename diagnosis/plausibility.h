@@ -20,7 +20,7 @@ std::vector<std::size_t> find_compared_rows(const scenarios::MeasurementSet& set
 struct ChannelMisfit {
   std::string channel;
   std::size_t samples = 0;
-  double rms = 0.0;    // of the difference in tolerances, each at most kLargestMisfit
+  double rms = 0.0;    // of the difference in tolerances, each at most kLargestMisfit, less the sensor's noise
   double ratio = 1.0;  // mean measured over mean simulated, in the unit of the file
 };
 

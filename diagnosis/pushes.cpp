@@ -63,6 +63,33 @@ struct ForcePush : TimePush {
   }
 };
 
+struct SlipPush : TimePush {
+  static models::EffectInfo info() { return describe("slip"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
+    const S share = now.recorded.longitudinal_force_N / quantity<S>(1000.0, dimension::kForce);
+    port.extra_force_N += share * share * calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
+struct InertiaPush : TimePush {
+  static models::EffectInfo info() { return describe("inertia"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
+    const S share = now.recorded.acceleration_m_s2 / quantity<S>(1.0, dimension::kAcceleration);
+    port.extra_force_N += share * calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
+struct DragPush : TimePush {
+  static models::EffectInfo info() { return describe("air drag"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
+    const S share = now.recorded.speed_m_s / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    port.extra_force_N += share * share * calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
 struct TireLossPush : TimePush {
   static models::EffectInfo info() { return describe("tire loss"); }
   template <class S>
@@ -114,7 +141,9 @@ const models::Effect& effect_of(Push push) {
   static const std::map<Push, models::Effect> effects{
       {Push::kForce, models::make_effect<ForcePush>()},       {Push::kTireLoss, models::make_effect<TireLossPush>()},
       {Push::kTireHeat, models::make_effect<TireHeatPush>()}, {Push::kGasHeat, models::make_effect<GasHeatPush>()},
-      {Push::kGasMass, models::make_effect<GasMassPush>()},   {Push::kBoundary, models::make_effect<BoundaryPush>()}};
+      {Push::kGasMass, models::make_effect<GasMassPush>()},   {Push::kBoundary, models::make_effect<BoundaryPush>()},
+      {Push::kSlip, models::make_effect<SlipPush>()},         {Push::kInertia, models::make_effect<InertiaPush>()},
+      {Push::kDrag, models::make_effect<DragPush>()}};
   return effects.at(push);
 }
 

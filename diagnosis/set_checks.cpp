@@ -38,6 +38,19 @@ void require_noise(const MeasurementSet& set) {
   }
 }
 
+/// Warns of numbers that the files do not give.
+void check_assumed(const MeasurementSet& set, SetChecks& checks) {
+  if (!set.assumed_sensors.empty()) {
+    checks.warnings.push_back(fmt::format("the set describes no sensor of {}: the noise of a usual one is assumed",
+                                          join(set.assumed_sensors)));
+  }
+  if (!set.tire.has_thermal || !set.tire.has_rolling_resistance) {
+    checks.warnings.push_back(fmt::format(
+        "tire {} has no [rolling_resistance] or no [thermal]: effects that need them take values of its class",
+        set.tire.name));
+  }
+}
+
 /// Warns of channels without samples. Throws where there are none at all.
 void check_samples(const MeasurementSet& set, SetChecks& checks) {
   std::vector<std::string> measured;
@@ -215,9 +228,10 @@ void check_plausibility(const MeasurementSet& kept, const Replays& replays, int 
 }  // namespace
 
 SetChecks check_set(const MeasurementSet& set, int threads) {
-  kind_of(set);  // throws where the set lacks what its kind needs
+  kind_of(set).make_context(set);  // throws where the files lack what the kind needs
   require_noise(set);
   SetChecks checks;
+  check_assumed(set, checks);
   check_samples(set, checks);
   check_force(set, checks);
   check_runs(set, checks);

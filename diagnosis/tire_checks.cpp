@@ -26,9 +26,10 @@ void check_conditions(const MeasurementSet& set, std::vector<std::string>& warni
   const auto& reference = set.tire.values.rolling_resistance;
   std::vector<std::size_t> odd_pressure;
   std::vector<std::size_t> odd_load;
-  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+  for (std::size_t r = 0; r < set.runs.size() && set.tire.has_rolling_resistance; ++r) {
     const double pressure = set.runs[r].cold_pressure_Pa / reference.reference_pressure_Pa;
     if (pressure > kOddPressure || pressure < 1.0 / kOddPressure) odd_pressure.push_back(r);
+    if (!set.runs[r].has("load_N")) continue;
     const std::vector<double>& load_N = set.runs[r].columns.at("load_N");
     const double load = *std::max_element(load_N.begin(), load_N.end()) / reference.reference_load_N;
     if (load > kOddLoad || (load < 1.0 / kOddLoad && load > identification::kLoadedShare)) odd_load.push_back(r);
@@ -56,6 +57,7 @@ void add_level(const MeasurementSet& set, const MeasuredRun& run, const sim::Rec
   const MeasurementKind& kind = kind_of(set);
   const std::string force = kind.force_channel(set).name;
   const double loaded_N = identification::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N;
+  if (!run.has("load_N")) return;
   for (const std::size_t row : find_compared_rows(set, run, force)) {
     const bool steady =
         std::abs(identification::find_acceleration(run, row)) <= identification::kSteadyAcceleration_m_s2;
@@ -88,6 +90,7 @@ void check_other_tires(const MeasurementSet& set, const Replays& replays, int th
     for (const RunMisfit& misfit : misfits) sum += misfit.sum_of_squares();
     return sum;
   };
+  if (set.baseline != models::Baseline::kCombined) return;  // a coefficient alone does not tell tires apart
   const double own = sum_of(replays.misfits);
   if (own < kVisible * static_cast<double>(set.runs.size())) return;
   for (const std::string& name : scenarios::list_assets("tires")) {

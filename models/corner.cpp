@@ -25,11 +25,11 @@ S calc_curvature_factor(const Context<S>& context) {
   return calc_drum_correction(reference_per_m, context.surface_curvature_per_m, tire_radius_m);
 }
 
-/// The functions of an effect on this kind of rig: none where it does not act.
+/// The functions of an effect on this kind of rig, against this baseline: none where it does not act.
 template <class S>
-const EffectHooks<S>* find_hooks(const Effect& effect, RigKind kind) {
+const EffectHooks<S>* find_hooks(const Effect& effect, const Context<S>& context) {
   static const EffectHooks<S> none;
-  return acts_on(effect.info, kind) ? &effect.hooks<S>() : &none;
+  return acts_in(effect.info, context.rig_kind, context.baseline) ? &effect.hooks<S>() : &none;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ const EffectHooks<S>* find_hooks(const Effect& effect, RigKind kind) {
 template <class S>
 Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects) : context_(std::move(context)) {
   for (const ActiveEffect& active : effects) {
-    if (!acts_on(active.effect->info, context_.rig_kind)) continue;
+    if (!acts_in(active.effect->info, context_.rig_kind, context_.baseline)) continue;
     for (std::size_t i = 0; i < kNodeCount; ++i) nodes_[i] = nodes_[i] || active.effect->info.nodes[i];
   }
   for (std::size_t i = 0; i < kNodeCount; ++i) {
@@ -46,8 +46,8 @@ Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects) 
     states_.push_back({fmt::format("{}_temperature_degC", kNodeNames[i]), kTemperatureScale_K});
   }
   for (const ActiveEffect& active : effects) {
-    effects_.push_back({active.effect, find_hooks<S>(*active.effect, context_.rig_kind), convert_parameters<S>(active),
-                        states_.size()});
+    effects_.push_back(
+        {active.effect, find_hooks<S>(*active.effect, context_), convert_parameters<S>(active), states_.size()});
     for (const EffectState& state : active.effect->info.states) {
       states_.push_back({fmt::format("{}.{}", active.effect->info.id, state.key), state.scale_SI});
     }
@@ -59,13 +59,16 @@ void Corner<S>::initialize(const S& temperature_K, const InitialPort<S>& initial
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (nodes_[i]) x[node_state_[i]] = temperature_K;
   }
+  InitialPort<S> at_start = initial;
+  at_start.context = &context_;
+  at_start.tire_temperature_K = temperature_K;
   for (const Installed& on : effects_) {
     const auto& declared = on.effect->info.states;
     for (std::size_t i = 0; i < declared.size(); ++i) {
       x[on.first_state + i] = quantity<S>(0.0, unit_of_key(declared[i].key).dimension);
     }
     if (on.hooks->initial != nullptr) {
-      on.hooks->initial(EffectView<S>(on.parameters.data(), x + on.first_state), initial, x + on.first_state);
+      on.hooks->initial(EffectView<S>(on.parameters.data(), x + on.first_state), at_start, x + on.first_state);
     }
   }
 }

@@ -87,6 +87,7 @@ Context<S> convert_context(const Context<double>& from) {
   Context<S> to;
   to.tire = convert_tire<S>(from.tire);
   to.parasitic = convert<S>(from.parasitic);
+  to.vehicle = convert<S>(from.vehicle);
   to.rig_kind = from.rig_kind;
   to.baseline = from.baseline;
   to.surface_curvature_per_m = quantity<S>(from.surface_curvature_per_m, Dimension{} / dimension::kLength);

@@ -27,6 +27,10 @@ bool acts_on(const EffectInfo& info, RigKind kind) {
   return std::find(info.acts_on.begin(), info.acts_on.end(), kind) != info.acts_on.end();
 }
 
+bool acts_in(const EffectInfo& info, RigKind kind, Baseline baseline) {
+  return acts_on(info, kind) && info.only_against.value_or(baseline) == baseline;
+}
+
 std::vector<std::string> effect_ids() {
   std::vector<std::string> ids;
   for (const Effect* effect : all_effects()) ids.push_back(effect->info.id);

@@ -49,8 +49,9 @@ struct EffectInfo {
   std::vector<EffectParameter> parameters;  // the size first
   std::vector<EffectState> states;
   std::vector<RigKind> acts_on{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};  // elsewhere a corner leaves it out
-  std::vector<RigKind> faint_on{};           // of these, where it changes too little to be seen
-  NodeSet nodes{};                           // thermal nodes that it needs beside the baseline's
+  std::optional<Baseline> only_against = std::nullopt;  // the baseline that lacks it; the other has it
+  std::vector<RigKind> faint_on{};                      // of these, where it changes too little to be seen
+  NodeSet nodes{};                                      // thermal nodes that it needs beside the baseline's
   std::vector<std::string> visible_in;       // measured channels, of any rig kind, that a finite size changes
   std::vector<std::string> clean_in;         // measured channels, of any rig kind, that it leaves bit-identical
   std::vector<std::string> confused_with;    // ids
@@ -62,6 +63,8 @@ const char* name_of(RigKind kind);
 
 /// Whether the effect changes anything on such a rig.
 bool acts_on(const EffectInfo& info, RigKind kind);
+/// The same against a baseline.
+bool acts_in(const EffectInfo& info, RigKind kind, Baseline baseline);
 
 /// An effect's own numbers at one instant.
 template <class S>

@@ -13,6 +13,7 @@
 #include "models/parasitic_loss.h"
 #include "models/thermal_network.h"
 #include "models/tire.h"
+#include "models/vehicle_body.h"
 
 namespace rollrig::models {
 
@@ -27,6 +28,7 @@ template <class S>
 struct Context {
   TireParameters<S> tire;
   ParasiticParameters<S> parasitic;
+  VehicleBody<S> vehicle;  // of a measured vehicle on the road; elsewhere a rig's layout has it
   RigKind rig_kind = RigKind::kDrum;
   Baseline baseline = Baseline::kCombined;
   S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
@@ -169,6 +171,7 @@ struct TracePort {
 template <class S>
 struct InitialPort {
   const Context<S>* context = nullptr;
+  S tire_temperature_K{};     // of all nodes at the start
   bool soaked = true;         // at rest so long that nothing remembers; formats.md's default
   S rest_before_s{};          // standstill before the run, where not soaked
   bool started_warm = false;  // right after another run (tire_state = "warm")

@@ -160,6 +160,25 @@ TireParameters<double> TireFile::parameters_on(const std::string& rig_name, Base
   return on_rig;
 }
 
+TireParameters<double> TireFile::parameters_with_class_values(double load_N, double pressure_Pa) const {
+  if (!has_constant) throw missing_table(*this, "constant", "baseline constant_rrc");
+  TireParameters<double> filled = values;
+  if (!has_stiffness) filled.stiffness = {220e3, 300.0, 75e3, 0.3, 1.0};
+  if (!has_thermal) {
+    constexpr double kSpecificHeat_J_per_kg_K = 1640.0;
+    filled.thermal = {kSpecificHeat_J_per_kg_K * values.geometry.mass_kg, 95.0, 4.0, 12.0, 0.5, 1.4};
+  }
+  if (!has_rolling_resistance) {
+    auto& law = filled.rolling_resistance;
+    law.A0_N = values.constant.rrc * load_N;
+    law.reference_load_N = load_N;
+    law.reference_pressure_Pa = pressure_Pa;
+    law.reference_drum_diameter_m = 2.0;
+    law.pressure_exponent = 0.4;
+  }
+  return filled;
+}
+
 namespace {
 
 /// Builds TOML lines "key = value   # note".

@@ -5,25 +5,12 @@
 #include <string>
 
 #include "models/road_load.h"
+#include "models/vehicle_body.h"
 #include "sim/core/schema.h"
 
 namespace rollrig::rigs {
 
-/// What every use of a vehicle needs (formats.md).
-struct VehicleBody {
-  double mass_kg = 0.0;
-  double rotating_mass_kg = 0.0;
-  double drag_area_m2 = 0.0;
-
-  template <class Self, class Visit>
-  static void visit(Self& p, Visit&& visit) {
-    visit(Field{"mass_kg", positive(), "Mass as tested"}, p.mass_kg);
-    visit(Field{"rotating_mass_kg", non_negative(), "Equivalent mass of all that turns, wheels included"},
-          p.rotating_mass_kg);
-    visit(Field{"drag_area_m2", non_negative(), "Drag coefficient times frontal area; not needed beside [road_load]"},
-          p.drag_area_m2);
-  }
-};
+using VehicleBody = models::VehicleBody<double>;
 
 struct VehicleGeometry {
   double wheelbase_m = 0.0;

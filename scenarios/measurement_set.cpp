@@ -154,6 +154,31 @@ MeasuredRun read_drum_inputs(const std::string& file) {
   return run;
 }
 
+models::SensorSet default_sensors(SetKind kind) {
+  if (kind == SetKind::kRoad) return {{"traction_force_N", {10.0, 215.0, 13.0, 140.0, 0.0}}};
+  if (kind == SetKind::kDrum) return {};
+  return {{"loss_force_N", {2.0, 1.0, 60.0, 2.0, 0.0}},
+          {"liner_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
+          {"gas_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
+          {"cavity_pressure_kPa", {250.0, 100.0, 120.0, 50.0, 100.0}}};
+}
+
+namespace {
+
+/// Sensors that runs use and the set does not describe.
+void assume_sensors(MeasurementSet& set) {
+  for (const auto& [channel, sensor] : default_sensors(set.kind)) {
+    const std::string& name = channel;
+    const bool used =
+        std::any_of(set.runs.begin(), set.runs.end(), [&](const MeasuredRun& run) { return run.has(name); });
+    if (!used || set.sensors.count(name) > 0) continue;
+    set.sensors[name] = sensor;
+    set.assumed_sensors.push_back(name);
+  }
+}
+
+}  // namespace
+
 MeasurementSet read_measurement_set(const std::string& folder) {
   MeasurementSet set;
   set.path = set_file_of(folder);
@@ -176,6 +201,7 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
   reader.finish();
   for (MeasuredRun& run : set.runs) read_run_columns(columns_of(set.kind), run);
+  assume_sensors(set);
   check_runs(reader, set);
   return set;
 }

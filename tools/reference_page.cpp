@@ -64,6 +64,7 @@ std::string describe(const models::EffectInfo& effect) {
                     parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
   }
   text += fmt::format("\n*Acts on* {}", list_kinds(effect.acts_on));
+  if (effect.only_against.has_value()) text += ", only against the baseline `constant_rrc`";
   if (!effect.faint_on.empty()) text += fmt::format(", too little to be seen on {}", list_kinds(effect.faint_on));
   text += fmt::format(". *Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
                       list_or_none(effect.visible_in), list_or_none(effect.clean_in),

@@ -1,7 +1,8 @@
 #include "diagnosis/kinds/measurement_kind.h"
 
+#include <stdexcept>
+
 #include "diagnosis/kinds/kinds.h"
-#include "sim/core/error.h"
 
 namespace rollrig::diagnosis {
 
@@ -10,12 +11,11 @@ const MeasurementKind& kind_of(const scenarios::MeasurementSet& set) {
     case scenarios::SetKind::kDrum:
       return drum_kind();
     case scenarios::SetKind::kDyno:
+      return dyno_kind();
     case scenarios::SetKind::kRoad:
-      break;
+      return road_kind();
   }
-  throw InputError({set.kind == scenarios::SetKind::kDyno ? "the set is of kind dyno, which is not diagnosed yet"
-                                                          : "the set is of kind road, which is not diagnosed yet",
-                    set.path, 0, "", "", "a set measured on a drum", ""});
+  throw std::invalid_argument("a kind of set without an entry here");
 }
 
 }  // namespace rollrig::diagnosis

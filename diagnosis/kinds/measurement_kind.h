@@ -43,6 +43,7 @@ class MeasurementKind {
   virtual models::RigKind rig_kind() const = 0;
 
   // How a run is simulated.
+  /// Throws InputError where the set's files lack what its kind needs.
   virtual models::Context<double> make_context(const scenarios::MeasurementSet& set) const = 0;
   virtual std::shared_ptr<const RunReplay> make_replay(const scenarios::MeasurementSet& set,
                                                        const scenarios::MeasuredRun& run) const = 0;
@@ -80,7 +81,7 @@ class MeasurementKind {
                                                   double reading) const = 0;
 };
 
-/// The kind of a set. Throws InputError where the set lacks what its kind needs.
+/// The kind of a set.
 const MeasurementKind& kind_of(const scenarios::MeasurementSet& set);
 
 }  // namespace rollrig::diagnosis

@@ -28,8 +28,12 @@ TestConditions find_test_conditions(const PreparedSet& set) {
     const std::vector<double>& loads_N = run.measured.columns.at("load_N");
     load_N = std::max(load_N, *std::max_element(loads_N.begin(), loads_N.end()));
   }
-  return {load_N, set.context().skim_load_N, pressures_Pa[pressures_Pa.size() / 2],
-          set.kind().usual_ambient_K(set.source()), set.channels()};
+  return {load_N,
+          set.context().skim_load_N,
+          pressures_Pa[pressures_Pa.size() / 2],
+          set.kind().usual_ambient_K(set.source()),
+          set.channels(),
+          {}};
 }
 
 RunPlan::RunPlan(const TestConditions& conditions, double first_km_h)
@@ -48,6 +52,11 @@ RunPlan& RunPlan::roll(double minutes, double load_N, double speed_km_h, bool re
   const auto steady = static_cast<int>(std::lround(60.0 * minutes / kVirtualRow_s));
   for (int i = 0; i < steady; ++i) add_row(speed_km_h);
   speed_km_h_ = speed_km_h;
+  return *this;
+}
+
+RunPlan& RunPlan::pull(double longitudinal_force_N) {
+  conditions_.held["longitudinal_force_N"] = longitudinal_force_N;
   return *this;
 }
 
@@ -85,6 +94,7 @@ void RunPlan::add_row(double speed_km_h) {
   run_.columns["load_N"].push_back(load_N_);
   run_.columns["ambient_degC"].push_back(conditions_.ambient_K);
   hung_by_row_Nm_.push_back(hung_Nm_);
+  for (const auto& [column, value] : conditions_.held) run_.columns[column].push_back(value);
   if (surface_K_ > 0.0) run_.columns["surface_temperature_degC"].push_back(surface_K_);
   for (const std::string& channel : conditions_.channels) {
     run_.columns[channel].push_back(read_ ? 0.0 : std::numeric_limits<double>::quiet_NaN());

@@ -19,6 +19,7 @@ struct TestConditions {
   double pressure_Pa = 0.0;
   double ambient_K = 0.0;
   std::vector<std::string> channels;
+  std::map<std::string, double> held;  // further given columns, with what they hold unless a stage says otherwise
 };
 
 /// The set's highest load, on which the tire is known to run, its middle pressure, and the ambient in which its runs
@@ -33,6 +34,8 @@ class RunPlan {
   /// Goes to a speed at once with the new load, then holds both.
   RunPlan& roll(double minutes, double load_N, double speed_km_h, bool read = true);
   RunPlan& stand(double minutes, double load_N, bool read = true) { return roll(minutes, load_N, 0.0, read); }
+  /// Drive force of the wheel from now on, negative where it brakes.
+  RunPlan& pull(double longitudinal_force_N);
   RunPlan& at_pressure(double pressure_Pa);
   RunPlan& on_surface(double surface_K);
   /// From now on a known torque hangs on the drum.

@@ -17,7 +17,7 @@ bool contains(const std::vector<std::string>& ids, const std::string& id) {
 
 bool is_seen_on_drum(const models::EffectInfo& info) {
   const auto& faint = info.faint_on;
-  return models::acts_on(info, models::RigKind::kDrum) &&
+  return models::acts_in(info, models::RigKind::kDrum, models::Baseline::kCombined) &&
          std::find(faint.begin(), faint.end(), models::RigKind::kDrum) == faint.end();
 }
 

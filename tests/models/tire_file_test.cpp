@@ -58,4 +58,17 @@ rrc_N_per_kN_sd = 2.5
   CHECK(tire.standard_uncertainties.constant.rrc == Approx(0.0025));
   CHECK_THROWS_WITH(tire.parameters_on("drum_2m", models::Baseline::kCombined),
                     Catch::Contains("has no table") && Catch::Contains("road.toml"));
+  // Against a constant coefficient effects take values of the class, and what the file has stays.
+  const models::TireParameters<double> filled = tire.parameters_with_class_values(4000.0, 260e3);
+  CHECK(filled.geometry.mass_kg == 9.0);
+  CHECK(filled.constant.rrc == Approx(0.009));
+  CHECK(filled.rolling_resistance.reference_load_N == 4000.0);
+  CHECK(filled.rolling_resistance.reference_pressure_Pa == 260e3);
+  CHECK(filled.thermal.heat_capacity_J_per_K > 9.0 * 1000.0);
+  CHECK(filled.stiffness.vertical_N_per_m > 0.0);
+  const models::TireFile whole = tests::read_asset_tire();
+  models::TireFile with_constant = whole;
+  with_constant.has_constant = true;
+  CHECK(with_constant.parameters_with_class_values(4000.0, 260e3).thermal.z_W_per_K == whole.values.thermal.z_W_per_K);
+  CHECK_THROWS_WITH(whole.parameters_with_class_values(4000.0, 260e3), Catch::Contains("[constant]"));
 }

@@ -100,6 +100,11 @@ void check_declaration(const EffectInfo& info) {
   CHECK_FALSE(info.splitting_tests.empty());
 }
 
+/// The baseline against which an effect keeps its contract.
+models::Baseline baseline_for(const Effect& effect) {
+  return effect.info.only_against.value_or(models::Baseline::kCombined);
+}
+
 /// Fills everything that a port may not yet read with NaN, so that whoever reads it betrays itself.
 void poison(models::Instant<double>& now) {
   const double nan = std::nan("");
@@ -117,8 +122,10 @@ void poison(models::Instant<double>& now) {
 }
 
 void check_reads_only_what_stands_before(const Effect& effect, models::RigKind kind) {
-  const models::Corner<double> corner(tests::make_context_on(kind),
-                                      {tests::make_active(effect, usual_values(effect.info))});
+  models::Context<double> context = tests::make_context_on(kind);
+  context.baseline = baseline_for(effect);
+  context.tire.constant.rrc = 0.0075;
+  const models::Corner<double> corner(context, {tests::make_active(effect, usual_values(effect.info))});
   std::vector<double> x(corner.state_count());
   corner.initialize(310.0, {}, x.data());
   models::Instant<double> now;
@@ -153,8 +160,9 @@ bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-void check_is_baseline(const Campaign& campaign, const Effects& effects, const sim::Recording<double>& baseline) {
-  const auto recording = campaign.run_quasi_static(effects);
+void check_is_baseline(const Campaign& campaign, const Effects& effects, models::Baseline against,
+                       const sim::Recording<double>& baseline) {
+  const auto recording = campaign.run_quasi_static(effects, against);
   for (const std::string& channel : measured_on(campaign.kind)) {
     INFO(channel);
     CHECK(is_same(recording.channel(channel), baseline.channel(channel)));
@@ -177,7 +185,8 @@ constexpr double kVisible = 1e-3;  // of a channel's span
 constexpr double kFaint = 1e-2;
 
 void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, const sim::Recording<double>& baseline) {
-  const auto on = campaign.run_quasi_static(at_size(effect, effect.info.parameters[0].prior.high));
+  const auto on =
+      campaign.run_quasi_static(at_size(effect, effect.info.parameters[0].prior.high), baseline_for(effect));
   const bool faint = is_faint(effect.info, campaign.kind);
   for (const std::string& channel : measured_on(campaign.kind)) {
     if (!faint) break;
@@ -195,9 +204,9 @@ void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, c
   }
 }
 
-void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects) {
-  const auto multibody = campaign.run_multibody(effects);
-  const auto quasi_static = campaign.run_quasi_static(effects);
+void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects, models::Baseline against) {
+  const auto multibody = campaign.run_multibody(effects, against);
+  const auto quasi_static = campaign.run_quasi_static(effects, against);
   CHECK_NOTHROW(multibody.audit.require_closed(campaign.audit_limit));
   CHECK_NOTHROW(quasi_static.audit.require_closed(campaign.audit_limit));
   if (measured_on(campaign.kind).count("liner_temperature_degC") == 1) {
@@ -229,10 +238,10 @@ void check_derivative(const Campaign& campaign, const Effect& effect) {
   const double centre = size.prior.centre();
   const double step = 1e-3 * (size.prior.high - size.prior.low);
   const double to_file_unit = unit_of_key(size.key).factor;
-  const auto derivatives = campaign.run_with_derivatives(at_size(effect, centre));
+  const auto derivatives = campaign.run_with_derivatives(at_size(effect, centre), baseline_for(effect));
   std::vector<sim::Recording<double>> runs;
   for (const double steps : {-2.0, -1.0, 1.0, 2.0}) {
-    runs.push_back(campaign.run_quasi_static(at_size(effect, centre + steps * step)));
+    runs.push_back(campaign.run_quasi_static(at_size(effect, centre + steps * step), baseline_for(effect)));
   }
   for (const std::string& channel : select_measured(effect.info.visible_in, campaign.kind)) {
     INFO(channel);
@@ -247,21 +256,22 @@ void check_derivative(const Campaign& campaign, const Effect& effect) {
 
 void check_on_campaign(const Campaign& campaign, const Effect& effect, const sim::Recording<double>& baseline) {
   const EffectInfo& info = effect.info;
+  const models::Baseline against = baseline_for(effect);
   const std::string name = info.id + " on " + models::name_of(campaign.kind);
   if (!models::acts_on(info, campaign.kind)) {
     DYNAMIC_SECTION(name << ": it does not act there, which is the baseline to the bit") {
-      check_is_baseline(campaign, at_size(effect, info.parameters[0].prior.high), baseline);
+      check_is_baseline(campaign, at_size(effect, info.parameters[0].prior.high), against, baseline);
     }
     return;
   }
   DYNAMIC_SECTION(name << ": at its off value it is the baseline to the bit") {
-    check_is_baseline(campaign, at_size(effect, *info.parameters[0].off), baseline);
+    check_is_baseline(campaign, at_size(effect, *info.parameters[0].off), against, baseline);
   }
   DYNAMIC_SECTION(name << ": a step of its size shows where it says, and nowhere that it calls clean") {
     check_shows_where_it_says(campaign, effect, baseline);
   }
   DYNAMIC_SECTION(name << ": both audits close with it on, and the fidelities agree") {
-    check_audits_and_fidelities(campaign, {tests::make_active(effect, usual_values(info))});
+    check_audits_and_fidelities(campaign, {tests::make_active(effect, usual_values(info))}, against);
   }
   if (is_faint(info, campaign.kind)) return;  // a derivative as small as rounding
   DYNAMIC_SECTION(name << ": its derivative by size agrees with differences") { check_derivative(campaign, effect); }
@@ -282,8 +292,12 @@ TEST_CASE("every effect declares itself, and reads only what stands before its p
 
 TEST_CASE("every effect keeps the contract", "[fast][contract]") {
   for (const Campaign& campaign : tests::campaigns()) {
-    const auto baseline = campaign.run_quasi_static({});
-    for (const Effect* effect : models::all_effects()) check_on_campaign(campaign, *effect, baseline);
+    const auto combined = campaign.run_quasi_static({}, models::Baseline::kCombined);
+    const auto constant = campaign.run_quasi_static({}, models::Baseline::kConstantRrc);
+    for (const Effect* effect : models::all_effects()) {
+      const bool is_combined = baseline_for(*effect) == models::Baseline::kCombined;
+      check_on_campaign(campaign, *effect, is_combined ? combined : constant);
+    }
   }
 }
 
@@ -293,7 +307,7 @@ TEST_CASE("both audits close with every effect on at once, and the fidelities ag
     for (const Effect* effect : models::all_effects()) {
       all.push_back(tests::make_active(*effect, usual_values(effect->info)));
     }
-    check_audits_and_fidelities(campaign, all);
+    check_audits_and_fidelities(campaign, all, models::Baseline::kCombined);
   }
 }
 

@@ -91,3 +91,32 @@ TEST_CASE("the real road set of the shared data is read where it is present", "[
   CHECK(set.vehicle->tires == 4);
   CHECK(set.baseline == models::Baseline::kConstantRrc);
 }
+
+TEST_CASE("a set of a dynamometer need not describe its sensors", "[fast]") {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("set.toml"), R"(format = "rollrig-measurements/1"
+name = "dyno"
+tire = "a50"
+rig = "dyno_1m2"
+[sensors.cavity_pressure_kPa]
+offset_sd = 1.0
+drift_sd = 0.0
+drift_time_s = 1.0
+noise_sd = 0.5
+resolution = 0.0
+[[run]]
+id = "a"
+file = "a.csv"
+session = "day"
+initial_tire_temperature_degC = 25.0
+cold_pressure_kPa = 280.0
+)");
+  tests::write_file(folder.file("a.csv"),
+                    "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC,loss_force_N,cavity_pressure_kPa\n"
+                    "0,80,5400,0,25,40,280\n1,80,5400,0,25,40,280\n");
+  const scenarios::MeasurementSet set = scenarios::read_measurement_set(folder.path());
+  CHECK(set.assumed_sensors == std::vector<std::string>{"loss_force_N"});
+  CHECK(set.sensors.at("loss_force_N").noise_sd > 0.0);
+  CHECK(set.sensors.at("cavity_pressure_kPa").noise_sd == Approx(500.0));
+  CHECK(set.sensors.count("liner_temperature_degC") == 0);  // not measured
+}

@@ -242,3 +242,52 @@ TEST_CASE("a leaking tire loses more, is full again when filled, and never falls
   CHECK(at.now.pressure_Pa > 0.0);
   CHECK(at.now.pressure_Pa < 1e3);
 }
+
+TEST_CASE("a tire that follows its temperature: the coefficient holds warm at 80 km/h and 25 degC", "[fast]") {
+  models::Context<double> context = make_context_on(RigKind::kFlat);
+  context.baseline = models::Baseline::kConstantRrc;
+  context.tire.constant.rrc = 0.008;
+  const double load_N = context.tire.rolling_resistance.reference_load_N;
+  const double fall_per_K = 0.015;
+  const double warm_up_min = 12.0;
+  const double rise_K = 25.0;
+  const auto effect = switch_on("tire_temperature", {fall_per_K, warm_up_min, rise_K});
+  const auto begin = [&](double temperature_K, const models::InitialPort<double>& initial) {
+    HandFedCorner<double> at(context, {effect}, initial, temperature_K);
+    at.inputs.load_N = load_N;
+    at.inputs.ambient_K = temperature_K;
+    return at;
+  };
+  SECTION("warm at 80 km/h it is the coefficient, and stays there") {
+    HandFedCorner<double> at = begin(298.15, warm());
+    CHECK(at.evaluate().rolling_resistance_N == Approx(0.008 * load_N));
+    at.advance(3600.0);
+    CHECK(at.now.rolling_resistance_N == Approx(0.008 * load_N));
+  }
+  SECTION("cold it is more by exp(B D), and warms to there") {
+    HandFedCorner<double> at = begin(298.15, {});
+    CHECK(at.evaluate().loss.factor == Approx(std::exp(fall_per_K * rise_K)));
+    at.advance(10.0 * warm_up_min * 60.0);
+    CHECK(at.now.loss.factor == Approx(1.0).epsilon(1e-3));
+  }
+  SECTION("in colder air more, though the tire makes up for a part by its own heat") {
+    HandFedCorner<double> at = begin(278.15, warm());
+    at.advance(7200.0);
+    CHECK(at.now.loss.factor > 1.05);
+    CHECK(at.now.loss.factor < std::exp(fall_per_K * 20.0));
+  }
+  SECTION("slower it stays colder, faster it gets warmer") {
+    std::vector<double> temperatures_K;
+    for (const double km_h : {0.0, 30.0, 80.0, 130.0}) {
+      HandFedCorner<double> at = begin(298.15, warm());
+      at.inputs.speed_m_s = km_h / 3.6;
+      at.advance(km_h == 0.0 ? 36000.0 : 7200.0);  // standing air takes its time
+      temperatures_K.push_back(at.state("tire_temperature.tire_temperature_degC"));
+    }
+    CHECK(temperatures_K[0] == Approx(298.15).margin(0.2));
+    for (std::size_t i = 1; i < temperatures_K.size(); ++i) CHECK(temperatures_K[i] > temperatures_K[i - 1] + 1.0);
+  }
+  SECTION("begins at the temperature that the run gives") {
+    CHECK(begin(320.0, {}).state("tire_temperature.tire_temperature_degC") == 320.0);
+  }
+}

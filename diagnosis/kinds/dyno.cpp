@@ -1,0 +1,116 @@
+/// Sets measured on a dynamometer: one wheel of a vehicle on its roller; its loss and its tire are measured.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/kinds/driving_phases.h"
+#include "diagnosis/kinds/kinds.h"
+#include "identification/sample_selection.h"
+#include "identification/wheel_replay.h"
+#include "models/parasitic_loss.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+constexpr const char* kLoss = "loss_force_N";
+
+class DynoReplay : public RunReplay {
+ public:
+  explicit DynoReplay(const MeasuredRun& run) : intervals_(identification::make_wheel_intervals(run)) {}
+
+  sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
+                                  rigs::Detail) const override {
+    return identification::replay_dyno_run(set, run, intervals_, corner);
+  }
+  sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
+                               rigs::Detail) const override {
+    return identification::replay_dyno_run(set, run, intervals_, corner);
+  }
+
+ private:
+  std::vector<identification::WheelInterval> intervals_;
+};
+
+class DynoKind : public MeasurementKind {
+ public:
+  models::RigKind rig_kind() const override { return models::RigKind::kDyno; }
+
+  models::Context<double> make_context(const MeasurementSet& set) const override {
+    return rigs::make_context(set.tire, *set.rig, set.baseline);
+  }
+
+  std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
+    return std::make_shared<DynoReplay>(run);
+  }
+
+  ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }
+
+  /// The loss is compensated for inertia, so that speed changes count; below 20 km/h and within 30 s of a load change
+  /// it does not.
+  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
+    const std::vector<double>& values = run.columns.at(channel);
+    const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+    std::vector<std::size_t> rows;
+    double settled_s = run.time_s.front();
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (identification::is_load_change(run, row)) settled_s = run.time_s[row] + identification::kSettling_s;
+      const bool trusted =
+          channel != kLoss || (speed_m_s[row] >= identification::kTrustedSpeed_m_s && run.time_s[row] >= settled_s);
+      if (!std::isnan(values[row]) && trusted) rows.push_back(row);
+    }
+    return rows;
+  }
+
+  std::vector<RunPhase> find_phases(const MeasurementSet&, const MeasuredRun& run) const override {
+    return find_driving_phases(run);
+  }
+
+  double skim_limit_N(const MeasurementSet&) const override { return 0.0; }
+
+  Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
+    Uncertainties uncertainties;
+    add_loss_law(set.tire, context, uncertainties);
+    add_heat_balance(set.tire, set.rig->name, context, uncertainties);
+    add_parasitic_loss(*set.rig, uncertainties);
+    return uncertainties;
+  }
+
+  std::vector<NamedPush> pushes() const override {
+    return {{"loss force", Push::kForce}, {"tire loss", Push::kTireLoss}, {"tire heat", Push::kTireHeat},
+            {"gas heat", Push::kGasHeat}, {"gas mass", Push::kGasMass},   {"slip", Push::kSlip},
+            {"inertia", Push::kInertia},  {"boundary", Push::kBoundary}};
+  }
+
+  double usual_ambient_K(const MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
+
+  std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_dyno_tests(set); }
+
+  double calc_force_tolerance(const MeasurementSet&, double simulated_N) const override {
+    constexpr double kForce_N = 40.0;  // Assumed, as kShare: driveline, brake drag and drive force (RunMisfit)
+    constexpr double kShare = 0.3;
+    return kForce_N + kShare * std::abs(simulated_N);
+  }
+
+  std::vector<WrongUnit> list_wrong_units() const override {
+    std::vector<WrongUnit> wrong = list_common_wrong_units();
+    wrong.push_back({kLoss, 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({kLoss, -1.0, 0.0, "has the other sign: a loss is positive"});
+    return wrong;
+  }
+
+  std::optional<double> find_tire_force_N(const MeasurementSet& set, const MeasuredRun& run, std::size_t row,
+                                          double loss_N) const override {
+    return loss_N - models::calc_parasitic_N(set.rig->parasitic, run.columns.at("speed_km_h")[row]);
+  }
+};
+
+}  // namespace
+
+const MeasurementKind& dyno_kind() {
+  static const DynoKind kind;
+  return kind;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,142 @@
+/// Sets measured on the road: a vehicle whose traction force is known from its motor, and nothing of its tires.
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/kinds/driving_phases.h"
+#include "diagnosis/kinds/kinds.h"
+#include "identification/sample_selection.h"
+#include "identification/wheel_replay.h"
+#include "sim/core/error.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using scenarios::MeasuredRun;
+using scenarios::MeasurementSet;
+
+constexpr const char* kTraction = "traction_force_N";
+
+class RoadReplay : public RunReplay {
+ public:
+  explicit RoadReplay(const MeasuredRun& run) : intervals_(identification::make_wheel_intervals(run)) {}
+
+  sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
+                                  rigs::Detail) const override {
+    return identification::replay_road_run(set, run, intervals_, corner);
+  }
+  sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
+                               rigs::Detail) const override {
+    return identification::replay_road_run(set, run, intervals_, corner);
+  }
+
+ private:
+  std::vector<identification::WheelInterval> intervals_;
+};
+
+double find_tire_load_N(const rigs::VehicleFile& vehicle) {
+  return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
+}
+
+class RoadKind : public MeasurementKind {
+ public:
+  models::RigKind rig_kind() const override { return models::RigKind::kFlat; }
+
+  models::Context<double> make_context(const MeasurementSet& set) const override {
+    const rigs::VehicleFile& vehicle = *set.vehicle;
+    if (vehicle.road_load.has_value()) {
+      throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
+                        "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
+    }
+    models::Context<double> context;
+    context.rig_kind = models::RigKind::kFlat;
+    context.baseline = set.baseline;
+    context.vehicle = vehicle.body;
+    context.tire =
+        set.baseline == models::Baseline::kConstantRrc
+            ? set.tire.parameters_with_class_values(find_tire_load_N(vehicle), set.runs.front().cold_pressure_Pa)
+            : set.tire.parameters_on("", set.baseline);
+    return context;
+  }
+
+  std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
+    return std::make_shared<RoadReplay>(run);
+  }
+
+  /// Every tire carries its share of the weight.
+  void complete(const MeasurementSet& set, MeasuredRun& run) const override {
+    run.columns["load_N"].assign(run.time_s.size(), find_tire_load_N(*set.vehicle));
+  }
+
+  ForceChannel force_channel(const MeasurementSet&) const override { return {kTraction, "traction force", 1.0}; }
+
+  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
+    const std::vector<double>& values = run.columns.at(channel);
+    const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 0; row < values.size(); ++row) {
+      if (!std::isnan(values[row]) && speed_m_s[row] >= identification::kTrustedSpeed_m_s) rows.push_back(row);
+    }
+    return rows;
+  }
+
+  std::vector<RunPhase> find_phases(const MeasurementSet&, const MeasuredRun& run) const override {
+    return find_driving_phases(run);
+  }
+
+  double skim_limit_N(const MeasurementSet&) const override { return 0.0; }
+
+  /// Against the constant coefficient nothing of the tire's heat is seen.
+  Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
+    Uncertainties uncertainties;
+    add_loss_law(set.tire, context, uncertainties);
+    if (set.baseline == models::Baseline::kCombined) add_heat_balance(set.tire, "", context, uncertainties);
+    add_vehicle(*set.vehicle, uncertainties);
+    return uncertainties;
+  }
+
+  std::vector<NamedPush> pushes() const override {
+    return {{"rolling loss", Push::kForce},
+            {"inertia", Push::kInertia},
+            {"air drag", Push::kDrag},
+            {"tire heat", Push::kTireHeat}};
+  }
+
+  /// That in which the runs began, on average.
+  double usual_ambient_K(const MeasurementSet& set) const override {
+    double sum_K = 0.0;
+    for (const MeasuredRun& run : set.runs) sum_K += run.columns.at("ambient_degC").front();
+    return sum_K / static_cast<double>(set.runs.size());
+  }
+
+  std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_road_tests(set); }
+
+  double calc_force_tolerance(const MeasurementSet& set, double simulated_N) const override {
+    constexpr double kShareOfWeight = 0.01;  // Assumed, as kShare: a slope of 1 % beside the record, or its error
+    constexpr double kShare = 0.3;
+    return kShareOfWeight * set.vehicle->body.mass_kg * kStandardGravity_m_s2 + kShare * std::abs(simulated_N);
+  }
+
+  std::vector<WrongUnit> list_wrong_units() const override {
+    std::vector<WrongUnit> wrong = list_common_wrong_units();
+    wrong.push_back({kTraction, 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({kTraction, -1.0, 0.0, "has the other sign: positive drives"});
+    wrong.push_back({kTraction, 1e3, 0.0, "holds kN"});
+    wrong.push_back({"elevation_m", 0.3048, 0.0, "holds feet"});
+    return wrong;
+  }
+
+  std::optional<double> find_tire_force_N(const MeasurementSet&, const MeasuredRun&, std::size_t,
+                                          double) const override {
+    return std::nullopt;
+  }
+};
+
+}  // namespace
+
+const MeasurementKind& road_kind() {
+  static const RoadKind kind;
+  return kind;
+}
+
+}  // namespace rollrig::diagnosis

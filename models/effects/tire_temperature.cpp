@@ -1,0 +1,84 @@
+/// The loss follows the tire's temperature, where the baseline has one constant coefficient.
+#include "models/effect.h"
+
+namespace rollrig::models {
+namespace {
+
+struct TireTemperature {
+  enum Parameter { kFall, kWarmUp, kRise };
+  enum State { kTemperature };
+
+  static EffectInfo info() {
+    EffectInfo info;
+    info.id = "tire_temperature";
+    info.summary =
+        "The tire's loss falls as the tire warms: more after a cold start, in cold air and at low speed than one "
+        "constant coefficient says";
+    info.equation =
+        "F_rr <- F_rr e, e = exp(-B (T - T_r)), T_r = 25 degC + D; tau dT/dt = D q - g (T - T_amb), "
+        "q = e v Fz/(v_r Fz_ref), g = (v_0 + v)/(v_0 + v_r); v_r = 80 km/h, v_0 = z/f";
+    info.source =
+        "source (3.4), (3.8) to (3.14), with the heat balance in units of that at 80 km/h, 25 degC and the reference "
+        "load, where the coefficient of ISO 28580 holds; B 0.008 to 0.03 /K, warm-up 5 to 30 min: effects.md. "
+        "Assumed: D; z/f of the tire's file or its class. Right after another run the tire begins D above its start";
+    info.parameters = {
+        {"fall_per_K",
+         between(-0.1, 0.2),
+         {0.008, 0.03, Prior::Scale::kLog},
+         "B, relative fall of the loss with tire temperature",
+         0.0},
+        {"warm_up_min", between(0.5, 600.0), {5.0, 30.0, Prior::Scale::kLog}, "tau, of the warm-up at 80 km/h"},
+        {"rise_dK",
+         between(1.0, 150.0),
+         {15.0, 40.0, Prior::Scale::kLog},
+         "D, over the air in steady driving at 80 km/h with the loss of 25 degC"}};
+    info.states = {{"tire_temperature_degC", 10.0, "T, that the loss follows"}};
+    info.only_against = Baseline::kConstantRrc;
+    info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
+                       "cavity_pressure_kPa"};
+    info.confused_with = {"driveline_warming", "wind_and_grade", "rubber_memory"};
+    info.splitting_tests = {"the same drive from cold in cold and in warm air", "warm tires on a cold vehicle",
+                            "20 min at 120 km/h, then at once 80 km/h"};
+    return info;
+  }
+
+  template <class S>
+  static S calc_reference_K(const EffectView<S>& self) {
+    return quantity<S>(298.15, dimension::kTemperature) + self.parameter(kRise);  // ISO 28580: 25 degC
+  }
+
+  template <class S>
+  static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
+    states[kTemperature] = port.tire_temperature_K;
+    if (port.started_warm) states[kTemperature] += self.parameter(kRise);
+  }
+
+  template <class S>
+  static void loss(const EffectView<S>& self, const Instant<S>&, LossPort<S>& port) {
+    using std::exp;
+    port.factor *= exp(-self.parameter(kFall) * (self.state(kTemperature) - calc_reference_K(self)));
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
+    using std::abs;
+    const TireParameters<S>& tire = now.context->tire;
+    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S standing_m_s = tire.thermal.z_W_per_K / tire.thermal.f_W_s_per_m_K;
+    const S speed_m_s = abs(now.motion.speed_m_s);
+    const S heat = now.loss.factor * (speed_m_s / reference_m_s) *
+                   (positive_part(now.motion.load_N) / tire.rolling_resistance.reference_load_N);
+    const S cooling = (standing_m_s + speed_m_s) / (standing_m_s + reference_m_s);
+    const S over_air_K = self.state(kTemperature) - now.acting.ambient_K;
+    rates[kTemperature] = (self.parameter(kRise) * heat - cooling * over_air_K) / self.parameter(kWarmUp);
+  }
+};
+
+}  // namespace
+
+const Effect& effect_tire_temperature() {
+  static const Effect effect = make_effect<TireTemperature>();
+  return effect;
+}
+
+}  // namespace rollrig::models

@@ -1,0 +1,57 @@
+// Tests that could come next on a dynamometer and on the road.
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/next_test.h"
+#include "tests/diagnosis/driving_sets.h"
+
+using namespace rollrig;
+using diagnosis::OpenHypothesis;
+
+namespace {
+
+/// A hypothesis whose parameters are known to a third of their priors.
+OpenHypothesis open(const diagnosis::PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                    const std::string& effect) {
+  diagnosis::Hypothesis hypothesis;
+  if (!effect.empty()) hypothesis = hypothesis.with({&models::find_effect(effect), 1});
+  const diagnosis::Model model(set, base, hypothesis);
+  const auto count = static_cast<Eigen::Index>(model.parameter_count());
+  return {hypothesis, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Identity(count, count) / 3.0, 0.5};
+}
+
+/// What a test of the menu tells two hypotheses apart by, by its id.
+std::map<std::string, double> judge(const scenarios::MeasurementSet& measured, const std::string& a,
+                                    const std::string& b) {
+  const diagnosis::PreparedSet set(measured);
+  const auto base = diagnosis::find_base_parameters(measured, set.context());
+  const std::vector<OpenHypothesis> both{open(set, base, a), open(set, base, b)};
+  std::map<std::string, double> bits;
+  for (const diagnosis::JudgedTest& one : diagnosis::judge_tests(set, base, both, 0)) {
+    INFO(one.test.id);
+    CHECK(one.test.hours > 0.0);
+    CHECK_FALSE(diagnosis::predict_outcomes(set, base, both, one.test).empty());  // both can be simulated
+    CHECK(bits.emplace(one.test.id, one.bits).second);
+    CHECK(one.bits >= 0.0);
+    CHECK(one.bits <= 1.0 + 1e-9);
+  }
+  return bits;
+}
+
+}  // namespace
+
+TEST_CASE("every test of a dynamometer can be simulated, and drive and brake force shows slip", "[fast]") {
+  const auto bits = judge(tests::make_dyno_set({}, 1), "", "slip_loss");
+  CHECK(bits.size() >= 10);
+  CHECK(bits.at("drive_and_brake") > 0.5);
+  CHECK(bits.at("drive_and_brake") > bits.at("soak_with_pressure"));
+}
+
+TEST_CASE("every test of the road can be simulated, and a cold start shows the tire's temperature", "[fast]") {
+  scenarios::MeasurementSet set = tests::make_road_set({}, 1);
+  set.sensors.at("traction_force_N") = {5.0, 15.0, 13.0, 20.0, 0.0};
+  const auto bits = judge(set, "", "tire_temperature");
+  CHECK(bits.size() >= 5);
+  CHECK(bits.at("steady_from_cold") > 0.3);
+}

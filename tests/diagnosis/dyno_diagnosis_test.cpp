@@ -1,0 +1,180 @@
+// Sets measured on a dynamometer, diagnosed.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <ctime>
+
+#include "diagnosis/base_parameters.h"
+#include "diagnosis/diagnosis.h"
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/race.h"
+#include "diagnosis/set_checks.h"
+#include "diagnosis/summary.h"
+#include "sim/core/error.h"
+#include "tests/diagnosis/driving_sets.h"
+#include "tests/support/drum_sets.h"
+#include "tests/support/fit_study.h"
+
+using namespace rollrig;
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+using tests::make_dyno_set;
+
+namespace {
+
+using Ids = std::vector<std::string>;
+
+diagnosis::DiagnosisOptions only(const Ids& ids) {
+  diagnosis::DiagnosisOptions options;
+  options.only = ids;
+  return options;
+}
+
+bool contains(const Ids& ids, const std::string& id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
+
+bool names(const Diagnosis& found, const std::string& id) {
+  if (found.verdict != Verdict::kExplained || found.causes.empty()) return false;
+  return contains(found.causes.front().effects, id) || contains(found.causes.front().indistinguishable_from, id);
+}
+
+/// Of the difference between the loss forces of two sets with the same runs.
+double calc_rms_of_loss(const scenarios::MeasurementSet& a, const scenarios::MeasurementSet& b) {
+  double squares = 0.0;
+  double samples = 0.0;
+  for (std::size_t r = 0; r < a.runs.size(); ++r) {
+    const auto& of_a = a.runs[r].columns.at("loss_force_N");
+    const auto& of_b = b.runs[r].columns.at("loss_force_N");
+    for (std::size_t row = 0; row < of_a.size(); ++row) {
+      if (std::isnan(of_a[row]) || std::isnan(of_b[row])) continue;
+      squares += (of_a[row] - of_b[row]) * (of_a[row] - of_b[row]);
+      samples += 1.0;
+    }
+  }
+  return std::sqrt(squares / samples);
+}
+
+const Ids kFew{"driveline_warming", "slip_loss", "slow_leak", "rim_heat"};
+
+}  // namespace
+
+TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
+  const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_dyno_set({}, 2), 3), only(kFew));
+  INFO(diagnosis::format_summary(found));
+  CHECK(found.verdict == Verdict::kNoGap);
+  CHECK(found.warnings.empty());
+  CHECK(found.balance.empty());
+}
+
+TEST_CASE("a driveline that warms is named on a dynamometer, with its place and its equation", "[fast]") {
+  const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("driveline_warming", 0.7)}, 3), 4);
+  const Diagnosis found = diagnose(set, only(kFew));
+  INFO(diagnosis::format_summary(found));
+  CHECK(names(found, "driveline_warming"));
+  REQUIRE_FALSE(found.where.empty());
+  CHECK(found.where.front().channel == "loss_force_N");
+  CHECK(found.where.front().unit == "N");
+  REQUIRE_FALSE(found.balance.empty());
+  CHECK(found.balance.front().name == "loss force");
+  REQUIRE(found.gap.shrink_percent.has_value());
+  CHECK(*found.gap.shrink_percent > 70.0);
+  const auto json = diagnosis::make_diagnosis_json(found);
+  CHECK(json["format"] == "rollrig-diagnosis/1");
+}
+
+TEST_CASE("slip is named where a wheel drives and brakes", "[fast]") {
+  const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("slip_loss", 0.5)}, 2), 5);
+  const Diagnosis found = diagnose(set, only(kFew));
+  INFO(diagnosis::format_summary(found));
+  CHECK(names(found, "slip_loss"));
+  REQUIRE_FALSE(found.balance.empty());
+  CHECK(found.balance.front().name == "slip");
+}
+
+TEST_CASE("on a dynamometer a base parameter off by twice its uncertainty is made up for by what the fit moves",
+          "[fast]") {
+  const scenarios::MeasurementSet nominal = make_dyno_set({}, 3);
+  const models::Context<double> context = diagnosis::kind_of(nominal).make_context(nominal);
+  const auto base = diagnosis::find_base_parameters(nominal, context);
+  const auto a0 =
+      std::find_if(base.begin(), base.end(), [](const auto& one) { return one.key == "tire.rolling_resistance.A0_N"; });
+  REQUIRE(a0 != base.end());
+  scenarios::MeasurementSet off = nominal;
+  off.sensors.at("loss_force_N").offset_sd = 0.1;  // else it makes up for the most of it
+  tests::measure_again(off, {}, [&](models::Context<double>& moved) {
+    identification::find_parameter(moved, a0->key) += 2.0 * a0->prior_sd_SI;
+  });
+  const diagnosis::PreparedSet prepared(tests::add_noise(off, 6));
+  const diagnosis::Remainder remainder(prepared);
+  const diagnosis::Race race = diagnosis::run_race(prepared, base, remainder, {});
+  scenarios::MeasurementSet fitted = nominal;
+  tests::measure_again(fitted, {}, [&](models::Context<double>& moved) {
+    for (std::size_t i = 0; i < base.size(); ++i) {
+      const double unknown = race.null.fit.unknowns[static_cast<Eigen::Index>(i)];
+      identification::find_parameter(moved, base[i].key) += base[i].prior_sd_SI * unknown;
+    }
+  });
+  CHECK(calc_rms_of_loss(fitted, off) < 0.15 * calc_rms_of_loss(nominal, off));
+}
+
+TEST_CASE("against a constant coefficient the tire's temperature is named on a dynamometer", "[fast]") {
+  const auto baseline = models::Baseline::kConstantRrc;
+  const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("tire_temperature", 0.5)}, 2, baseline), 8);
+  const Diagnosis found = diagnose(set, only({"tire_temperature", "driveline_warming", "slip_loss"}));
+  INFO(diagnosis::format_summary(found));
+  CHECK(names(found, "tire_temperature"));
+}
+
+TEST_CASE("against the combined model the tire's temperature is not in the race", "[fast]") {
+  const auto set = tests::add_noise(make_dyno_set({}, 1), 8);
+  CHECK(diagnose(set, only({"tire_temperature", "slow_leak"})).probability.count("tire_temperature") == 0);
+}
+
+TEST_CASE("columns and units of a dynamometer's set that cannot be are named", "[fast]") {
+  scenarios::MeasurementSet set = tests::add_noise(make_dyno_set({}, 1), 9);
+  SECTION("speed in m/s") {
+    for (double& speed : set.runs[0].columns.at("speed_km_h")) speed /= 3.6;
+    const auto checks = diagnosis::check_set(set);
+    CHECK(checks.implausible);
+    CHECK_THAT(checks.warnings.back(), Catch::Contains("speed_km_h holds m/s"));
+  }
+  SECTION("loss of the other sign") {
+    for (double& loss : set.runs[0].columns.at("loss_force_N")) loss = -loss;
+    const auto checks = diagnosis::check_set(set);
+    CHECK(checks.implausible);
+    CHECK_THAT(checks.warnings.back(), Catch::Contains("loss_force_N has the other sign"));
+  }
+}
+
+TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[slow]") {
+  const scenarios::MeasurementSet campaign = make_dyno_set({}, 4);
+  int named = 0;
+  int shown = 0;
+  for (const models::Effect* effect : models::all_effects()) {
+    const models::EffectInfo& info = effect->info;
+    const auto dyno = models::RigKind::kDyno;
+    const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), dyno) != info.faint_on.end();
+    if (!models::acts_in(info, dyno, models::Baseline::kCombined) || faint) continue;
+    scenarios::MeasurementSet set = campaign;
+    tests::measure_again(set, {tests::make_effect_at(info.id, 0.7)});
+    const Diagnosis found = diagnosis::diagnose(tests::add_noise(set, 7), {});
+    UNSCOPED_INFO(info.id << "\n" << diagnosis::format_summary(found));
+    const bool hidden = found.verdict == Verdict::kNoGap && contains(found.not_excluded, info.id);
+    shown += hidden ? 0 : 1;
+    named += names(found, info.id) ? 1 : 0;
+  }
+  CHECK(named == shown);
+  CHECK(shown >= 12);
+}
+
+TEST_CASE("four dynamometer runs of one to two hours with all effects take 60 s of CPU time at most", "[slow]") {
+  const auto set = tests::add_noise(
+      make_dyno_set({tests::make_effect_at("driveline_warming", 0.7)}, 4, models::Baseline::kCombined, 90.0), 4);
+  double hours = 0.0;
+  for (const auto& run : set.runs) hours += run.time_s.back() / 3600.0;
+  CHECK(hours > 5.0);
+  const std::clock_t before = std::clock();
+  const Diagnosis found = diagnosis::diagnose(set, {});
+  CHECK(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC < 60.0);  // 30 s on two cores
+  CHECK(names(found, "driveline_warming"));
+}
