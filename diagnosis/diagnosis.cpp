@@ -53,9 +53,7 @@ void forbid_causes(Diagnosis& diagnosis) {
   diagnosis.causes.clear();
 }
 
-}  // namespace
-
-Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
+Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
   const SetChecks checks = check_set(measured, options.threads);
   const PreparedSet set(leave_out(measured, checks.doubtful));
   const Remainder remainder(set);
@@ -94,6 +92,45 @@ Diagnosis diagnose(const scenarios::MeasurementSet& measured, const DiagnosisOpt
     diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   }
   report(1.0, "done");
+  return diagnosis;
+}
+
+/// The run that holds at least half of a gap; empty where none does.
+std::pair<std::string, double> find_lone_run(const std::vector<Location>& where) {
+  constexpr double kMost_percent = 50.0;
+  std::map<std::string, double> share_percent;
+  for (const Location& at : where) share_percent[at.run] += at.share_percent;
+  for (const auto& [run, share] : share_percent) {
+    if (share >= kMost_percent) return {run, share};
+  }
+  return {};
+}
+
+/// What the other runs show, where one run holds most of the gap and nothing explains it.
+std::optional<LoneRun> diagnose_without_run(scenarios::MeasurementSet set, const Diagnosis& diagnosis,
+                                            DiagnosisOptions options) {
+  const auto [run, share_percent] = find_lone_run(diagnosis.where);
+  if (diagnosis.verdict != Verdict::kUnexplained || run.empty() || set.runs.size() < 3) return std::nullopt;
+  if (options.progress) options.progress(1.0, "without run " + run);
+  options.progress = nullptr;
+  const auto is_lone = [&name = run](const scenarios::MeasuredRun& one) { return one.id == name; };
+  set.runs.erase(std::remove_if(set.runs.begin(), set.runs.end(), is_lone), set.runs.end());
+  const Diagnosis rest = diagnose_all_runs(set, options);
+  LoneRun lone{run, share_percent, rest.verdict, {}, 0.0};
+  if (rest.verdict == Verdict::kNoGap) {
+    lone.probability = rest.probability.at("none");
+  } else if (!rest.causes.empty()) {
+    lone.effects = rest.causes.front().effects;
+    lone.probability = rest.causes.front().probability;
+  }
+  return lone;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options) {
+  Diagnosis diagnosis = diagnose_all_runs(set, options);
+  diagnosis.without_run = diagnose_without_run(set, diagnosis, options);
   return diagnosis;
 }
 

@@ -101,6 +101,15 @@ struct NextSensor {
   double hours = 0.0;               // to fit it
 };
 
+/// A run that holds most of the gap of an unexplained set, and what is found without it.
+struct LoneRun {
+  std::string run;
+  double share_percent = 0.0;  // of all that is above the noise
+  Verdict verdict = Verdict::kNoGap;
+  std::vector<std::string> effects;  // of the first cause, where there is one
+  double probability = 0.0;          // of the first cause, or of "none"
+};
+
 struct Diagnosis {
   std::string set;
   Verdict verdict = Verdict::kNoGap;
@@ -113,6 +122,7 @@ struct Diagnosis {
   std::vector<NextSensor> next_sensor;
   std::vector<std::string> not_excluded;  // effects that this set would not show
   std::vector<std::string> warnings;      // about the data, a sentence each
+  std::optional<LoneRun> without_run;     // of an unexplained set of three runs or more
 };
 
 struct DiagnosisOptions {

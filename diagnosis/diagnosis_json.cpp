@@ -61,6 +61,15 @@ Json make_location(const Location& at) {
       {"end_s", number(at.end_s)}};
 }
 
+Json make_lone_run(const std::optional<LoneRun>& lone) {
+  if (!lone.has_value()) return nullptr;
+  return {{"run", lone->run},
+          {"share_percent", number(lone->share_percent)},
+          {"verdict", name_of(lone->verdict)},
+          {"effects", lone->effects},
+          {"probability", number(lone->probability)}};
+}
+
 }  // namespace
 
 const char* name_of(Verdict verdict) {
@@ -104,6 +113,7 @@ Json make_diagnosis_json(const Diagnosis& diagnosis) {
           {"next_test", list(diagnosis.next_test, make_next_test)},
           {"next_sensor", list(diagnosis.next_sensor, make_next_sensor)},
           {"not_excluded", diagnosis.not_excluded},
+          {"without_run", make_lone_run(diagnosis.without_run)},
           {"warnings", diagnosis.warnings}};
 }
 

@@ -219,6 +219,14 @@ std::string next_line(const Diagnosis& diagnosis) {
   return line("Next test", clip(next.test, kTextColumns - count_characters(gain)) + gain);
 }
 
+std::string describe_rest(const LoneRun& lone) {
+  const std::string probability = ", probability " + percent(lone.probability);
+  if (lone.verdict == Verdict::kNoGap) return "no gap beyond the noise" + probability;
+  const std::string verdict = lone.verdict == Verdict::kExplained ? "explained by " : "unexplained, looks like ";
+  if (lone.effects.empty()) return "unexplained as well";
+  return fmt::format("{}{}{}", verdict, fmt::join(lone.effects, " with "), probability);
+}
+
 }  // namespace
 
 std::string format_summary(const Diagnosis& diagnosis) {
@@ -231,6 +239,10 @@ std::string format_summary(const Diagnosis& diagnosis) {
   text += next_line(diagnosis);
   if (!diagnosis.causes.empty()) {
     for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
+  }
+  if (const auto& lone = diagnosis.without_run) {
+    text += note("Without", fmt::format("run {}, which holds {:.0f} % of the gap: {}", lone->run, lone->share_percent,
+                                        describe_rest(*lone)));
   }
   if (!diagnosis.next_sensor.empty()) {
     const NextSensor& next = diagnosis.next_sensor.front();

@@ -236,3 +236,19 @@ TEST_CASE("of a set by the foreign generator the same answer from one thread or 
   std::reverse(other.runs.begin(), other.runs.end());
   CHECK(one == text_of(diagnose(other, options)));
 }
+
+TEST_CASE("one run that stands apart does not hide what the others show", "[fast]") {
+  auto set = tests::add_noise(
+      tests::make_gap_set({tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0})}, 4), 1);
+  CHECK_FALSE(diagnose(set, only(kFew)).without_run.has_value());
+  std::vector<double>& torque_Nm = set.runs[2].columns.at("drum_torque_Nm");
+  for (std::size_t row = torque_Nm.size() / 3; row < torque_Nm.size() / 2; ++row) torque_Nm[row] += 12.0;
+  const Diagnosis found = diagnose(set, only(kFew));
+  CHECK(found.verdict == Verdict::kUnexplained);
+  REQUIRE(found.without_run.has_value());
+  CHECK(found.without_run->run == set.runs[2].id);
+  CHECK(found.without_run->share_percent > 50.0);
+  CHECK(found.without_run->verdict == Verdict::kExplained);
+  CHECK(found.without_run->effects == Ids{"bearing_warmup"});
+  CHECK(found.without_run->probability > 0.5);
+}
