@@ -117,8 +117,8 @@ void Referee::weigh(Contender& contender) const {
   if (!contender.fit.hypothesis.effects.empty()) {
     std::vector<AmplitudePrior> distorted;
     for (std::size_t c = 0; c < expected.size(); ++c) {
-      distorted.push_back(
-          near_amplitude(std::hypot(error.baseline_floors, error.look_alike_share * contender.signature[c])));
+      const double look_alike = std::hypot(error.baseline_floors, error.look_alike_share * contender.signature[c]);
+      distorted.push_back(near_amplitude(std::max(expected[c], look_alike)));  // never less than the law's own error
     }
     logs.push_back(evidence.integrate(distorted).log_value);
     logs.push_back(repeated.integrate(distorted).log_value);

@@ -15,7 +15,7 @@ struct CavityVolume {
         "steps with load and speed";
     info.equation = "V/V_0 = 1 - e ((Fz/Fz_ref)^m - l - q (v/v_1)^2); v_1 = 120 km/h";
     info.source =
-        "0 to 1 %, with load and speed: effects.md. Assumed: m about 1, q up to a half, the square (centrifugal "
+        "0 to 1 %, with load and speed: effects.md. Assumed: m about 1, q up to 1, the square (centrifugal "
         "force), "
         "l from 0 (pressure set on the lifted wheel) to 1 (on the loaded one); the gas is compressed without heat, "
         "which exchange with the rubber would take within half a minute";
@@ -26,7 +26,7 @@ struct CavityVolume {
          "e, of the volume, from no load to the reference load",
          0.0},
         {"load_power", between(0.3, 3.0), {0.8, 1.5}, "m, of the load"},
-        {"growth_ratio", between(-2.0, 5.0), {0.0, 0.5}, "q, growth at 120 km/h relative to e"},
+        {"growth_ratio", between(-2.0, 5.0), {0.1, 0.9}, "q, growth at 120 km/h relative to e"},
         {"setting_ratio", between(-2.0, 3.0), {0.0, 1.0}, "l, contraction at which the pressure was set, of e"}};
     info.faint_on = {RigKind::kFlat};           // one load, no pressure channel
     info.visible_in = {"cavity_pressure_kPa"};  // the loss follows by half a percent at most

@@ -63,7 +63,7 @@ TEST_CASE("of windage nothing heats the rubber", "[fast]") {
 }
 
 TEST_CASE("the air in the cell warms by its rise with its time constant, and the tire with it", "[fast]") {
-  auto at = corner_with(switch_on("cell_air_warming", {4.0, 30.0, 0.5}), 80.0 / 3.6);
+  auto at = corner_with(switch_on("cell_air_warming", {4.0, 30.0, 0.5, 0.0}), 80.0 / 3.6);
   CHECK(at.now.acting.ambient_K == 298.15);
   at.advance(1800.0);
   CHECK(at.now.acting.ambient_K - 298.15 == Approx(4.0 * (1.0 - std::exp(-1.0))).epsilon(1e-6));
@@ -78,8 +78,21 @@ TEST_CASE("the air in the cell warms by its rise with its time constant, and the
   CHECK(at.now.rolling_resistance_N == Approx(warm.now.rolling_resistance_N).epsilon(1e-5));
 }
 
+TEST_CASE("air that the tire warms warms with its load, air that the machine warms does not", "[fast]") {
+  const auto rise_dK = [](double tire_share, double load_ratio) {
+    auto at = corner_with(switch_on("cell_air_warming", {4.0, 30.0, 0.5, tire_share}), 80.0 / 3.6);
+    at.inputs.load_N = load_ratio * at.now.context->tire.rolling_resistance.reference_load_N;
+    at.advance(24.0 * 3600.0, 20000);
+    return at.now.acting.ambient_K - 298.15;
+  };
+  for (const double share : {0.0, 0.4, 1.0}) CHECK(rise_dK(share, 1.0) == Approx(4.0));
+  CHECK(rise_dK(1.0, 0.0) == Approx(0.0).margin(1e-9));
+  CHECK(rise_dK(0.0, 0.0) == Approx(4.0));
+  CHECK(rise_dK(0.4, 0.5) == Approx(4.0 * 0.8));
+}
+
 TEST_CASE("warm air cools down at rest, and warms the surface only where that is not recorded", "[fast]") {
-  const auto effect = switch_on("cell_air_warming", {4.0, 30.0, 0.5});
+  const auto effect = switch_on("cell_air_warming", {4.0, 30.0, 0.5, 0.0});
   auto at = corner_with(effect, 0.0);
   at.state("cell_air_warming.air_rise_dK") = 3.0;
   at.evaluate();
@@ -94,7 +107,7 @@ TEST_CASE("warm air cools down at rest, and warms the surface only where that is
 
 TEST_CASE("after a rest the cell's air is as warm as it left off, less what the rest took; on a road it is outside",
           "[fast]") {
-  const auto effect = switch_on("cell_air_warming", {4.0, 30.0, 0.5});
+  const auto effect = switch_on("cell_air_warming", {4.0, 30.0, 0.5, 0.0});
   models::InitialPort<double> initial;
   initial.soaked = false;
   initial.rest_before_s = 3600.0;

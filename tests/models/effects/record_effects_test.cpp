@@ -8,6 +8,7 @@
 using namespace rollrig;
 using models::RigKind;
 using tests::apply_trace;
+using tests::run_trace;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::NamedChannel;
@@ -73,7 +74,7 @@ TEST_CASE("tie-downs add to the true load, not to the record", "[fast]") {
 }
 
 TEST_CASE("the pressure sensor's error is in its channel alone, the same at every row", "[fast]") {
-  const auto effect = switch_on("pressure_record", {-8.0});
+  const auto effect = switch_on("pressure_record", {-8.0, 0.0});
   const std::vector<double> values{250e3, kNan, 270e3};
   const auto shown = apply_trace(effect, {0.0, 1.0, 2.0}, {"cavity_pressure_kPa", values});
   CHECK(shown[0] == 242e3);
@@ -84,8 +85,20 @@ TEST_CASE("the pressure sensor's error is in its channel alone, the same at ever
   }
 }
 
+TEST_CASE("the pressure sensor's zero shifts with the liner's temperature, from 25 degC", "[fast]") {
+  const auto effect = switch_on("pressure_record", {-8.0, 0.05});
+  const auto context = make_context_on(RigKind::kDrum);
+  models::TracePort<double> port;
+  port.time_s = {0.0, 1.0};
+  port.channels = {{"cavity_pressure_kPa", {250e3, 250e3}}, {"liner_temperature_degC", {298.15, 318.15}}};
+  run_trace(effect, context, port);
+  CHECK((*port.find("cavity_pressure_kPa"))[0] == Approx(242e3));
+  CHECK((*port.find("cavity_pressure_kPa"))[1] == Approx(243e3));
+  CHECK((*port.find("liner_temperature_degC"))[1] == 318.15);
+}
+
 TEST_CASE("a wrong pressure sensor does not change the pressure that the tire rolls on", "[fast]") {
-  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("pressure_record", {15.0})});
+  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("pressure_record", {15.0, 0.02})});
   HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
   CHECK(with.evaluate().pressure_Pa == without.evaluate().pressure_Pa);
   CHECK(with.now.pressure_Pa == Approx(280e3));  // as the setting gauge said
