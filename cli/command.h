@@ -27,6 +27,7 @@ void add_fit_road_load(CLI::App& fit, Action& action);
 /// Under `fit`.
 void add_fit_drum_coastdown_command(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
+void add_import_command(CLI::App& app, Action& action);
 void add_completion_command(CLI::App& app, Action& action);
 
 }  // namespace rollrig::cli

@@ -82,6 +82,12 @@ Whitener::Whitener(const models::SensorParameters& sensor, const std::vector<dou
   }
 }
 
+double Whitener::log_determinant() const {
+  double sum = 0.0;
+  for (const Step& step : steps_) sum -= 2.0 * std::log(step.inverse);
+  return sum;
+}
+
 void Whitener::apply(double* values, std::size_t count) const {
   std::vector<double> drift(count, 0.0);
   for (std::size_t k = 0; k < steps_.size(); ++k) {

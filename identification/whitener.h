@@ -36,6 +36,9 @@ class Whitener {
   /// Standard deviation of the mean over a block by itself, without offset.
   double standard_deviation(std::size_t block) const { return steps_[block].alone_sd; }
 
+  /// Logarithm of the determinant of the covariance of the block means.
+  double log_determinant() const;
+
   /// Whitens `count` columns of block means at once, in place; row k of column c is values[k * count + c].
   void apply(double* values, std::size_t count) const;
   /// Takes `apply` back.

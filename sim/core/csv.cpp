@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string/trim.hpp>
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -17,13 +18,19 @@ namespace {
 /// Splits RFC 4180 text into records; `line` is where a record starts.
 class CsvScanner {
  public:
-  CsvScanner(const std::string& text, const std::string& path) : text_(text), path_(path) {
+  CsvScanner(const std::string& text, const std::string& path, char separator)
+      : text_(text), path_(path), ends_{separator, '\n'} {
     constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // as spreadsheets write it
     if (text_.rfind(kByteOrderMark, 0) == 0) position_ = 3;
   }
 
   bool at_end() const { return position_ >= text_.size(); }
   int line() const { return line_; }
+
+  /// Passes over whole lines, whatever they hold, up to `line`.
+  void go_to_line(int line) {
+    for (; line_ < line && !at_end(); ++line_) position_ = std::min(text_.find('\n', position_), text_.size()) + 1;
+  }
 
   std::vector<std::string> next_record() {
     std::vector<std::string> cells;
@@ -36,9 +43,9 @@ class CsvScanner {
   std::string next_cell(bool& more) {
     const bool quoted = !at_end() && text_[position_] == '"';
     std::string cell = quoted ? quoted_content() : std::string();
-    const std::size_t end = std::min(text_.find_first_of(",\n", position_), text_.size());
+    const std::size_t end = std::min(text_.find_first_of(ends_, position_), text_.size());
     cell.append(text_, position_, end - position_);
-    more = end < text_.size() && text_[end] == ',';
+    more = end < text_.size() && text_[end] != '\n';
     if (!more) {
       if (!cell.empty() && cell.back() == '\r') cell.pop_back();
       ++line_;
@@ -68,27 +75,34 @@ class CsvScanner {
 
   const std::string& text_;
   const std::string& path_;
+  const std::string ends_;  // of a cell
   std::size_t position_ = 0;
   int line_ = 1;
 };
 
 }  // namespace
 
-CsvTable CsvTable::read(const std::string& path) {
+CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
   const std::string text = read_text_file(path);
   CsvTable table;
   table.path_ = path;
-  CsvScanner scanner(text, path);
+  table.decimal_ = form.decimal;
+  table.header_line_ = form.header_line;
+  CsvScanner scanner(text, path, form.separator);
+  scanner.go_to_line(form.header_line);
   table.columns_ = scanner.next_record();
   for (std::size_t i = 0; i < table.columns_.size(); ++i) {
     const std::string& name = table.columns_[i];
     const auto end = table.columns_.begin() + static_cast<std::ptrdiff_t>(i);
     if (name.empty())
-      throw InputError({"a column has no name", path, 1, "", "", "a header line with a name a column", ""});
+      throw InputError(
+          {"a column has no name", path, form.header_line, "", "", "a header line with a name a column", ""});
     if (std::find(table.columns_.begin(), end, name) != end) {
-      throw InputError({fmt::format("column '{}' stands twice", name), path, 1, name, "", "each column once", ""});
+      throw InputError(
+          {fmt::format("column '{}' stands twice", name), path, form.header_line, name, "", "each column once", ""});
     }
   }
+  scanner.go_to_line(form.first_row_line);
   while (!scanner.at_end()) {
     Row row;
     row.line = scanner.line();
@@ -100,7 +114,8 @@ CsvTable CsvTable::read(const std::string& path) {
     }
     table.rows_.push_back(std::move(row));
   }
-  if (table.rows_.empty()) throw InputError({"a header but no rows", path, 1, "", "", "at least one row", ""});
+  if (table.rows_.empty())
+    throw InputError({"a header but no rows", path, form.header_line, "", "", "at least one row", ""});
   return table;
 }
 
@@ -113,7 +128,7 @@ void CsvTable::require_known(const std::vector<std::string>& known) const {
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
     InputProblem problem = unknown_name("column", column, known);
     problem.file = path_;
-    problem.line = 1;
+    problem.line = header_line_;
     problem.key = column;
     throw InputError(problem);
   }
@@ -125,7 +140,7 @@ std::size_t CsvTable::find_column(const std::string& column) const {
   InputProblem problem;
   problem.what = fmt::format("missing column '{}'", column);
   problem.file = path_;
-  problem.line = 1;
+  problem.line = header_line_;
   problem.key = column;
   problem.nearest = nearest_name(column, columns_);
   throw InputError(problem);
@@ -148,8 +163,13 @@ double CsvTable::parse_cell(const Row& row, const std::string& column, const std
                             const Field& field) const {
   const std::string allowed = fmt::format("a number {}", field.range.to_string());
   double value = 0.0;
-  const char* end = cell.data() + cell.size();
-  const auto [stop, error] = std::from_chars(cell.data(), end, value);
+  std::string plain = cell;
+  if (decimal_ != '.') {
+    std::replace(plain.begin(), plain.end(), '.', '?');  // a point is no number's then
+    std::replace(plain.begin(), plain.end(), decimal_, '.');
+  }
+  const char* end = plain.data() + plain.size();
+  const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
     throw cell_problem(row, column, cell, fmt::format("'{}' is not a number", cell), allowed);
   }
@@ -175,6 +195,19 @@ std::vector<double> CsvTable::numbers(const Field& column, bool may_be_empty) co
       throw cell_problem(row, column.key, "(empty)", fmt::format("'{}' has an empty field", column.key),
                          "a number in every row: this column is an input");
     }
+  }
+  return values;
+}
+
+std::vector<double> CsvTable::plain_numbers(const std::string& column, const std::vector<std::string>& missing) const {
+  const std::size_t index = find_column(column);
+  const Field field{column.c_str(), any_number(), ""};
+  std::vector<double> values;
+  values.reserve(rows_.size());
+  for (const Row& row : rows_) {
+    const std::string cell = boost::algorithm::trim_copy(row.cells[index]);
+    const bool is_missing = cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end();
+    values.push_back(is_missing ? std::numeric_limits<double>::quiet_NaN() : parse_cell(row, column, cell, field));
   }
   return values;
 }

@@ -11,12 +11,20 @@
 
 namespace rollrig {
 
+/// How a logger or a spreadsheet wrote its file.
+struct CsvForm {
+  char separator = ',';
+  char decimal = '.';
+  int header_line = 1;     // lines before it are not read
+  int first_row_line = 2;  // lines between header and this one (units, say) are not read
+};
+
 /// A CSV file as text cells.
 class CsvTable {
  public:
   /// Reads a file. Throws InputError: see read_text_file, and no header, a header without rows, ragged
   /// rows, a quote that never ends, a column named twice.
-  static CsvTable read(const std::string& path);
+  static CsvTable read(const std::string& path, const CsvForm& form = {});
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& columns() const { return columns_; }
@@ -31,6 +39,9 @@ class CsvTable {
   std::vector<std::string> text(const std::string& column) const;
   /// A column in SI units by the unit in its name. An empty cell is an error, or NaN with `may_be_empty`.
   std::vector<double> numbers(const Field& column, bool may_be_empty = false) const;
+  /// A column as it is written, in no unit: NaN where the cell is empty or among `missing`. Blanks around a number are
+  /// passed over.
+  std::vector<double> plain_numbers(const std::string& column, const std::vector<std::string>& missing) const;
   /// The time column: numbers that increase from row to row.
   std::vector<double> increasing_times(const std::string& column) const;
 
@@ -46,6 +57,8 @@ class CsvTable {
   double parse_cell(const Row& row, const std::string& column, const std::string& cell, const Field& field) const;
 
   std::string path_;
+  char decimal_ = '.';
+  int header_line_ = 1;
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
 };

@@ -1,5 +1,5 @@
-// Includes follow one direction: cli -> diagnosis -> identification -> scenarios -> rigs -> models -> sim/core, and
-// rigs, scenarios -> sim -> sim/core. Third-party packages stay behind a few files.
+// Includes follow one direction: cli -> diagnosis, import -> identification -> scenarios -> rigs -> models -> sim/core,
+// and rigs, scenarios -> sim -> sim/core. Third-party packages stay behind a few files.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -23,8 +23,9 @@ const std::map<std::string, std::set<std::string>> kAllowed{
     {"scenarios", {"rigs", "models", "sim", "sim/core"}},
     {"identification", {"scenarios", "rigs", "models", "sim", "sim/core"}},
     {"diagnosis", {"identification", "scenarios", "rigs", "models", "sim", "sim/core"}},
+    {"import", {"identification", "scenarios", "rigs", "models", "sim", "sim/core"}},
     {"blind", {}},  // the foreign generator: shares nothing with what it is to judge
-    {"cli", {"diagnosis", "identification", "scenarios", "rigs", "models", "sim", "sim/core"}},
+    {"cli", {"diagnosis", "import", "identification", "scenarios", "rigs", "models", "sim", "sim/core"}},
 };
 
 /// Files that may include a package's headers; a folder's name stands for all its files.
@@ -51,7 +52,8 @@ std::string folder_of(const std::string& path) {
 template <class Visit>
 void visit_includes(Visit&& visit) {
   const std::regex include("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"]");
-  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification", "diagnosis", "blind", "cli"}) {
+  for (const char* top :
+       {"sim", "models", "rigs", "scenarios", "identification", "diagnosis", "import", "blind", "cli"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kSource / top)) {
       const std::string extension = entry.path().extension().string();
       if (extension != ".h" && extension != ".cpp") continue;
@@ -96,7 +98,7 @@ TEST_CASE("the foreign generator includes nothing of the simulator, nor the simu
 TEST_CASE("tests that doc comments name are there", "[fast]") {
   const std::regex named("tests/[a-z_0-9/]+\\.cpp");
   int checked = 0;
-  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification", "diagnosis"}) {
+  for (const char* top : {"sim", "models", "rigs", "scenarios", "identification", "diagnosis", "import"}) {
     for (const auto& entry : fs::recursive_directory_iterator(kSource / top)) {
       if (entry.path().extension() != ".h") continue;
       std::ifstream in(entry.path());

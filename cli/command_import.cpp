@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "cli/print.h"
+#include "import/import.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::cli {
+namespace {
+
+struct Options {
+  std::string mapping;
+  std::string data;
+  std::string out;
+  std::string json;
+  bool force = false;
+  bool quiet = false;
+};
+
+std::string format_clock(const logs::ClockEstimate& clock) {
+  const char* how = clock.method == "common"     ? "from what both logs measure"
+                    : clock.method == "response" ? "from how the tire answers to speed and load"
+                                                 : "as the mapping gives it";
+  std::string text = wrap(fmt::format("clock of {} against {}:", clock.tire_log, clock.torque_log), 2);
+  text += fmt::format("    shift {:+.3f} +- {:.3f} s (1 sd), {}\n", clock.clock.shift_s, clock.calc_shift_sd_s(), how);
+  text += fmt::format("    rate  {:+.1f} +- {:.1f} ppm{}\n", 1e6 * clock.clock.rate, 1e6 * clock.rate_sd,
+                      clock.rate_is_decided ? "" : ", not decided by the logs");
+  for (const logs::ClockEvidence& evidence : clock.evidence) {
+    text += fmt::format("    {:<24} {:>7} rows, {:5.1f} % of it follows the torque log\n", evidence.channel,
+                        evidence.rows, 100.0 * evidence.explained);
+  }
+  return text;
+}
+
+std::string format_run(const logs::ImportedRun& run) {
+  constexpr std::size_t kMost = 8;  // import.json has all
+  std::string text = fmt::format("  run {}: {} rows\n", run.plan.id, run.rows.time_s.size());
+  for (std::size_t i = 0; i < std::min(kMost, run.rows.empty.size()); ++i) {
+    const logs::EmptyRange& range = run.rows.empty[i];
+    text += wrap(fmt::format("{} {} from {:.6g} to {:.6g} s ({} rows): {}", range.column,
+                             range.rows_left_out ? "missing, rows left out" : "empty", range.from_s, range.to_s,
+                             range.rows, range.reason),
+                 4);
+  }
+  if (run.rows.empty.size() > kMost) text += fmt::format("    and {} more\n", run.rows.empty.size() - kMost);
+  return text;
+}
+
+std::string format_import(const logs::Mapping& mapping, const logs::Import& imported) {
+  std::string text = fmt::format("import   set {}   {} runs\n", mapping.set.name, imported.runs.size());
+  for (const logs::ClockEstimate& clock : imported.clocks) text += format_clock(clock);
+  for (const logs::ImportedRun& run : imported.runs) text += format_run(run);
+  for (const logs::Log& log : imported.logs) {
+    std::map<std::string, std::size_t> counts;
+    for (const logs::Mark& mark : log.marks) ++counts[mark.reason];
+    for (const auto& [reason, count] : counts) text += fmt::format("  {}: {} x {}\n", log.file, count, reason);
+  }
+  for (const std::string& warning : imported.warnings) text += wrap("warning: " + warning, 2);
+  return text;
+}
+
+int import_command(const Options& options) {
+  const logs::Mapping mapping = logs::read_mapping(options.mapping, options.data);
+  OutputFolder out(options.out, options.force);
+  require_writable(options.json);
+  const logs::Import imported = logs::import_logs(mapping);
+  for (auto& [name, content] : logs::make_set_files(mapping, imported)) out.add(name, content);
+  out.commit();
+  if (!options.json.empty()) write_output(options.json, logs::make_import_json(mapping, imported).dump(2) + "\n");
+  if (options.quiet || options.json == "-") return kDone;
+  std::cout << format_import(mapping, imported);
+  std::cout << fmt::format("  written to {}/: set.toml, a CSV a run, import.json, marks.csv\n", options.out);
+  return kDone;
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("import", "Join a torque log and a tire log, each on its own clock, into a measurement set");
+  auto options = std::make_shared<Options>();
+  command->add_option("mapping", options->mapping, "Mapping file (.toml): columns, units, time stamps, runs")
+      ->required();
+  command->add_option("--data", options->data, "Folder of the logs [that of the mapping]");
+  command->add_option("--out", options->out, "Folder for the set")->required();
+  command->add_option("--json", options->json, "File for the report, - for standard output");
+  command->add_flag("--force", options->force, "Write into a folder that holds files");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &action] { action = [options] { return import_command(*options); }; });
+}
+
+}  // namespace rollrig::cli
