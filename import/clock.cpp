@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -32,9 +33,18 @@ Tie start_tie(const Log& log, const std::string& channel) {
   return tie;
 }
 
+/// Standard deviation of the values that are there.
 double calc_spread(const std::vector<double>& values) {
-  const Eigen::Map<const Eigen::VectorXd> all(values.data(), static_cast<Eigen::Index>(values.size()));
-  return std::sqrt((all.array() - all.mean()).square().mean());
+  double sum = 0.0, squares = 0.0, count = 0.0;
+  double first = std::numeric_limits<double>::quiet_NaN();
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    if (count == 0.0) first = value;
+    sum += value - first;
+    squares += (value - first) * (value - first);
+    count += 1.0;
+  }
+  return count == 0.0 ? 0.0 : std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)));
 }
 
 std::vector<Tie> make_common_ties(const Log& torque_log, const Log& tire_log, const Mapping& mapping) {

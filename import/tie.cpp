@@ -80,7 +80,12 @@ class Projection {
   }
   Eigen::Index rank() const { return solver_.rank(); }
   Eigen::VectorXd take_out(const Eigen::VectorXd& y) const { return y - basis_ * (basis_.transpose() * y); }
-  Eigen::VectorXd solve(const Eigen::VectorXd& y) const { return solver_.solve(y).cwiseQuotient(scale_.transpose()); }
+  Eigen::VectorXd solve(const Eigen::VectorXd& y) const {
+    const Eigen::VectorXd right = basis_.transpose() * y;
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(scale_.size());
+    weights.head(rank()) = solver_.matrixR().topLeftCorner(rank(), rank()).triangularView<Eigen::Upper>().solve(right);
+    return (solver_.colsPermutation() * weights).cwiseQuotient(scale_.transpose());
+  }
 
  private:
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;
@@ -109,12 +114,12 @@ void add_slopes(const Tie& tie, const Clock& clock, const Overlap& overlap, doub
 }  // namespace
 
 TieFit fit_tie(const Tie& tie, const Clock& clock, bool with_slopes, double step_s) {
-  constexpr std::size_t kSpare = 10;  // rows beyond the unknowns
+  constexpr std::size_t kRowsAnUnknown = 4;  // fewer would be followed by chance
   const Overlap overlap = find_overlap(tie, clock);
   TieFit fit;
   fit.count = overlap.last - overlap.first;
   const std::size_t unknowns = 1 + tie.decay_s.size() + tie.basis.functions.size();
-  if (fit.count < unknowns + kSpare) return {};
+  if (fit.count < kRowsAnUnknown * unknowns) return {};
   fit.time_s.assign(tie.time_s.begin() + static_cast<std::ptrdiff_t>(overlap.first),
                     tie.time_s.begin() + static_cast<std::ptrdiff_t>(overlap.last));
   const RowMatrix columns = make_columns(tie, clock, overlap);
