@@ -72,11 +72,12 @@ std::vector<Tie> make_common_ties(const Log& torque_log, const Log& tire_log, co
 std::vector<Tie> make_response_ties(const Log& torque_log, const Log& tire_log, const Mapping& mapping) {
   std::vector<Tie> ties;
   if (!torque_log.has("speed_km_h")) return ties;
+  // The first that is there: what lies behind a second store answers with a lag of its own.
   const std::pair<const char*, Response> kinds[] = {{"liner_temperature_degC", Response::kRubber},
                                                     {"gas_temperature_degC", Response::kGas},
                                                     {"cavity_pressure_kPa", Response::kPressure}};
   for (const auto& [channel, response] : kinds) {
-    if (!tire_log.has(channel)) continue;
+    if (!tire_log.has(channel) || !ties.empty()) continue;
     Tie tie = start_tie(tire_log, channel);
     if (tie.values.size() < 3 || calc_spread(tie.values) <= 0.0) continue;
     tie.basis = make_response_basis(torque_log, response, mapping.clock.load_changes_at_rows);

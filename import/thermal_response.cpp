@@ -6,7 +6,7 @@ namespace rollrig::logs {
 namespace {
 
 constexpr double kRubber_s[] = {200.0, 600.0, 2000.0};
-constexpr double kGas_s[] = {15.0, 45.0};
+constexpr double kGas_s[] = {10.0, 30.0, 90.0};
 
 /// Speed and load on nodes; the load is constant from node to node.
 struct Inputs {
@@ -67,20 +67,43 @@ std::vector<double> response_decays_s(Response response) {
   return decays;
 }
 
+/// What heats and cools, after each node and before the next: F v, F v^2, v, and the first and the last of them times
+/// the temperature that F v makes.
+struct Drive {
+  std::vector<double> starts;
+  std::vector<double> ends;
+};
+
+std::vector<Drive> make_drives(const Inputs& inputs) {
+  constexpr double kTemperature_s = 600.0;
+  const std::size_t count = inputs.node_s.size();
+  std::vector<Drive> drives(5, Drive{std::vector<double>(count), std::vector<double>(count)});
+  for (std::size_t j = 0; j + 1 < count; ++j) {
+    const double F = inputs.load_N[j];
+    const double before = inputs.speed_m_s[j];
+    const double after = inputs.speed_m_s[j + 1];
+    const double starts[] = {F * before, F * before * before, before};
+    const double ends[] = {F * after, F * after * after, after};
+    for (std::size_t kind = 0; kind < 3; ++kind) {
+      drives[kind].starts[j] = starts[kind];
+      drives[kind].ends[j] = ends[kind];
+    }
+  }
+  const std::vector<double> warmth = filter(inputs, drives[0].starts, drives[0].ends, kTemperature_s);
+  for (std::size_t j = 0; j + 1 < count; ++j) {
+    for (const auto& [from, to] : {std::pair(0, 3), std::pair(2, 4)}) {
+      drives[static_cast<std::size_t>(to)].starts[j] = warmth[j] * drives[static_cast<std::size_t>(from)].starts[j];
+      drives[static_cast<std::size_t>(to)].ends[j] = warmth[j + 1] * drives[static_cast<std::size_t>(from)].ends[j];
+    }
+  }
+  return drives;
+}
+
 Basis make_response_basis(const Log& torque_log, Response response, bool at_rows) {
   const Inputs inputs = find_inputs(torque_log, at_rows);
-  const std::size_t count = inputs.node_s.size();
   Basis basis;
   basis.node_s = inputs.node_s;
-  for (int kind = 0; kind < 3; ++kind) {
-    std::vector<double> starts(count), ends(count);
-    for (std::size_t j = 0; j + 1 < count; ++j) {
-      const auto at = [&](double v) {
-        return kind == 0 ? inputs.load_N[j] * v : kind == 1 ? inputs.load_N[j] * v * v : v;
-      };
-      starts[j] = at(inputs.speed_m_s[j]);
-      ends[j] = at(inputs.speed_m_s[j + 1]);
-    }
+  for (const auto& [starts, ends] : make_drives(inputs)) {
     for (const double tau_s : kRubber_s) {
       const std::vector<double> slow = filter(inputs, starts, ends, tau_s);
       if (response == Response::kRubber) {

@@ -12,9 +12,10 @@ enum class Response { kRubber, kGas, kPressure };
 /// model of a tire but what all have, that heat is stored and so temperature bends, but does not jump, when its source
 /// does.
 ///
-/// Equation  rubber: L_tau[u](t) = integral of u(s) exp(-(t-s)/tau)/tau ds, u in {F v, F v^2, v},
-///           tau in {200, 600, 2000} s; gas, a second store: (tau L_tau[u] - sigma L_sigma[u])/(tau - sigma), which
-///           starts without a bend, sigma in {15, 45} s; pressure also F itself (the loaded tire's volume)
+/// Equation  rubber: L_tau[u](t) = integral of u(s) exp(-(t-s)/tau)/tau ds, tau in {200, 600, 2000} s,
+///           u in {F v, F v^2, v, F v T', v T'}, T' = L_600[F v]: the last two for a loss that falls and a cooling that
+///           rises with temperature; gas, a second store: (tau L_tau[u] - sigma L_sigma[u])/(tau - sigma), which
+///           starts without a bend, sigma in {10, 30, 90} s; pressure also F itself (the loaded tire's volume)
 /// Symbols   F load, v speed, both of the torque log, linear between rows; load jumps half-way between rows, or at the
 ///           later row with `at_rows`. Without load (road) F = 1
 /// Validity  the time constants bracket those of car tires (heat capacity over z + f v: 300 to 1200 s). Assumed

@@ -64,6 +64,19 @@ TEST_CASE("a shift from the tire's response alone is held by its interval", "[sl
   CHECK(study.mean_sd_s < 3.0);
 }
 
+TEST_CASE("where only the pressure is logged, it tells the shift", "[slow]") {
+  LogsPlan plan;
+  plan.shift_s = 17.0;
+  for (const std::uint64_t seed : {21U, 22U, 23U, 24U}) {
+    MadeUpLogs made = make_up_logs(plan, seed);
+    made.tire.columns.erase("liner_temperature_degC");
+    made.mapping.clock.largest_shift_s = 20.0;
+    const logs::ClockEstimate found = logs::estimate_clock(made.torque, made.tire, made.mapping);
+    CHECK(found.evidence.front().channel == "cavity_pressure_kPa");
+    CHECK(std::abs(found.clock.shift_s - 17.0) < 1.0 + 2.6 * found.statistical_sd_s);
+  }
+}
+
 TEST_CASE("a response carries the uncertainty of its lag, a common channel does not", "[slow]") {
   LogsPlan plan;
   plan.shift_s = 20.0;

@@ -38,16 +38,25 @@ std::vector<Moment> integrate(bool changes) {
   return moments;
 }
 
+/// Linear between steps, but for the load.
+Moment at(const std::vector<Moment>& moments, double t) {
+  const double steps = std::clamp(t / kStep_s, 0.0, static_cast<double>(moments.size() - 2));
+  const auto index = static_cast<std::size_t>(steps);
+  const double share = steps - static_cast<double>(index);
+  const Moment& a = moments[index];
+  const Moment& b = moments[index + 1];
+  const auto between = [share](double from, double to) { return from + share * (to - from); };
+  return {between(a.speed_m_s, b.speed_m_s),     a.load_N,
+          between(a.rubber_K, b.rubber_K),       between(a.gas_K, b.gas_K),
+          between(a.pressure_Pa, b.pressure_Pa), between(a.torque_Nm, b.torque_Nm)};
+}
+
 /// Mean from half an interval before to half an interval after.
 template <class Read>
 double mean(const std::vector<Moment>& moments, double at_s, double interval_s, Read&& read) {
+  const int count = static_cast<int>(std::lround(interval_s / kStep_s));
   double sum = 0.0;
-  int count = 0;
-  for (double t = at_s - 0.5 * interval_s; t < at_s + 0.5 * interval_s; t += kStep_s) {
-    const auto index = static_cast<std::size_t>(std::clamp(t / kStep_s, 0.0, static_cast<double>(moments.size() - 1)));
-    sum += read(moments[index]);
-    ++count;
-  }
+  for (int k = 0; k < count; ++k) sum += read(at(moments, at_s + (k + 0.5 - 0.5 * count) * kStep_s));
   return sum / count;
 }
 
@@ -70,7 +79,7 @@ MadeUpLogs make_up_logs(const LogsPlan& plan, std::uint64_t seed) {
   static const std::vector<Moment> with_changes = integrate(true);
   static const std::vector<Moment> without = integrate(false);
   const std::vector<Moment>& moments = plan.changes ? with_changes : without;
-  const auto instant = [&moments](double t) { return moments[static_cast<std::size_t>(t / kStep_s)]; };
+  const auto instant = [&moments](double t) { return at(moments, t); };
   MadeUpLogs made;
   made.torque.file = "torque.csv";
   made.torque.form = "torque_log";
