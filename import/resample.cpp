@@ -34,6 +34,7 @@ Source find_source(const Mapping& mapping, const RunSources& sources, const std:
   if (!std::isnan(constant)) return {nullptr, constant};
   if (sources.tire_log == nullptr) return {};
   if (sources.tire_log->has(column)) return {sources.tire_log, kNone};
+  if (!mapping.tire_log.has_value()) return {};  // a log that no mapping describes has columns but no constants
   return {nullptr, find_constant(*mapping.tire_log)};
 }
 
