@@ -100,6 +100,9 @@ Json make_clock_json(const ClockEstimate& clock) {
   return json;
 }
 
+/// A value as the log has it, without what the way to SI and back added in the last digits.
+Json as_read(double value) { return std::stod(fmt::format("{:.12g}", value)); }
+
 Json make_log_json(const Log& log) {
   Json json;
   json["file"] = log.file;
@@ -114,7 +117,7 @@ Json make_log_json(const Log& log) {
                {"column", mark.column.empty() ? Json(nullptr) : Json(mark.column)},
                {"from_s", mark.from_s},
                {"to_s", mark.to_s},
-               {"value", mark.value.has_value() ? Json(*mark.value) : Json(nullptr)},
+               {"value", mark.value.has_value() ? as_read(*mark.value) : Json(nullptr)},
                {"reason", mark.reason}};
     json["marks"].push_back(std::move(entry));
   }
