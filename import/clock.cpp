@@ -58,8 +58,9 @@ std::vector<Tie> make_common_ties(const Log& torque_log, const Log& tire_log, co
     tie.basis.node_s = other.time_s;
     tie.basis.functions = {other.values};
     if (channel == "load_N" && mapping.clock.load_changes_at_rows) {
-      // A load that holds from row to row, its steps widened to one interval about where they are.
+      // In each log a load holds from its row to the next: it is that of the middle between them.
       for (double& time_s : tie.basis.node_s) time_s += 0.5 * torque_log.interval_s;
+      for (double& time_s : tie.time_s) time_s += 0.5 * tire_log.interval_s;
     }
     const double spread = calc_spread(tie.values);
     if (spread <= 0.0 || calc_spread(other.values) <= 0.0) continue;
@@ -129,16 +130,30 @@ bool has_load_steps(const Log& log) {
   return found != log.columns.end() && calc_spread(found->second) > 0.0;
 }
 
+/// How far a log's stamps lie from even steps, 1 sd of one stamp: their jitter, and the digits they are written with.
+double find_stamp_sd(const Log& log) {
+  std::vector<double> departures;
+  for (std::size_t row = 1; row < log.time_s.size(); ++row) {
+    departures.push_back(std::abs(log.time_s[row] - log.time_s[row - 1] - log.interval_s));
+  }
+  const auto middle = departures.begin() + static_cast<std::ptrdiff_t>(departures.size() / 2);
+  std::nth_element(departures.begin(), middle, departures.end());
+  constexpr double kNormal = 1.4826;  // sd of a normal distribution over its median absolute deviation
+  return kNormal * *middle / std::sqrt(2.0);
+}
+
+/// What the logs' rows leave open of a step's time.
 double find_sampling_sd(const std::vector<Tie>& ties, const Log& torque_log, const Log& tire_log,
                         const ClockPlan& plan) {
-  if (plan.load_changes_at_rows) return 0.0;
-  double variance = 0.0;
+  const double stamps_s = std::hypot(find_stamp_sd(torque_log), find_stamp_sd(tire_log));
+  if (plan.load_changes_at_rows) return stamps_s;
+  double variance = stamps_s * stamps_s;
   for (const Tie& tie : ties) {
     const bool common_load = tie.channel == "load_N";
     if (!common_load && (tie.is_common || !has_load_steps(torque_log))) continue;
     const double rows_s2 =
         torque_log.interval_s * torque_log.interval_s + (common_load ? tire_log.interval_s * tire_log.interval_s : 0.0);
-    variance = std::max(variance, rows_s2 / 12.0);
+    variance = std::max(variance, stamps_s * stamps_s + rows_s2 / 12.0);
   }
   return std::sqrt(variance);
 }

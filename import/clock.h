@@ -25,7 +25,7 @@ struct ClockEstimate {
   double searched_from_s = 0.0;  // shifts
   double searched_to_s = 0.0;
   double statistical_sd_s = 0.0;
-  double sampling_sd_s = 0.0;  // steps of the load lie anywhere between two rows
+  double sampling_sd_s = 0.0;  // of stamps; and steps of the load lie anywhere between two rows
   double lag_sd_s = 0.0;       // of the tire's response, not told from a shift
   double rate_sd = 0.0;
   bool rate_is_decided = false;  // by the data: narrower than half of what was known before
