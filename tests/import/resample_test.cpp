@@ -61,7 +61,8 @@ TEST_CASE("what the rows of a measured column hold sums up to what the log holds
   for (std::size_t i = 0; i < 120; ++i) {
     pair.tire.columns["cavity_pressure_kPa"].push_back(i == 60 ? 1000.0 : 0.0);  // the sample at 54.7 s
   }
-  const std::vector<double>& values = pair.resample(1.0).columns.at("cavity_pressure_kPa");
+  const logs::ResampledRun run = pair.resample(1.0);
+  const std::vector<double>& values = run.columns.at("cavity_pressure_kPa");
   double sum = 0.0, moment = 0.0;
   for (std::size_t row = 1; row + 1 < values.size(); ++row) {
     sum += values[row];
