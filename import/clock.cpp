@@ -132,14 +132,17 @@ bool has_load_steps(const Log& log) {
 
 /// How far a log's stamps lie from even steps, 1 sd of one stamp: their jitter, and the digits they are written with.
 double find_stamp_sd(const Log& log) {
-  std::vector<double> departures;
+  double count = 0.0, sum = 0.0, squares = 0.0;
   for (std::size_t row = 1; row < log.time_s.size(); ++row) {
-    departures.push_back(std::abs(log.time_s[row] - log.time_s[row - 1] - log.interval_s));
+    const double departure_s = log.time_s[row] - log.time_s[row - 1] - log.interval_s;
+    if (std::abs(departure_s) > 0.5 * log.interval_s) continue;  // a gap
+    count += 1.0;
+    sum += departure_s;
+    squares += departure_s * departure_s;
   }
-  const auto middle = departures.begin() + static_cast<std::ptrdiff_t>(departures.size() / 2);
-  std::nth_element(departures.begin(), middle, departures.end());
-  constexpr double kNormal = 1.4826;  // sd of a normal distribution over its median absolute deviation
-  return kNormal * *middle / std::sqrt(2.0);
+  if (count == 0.0) return 0.0;
+  const double variance = squares / count - sum * sum / (count * count);
+  return std::sqrt(0.5 * std::max(0.0, variance));  // a step has the errors of two stamps
 }
 
 /// What the logs' rows leave open of a step's time.
