@@ -73,10 +73,10 @@ std::vector<Tie> make_common_ties(const Log& torque_log, const Log& tire_log, co
 std::vector<Tie> make_response_ties(const Log& torque_log, const Log& tire_log, const Mapping& mapping) {
   std::vector<Tie> ties;
   if (!torque_log.has("speed_km_h")) return ties;
-  // The first that is there: what lies behind a second store answers with a lag of its own.
+  // The first that is there: what lies behind a second store answers with a lag of its own. Not the pressure: what the
+  // gas and the volume add to it leaves shifts seconds apart alike.
   const std::pair<const char*, Response> kinds[] = {{"liner_temperature_degC", Response::kRubber},
-                                                    {"gas_temperature_degC", Response::kGas},
-                                                    {"cavity_pressure_kPa", Response::kPressure}};
+                                                    {"gas_temperature_degC", Response::kGas}};
   for (const auto& [channel, response] : kinds) {
     if (!tire_log.has(channel) || !ties.empty()) continue;
     Tie tie = start_tie(tire_log, channel);

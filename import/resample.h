@@ -40,7 +40,7 @@ struct RunSources {
 /// before to half-way to the next, each sample standing for its share of the log; from a log slower than the rows,
 /// each sample in the row next to it. A row whose interval is not covered by values is left empty, a row without an
 /// input is left out.
-/// Errors   InputError: inputs missing for longer than the mapping allows; fewer than two rows
+/// Errors   InputError: inputs missing for longer than the mapping allows; fewer than three rows
 /// Source   formats.md: given columns run linearly from row to row, measured ones are means, load holds
 /// Checked  tests/import/resample_test.cpp
 ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, double interval_s, double from_s,

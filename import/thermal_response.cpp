@@ -115,7 +115,6 @@ Basis make_response_basis(const Log& torque_log, Response response, bool at_rows
       }
     }
   }
-  if (response == Response::kPressure) basis.functions.push_back(inputs.load_N);
   return basis;
 }
 
