@@ -32,8 +32,9 @@ double find_windage_N(double speed_m_s, double load_N, double power = 2.0) {
   return with.now.rolling_resistance_N - without.evaluate().rolling_resistance_N;
 }
 
-double find_air_speed_m_s(double deficit, double speed_m_s, double other_m_s = 1e-1) {
-  return corner_with(switch_on("convection_law", {deficit, 20.0, other_m_s}), speed_m_s).now.boundary.air_speed_m_s;
+double find_air_speed_m_s(double deficit, double speed_m_s, double other_m_s = 1e-1, double fan_share = 0.0) {
+  return corner_with(switch_on("convection_law", {deficit, 20.0, other_m_s, fan_share}), speed_m_s)
+      .now.boundary.air_speed_m_s;
 }
 
 double find_volume_ratio(const ActiveEffect& effect, double speed_m_s, double load_N) {
@@ -134,7 +135,7 @@ TEST_CASE("without any power it is a fan, which blows at standstill too", "[fast
     CHECK(find_air_speed_m_s(1.0, speed_m_s) == Approx(20.0).epsilon(1e-3));
   }
   CHECK(find_air_speed_m_s(1.0, 0.0) == Approx(20.0).epsilon(1e-2));
-  auto fan = corner_with(switch_on("convection_law", {1.0, 20.0, 0.1}), 0.0);
+  auto fan = corner_with(switch_on("convection_law", {1.0, 20.0, 0.1, 0.0}), 0.0);
   HandFedCorner<double> still(make_context_on(RigKind::kDrum), {});
   still.inputs.speed_m_s = 0.0;
   for (auto* at : {&fan, &still}) {
@@ -144,11 +145,32 @@ TEST_CASE("without any power it is a fan, which blows at standstill too", "[fast
   CHECK(fan.temperature_K(Node::kRubber) < still.temperature_K(Node::kRubber) - 1.0);
 }
 
+TEST_CASE("a fan across the tire adds by squares: at the reference speed as before, all of it left at standstill",
+          "[fast]") {
+  for (const double deficit : {0.1, 0.4}) {
+    CHECK(find_air_speed_m_s(deficit, 20.0, 0.05, 1.0) == Approx(20.0).epsilon(1e-4));
+    CHECK(find_air_speed_m_s(deficit, 0.0, 0.05, 1.0) == Approx(20.0 * std::sqrt(deficit)).epsilon(0.02));
+    const double h = 1e-3;
+    const double rise =
+        find_air_speed_m_s(deficit, 20.0 + h, 0.05, 1.0) - find_air_speed_m_s(deficit, 20.0 - h, 0.05, 1.0);
+    CHECK(rise / (2.0 * h) == Approx(1.0 - deficit).epsilon(1e-3));  // the exponent there
+    // half of the deficit by a fan, half by the power: the exponents multiply
+    const double both =
+        find_air_speed_m_s(deficit, 20.0 + h, 0.05, 0.5) - find_air_speed_m_s(deficit, 20.0 - h, 0.05, 0.5);
+    CHECK(both / (2.0 * h) == Approx((1.0 - 0.5 * deficit) * (1.0 - 0.5 * deficit)).epsilon(1e-3));
+  }
+  CHECK(find_air_speed_m_s(0.0, 35.0, 0.5, 1.0) == 35.0);
+}
+
 TEST_CASE("the air never takes heat the wrong way, and its law has a finite derivative at standstill", "[fast]") {
   for (const double deficit : {-0.5, 0.2, 1.0}) {
-    for (const double speed_m_s : {0.0, 0.1, 3.0, 60.0}) CHECK(find_air_speed_m_s(deficit, speed_m_s, 5.0) >= 0.0);
+    for (const double speed_m_s : {0.0, 0.1, 3.0, 60.0}) {
+      for (const double fan_share : {0.0, 0.5, 1.0}) {
+        CHECK(find_air_speed_m_s(deficit, speed_m_s, 5.0, fan_share) >= 0.0);
+      }
+    }
   }
-  HandFedCorner<Jet> at(make_context_on(RigKind::kDrum), {switch_on("convection_law", {0.0, 20.0, 1.0})});
+  HandFedCorner<Jet> at(make_context_on(RigKind::kDrum), {switch_on("convection_law", {0.0, 20.0, 1.0, 0.0})});
   at.corner.effects()[0].parameters[0] = Jet(0.0, 0);
   at.inputs.speed_m_s = 0.0;
   const Jet air_m_s = at.evaluate().boundary.air_speed_m_s;
