@@ -206,17 +206,27 @@ TEST_CASE("absolute pressure times volume stays, and the loss follows the pressu
         Approx(std::pow(at.now.pressure_Pa / 280e3, -0.4)));
 }
 
-TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H)", "[fast]") {
+TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H), stirred by speed where a part is",
+          "[fast]") {
   for (const double ratio : {0.25, 1.0, 2.0}) {
     models::Context<double> context = make_context_on(RigKind::kDrum);
     context.tire.thermal.heat_capacity_J_per_K = 1e9;  // a tire that keeps its temperature
-    HandFedCorner<double> at(context, {switch_on("gas_heat_transfer", {ratio})});
+    HandFedCorner<double> at(context, {switch_on("gas_heat_transfer", {ratio, 0.0})});
     at.inputs.speed_m_s = 0.0;
     at.temperature_K(Node::kRubber) = 318.15;
     const auto& thermal = context.tire.thermal;
     at.advance(thermal.gas_heat_capacity_J_per_K / (ratio * thermal.H_gas_W_per_K));
     CHECK(318.15 - at.temperature_K(Node::kGas) == Approx(20.0 * std::exp(-1.0)).epsilon(1e-5));
-    HandFedCorner<double> usual(make_context_on(RigKind::kDrum), {switch_on("gas_heat_transfer", {ratio})});
+    // Wholly stirred, nothing differs at standstill, and all of it at 80 km/h.
+    for (const auto& [km_h, factor] : std::vector<std::pair<double, double>>{{0.0, 1.0}, {80.0, ratio}}) {
+      HandFedCorner<double> stirred(context, {switch_on("gas_heat_transfer", {ratio, 1.0})});
+      stirred.inputs.speed_m_s = km_h / 3.6;
+      stirred.inputs.load_N = 0.0;
+      stirred.temperature_K(Node::kRubber) = 318.15;
+      stirred.advance(thermal.gas_heat_capacity_J_per_K / (factor * thermal.H_gas_W_per_K));
+      CHECK(318.15 - stirred.temperature_K(Node::kGas) == Approx(20.0 * std::exp(-1.0)).epsilon(1e-4));
+    }
+    HandFedCorner<double> usual(make_context_on(RigKind::kDrum), {switch_on("gas_heat_transfer", {ratio, 0.4})});
     usual.temperature_K(Node::kRubber) = 318.15;
     const double stored_W = usual.stored_heat_rate_W();
     const auto& heat = usual.now.heat;
