@@ -37,7 +37,7 @@ struct ClockEstimate {
 };
 
 /// Shift and rate of the tire log's clock, from what both logs measure (speed, load, ambient, ...) or, where that does
-/// not decide it, from how the liner temperature (else gas temperature, else pressure) answers to speed and load.
+/// not decide it, from how the liner temperature (else gas temperature) answers to speed and load.
 /// Errors   InputError: nothing in common tells the clocks apart, several shifts do as well, the likeliest lies at the
 ///          end of the search, or the uncertainty is wider than the plan allows; unless the plan gives a shift
 /// Checked  tests/import/clock_test.cpp

@@ -84,10 +84,10 @@ void add_warnings(Import& imported) {
   }
   for (const ClockEstimate& clock : imported.clocks) {
     if (clock.method == "response") {
-      imported.warnings.push_back(fmt::format(
-          "the shift of {} rests on how the tire's temperature or pressure answers to speed and load; a tire that "
-          "answers late looks like a clock that does (+-{:.3g} s of the uncertainty)",
-          clock.tire_log, clock.lag_sd_s));
+      imported.warnings.push_back(
+          fmt::format("the shift of {} rests on how the tire's temperature answers to speed and load; a tire that "
+                      "answers late looks like a clock that does (+-{:.3g} s of the uncertainty)",
+                      clock.tire_log, clock.lag_sd_s));
     } else if (clock.method == "given") {
       imported.warnings.push_back(
           fmt::format("the shift of {} is the mapping's own; the logs do not tell it better", clock.tire_log));

@@ -31,6 +31,7 @@ std::string make_run_table(const ImportedRun& run) {
       plan.cold_pressure_Pa / 1e3);
   if (plan.rest_before_s.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *plan.rest_before_s / 60.0);
   if (plan.started_warm) text += "tire_state = \"warm\"\n";
+  if (plan.force_at_standstill) text += "force_at_standstill = true\n";
   return text;
 }
 
@@ -44,14 +45,7 @@ std::string make_set_toml(const Mapping& mapping, const Import& imported) {
   text += fmt::format("format = \"rollrig-measurements/1\"\nname = {}\ntire = \"tire.toml\"\n{}\nbaseline = {}\n",
                       quote(mapping.set.name), on_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
                       quote(mapping.baseline));
-  for (const auto& [channel, sensor] : imported.sensors) {
-    const double factor = unit_of_key(channel).factor;
-    text += fmt::format(
-        "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
-        "resolution = {:.10g}\n",
-        channel, sensor.offset_sd / factor, sensor.drift_sd / factor, sensor.drift_time_s, sensor.noise_sd / factor,
-        sensor.resolution / factor);
-  }
+  text += scenarios::write_sensors(imported.sensors);
   for (const ImportedRun& run : imported.runs) text += make_run_table(run);
   return text;
 }

@@ -179,6 +179,7 @@ RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapp
   run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
   run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
   run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
+  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
   run.from = reader.text_or("from", "");
   run.to = reader.text_or("to", "");
   reader.finish();

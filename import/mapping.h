@@ -63,6 +63,7 @@ struct RunPlan {
   double cold_pressure_Pa = 0.0;
   std::optional<double> rest_before_s;
   bool started_warm = false;
+  bool force_at_standstill = false;
   std::string from;  // time stamps as in the torque log; empty: its first and last row
   std::string to;
   Origin origin;

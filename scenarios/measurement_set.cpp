@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -133,8 +134,15 @@ const SetColumns& columns_of(SetKind kind) {
                                 {"ambient_degC", kTemperatureRange, "air"}},
                                {},
                                {{"traction_force_N", any_number(), "force at the wheels"}}};
-  if (kind == SetKind::kDrum) return drum;
-  return kind == SetKind::kDyno ? dyno : road;
+  switch (kind) {
+    case SetKind::kDrum:
+      return drum;
+    case SetKind::kDyno:
+      return dyno;
+    case SetKind::kRoad:
+      return road;
+  }
+  throw std::invalid_argument("a kind of set without columns");
 }
 
 std::vector<std::string> measured_channels(SetKind kind) {

@@ -22,8 +22,7 @@ struct TestConditions {
   std::map<std::string, double> held;  // further given columns, with what they hold unless a stage says otherwise
 };
 
-/// The set's highest load, on which the tire is known to run, its middle pressure, and the ambient in which its runs
-/// began on average.
+/// The set's highest load, on which the tire is known to run, its middle pressure, and its kind's usual ambient.
 TestConditions find_test_conditions(const PreparedSet& set);
 
 /// A run from soaked at the ambient.
@@ -31,7 +30,7 @@ class RunPlan {
  public:
   RunPlan(const TestConditions& conditions, double first_km_h);
 
-  /// Goes to a speed at once with the new load, then holds both.
+  /// Sets the load at once, goes to the speed by 1 km/h a second, then holds both for `minutes`.
   RunPlan& roll(double minutes, double load_N, double speed_km_h, bool read = true);
   RunPlan& stand(double minutes, double load_N, bool read = true) { return roll(minutes, load_N, 0.0, read); }
   /// Drive force of the wheel from now on, negative where it brakes.
