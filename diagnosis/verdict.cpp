@@ -128,6 +128,13 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
   return objections;
 }
 
+/// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
+/// that are most unusual, is told from it already.
+bool is_open_beside(const Contender& lead, const Contender& other) {
+  const auto posterior = [](const Contender& one) { return one.probability + one.remainder_probability; };
+  return posterior(other) >= std::exp(-kToldApart_nats) * posterior(lead);
+}
+
 }  // namespace
 
 double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b) {
@@ -171,6 +178,7 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.effects.size() > lead->fit.hypothesis.effects.size()) continue;  // lead, and a trifle
+      if (!is_open_beside(*lead, *other)) continue;
       for (const std::string& id : other->fit.hypothesis.ids()) others.insert(id);
     }
     for (const std::string& id : cause.effects) others.erase(id);

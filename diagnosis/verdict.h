@@ -20,7 +20,8 @@ constexpr double kToldApart_nats = 3.0;  // design: below it hypotheses are name
 double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b);
 
 /// Causes from the likeliest down. Hypotheses whose expected log Bayes factor on this set is below 3 are one cause,
-/// named after the likeliest of them.
+/// named after the likeliest of them; those that the set has told from it already, posterior below e^-3 of the lead's
+/// (the same prediction, but with parameters that are most unusual), are not listed beside it.
 /// The first cause is held adequate unless
 /// - a free remainder on top of it is likelier than it alone,
 /// - its size differs from run to run, by more than noise and 20 % of it explain (1 in 1000),
