@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include "scenarios/assets.h"
 #include "scenarios/sensor_file.h"
 #include "sim/core/file_io.h"
@@ -170,6 +172,9 @@ RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapp
   run.id = reader.text("id");
   if (run.id.empty() || run.id.find_first_of("/\\\"") != std::string::npos) {
     throw reader.problem("id", "a run's id names its file", "letters, digits, - and _");
+  }
+  if (boost::algorithm::to_lower_copy(run.id) == "marks") {
+    throw reader.problem("id", "marks.csv is the file of what was not taken over", "another id");
   }
   run.session = reader.text("session");
   run.torque_log = (fs::path(folder) / reader.text("torque_log")).string();

@@ -192,8 +192,12 @@ std::vector<double> add_given(const Mapping& mapping, const RunSources& sources,
       if (!std::isnan(values.back())) continue;
       const double since_s = kept.empty() ? grid.front() : kept.back();
       if (time_s - since_s > mapping.longest_given_gap_s) {
-        throw missing_input(*source.log, column, since_s + (kept.empty() ? 0.0 : interval_s), time_s,
-                            mapping.longest_given_gap_s);
+        const auto is_back = [&, &source = source, &column = column](double later_s) {
+          return later_s > time_s && !std::isnan(read_given(*source.log, column, later_s));
+        };
+        const auto back = std::find_if(grid.begin(), grid.end(), is_back);
+        throw missing_input(*source.log, column, since_s + (kept.empty() ? 0.0 : interval_s),
+                            back == grid.end() ? grid.back() : *back, mapping.longest_given_gap_s);
       }
       const std::string reason = find_reason(*source.log, column, time_s - 1e-6, time_s + 1e-6);
       add_empty(run, {column, time_s - run.start_s, time_s - run.start_s, 1, true, reason}, interval_s);
@@ -212,14 +216,22 @@ ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, dou
                           double to_s) {
   ResampledRun run;
   run.start_s = from_s;
+  constexpr double kMostRows = 1e7;  // Assumed: a day at 100 Hz is less
+  const auto require_rows = [&](bool holds) {
+    if (holds) return;
+    throw InputError(
+        {fmt::format("a run from {:.6g} to {:.6g} s of the log in rows of {:.6g} s has fewer than three rows "
+                     "or more than ten million",
+                     from_s - sources.torque_log->time_s.front(), to_s - sources.torque_log->time_s.front(),
+                     interval_s),
+         sources.torque_log->file, 0, "from, to, interval_s", "", "from before to, three rows or more", ""});
+  };
+  require_rows(to_s - from_s >= 0.0 && (to_s - from_s) / interval_s < kMostRows);
   std::vector<double> grid;
   const auto count = static_cast<std::size_t>(std::floor((to_s - from_s) / interval_s + 1e-3)) + 1;
   for (std::size_t k = 0; k < count; ++k) grid.push_back(from_s + static_cast<double>(k) * interval_s);
   const std::vector<double> times = add_given(mapping, sources, grid, interval_s, run);
-  if (times.size() < 3) {
-    throw InputError({"a run has fewer than three rows", sources.torque_log->file, 0, "from, to, interval_s", "",
-                      "three rows or more", ""});
-  }
+  require_rows(times.size() >= 3);
   for (const double time_s : times) run.time_s.push_back(time_s - from_s);
   const std::vector<Cell> cells = find_row_cells(times);
   for (const std::string& column : scenarios::measured_channels(mapping.set.kind)) {
