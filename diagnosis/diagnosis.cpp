@@ -74,7 +74,9 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   diagnosis.warnings = checks.warnings;
   if (checks.implausible) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
-  diagnosis.not_excluded = find_not_excluded(race, settings.effects, diagnosis.causes);
+  const bool is_named = diagnosis.verdict != Verdict::kNoGap;
+  diagnosis.not_excluded =
+      find_not_excluded(race, settings.effects, is_named ? diagnosis.causes : std::vector<Cause>{});
   report(0.7, "where and what");
   diagnosis.where = find_locations(set, remainder, race.null);
   diagnosis.balance = find_balance(set, base, remainder, race.null, options.threads);

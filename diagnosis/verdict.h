@@ -33,8 +33,8 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
 /// "unknown": a true cause fails one of the tests in 1 of 20 sets or fewer, what merely looks like one often.
 void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability);
 
-/// Effects that this set would not show: detectable at less than 3 standard deviations at the middle of their prior,
-/// and not named.
+/// Effects that this set need not show: detectable at less than 5 standard deviations at the middle of their prior,
+/// or left with e^-3 of the likeliest hypothesis's probability or more; and not named.
 std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
                                            const std::vector<Cause>& causes);
 
