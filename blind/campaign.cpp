@@ -25,8 +25,8 @@ Air draw_air(Draws& draws, double mean_degC) {
   return air;
 }
 
-Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs) {
-  if (specimen.kind == Kind::kDyno) return draw_dyno_campaign(seed, specimen, runs);
+Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs) {
+  if (specimen.kind == Kind::kDyno) return draw_dyno_campaign(seed, specimen, runs, dyno_runs);
   if (specimen.kind == Kind::kRoad) return draw_road_campaign(seed, specimen, runs);
   return draw_drum_campaign(seed, specimen, runs);
 }

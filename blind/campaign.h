@@ -64,9 +64,9 @@ struct Campaign {
 };
 
 /// One of several kinds of campaign, by seed, with its first `runs` runs. It does not depend on the effect.
-Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs);
 Campaign draw_drum_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
-Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs);
 Campaign draw_road_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
 
 /// Slow swing and slope of the air about `mean_degC`, within a degree or so.

@@ -125,10 +125,9 @@ std::vector<Leg> make_legs(const SpeedTrace& trace, double load_N, const Specime
   return legs;
 }
 
-std::vector<Leg> draw_legs(Draws& draws, const RunKind& what, double load_N, const Specimen& specimen) {
+std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N, const Specimen& specimen) {
   SpeedTrace trace;
   trace.hold(draws.whole(5, 20));
-  const std::string kind = what.kind;
   if (kind == "multi-cycle") multi_cycle(draws, trace);
   if (kind == "constant speeds") constant_speeds(draws, trace);
   if (kind == "mixed") mixed(draws, trace);
@@ -136,9 +135,14 @@ std::vector<Leg> draw_legs(Draws& draws, const RunKind& what, double load_N, con
   return make_legs(trace, load_N, specimen);
 }
 
+std::string choose_kind(const RunKind& what, DynoRuns dyno_runs) {
+  if (dyno_runs == DynoRuns::kMultiCycle) return "multi-cycle";
+  return dyno_runs == DynoRuns::kConstantSpeeds ? "constant speeds" : what.kind;
+}
+
 }  // namespace
 
-Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs) {
+Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs) {
   Draws draws(seed, "campaign");
   const auto& kinds = campaign_kinds();
   const CampaignKind& kind = kinds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(kinds.size()) - 1))];
@@ -148,7 +152,8 @@ Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int ru
     const RunKind& what = kind.runs[i];
     Draws own(seed, fmt::format("run/{}", i));
     RunPlan run;
-    run.id = fmt::format("{}-{}", i + 1, what.kind);
+    const std::string run_kind = choose_kind(what, dyno_runs);
+    run.id = fmt::format("{}-{}", i + 1, run_kind);
     std::replace(run.id.begin(), run.id.end(), ' ', '-');
     run.index = i;
     run.session = what.session;
@@ -160,7 +165,7 @@ Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int ru
       warm_dK = own.uniform(12.0, 20.0) * std::exp(-*run.rest_before_min / 45.0);  // Assumed: cools in an hour
     }
     run.initial_degC = std::round(10.0 * (run.air.at(0.0) + warm_dK)) / 10.0;
-    run.legs = draw_legs(own, what, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
+    run.legs = draw_legs(own, run_kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
     campaign.runs.push_back(std::move(run));
   }
   return campaign;

@@ -1,5 +1,6 @@
 #include "blind/effect.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace blind {
@@ -37,6 +38,35 @@ double draw_size(const EffectKind& kind, Draws& draws) {
     double size = draws.from(kind.size);
     if (kind.either_sign && draws.happens(0.5)) size = -size;
     if (std::isinf(kind.neutral) || std::abs(size - kind.neutral) >= kind.gap) return size;
+  }
+}
+
+namespace {
+
+double strength(const EffectKind& kind, double size) {
+  return std::isinf(kind.neutral) ? 1.0 / std::abs(size) : std::abs(size - kind.neutral);
+}
+
+/// Where the thirds meet, from many draws that are the same in each bank.
+std::array<double, 2> find_thirds(const EffectKind& kind) {
+  constexpr std::size_t kThird = 1000;
+  Draws draws(0, std::string("thirds/") + kind.id);
+  std::vector<double> strengths(3 * kThird);
+  for (double& one : strengths) one = strength(kind, draw_size(kind, draws));
+  std::sort(strengths.begin(), strengths.end());
+  return {strengths[kThird], strengths[2 * kThird]};
+}
+
+}  // namespace
+
+double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws) {
+  const std::array<double, 2> thirds = find_thirds(kind);
+  for (;;) {
+    const double size = draw_size(kind, draws);
+    const double of = strength(kind, size);
+    const SizeClass drawn =
+        of < thirds[0] ? SizeClass::kSmall : (of < thirds[1] ? SizeClass::kMiddle : SizeClass::kLarge);
+    if (drawn == wanted) return size;
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What an effect is to the generator: one file in blind/effects, one line in blind/effects.def.
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -114,5 +115,11 @@ struct EffectKind {
 const std::vector<const EffectKind*>& effect_kinds();
 const EffectKind* find_effect_kind(const std::string& id);
 double draw_size(const EffectKind& kind, Draws& draws);
+
+/// Thirds of the sizes that are drawn, by how far they are from doing nothing.
+enum class SizeClass { kSmall, kMiddle, kLarge };
+constexpr std::array<const char*, 3> kSizeClassNames{"small", "middle", "large"};
+/// A size of one class: sizes of the three classes in equal numbers are as those of draw_size().
+double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws);
 
 }  // namespace blind

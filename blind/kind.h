@@ -29,4 +29,22 @@ inline Grounds grounds_of(Kind kind) {
   return kGrounds[static_cast<std::size_t>(kind)];
 }
 
+/// What the runs of a dynamometer campaign are: as its laboratory has them, or all of one sort.
+enum class DynoRuns { kAsUsual, kMultiCycle, kConstantSpeeds };
+
+/// A campaign that a bank may have.
+struct CampaignChoice {
+  const char* name;  // "" where a bank has one kind alone
+  Kind kind = Kind::kDrum;
+  int runs = 6;  // at most
+  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+};
+constexpr std::array<CampaignChoice, 6> kMixedCampaigns{
+    {{"full_drum", Kind::kDrum, 6},
+     {"short_drum", Kind::kDrum, 3},
+     {"dyno_multi_cycle", Kind::kDyno, 6, DynoRuns::kMultiCycle},
+     {"dyno_constant_speed", Kind::kDyno, 6, DynoRuns::kConstantSpeeds},
+     {"dyno_mixed", Kind::kDyno, 6},
+     {"road", Kind::kRoad, 6}}};
+
 }  // namespace blind

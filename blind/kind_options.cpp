@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "blind/bank.h"
 #include "blind/effect.h"
 #include "blind/measurement_set.h"
 #include "blind/problem.h"
@@ -15,6 +16,17 @@ Kind read_kind(const std::string& name) {
     if (name == kKindNames[i]) return static_cast<Kind>(i);
   }
   const std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
+  throw InputError({fmt::format("unknown kind '{}'", name), "--kind", name, fmt::format("{}", fmt::join(known, ", ")),
+                    find_nearest(name, known)});
+}
+
+std::vector<CampaignChoice> read_campaigns(const std::string& name) {
+  if (name == kMixed) return {kMixedCampaigns.begin(), kMixedCampaigns.end()};
+  for (std::size_t i = 0; i < kKindNames.size(); ++i) {
+    if (name == kKindNames[i]) return {{"", static_cast<Kind>(i)}};
+  }
+  std::vector<std::string> known(kKindNames.begin(), kKindNames.end());
+  known.emplace_back(kMixed);
   throw InputError({fmt::format("unknown kind '{}'", name), "--kind", name, fmt::format("{}", fmt::join(known, ", ")),
                     find_nearest(name, known)});
 }
@@ -34,6 +46,13 @@ void check_grounds(const std::vector<std::string>& ids, Kind kind, bool drawn) {
     const EffectKind& effect = *find_effect_kind(id);
     throw InputError({fmt::format("{} has no {} on a {}", id, drawn ? "visible trace" : "place", name_of(kind)),
                       "--kind", name_of(kind), list_kinds(drawn ? effect.drawn : effect.acts), ""});
+  }
+}
+
+void check_drawn_somewhere(const std::vector<std::string>& ids) {
+  for (const std::string& id : ids) {
+    if (find_effect_kind(id)->drawn != kNowhere) continue;
+    throw InputError({fmt::format("{} has no visible trace on any kind", id), "--effects", id, "other effects", ""});
   }
 }
 

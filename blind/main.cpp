@@ -128,23 +128,36 @@ int make_command(MakeOptions options) {
 }
 
 struct BankOptions {
-  std::string kind = name_of(Kind::kDrum);
   std::string effects;
   BankOrder order;
 };
 
-int bank_command(const BankOptions& options) {
+/// What a bank is to hold. Throws InputError.
+BankOrder read_bank_order(const BankOptions& options) {
   BankOrder order = options.order;
-  order.kind = read_kind(options.kind);
+  order.campaigns = read_campaigns(order.kind);
   order.effects = read_effects(options.effects);
-  if (options.effects.empty()) order.effects = drawn_effects(order.kind, false);
-  check_grounds(order.effects, order.kind, true);
+  if (options.effects.empty()) order.effects = drawn_effects(order.campaigns, false);
+  if (order.kind == kMixed) {
+    check_drawn_somewhere(order.effects);
+  } else {
+    check_grounds(order.effects, order.campaigns.front().kind, true);
+  }
+  if (order.singles > 0 && order.effects.empty()) {
+    throw InputError({"there is no effect for the singles", "--singles", std::to_string(order.singles),
+                      "one or more --effects", ""});
+  }
   if (order.pairs > 0 && order.effects.size() < 2) {
     throw InputError({"a pair needs two effects", "--pairs", std::to_string(order.pairs), "two or more --effects", ""});
   }
   const std::size_t all = static_cast<std::size_t>(order.each) * order.effects.size() +
-                          static_cast<std::size_t>(order.none + order.pairs + order.outside);
+                          static_cast<std::size_t>(order.singles + order.none + order.pairs + order.outside);
   if (all == 0) throw InputError({"the bank has no sets", "--each", "0", "one set at least", ""});
+  return order;
+}
+
+int bank_command(const BankOptions& options) {
+  const BankOrder order = read_bank_order(options);
   const auto progress = [](std::size_t done, std::size_t of) {
     if (::isatty(STDERR_FILENO) != 0) std::cerr << fmt::format("\r{} of {} sets{}", done, of, done == of ? "\n" : "");
   };
@@ -202,9 +215,11 @@ CLI::App* add_bank(CLI::App& app, BankOptions& options) {
   constexpr int kMostSets = 2000;
   BankOrder& order = options.order;
   CLI::App* bank = app.add_subcommand("bank", "A bank of sets in shuffled order, with one sealed truth");
-  bank->add_option("--kind", options.kind, "drum, dyno or road [drum]");
+  bank->add_option("--kind", order.kind, "drum, dyno, road, or mixed: a campaign drawn for each set [drum]");
   bank->add_option("--seed", order.seed, "Decides all that is drawn [1]");
   bank->add_option("--each", order.each, "Sets of each effect [20]")->check(CLI::Range(0, kMostSets));
+  bank->add_option("--singles", order.singles, "Sets of one effect, effects and size classes in turn [0]")
+      ->check(CLI::Range(0, kMostSets));
   bank->add_option("--none", order.none, "Sets without effect [100]")->check(CLI::Range(0, kMostSets));
   bank->add_option("--pairs", order.pairs, "Sets of two effects [0]")->check(CLI::Range(0, kMostSets));
   bank->add_option("--outside", order.outside, "Sets with an effect outside of the catalogue [0]")

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blind/effect.h"
 #include "blind/recorder.h"
 #include "blind/sensors.h"
 
@@ -175,7 +174,8 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& desc
     const EffectKind& kind = *find_effect_kind(order.effects[i]);
     Draws sizes(order.seed, fmt::format("size/{}", kind.id));
     Draws shapes(order.seed, fmt::format("shape/{}", kind.id));
-    const double drawn = draw_size(kind, sizes);
+    const bool has_class = !order.size_classes.empty();
+    const double drawn = has_class ? draw_size(kind, order.size_classes[i], sizes) : draw_size(kind, sizes);
     const double size = order.sizes[i].value_or(drawn);
     effects.push_back(kind.make(size, shapes, specimen));
     Json shape = Json::object();
@@ -187,6 +187,7 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& desc
                          {"neutral", kind.neutral},
                          {"shape", shape},
                          {"law", kind.law}});
+    if (has_class) described.back()["size_class"] = kSizeClassNames[static_cast<std::size_t>(order.size_classes[i])];
   }
   return effects;
 }
@@ -223,7 +224,7 @@ MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
   Laboratory lab;
   lab.kind = order.kind;
   lab.specimen = draw_specimen({order.seed, order.kind, draw_constant_rrc(order), order.nominal_base});
-  lab.campaign = draw_campaign(order.seed, lab.specimen, order.runs);
+  lab.campaign = draw_campaign(order.seed, lab.specimen, order.runs, order.dyno_runs);
   lab.sensors = draw_sensors(order.seed, order.kind);
   MadeSet made;
   made.truth = describe(order, lab);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "blind/campaign.h"
+#include "blind/effect.h"
 
 namespace blind {
 
@@ -17,7 +18,9 @@ struct SetOrder {
   std::vector<std::string> effects;          // none: the baseline
   std::vector<std::optional<double>> sizes;  // one an effect; none: drawn
   std::uint64_t seed = 1;
+  std::vector<SizeClass> size_classes;  // one an effect; none: sizes from all that are drawn
   Kind kind = Kind::kDrum;
+  DynoRuns dyno_runs = DynoRuns::kAsUsual;
   std::optional<bool> constant_rrc;  // of a road set; none: drawn among what the effects allow
   int runs = kMostRuns;
   bool noise_free = false;

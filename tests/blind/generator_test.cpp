@@ -299,3 +299,61 @@ TEST_CASE("a run that is stopped by a mistake leaves nothing behind", "[fast]") 
   CHECK(read_file(folder.file("taken")) == "a file");
   CHECK(folder.entry_count() == 1);
 }
+
+TEST_CASE("a mixed bank has every effect of the catalogue, each size class, and each sort of campaign", "[slow]") {
+  const TemporaryFolder folder;
+  const auto made = run_blind(
+      fmt::format("bank --kind mixed --seed 31 --each 0 --singles 102 --pairs 3 --none 2 --outside 9 --runs 1 --out {}",
+                  folder.file("bank")));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+  std::map<std::string, std::map<std::string, int>> singles;  // by effect, by class
+  std::set<std::string> campaigns;
+  for (const auto& [number, set] : truth.at("sets").items()) {
+    campaigns.insert(set.at("campaign_kind").get<std::string>());
+    if (set.at("effects").size() != 1 || !set.at("effects")[0].contains("size_class")) continue;
+    const Json& effect = set.at("effects")[0];
+    ++singles[effect.at("id").get<std::string>()][effect.at("size_class").get<std::string>()];
+    CHECK_NOTHROW(scenarios::read_measurement_set(folder.file("bank/sets/" + number)));
+  }
+  CHECK(campaigns.size() == 6);
+  CHECK(singles.size() == 34);  // each that banks of some kind have, three times
+  for (const auto& [effect, classes] : singles) {
+    INFO(effect);
+    CHECK(classes.size() == 3);
+  }
+}
+
+TEST_CASE("size classes are thirds of what is drawn, by the distance from doing nothing", "[fast]") {
+  const TemporaryFolder folder;
+  const auto made = run_blind(
+      "bank --seed 32 --each 0 --singles 24 --none 0 --effects pressure_exponent,clock_shift --runs 1 --out " +
+      folder.file("bank"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  std::map<std::string, std::map<std::string, std::vector<double>>> strengths;
+  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+  for (const auto& [number, set] : truth.at("sets").items()) {
+    const Json& effect = set.at("effects").at(0);
+    strengths[effect.at("id").get<std::string>()][effect.at("size_class").get<std::string>()].push_back(
+        std::abs(effect.at("size").get<double>() - effect.at("neutral").get<double>()));
+  }
+  for (auto& [effect, of] : strengths) {
+    INFO(effect);
+    const auto largest = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
+    const auto least = [](const std::vector<double>& all) { return *std::min_element(all.begin(), all.end()); };
+    CHECK(largest(of["small"]) < least(of["middle"]));
+    CHECK(largest(of["middle"]) < least(of["large"]));
+    CHECK(of["middle"].size() == 4);
+  }
+}
+
+TEST_CASE("the generator has no symbol of the simulator in it", "[fast]") {
+  const auto symbols = run_other("/usr/bin/nm", std::string("-C --defined-only '") + ROLLRIG_BLIND_PROGRAM + "'");
+  if (symbols.status != 0 || symbols.out.find(" blind::") == std::string::npos) {
+    WARN("skipped: nm is not there, or the program is stripped");
+    return;
+  }
+  CHECK(symbols.out.find(" rollrig::") == std::string::npos);
+}
