@@ -7,12 +7,12 @@
 
 #include "cli/command.h"
 #include "cli/progress.h"
+#include "cli/race_options.h"
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/explain.h"
 #include "diagnosis/fleet.h"
 #include "diagnosis/plan_files.h"
 #include "diagnosis/summary.h"
-#include "models/effect.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 
@@ -25,23 +25,10 @@ struct Options {
   std::string json;
   std::string plan;
   bool force = false;
-  std::vector<std::string> without;
-  std::vector<std::string> only;
+  RaceOptions race;
   int threads = 0;
   bool quiet = false;
 };
-
-/// Effects that an option names. Throws InputError with the nearest name.
-void require_effects(const char* option, const std::vector<std::string>& names) {
-  const std::vector<std::string> ids = models::effect_ids();
-  for (const std::string& name : names) {
-    if (std::find(ids.begin(), ids.end(), name) != ids.end()) continue;
-    InputProblem problem = unknown_name("effect", name, ids);
-    problem.file = "command line";
-    problem.key = option;
-    throw InputError(problem);
-  }
-}
 
 void require_consistent(const Options& options) {
   const auto usage = [](const std::string& what, const char* key, const std::string& value, const char* allowed) {
@@ -55,19 +42,14 @@ void require_consistent(const Options& options) {
   if (!options.plan.empty() && options.set.empty()) {
     throw usage("there is no test to plan without a set", "--plan", options.plan, "a set beside it");
   }
-  require_effects("--without", options.without);
-  require_effects("--only", options.only);
-  for (const std::string& name : options.only) {
-    if (std::find(options.without.begin(), options.without.end(), name) == options.without.end()) continue;
-    throw usage("an effect is asked for and left out", "--without", name, "effects that --only does not name");
-  }
+  options.race.check();
 }
 
 /// Calls `diagnose` with what the options ask for, and shows how far it is.
 template <class Diagnose>
 auto with_progress(const Options& options, const Diagnose& diagnose) {
   ProgressLine progress("diagnose", options.quiet);
-  diagnosis::DiagnosisOptions how{options.without, options.only, options.threads};
+  diagnosis::DiagnosisOptions how{options.race.without, options.race.only, options.threads};
   how.progress = [&progress](double done, const std::string& stage) {
     progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
   };
@@ -141,8 +123,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_option("--plan", options->plan,
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
-  command->add_option("--without", options->without, "Effects left out of the race: a,b")->delimiter(',');
-  command->add_option("--only", options->only, "The only effects in the race: a,b")->delimiter(',');
+  options->race.add_to(*command);
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");

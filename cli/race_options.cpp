@@ -1,0 +1,39 @@
+#include "cli/race_options.h"
+
+#include <algorithm>
+
+#include "models/effect.h"
+#include "sim/core/error.h"
+
+namespace rollrig::cli {
+namespace {
+
+void require_effects(const char* option, const std::vector<std::string>& names) {
+  const std::vector<std::string> ids = models::effect_ids();
+  for (const std::string& name : names) {
+    if (std::find(ids.begin(), ids.end(), name) != ids.end()) continue;
+    InputProblem problem = unknown_name("effect", name, ids);
+    problem.file = "command line";
+    problem.key = option;
+    throw InputError(problem);
+  }
+}
+
+}  // namespace
+
+void RaceOptions::add_to(CLI::App& command) {
+  command.add_option("--without", without, "Effects left out of the race: a,b")->delimiter(',');
+  command.add_option("--only", only, "The only effects in the race: a,b")->delimiter(',');
+}
+
+void RaceOptions::check() const {
+  require_effects("--without", without);
+  require_effects("--only", only);
+  for (const std::string& name : only) {
+    if (std::find(without.begin(), without.end(), name) == without.end()) continue;
+    throw InputError({"an effect is asked for and left out", "command line", 0, "--without", name,
+                      "effects that --only does not name", ""});
+  }
+}
+
+}  // namespace rollrig::cli

@@ -1,0 +1,188 @@
+#include "proof/figures.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::Verdict;
+using Cases = std::vector<Case>;
+using Is = std::function<bool(const Case&)>;
+
+constexpr std::size_t kTop = 3;
+constexpr double kMedian = 0.5;
+constexpr double kTenth = 0.1;
+
+Cases only(const Cases& cases, const Is& wanted) {
+  Cases some;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(some), wanted);
+  return some;
+}
+
+Figure make_share(const char* id, const char* label, const Cases& of, const Is& counts, double target,
+                  bool more_is_better = true) {
+  Figure figure{id, label};
+  figure.n = of.size();
+  figure.k = static_cast<std::size_t>(std::count_if(of.begin(), of.end(), counts));
+  figure.target = target;
+  figure.more_is_better = more_is_better;
+  if (figure.n > 0) {
+    figure.value = static_cast<double>(figure.k) / static_cast<double>(figure.n);
+    figure.interval = calc_wilson_95(figure.k, figure.n);
+  } else {
+    figure.note = "no such set";
+  }
+  return figure;
+}
+
+Figure make_number(const char* id, const char* label, std::optional<double> value, std::size_t n, Unit unit,
+                   std::optional<double> target, bool more_is_better = false) {
+  Figure figure{id, label, value};
+  figure.n = n;
+  figure.unit = unit;
+  figure.target = target;
+  figure.more_is_better = more_is_better;
+  if (!value.has_value()) figure.note = "no such set";
+  return figure;
+}
+
+std::optional<double> quantile(const std::vector<double>& values, double share) {
+  if (values.empty()) return std::nullopt;
+  return calc_quantile(values, share);
+}
+
+bool is_detectable(const Case& one, const ScoreOptions& options) {
+  if (one.d_prime.has_value()) return *one.d_prime >= options.detectable_d_prime;
+  return one.truth.signal_floors >= options.detectable_floors;
+}
+
+void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
+  const Cases singles = only(cases, [](const Case& one) { return one.is_single(); });
+  const Cases detectable = only(singles, [&](const Case& one) { return is_detectable(one, options); });
+  const Cases identifiable = only(detectable, [](const Case& one) { return one.identifiable.value_or(true); });
+  figures.push_back(make_share(
+      "detection", "detection, detectable singles", detectable,
+      [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); }, 0.99));
+  figures.push_back(make_share(
+      "false_alarms", "false alarms, no effect", only(cases, [](const Case& one) { return one.is_clean(); }),
+      [](const Case& one) { return !one.is(Verdict::kNoGap); }, 0.01, false));
+  figures.back().floor = 0.02;
+  figures.push_back(make_share(
+      "top1_set_aware", "top-1 set-aware, detectable", detectable, [](const Case& one) { return one.is_named(); },
+      0.97));
+  figures.back().floor = 0.92;
+  figures.push_back(make_share(
+      "top1_exact", "top-1 exact, identifiable", identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
+  figures.push_back(make_share(
+      "top3", "top-3, all singles", singles,
+      [](const Case& one) { return one.answer.failure.empty() && one.rank_of_truth() < kTop; }, 0.98));
+  figures.back().floor = 0.95;
+  figures.push_back(make_share(
+      "pairs", "pairs, both named", only(cases, [](const Case& one) { return one.is_pair(); }),
+      [](const Case& one) { return one.is_named(); }, 0.90));
+}
+
+void add_confidence(const Cases& cases, std::vector<Figure>& figures) {
+  const Cases inside = only(cases, [](const Case& one) { return one.is_single() || one.is_pair(); });
+  const Cases outside = only(cases, [](const Case& one) { return one.truth.outside; });
+  const auto wrong = [](const Case& one) { return one.is_wrong_above(kConfident); };
+  figures.push_back(make_share("wrong_above_inside", "wrong above 0.9, in the catalogue", inside, wrong, 0.01, false));
+  figures.back().floor = 0.02;
+  figures.push_back(make_share(
+      "wrong_above_of_calls", "  of what is stated above 0.9",
+      only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); }), wrong, 0.01, false));
+  figures.push_back(make_share("wrong_above_outside", "wrong above 0.9, outside of it", outside, wrong, 0.05, false));
+  figures.back().floor = 0.08;
+  figures.push_back(make_share(
+      "abstention", "abstention, outside of it", outside,
+      [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kExplained); }, 0.90));
+  std::vector<Stated> stated;
+  for (const Case& one : cases) {
+    if (one.answer.failure.empty()) stated.push_back(one.stated());
+  }
+  const bool any = !stated.empty();
+  figures.push_back(make_number("ece", "calibration, ECE",
+                                any ? std::optional<double>(calc_ece(find_reliability(stated))) : std::nullopt,
+                                stated.size(), Unit::kNumber, 0.02));
+  figures.push_back(make_number("brier", "calibration, Brier score",
+                                any ? std::optional<double>(calc_brier(stated)) : std::nullopt, stated.size(),
+                                Unit::kNumber, 0.08));
+}
+
+void add_sizes(const Cases& cases, std::vector<Figure>& figures) {
+  std::vector<double> errors;
+  std::size_t covered = 0;
+  for (const Case& one : cases) {
+    const std::optional<SizeCheck> check = one.check_size();
+    if (!check) continue;
+    errors.push_back(check->error);
+    covered += check->covered ? 1 : 0;
+  }
+  figures.push_back(
+      make_number("size_error", "size, median error", quantile(errors, kMedian), errors.size(), Unit::kPercent, 0.05));
+  Figure coverage{"size_coverage", "size, held by its 95 % interval"};
+  coverage.k = covered;
+  coverage.n = errors.size();
+  if (coverage.n > 0) {
+    coverage.value = static_cast<double>(covered) / static_cast<double>(coverage.n);
+    coverage.interval = calc_wilson_95(covered, coverage.n);
+  } else {
+    coverage.note = "no such set";
+  }
+  figures.push_back(coverage);
+}
+
+void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
+  std::vector<double> ratios;
+  for (const Case& one : cases) {
+    if (!one.oracle_shrink_percent.has_value() || *one.oracle_shrink_percent <= 0.0) continue;
+    if (!one.is_single() && !one.is_pair()) continue;
+    ratios.push_back(one.answer.diagnosis.gap.shrink_percent.value_or(0.0) / *one.oracle_shrink_percent);
+  }
+  figures.push_back(make_number("shrinkage_median", "shrinkage over oracle's, median", quantile(ratios, kMedian),
+                                ratios.size(), Unit::kNumber, 0.97, true));
+  figures.push_back(make_number("shrinkage_tenth", "  10th percentile", quantile(ratios, kTenth), ratios.size(),
+                                Unit::kNumber, 0.8, true));
+  if (ratios.empty()) {
+    figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig blind oracle";
+  }
+}
+
+void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
+  Tally all;
+  std::vector<double> seconds;
+  for (const Case& one : cases) {
+    if (one.is_single() || one.is_pair()) all.add(one);
+    seconds.push_back(one.answer.cpu_seconds);
+  }
+  const std::size_t explained = all.named + all.named_wrong;
+  figures.push_back(make_number("next_test", "next test splits the set", std::nullopt, 0, Unit::kPercent, 0.90, true));
+  figures.back().note = "not measured";
+  figures.push_back(make_number("named_set", "mean size of the named set",
+                                explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained,
+                                Unit::kNumber, 1.3));
+  figures.back().floor = 1.5;
+  figures.push_back(make_number("time_median", "CPU time of a set, median", quantile(seconds, kMedian), seconds.size(),
+                                Unit::kSeconds, std::nullopt));
+  figures.push_back(
+      make_number("time_largest", "  largest", quantile(seconds, 1.0), seconds.size(), Unit::kSeconds, 30.0));
+}
+
+}  // namespace
+
+std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
+  std::vector<Figure> figures;
+  add_names(cases, options, figures);
+  add_confidence(cases, figures);
+  add_sizes(cases, figures);
+  add_shrinkage(cases, figures);
+  add_the_rest(cases, figures);
+  for (Figure& figure : figures) {
+    const auto at = options.baselines.find(figure.id);
+    if (at != options.baselines.end()) figure.best_baseline = at->second;
+  }
+  return figures;
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,11 @@
+#pragma once
+/// The lines of the table of targets.
+
+#include "proof/score.h"
+
+namespace rollrig::proof {
+
+/// Source  docs/blind.md, "Targets"
+std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options);
+
+}  // namespace rollrig::proof

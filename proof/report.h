@@ -1,0 +1,23 @@
+#pragma once
+/// A score as text for a terminal, as Markdown, as JSON.
+
+#include <string>
+
+#include "proof/score.h"
+#include "sim/core/json.h"
+
+namespace rollrig::proof {
+
+/// At most 80 columns.
+std::string format_score(const Score& score);
+std::string format_score_markdown(const Score& score);
+/// rollrig-blind-score/1.
+Json make_score_json(const Score& score);
+
+/// Value of a figure in its unit, "-" where there is none.
+std::string format_value(const Figure& figure, const std::optional<double>& value);
+/// What a case's data and answer are, in one sentence each.
+std::string describe_truth(const Case& one);
+std::string describe_answer(const Case& one);
+
+}  // namespace rollrig::proof

@@ -1,0 +1,132 @@
+#include "proof/score.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "proof/figures.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "sim/core/json.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::Verdict;
+
+/// What an ideal observer makes of the sets: rollrig-blind-ceiling/1, `sets` with `d_prime` and `identifiable`.
+void read_ceiling(const std::string& file, std::vector<Case>& cases) {
+  if (file.empty()) return;
+  try {
+    const Json json = Json::parse(read_text_file(file));
+    for (Case& one : cases) {
+      const auto at = json.at("sets").find(one.truth.set);
+      if (at == json.at("sets").end()) continue;
+      if (at->contains("d_prime")) one.d_prime = at->at("d_prime").get<double>();
+      if (at->contains("identifiable")) one.identifiable = at->at("identifiable").get<bool>();
+    }
+  } catch (const Json::exception& error) {
+    throw InputError({fmt::format("not a ceiling of a bank: {}", error.what()), file, 0, "--ceiling", file,
+                      "rollrig-blind-ceiling/1", ""});
+  }
+}
+
+bool is_of_these_files(const std::string& bank, const Answer& answer) {
+  return answer.set_sha256 == hash_set(set_folder(bank, answer.set));
+}
+
+void require_all(const ScoreOrder& order, std::size_t lacking, std::size_t all) {
+  if (lacking == 0) return;
+  const std::string command = order.truth_was_left_out ? "oracle" : "run";
+  const std::string option = order.truth_was_left_out ? " --race left_out" : "";
+  throw InputError(
+      {fmt::format("{} of {} sets have no answer to their files as they are now", lacking, all), order.answers, 0, "",
+       "", fmt::format("first: rollrig blind {} {}{} --out {}", command, order.bank, option, order.answers), ""});
+}
+
+}  // namespace
+
+bool Figure::meets(const std::optional<double>& bar) const {
+  if (!bar.has_value() || !value.has_value()) return false;
+  return more_is_better ? *value >= *bar : *value <= *bar;
+}
+
+void Tally::add(const Case& one) {
+  ++sets;
+  failed += one.answer.failure.empty() ? 0 : 1;
+  no_gap += one.is(Verdict::kNoGap) ? 1 : 0;
+  unexplained += one.is(Verdict::kUnexplained) ? 1 : 0;
+  if (one.is(Verdict::kExplained)) {
+    (one.is_named() ? named : named_wrong) += 1;
+    named_effects += one.named_set().size();
+  }
+  right_above += one.is_right_above(kConfident) ? 1 : 0;
+  wrong_above += one.is_wrong_above(kConfident) ? 1 : 0;
+}
+
+double Tally::mean_named_set() const {
+  return static_cast<double>(named_effects) / static_cast<double>(std::max<std::size_t>(1, named + named_wrong));
+}
+
+Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
+  Score score;
+  score.sets = cases.size();
+  score.figures = find_figures(cases, options);
+  std::vector<Stated> stated;
+  std::set<std::string> programs;
+  for (const Case& one : cases) {
+    score.by_effect[one.truth.effects.size() > 1 ? "pairs" : one.truth.name()].add(one);
+    score.by_campaign[one.truth.campaign].add(one);
+    if (!one.is_clean()) score.all_effects.add(one);
+    if (one.is_single() && !one.truth.effects.front().size_class.empty()) {
+      score.by_size_class[one.truth.effects.front().size_class].add(one);
+    }
+    ++score.confusion[one.truth.name()][one.said()];
+    if (one.answer.failure.empty()) stated.push_back(one.stated());
+    if (!one.is_right()) score.missed.push_back(one);
+    programs.insert(one.answer.settings.program_sha256);
+  }
+  score.reliability = find_reliability(stated);
+  if (programs.size() > 1) {
+    score.warnings.push_back(fmt::format("the answers are of {} different programs", programs.size()));
+  }
+  const bool has_d_prime = std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.d_prime.has_value(); });
+  if (!has_d_prime) {
+    score.warnings.push_back(
+        fmt::format("no d' is known: \"detectable\" is a signal of {:g} noise floors or more in one channel, before "
+                    "calibration, and takes all these effects for identifiable",
+                    options.detectable_floors));
+  }
+  return score;
+}
+
+std::vector<Case> read_cases(const ScoreOrder& order) {
+  std::vector<Case> cases;
+  std::size_t lacking = 0;
+  std::size_t all = 0;
+  for (Truth& truth : open_truth(order.bank, order.seal)) {
+    if (order.truth_was_left_out && truth.effects.empty()) continue;
+    ++all;
+    std::optional<Answer> answer = find_answer(order.answers, truth.set);
+    if (!answer.has_value() || !is_of_these_files(order.bank, *answer)) {
+      ++lacking;
+      continue;
+    }
+    truth.outside = truth.outside || order.truth_was_left_out;
+    Case one{std::move(truth), *std::move(answer), {}, {}, {}};
+    const auto oracle = order.oracle.empty() ? std::nullopt : find_answer(order.oracle, one.truth.set);
+    if (oracle && oracle->set_sha256 == one.answer.set_sha256) {
+      one.oracle_shrink_percent = oracle->diagnosis.gap.shrink_percent;
+    }
+    cases.push_back(std::move(one));
+  }
+  require_all(order, lacking, all);
+  read_ceiling(order.ceiling, cases);
+  return cases;
+}
+
+}  // namespace rollrig::proof

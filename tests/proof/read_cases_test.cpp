@@ -1,0 +1,78 @@
+// What stands between a bank and its score: the seal, and answers to all sets.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "proof/oracle.h"
+#include "proof/run_bank.h"
+#include "proof/score.h"
+#include "sim/core/error.h"
+#include "tests/proof/bank_folder.h"
+
+namespace fs = std::filesystem;
+using Catch::Contains;
+using namespace rollrig;
+using namespace rollrig::tests;
+
+namespace {
+
+proof::ScoreOrder make_order(const BankFolder& made) {
+  proof::ScoreOrder order;
+  order.bank = made.bank;
+  order.answers = made.bank + "/answers";
+  return order;
+}
+
+void answer_all(const BankFolder& made) {
+  proof::run_bank({made.bank, made.bank + "/answers", proof::plan_race(made.bank, {}, {})});
+}
+
+}  // namespace
+
+TEST_CASE("the truth opens with its own seal alone", "[fast]") {
+  const BankFolder made;
+  const auto truths = proof::open_truth(made.bank, "");
+  REQUIRE(truths.size() == 3);
+  CHECK(truths[0].effects.empty());
+  CHECK(truths[1].name() == "rim_heat");
+  CHECK_FALSE(truths[1].outside);
+  CHECK(truths[2].outside);
+  CHECK(proof::open_truth(made.bank, made.seal).size() == 3);
+  CHECK_THROWS_WITH(proof::open_truth(made.bank, std::string(64, 'a')), Contains("the seal is broken"));
+  write_file(made.truth, read_file(made.truth) + " ");  // a blank more is another file
+  CHECK_THROWS_WITH(proof::open_truth(made.bank, ""), Contains("the seal is broken"));
+}
+
+TEST_CASE("a truth of other sets is not scored", "[fast]") {
+  BankFolder made;
+  Json json = Json::parse(read_file(made.truth));
+  json["sets"].erase("0002");
+  made.write_truth(json.dump());
+  CHECK_THROWS_WITH(proof::open_truth(made.bank, ""), Contains("2 sets, the bank has 3"));
+  made.write_truth("[]");
+  CHECK_THROWS_AS(proof::open_truth(made.bank, ""), InputError);
+}
+
+TEST_CASE("answers that lack are counted, with the command that mends it", "[fast]") {
+  const BankFolder made;
+  answer_all(made);
+  CHECK(proof::read_cases(make_order(made)).size() == 3);
+  fs::remove(made.answer("0003"));
+  CHECK_THROWS_WITH(proof::read_cases(make_order(made)),
+                    Contains("1 of 3 sets") && Contains("rollrig blind run " + made.bank));
+  answer_all(made);
+  write_file(made.bank + "/sets/0001/set.toml", "changed after it was answered\n");
+  CHECK_THROWS_WITH(proof::read_cases(make_order(made)), Contains("1 of 3 sets"));
+}
+
+TEST_CASE("races that know the truth are of effects of the catalogue", "[fast]") {
+  const BankFolder made;
+  const auto truths = proof::open_truth(made.bank, "");
+  const auto alone = proof::plan_oracle(truths, proof::OracleRace::kAlone, {});
+  REQUIRE(alone.size() == 1);
+  CHECK(alone[0].set == "0002");
+  CHECK(alone[0].only == std::vector<std::string>{"rim_heat"});
+  const auto left_out = proof::plan_oracle(truths, proof::OracleRace::kLeftOut, {"rim_heat", "windage"});
+  REQUIRE(left_out.size() == 1);
+  CHECK(left_out[0].only == std::vector<std::string>{"windage"});
+  CHECK(left_out[0].without == std::vector<std::string>{"rim_heat"});
+}
