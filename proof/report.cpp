@@ -100,7 +100,7 @@ std::string format_value(const Figure& figure, const std::optional<double>& valu
     case Unit::kPercent:
       return fmt::format("{:.4g}", std::round(1000.0 * *value) / 10.0);
     case Unit::kSeconds:
-      return fmt::format("{:.3g} s", *value);
+      return *value < 1.0 ? fmt::format("{:.2f} s", *value) : fmt::format("{:.3g} s", *value);
     case Unit::kNumber:
       break;
   }

@@ -65,7 +65,10 @@ TEST_CASE("run and score tell how a bank went, resume, and keep to 80 columns", 
   INFO(score.err);
   REQUIRE(score.status == 0);
   std::istringstream in(score.out);
-  for (std::string line; std::getline(in, line);) CHECK(line.size() <= 80);
+  for (std::string line; std::getline(in, line);) {
+    INFO(line);
+    CHECK(line.size() <= 80);
+  }
   const json result = json::parse(read_file(made.folder.file("score.json")));
   CHECK(result["format"] == "rollrig-blind-score/1");
   CHECK(result["missed"].size() == 3);
