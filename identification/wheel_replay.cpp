@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/replay_start.h"
 #include "models/rolling_resistance.h"
 #include "models/vehicle.h"
 #include "rigs/drum_channels.h"
-#include "rigs/trace_effects.h"
 
 namespace rollrig::identification {
 namespace {
@@ -170,31 +170,6 @@ void find_losses(const models::Corner<S>& corner, const S* x, models::Instant<S>
   corner.calc_losses(x, now);
 }
 
-template <class S>
-rigs::DrumStart<S> make_start(const MeasuredRun& run, double ambient_pressure_Pa) {
-  rigs::DrumStart<S> start;
-  start.tire_temperature_K = S(run.initial_tire_temperature_K);
-  start.cold_pressure_Pa = S(run.cold_pressure_Pa);
-  start.ambient_pressure_Pa = S(ambient_pressure_Pa);
-  start.history.soaked = !run.rest_before_s.has_value() && !run.started_warm;
-  start.history.rest_before_s = S(run.rest_before_s.value_or(0.0));
-  start.history.started_warm = run.started_warm;
-  return start;
-}
-
-/// Effects of the port "trace" also read given columns.
-template <class S>
-void apply_trace(const MeasuredRun& run, const models::Corner<S>& corner, sim::Recording<S>& recording) {
-  if (!rigs::has_trace_effects(corner)) return;
-  for (const char* name : {"load_N", "ambient_degC", "speed_km_h"}) {
-    if (!run.has(name)) continue;
-    const std::vector<double>& given = run.columns.at(name);
-    recording.channels.push_back({name});
-    recording.values.emplace_back(given.begin(), given.end());
-  }
-  rigs::apply_trace_effects(corner, recording);
-}
-
 }  // namespace
 
 template <class S>
@@ -229,10 +204,10 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
     if (has_rim) values[4] = temperature_K[models::index_of(Node::kRim)];
     means.add(part, values);
   };
-  const rigs::DrumStart<S> start = make_start<S>(run, set.rig->environment.ambient_pressure_Pa);
+  const rigs::DrumStart<S> start = make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa);
   march(corner, start, start.tire_temperature_K, intervals, evaluate, record);
   sim::Recording<S> recording = means.finish();
-  apply_trace(run, corner, recording);
+  apply_trace_beside_given(run, corner, recording);
   return recording;
 }
 
@@ -286,12 +261,12 @@ sim::Recording<S> replay_road_run(const MeasurementSet& set, const MeasuredRun& 
     values[0] = traction_N;
     means.add(part, values);
   };
-  const rigs::DrumStart<S> start = make_start<S>(run, kStandardAtmosphere_Pa);
+  const rigs::DrumStart<S> start = make_replay_start<S>(run, kStandardAtmosphere_Pa);
   const bool begins_warm = run.started_warm && set.baseline == models::Baseline::kCombined;  // else no loss sees it
   const S tire_temperature_K = begins_warm ? calc_warm_temperature_K(corner, load_N, start) : start.tire_temperature_K;
   march(corner, start, tire_temperature_K, intervals, evaluate, record);
   sim::Recording<S> recording = means.finish();
-  apply_trace(run, corner, recording);
+  apply_trace_beside_given(run, corner, recording);
   return recording;
 }
 

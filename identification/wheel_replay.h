@@ -15,7 +15,7 @@ struct WheelInterval {
   double duration_s = 0.0;
   double speed_m_s = 0.0;
   double acceleration_m_s2 = 0.0;
-  double load_N = 0.0;  // 0 on the road, where the vehicle's mass decides
+  double load_N = 0.0;  // not read on the road, where the vehicle's mass decides
   double ambient_K = 0.0;
   double surface_K = 0.0;  // used where the run recorded it
   double slope = 0.0;
@@ -34,9 +34,8 @@ std::vector<WheelInterval> make_wheel_intervals(const scenarios::MeasuredRun& ru
 /// Equation  x(n+1) = x(n) + h f(x(n) + h/2 f(n-1), u(n)), u(n) inputs in the middle of interval n, f(n-1) the former
 ///           rates: one evaluation an interval. A row's value is the mean over the halves of the intervals beside it.
 ///           loss = F_rr + F_par + Fx^2/C + (j - 1) J/R^2 a
-/// Symbols   x states, h duration, Fx recorded longitudinal force, C slip stiffness (infinite in the baseline), j
-/// factor
-///           on the roller's inertia J (1 in the baseline), R its radius, a acceleration
+/// Symbols   x states, h duration, Fx recorded longitudinal force, C slip stiffness (infinite in the baseline),
+///           j factor on the roller's inertia J (1 in the baseline), R its radius, a acceleration
 /// Validity  h well below every time constant; order 2 in h. The recorded force is that of the contact
 /// Source    explicit midpoint rule with a lagged predictor. baseline.md, "Rig"
 /// Checked   tests/identification/wheel_replay_test.cpp
@@ -46,10 +45,10 @@ sim::Recording<S> replay_dyno_run(const scenarios::MeasurementSet& set, const sc
 
 /// "traction_force_N" of a vehicle on the road, its mass, rotating mass and drag area from the corner's context.
 ///
-/// Equation  traction = n (F_rr + F_par) + m g s/sqrt(1 + s^2) + rho/2 CdA w |w| + j (m + m_rot) a, each tire under m
-/// g/n Symbols   n tires, m mass, m_rot rotating mass, j factor on both (1 in the baseline), s slope, w air speed; rho
-/// of air
-///           of the recorded temperature at 101.325 kPa (formats.md)
+/// Equation  traction = n (F_rr + F_par) + m g s/sqrt(1 + s^2) + rho/2 CdA w |w| + j (m + m_rot) a,
+///           each tire under m g/n
+/// Symbols   n tires, m mass, m_rot rotating mass, j factor on both (1 in the baseline), s slope, w air speed;
+///           rho of air of the recorded temperature at 101.325 kPa (formats.md)
 /// Validity  as above; load transfer between tires does not change their sum. A run that started right after another
 ///           (tire_state = "warm") begins at the temperature of steady driving at 80 km/h (Assumed)
 /// Source    (3.20); rigs/quasi_static_vehicle.h. Friction brakes: models/vehicle.h, blend_brakes

@@ -151,7 +151,11 @@ std::vector<std::string> measured_channels(SetKind kind) {
   return names;
 }
 
-SetKind kind_of(rigs::RigKind kind) { return kind == rigs::RigKind::kDrum ? SetKind::kDrum : SetKind::kDyno; }
+SetKind kind_of(rigs::RigKind kind) {
+  if (kind == rigs::RigKind::kDrum) return SetKind::kDrum;
+  if (kind == rigs::RigKind::kDyno) return SetKind::kDyno;
+  throw std::invalid_argument("a rig on which no sets are measured");
+}
 
 MeasuredRun read_drum_inputs(const std::string& file) {
   MeasuredRun run;

@@ -1,6 +1,7 @@
 /// Sets measured on a drum rig: one tire, load and speed set, the motor's torque measured.
 #include <cmath>
 
+#include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
 #include "identification/sample_selection.h"
 #include "models/parasitic_loss.h"
@@ -29,13 +30,9 @@ class DrumReplay : public RunReplay {
   sim::Program program_;
 };
 
-class DrumKind : public MeasurementKind {
+class DrumKind : public KindWithRig {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kDrum; }
-
-  models::Context<double> make_context(const MeasurementSet& set) const override {
-    return rigs::make_context(set.tire, *set.rig, set.baseline);
-  }
 
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
     return std::make_shared<DrumReplay>(run);
@@ -55,20 +52,10 @@ class DrumKind : public MeasurementKind {
 
   double skim_limit_N(const MeasurementSet& set) const override { return scenarios::calc_skim_limit_N(*set.rig); }
 
-  Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
-    Uncertainties uncertainties;
-    add_loss_law(set.tire, context, uncertainties);
-    add_heat_balance(set.tire, set.rig->name, context, uncertainties);
-    add_parasitic_loss(*set.rig, uncertainties);
-    return uncertainties;
-  }
-
   std::vector<NamedPush> pushes() const override {
     return {{"drum torque", Push::kForce}, {"tire loss", Push::kTireLoss}, {"tire heat", Push::kTireHeat},
             {"gas heat", Push::kGasHeat},  {"gas mass", Push::kGasMass},   {"boundary", Push::kBoundary}};
   }
-
-  double usual_ambient_K(const MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
 
   std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_drum_tests(set); }
   std::optional<PlannedTest> make_sensor_test(const PreparedSet& set) const override {

@@ -3,9 +3,10 @@
 #include <cmath>
 
 #include "diagnosis/kinds/driving_phases.h"
+#include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
+#include "diagnosis/kinds/wheel_replay.h"
 #include "identification/sample_selection.h"
-#include "identification/wheel_replay.h"
 #include "models/parasitic_loss.h"
 
 namespace rollrig::diagnosis {
@@ -16,33 +17,13 @@ using scenarios::MeasurementSet;
 
 constexpr const char* kLoss = "loss_force_N";
 
-class DynoReplay : public RunReplay {
- public:
-  explicit DynoReplay(const MeasuredRun& run) : intervals_(identification::make_wheel_intervals(run)) {}
-
-  sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
-                                  rigs::Detail) const override {
-    return identification::replay_dyno_run(set, run, intervals_, corner);
-  }
-  sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
-                               rigs::Detail) const override {
-    return identification::replay_dyno_run(set, run, intervals_, corner);
-  }
-
- private:
-  std::vector<identification::WheelInterval> intervals_;
-};
-
-class DynoKind : public MeasurementKind {
+class DynoKind : public KindWithRig {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kDyno; }
 
-  models::Context<double> make_context(const MeasurementSet& set) const override {
-    return rigs::make_context(set.tire, *set.rig, set.baseline);
-  }
-
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<DynoReplay>(run);
+    return std::make_shared<WheelReplay>(run, identification::replay_dyno_run<double>,
+                                         identification::replay_dyno_run<Jet>);
   }
 
   ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }
@@ -69,21 +50,11 @@ class DynoKind : public MeasurementKind {
 
   double skim_limit_N(const MeasurementSet&) const override { return 0.0; }
 
-  Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
-    Uncertainties uncertainties;
-    add_loss_law(set.tire, context, uncertainties);
-    add_heat_balance(set.tire, set.rig->name, context, uncertainties);
-    add_parasitic_loss(*set.rig, uncertainties);
-    return uncertainties;
-  }
-
   std::vector<NamedPush> pushes() const override {
     return {{"loss force", Push::kForce}, {"tire loss", Push::kTireLoss}, {"tire heat", Push::kTireHeat},
             {"gas heat", Push::kGasHeat}, {"gas mass", Push::kGasMass},   {"slip", Push::kSlip},
             {"inertia", Push::kInertia},  {"boundary", Push::kBoundary}};
   }
-
-  double usual_ambient_K(const MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
 
   std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_dyno_tests(set); }
 

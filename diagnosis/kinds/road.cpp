@@ -4,8 +4,8 @@
 
 #include "diagnosis/kinds/driving_phases.h"
 #include "diagnosis/kinds/kinds.h"
+#include "diagnosis/kinds/wheel_replay.h"
 #include "identification/sample_selection.h"
-#include "identification/wheel_replay.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
@@ -16,23 +16,6 @@ using scenarios::MeasuredRun;
 using scenarios::MeasurementSet;
 
 constexpr const char* kTraction = "traction_force_N";
-
-class RoadReplay : public RunReplay {
- public:
-  explicit RoadReplay(const MeasuredRun& run) : intervals_(identification::make_wheel_intervals(run)) {}
-
-  sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
-                                  rigs::Detail) const override {
-    return identification::replay_road_run(set, run, intervals_, corner);
-  }
-  sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
-                               rigs::Detail) const override {
-    return identification::replay_road_run(set, run, intervals_, corner);
-  }
-
- private:
-  std::vector<identification::WheelInterval> intervals_;
-};
 
 double find_tire_load_N(const rigs::VehicleFile& vehicle) {
   return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
@@ -60,7 +43,8 @@ class RoadKind : public MeasurementKind {
   }
 
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<RoadReplay>(run);
+    return std::make_shared<WheelReplay>(run, identification::replay_road_run<double>,
+                                         identification::replay_road_run<Jet>);
   }
 
   /// Every tire carries its share of the weight.

@@ -13,6 +13,7 @@
 #include "diagnosis/set_checks.h"
 #include "diagnosis/summary.h"
 #include "sim/core/error.h"
+#include "tests/diagnosis/answers.h"
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
@@ -21,24 +22,13 @@ namespace fs = std::filesystem;
 using namespace rollrig;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
+using tests::contains;
+using tests::Ids;
 using tests::make_road_set;
+using tests::names;
+using tests::only;
 
 namespace {
-
-using Ids = std::vector<std::string>;
-
-diagnosis::DiagnosisOptions only(const Ids& ids) {
-  diagnosis::DiagnosisOptions options;
-  options.only = ids;
-  return options;
-}
-
-bool contains(const Ids& ids, const std::string& id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
-
-bool names(const Diagnosis& found, const std::string& id) {
-  if (found.verdict != Verdict::kExplained || found.causes.empty()) return false;
-  return contains(found.causes.front().effects, id) || contains(found.causes.front().indistinguishable_from, id);
-}
 
 /// Of a motor that is well logged on a smooth road: effects of some newtons show.
 scenarios::MeasurementSet with_quiet_sensor(scenarios::MeasurementSet set) {

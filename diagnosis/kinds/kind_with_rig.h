@@ -1,0 +1,26 @@
+#pragma once
+/// What kinds of sets measured on a machine with a rig file have in common.
+
+#include "diagnosis/kinds/measurement_kind.h"
+
+namespace rollrig::diagnosis {
+
+class KindWithRig : public MeasurementKind {
+ public:
+  models::Context<double> make_context(const scenarios::MeasurementSet& set) const override {
+    return rigs::make_context(set.tire, *set.rig, set.baseline);
+  }
+
+  Uncertainties find_uncertainties(const scenarios::MeasurementSet& set,
+                                   const models::Context<double>& context) const override {
+    Uncertainties uncertainties;
+    add_loss_law(set.tire, context, uncertainties);
+    add_heat_balance(set.tire, set.rig->name, context, uncertainties);
+    add_parasitic_loss(*set.rig, uncertainties);
+    return uncertainties;
+  }
+
+  double usual_ambient_K(const scenarios::MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
+};
+
+}  // namespace rollrig::diagnosis
