@@ -191,26 +191,12 @@ RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapp
   return run;
 }
 
-void read_machine(TableReader& reader, const std::string& folder, Mapping& mapping) {
+void read_tire_and_machine(TableReader& reader, const std::string& folder, Mapping& mapping) {
   scenarios::MeasurementSet& set = mapping.set;
   const std::string tire = scenarios::find_asset_from(folder, "tires", reader.text("tire"));
   set.tire = models::read_tire(read_config(tire));
   set.tire.content = read_text_file(tire);
-  const bool on_road = reader.has("vehicle");
-  const char* folder_name = on_road ? "vehicles" : "rigs";
-  const std::string path = scenarios::find_asset_from(folder, folder_name, reader.text(on_road ? "vehicle" : "rig"));
-  mapping.machine_content = read_text_file(path);
-  if (on_road) {
-    set.kind = scenarios::SetKind::kRoad;
-    set.vehicle = rigs::read_vehicle(read_config(path));
-    return;
-  }
-  set.rig = rigs::read_rig(read_config(path));
-  if (set.rig->kind == rigs::RigKind::kFlat) {
-    throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
-                         "a rig of kind \"drum\" or \"dyno\", or vehicle = ...");
-  }
-  set.kind = scenarios::kind_of(set.rig->kind);
+  mapping.machine_content = scenarios::read_machine(reader, folder, set);
 }
 
 void read_sensor_tables(TableReader& reader, const std::string& folder, scenarios::MeasurementSet& set) {
@@ -268,10 +254,9 @@ Mapping read_mapping(const std::string& path, const std::string& data_folder) {
   TableReader reader(config, "");
   check_format(reader, "rollrig-import", 1);
   Mapping mapping;
-  mapping.path = path;
   mapping.set.name = reader.text("name");
   mapping.baseline = reader.text_or("baseline", "combined", {"combined", "constant_rrc"});
-  read_machine(reader, base, mapping);
+  read_tire_and_machine(reader, base, mapping);
   read_sensor_tables(reader, base, mapping.set);
   const ConfigTable* torque_log = reader.table("torque_log");
   if (torque_log == nullptr) throw reader.problem("torque_log", "the mapping has no [torque_log]", "[torque_log]");

@@ -70,7 +70,6 @@ struct RunPlan {
 };
 
 struct Mapping {
-  std::string path;
   scenarios::MeasurementSet set;  // without runs
   std::string machine_content;    // rig or vehicle, as read
   std::string baseline;           // as in set.toml

@@ -64,28 +64,6 @@ void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
   }
 }
 
-/// The machine of a set: a rig, or a vehicle on the road. Decides the kind.
-void read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
-  const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
-  if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
-    set.kind = SetKind::kRoad;
-    set.vehicle = rigs::read_vehicle(read_config(find_asset_from(folder, "vehicles", reader.text("vehicle"))));
-    return;
-  }
-  const std::string path = find_asset_from(folder, "rigs", reader.text("rig"));
-  set.rig = rigs::read_rig(read_config(path));
-  set.rig->content = read_text_file(path);
-  if (set.rig->kind == rigs::RigKind::kFlat) {
-    throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
-                         "a rig of kind \"drum\" or \"dyno\", or vehicle = ... with kind = \"road\"");
-  }
-  set.kind = kind_of(set.rig->kind);
-  if (!kind.empty() && kind != (set.kind == SetKind::kDrum ? "drum" : "dyno")) {
-    throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),
-                         "the rig's kind");
-  }
-}
-
 void check_runs(const TableReader& reader, const MeasurementSet& set) {
   std::set<std::string> ids;
   for (const MeasuredRun& run : set.runs) {
@@ -164,6 +142,29 @@ MeasuredRun read_drum_inputs(const std::string& file) {
   read_run_columns(columns_of(SetKind::kDrum), run);
   for (const std::string& channel : measured_channels(SetKind::kDrum)) run.columns.erase(channel);
   return run;
+}
+
+std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
+  const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
+  if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
+    set.kind = SetKind::kRoad;
+    const std::string path = find_asset_from(folder, "vehicles", reader.text("vehicle"));
+    set.vehicle = rigs::read_vehicle(read_config(path));
+    return read_text_file(path);
+  }
+  const std::string path = find_asset_from(folder, "rigs", reader.text("rig"));
+  set.rig = rigs::read_rig(read_config(path));
+  set.rig->content = read_text_file(path);
+  if (set.rig->kind == rigs::RigKind::kFlat) {
+    throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
+                         "a rig of kind \"drum\" or \"dyno\", or vehicle = ... with kind = \"road\"");
+  }
+  set.kind = kind_of(set.rig->kind);
+  if (!kind.empty() && kind != (set.kind == SetKind::kDrum ? "drum" : "dyno")) {
+    throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),
+                         "the rig's kind");
+  }
+  return set.rig->content;
 }
 
 models::SensorSet default_sensors(SetKind kind) {

@@ -74,6 +74,10 @@ SetKind kind_of(rigs::RigKind kind);
 /// rows, load held from row to row. Rows are its samples.
 sim::Program make_replay(const MeasuredRun& run);
 
+/// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`; returns the
+/// machine's file as it is. Throws InputError.
+std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set);
+
 /// Tables [sensors.<channel>] of sets and run files.
 std::string write_sensors(const models::SensorSet& sensors);
 

@@ -28,7 +28,6 @@ struct Range {
 constexpr Range any_number() { return {}; }
 constexpr Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
 constexpr Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
-constexpr Range at_least(double lower) { return {lower, std::numeric_limits<double>::infinity(), false, false}; }
 constexpr Range between(double lower, double upper) { return {lower, upper, false, false}; }
 
 /// Declaration of one number of a file. The unit is read off the key's suffix.
