@@ -128,13 +128,13 @@ models::InputPort<S> read_inputs(const WheelInterval& part, bool surface_recorde
 /// Moves a corner's states through the intervals; `evaluate(part, x, now)` fills `now` up to what the rates need.
 template <class S, class Evaluate, class Record>
 void march(const models::Corner<S>& corner, const rigs::DrumStart<S>& start, const S& tire_temperature_K,
-           const std::vector<WheelInterval>& intervals, Evaluate&& evaluate, Record&& record) {
+           const S& load_N, const std::vector<WheelInterval>& intervals, Evaluate&& evaluate, Record&& record) {
   std::vector<S> x(corner.state_count());
   std::vector<S> middle(x.size());
   std::vector<S> rates(x.size());
   models::Instant<S> now;
   now.inflation = start.inflation();
-  corner.initialize(tire_temperature_K, start.history, x.data());
+  corner.initialize(tire_temperature_K, start.history_under(load_N), x.data());
   evaluate(intervals.front(), x.data(), now);
   corner.calc_rates(x.data(), now, rates.data());
   for (const WheelInterval& part : intervals) {
@@ -205,7 +205,7 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
     means.add(part, values);
   };
   const rigs::DrumStart<S> start = make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa);
-  march(corner, start, start.tire_temperature_K, intervals, evaluate, record);
+  march(corner, start, start.tire_temperature_K, S(intervals.front().load_N), intervals, evaluate, record);
   sim::Recording<S> recording = means.finish();
   apply_trace_beside_given(run, corner, recording);
   return recording;
@@ -264,7 +264,7 @@ sim::Recording<S> replay_road_run(const MeasurementSet& set, const MeasuredRun& 
   const rigs::DrumStart<S> start = make_replay_start<S>(run, kStandardAtmosphere_Pa);
   const bool begins_warm = run.started_warm && set.baseline == models::Baseline::kCombined;  // else no loss sees it
   const S tire_temperature_K = begins_warm ? calc_warm_temperature_K(corner, load_N, start) : start.tire_temperature_K;
-  march(corner, start, tire_temperature_K, intervals, evaluate, record);
+  march(corner, start, tire_temperature_K, load_N, intervals, evaluate, record);
   sim::Recording<S> recording = means.finish();
   apply_trace_beside_given(run, corner, recording);
   return recording;

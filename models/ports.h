@@ -172,6 +172,7 @@ template <class S>
 struct InitialPort {
   const Context<S>* context = nullptr;
   S tire_temperature_K{};     // of all nodes at the start
+  S load_N{};                 // on the tire at the start, as recorded
   bool soaked = true;         // at rest so long that nothing remembers; formats.md's default
   S rest_before_s{};          // standstill before the run, where not soaked
   bool started_warm = false;  // right after another run (tire_state = "warm")

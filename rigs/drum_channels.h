@@ -69,9 +69,15 @@ std::vector<sim::Channel> make_drum_channels(const std::vector<models::CornerSta
 template <class S>
 struct DrumStart {
   S tire_temperature_K{};
-  S cold_pressure_Pa{};     // gauge, at that temperature
-  S ambient_pressure_Pa{};  // absolute
-  models::InitialPort<S> history;
+  S cold_pressure_Pa{};            // gauge, at that temperature
+  S ambient_pressure_Pa{};         // absolute
+  models::InitialPort<S> history;  // its load is that of the first instant, which the rig knows
+
+  models::InitialPort<S> history_under(const S& load_N) const {
+    models::InitialPort<S> under = history;
+    under.load_N = load_N;
+    return under;
+  }
 
   models::Inflation<S> inflation() const { return {cold_pressure_Pa, tire_temperature_K, ambient_pressure_Pa}; }
 };

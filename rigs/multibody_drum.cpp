@@ -101,7 +101,8 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     contact_->set_inflation(start_.inflation());
     SimTK::Vector& z = forces_.updZ(state_);
     z = 0.0;
-    corner_.initialize(start_.tire_temperature_K, start_.history, &z[contact_->first_z() + 1]);
+    const double load_N = first.inputs[index_of(DrumInput::kLoad)].start;
+    corner_.initialize(start_.tire_temperature_K, start_.history_under(load_N), &z[contact_->first_z() + 1]);
     set_equilibrium(time_s);
     copy_state(y);
   }

@@ -81,7 +81,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     state_.updY() = 0.0;
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       contacts_[i]->set_inflation(start_.inflation());
-      corners_[i].initialize(start_.tire_temperature_K, start_.history,
+      corners_[i].initialize(start_.tire_temperature_K, start_.history_under(layout_.wheels[i].static_load_N),
                              &state_.updY()[static_cast<int>(slip_state(i)) + 1]);
     }
     state_.setTime(time_s);

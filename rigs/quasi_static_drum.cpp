@@ -33,7 +33,8 @@ void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S*
   now_ = {};
   now_.recorded.air_density_ratio = S(1.0);
   now_.inflation = start_.inflation();
-  corner_.initialize(start_.tire_temperature_K, start_.history, state + kFirstCornerState);
+  const S load_N(first.inputs[index_of(DrumInput::kLoad)].start);
+  corner_.initialize(start_.tire_temperature_K, start_.history_under(load_N), state + kFirstCornerState);
   find_motion(time_s, state);
   state[kSpeedState] = now_.acting.speed_m_s;
 }

@@ -37,7 +37,8 @@ void QuasiStaticVehicle<S>::initialize(const sim::Segment& first, double time_s,
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     wheels_[i] = {};
     wheels_[i].now.inflation = start_.inflation();
-    corners_[i].initialize(start_.tire_temperature_K, start_.history, state + first_state_of(i));
+    const S load_N(layout_.wheels[i].static_load_N);
+    corners_[i].initialize(start_.tire_temperature_K, start_.history_under(load_N), state + first_state_of(i));
   }
   find_motion(time_s, state);
   state[kSpeedState] = speed_m_s_;

@@ -9,19 +9,21 @@ namespace {
 class InertiaError : public Effect {
  public:
   InertiaError(double percent, Draws& draws, const Specimen& specimen) {
-    follows_s_ = draws.uniform(0.3, 1.5);
+    follows_s_ = draws.uniform(0.05, 0.4);  // Assumed: response of a rig's simulation of inertia
+    rigid_ = draws.happens(0.5);
     const double radius_m = 0.5 * specimen.drum_diameter_m;
     on_road_ = specimen.kind == Kind::kRoad;
     const double mass_kg = on_road_ ? specimen.truth(Base::kMass) + specimen.truth(Base::kRotatingMass)
                                     : specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
     excess_kg_ = 0.01 * percent * mass_kg;
-    shape = {{"follows_s", follows_s_}};
+    shape = {{"follows_s", rigid_ ? 0.0 : follows_s_}};
   }
 
   std::size_t state_count() const override { return 1; }
 
   void act(const double* behind_m_s, Instant& now) const override {
-    const double force_N = excess_kg_ * behind_m_s[0] / follows_s_;
+    const double followed_m_s2 = rigid_ ? now.acceleration_m_s2 : behind_m_s[0] / follows_s_;
+    const double force_N = excess_kg_ * followed_m_s2;
     (on_road_ ? now.body_force_N : now.rig_force_N) += force_N;
   }
 
@@ -32,6 +34,7 @@ class InertiaError : public Effect {
  private:
   double excess_kg_ = 0.0;
   double follows_s_ = 1.0;
+  bool rigid_ = false;
   bool on_road_ = false;
 };
 
@@ -48,7 +51,7 @@ const EffectKind kind_inertia_error{
     log_normal(0.3, 4.0, 0.25, 6.0),
     true,
     0.0,
-    "the difference hangs on through a soft coupling and follows the speed with a lag of first order",
+    "either rigid, or hanging on through a soft coupling that follows the speed with a lag of first order",
     [](double size, Draws& draws, const Specimen& specimen) -> std::unique_ptr<Effect> {
       return std::make_unique<InertiaError>(size, draws, specimen);
     },

@@ -13,11 +13,11 @@ struct BearingWarmup {
     info.id = "bearing_warmup";
     info.summary = "The rig's bearings warm as it runs, and the parasitic loss falls with their temperature";
     info.equation =
-        "F_par <- F_par exp(-b (theta - r D)); tau d(theta)/dt = D v/v_ref - theta, theta = T_b - T_amb, "
-        "v_ref = 80 km/h";
+        "F_par <- F_par exp(-b (T_amb + theta - T_0 - r D)); tau d(theta)/dt = D v/v_ref - theta, theta = T_b - T_amb, "
+        "v_ref = 80 km/h, T_0 = 25 degC";
     info.source =
         "source §4.1.7, §5.2; 0.005 to 0.04 /K and 10 to 60 min: effects.md. Assumed: D, heating in proportion "
-        "to speed, r = 1: parasitic coefficients taken on a warm rig";
+        "to speed, r = 1: parasitic coefficients taken on a warm rig. Not soaked: warm before the rest";
     info.parameters = {
         {"fall_per_K",
          between(-0.2, 0.2),
@@ -32,7 +32,7 @@ struct BearingWarmup {
         {"reference_share",
          between(-1.0, 2.0),
          {0.5, 1.5},
-         "r: c0, c1, c2 hold at the rise r D; 1 = on a warm rig, 0 = cold"}};
+         "r: c0, c1, c2 hold at the rise r D over T_0; 1 = on a warm rig, 0 = cold"}};
     info.states = {{"bearing_rise_dK", 10.0, "theta, bearing temperature over ambient"}};
     info.acts_on = {RigKind::kDrum, RigKind::kDyno};
     info.visible_in = {"drum_torque_Nm", "loss_force_N"};
@@ -44,9 +44,21 @@ struct BearingWarmup {
   }
 
   template <class S>
-  static void parasitic(const EffectView<S>& self, const Instant<S>&, ParasiticPort<S>& port) {
+  static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
     using std::exp;
-    const S over_reference_dK = self.state(kBearingRise) - self.parameter(kReference) * self.parameter(kRise);
+    if (port.started_warm) {
+      states[kBearingRise] = self.parameter(kRise);
+    } else if (!port.soaked) {
+      states[kBearingRise] = self.parameter(kRise) * exp(-port.rest_before_s / self.parameter(kTimeConstant));
+    }
+  }
+
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, ParasiticPort<S>& port) {
+    using std::exp;
+    const S reference_K = quantity<S>(298.15, dimension::kTemperature);
+    const S over_reference_dK = now.recorded.ambient_K - reference_K + self.state(kBearingRise) -
+                                self.parameter(kReference) * self.parameter(kRise);
     port.factor *= exp(-self.parameter(kFall) * over_reference_dK);
   }
 

@@ -5,7 +5,7 @@ namespace rollrig::models {
 namespace {
 
 struct BrakeDrag {
-  enum Parameter { kForce, kDecay, kSetTime, kSetForce };
+  enum Parameter { kForce, kDecay, kSetImpulse, kWearPower };
   enum State { kDragging };
 
   static EffectInfo info() {
@@ -13,23 +13,24 @@ struct BrakeDrag {
     info.id = "brake_drag";
     info.summary = "After braking the pads keep dragging on the disc until they have worked back";
     info.equation =
-        "F_par <- F_par + F_d d, dd/dt = (1 - d) (F_brake/(F_brake + F_b))/tau_s - d/tau; its heat goes into the "
-        "disc and the air";
+        "F_par <- F_par + F_d d, dd/dt = (1 - d) F_brake/I_s - d (v/v_t)^n/tau, v_t = 40 km/h; its heat goes into "
+        "the disc and the air";
     info.source =
         "residual torque of disc brakes: SAE 2015-01-2670; 2 to 12 N, decays after braking: effects.md. Assumed: "
-        "first order; tau, tau_s, F_b (brakings of everyday strength and length set it)";
+        "first order; tau; I_s (one braking of everyday strength and length sets it); n, from 0 (creeps back in time) "
+        "to 1 (pushed back by the turning disc)";
     info.parameters = {
         {"force_N",
          between(-50.0, 100.0),
          {2.0, 12.0, Prior::Scale::kLog},
          "F_d, of one wheel right after braking",
          0.0},
-        {"decay_min", between(0.05, 120.0), {0.5, 5.0, Prior::Scale::kLog}, "tau, in which it decays"},
-        {"set_time_s", between(2.0, 60.0), {2.0, 6.0, Prior::Scale::kLog}, "tau_s, of strong braking until it is set"},
-        {"set_force_N",
-         positive(),
-         {50.0, 400.0, Prior::Scale::kLog},
-         "F_b, brake force of one wheel at which it sets at half that pace"}};
+        {"decay_min", between(0.05, 120.0), {0.5, 5.0, Prior::Scale::kLog}, "tau, in which it decays at 40 km/h"},
+        {"set_impulse_N_s",
+         between(50.0, 1e6),
+         {500.0, 5000.0, Prior::Scale::kLog},
+         "I_s, brake force of one wheel times the time until it is set"},
+        {"wear_power", between(-1.0, 3.0), {0.0, 1.0}, "n, of the speed in the pace of its decay"}};
     info.states = {{"dragging", 1.0, "d, share of the full drag"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
     info.visible_in = {"loss_force_N", "traction_force_N"};
@@ -46,10 +47,14 @@ struct BrakeDrag {
 
   template <class S>
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
-    const S& brake_N = now.acting.brake_force_N;
-    const S pressed = brake_N / (brake_N + self.parameter(kSetForce));
-    rates[kDragging] = (S(1.0) - self.state(kDragging)) * pressed / self.parameter(kSetTime) -
-                       self.state(kDragging) / self.parameter(kDecay);
+    using std::pow;
+    using std::sqrt;
+    const S town_m_s = quantity<S>(40.0 / 3.6, dimension::kSpeed);
+    const S slow_m_s = quantity<S>(0.5, dimension::kSpeed);  // Assumed: keeps the power finite at standstill
+    const S& speed_m_s = now.motion.speed_m_s;
+    const S pace = pow(sqrt(speed_m_s * speed_m_s + slow_m_s * slow_m_s) / town_m_s, self.parameter(kWearPower));
+    rates[kDragging] = (S(1.0) - self.state(kDragging)) * now.acting.brake_force_N / self.parameter(kSetImpulse) -
+                       self.state(kDragging) * pace / self.parameter(kDecay);
   }
 };
 

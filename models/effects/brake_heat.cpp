@@ -5,25 +5,31 @@ namespace rollrig::models {
 namespace {
 
 struct BrakeHeat {
-  enum Parameter { kShare, kTimeConstant };
-  enum State { kOnItsWay };
+  enum Parameter { kShare, kTimeConstant, kDisc, kGasShare };
+  enum State { kInDisc, kInRim };
 
   static EffectInfo info() {
     EffectInfo info;
     info.id = "brake_heat";
     info.summary = "A share of the friction brake's power reaches the tire, late, through the rim";
     info.equation =
-        "dE/dt = w F_brake |v| - E/tau, E/tau heats the rubber: E is the heat in the rim that is bound for the "
-        "tire, tau = C_rim/(UA + UA_air). With a rim node linked to the tire (rim_heat), w F_brake |v| (1 + "
-        "UA_air/UA) goes into that node instead, of which w F_brake |v| reaches rubber and gas in the end";
+        "dD/dt = w F_brake |v| - D/tau_d, dE/dt = D/tau_d - E/tau; (1 - g) E/tau heats the rubber, g E/tau the gas: "
+        "D and E are the heat in disc and rim that is bound for the tire, tau = C_rim/(UA + UA_air). With a rim node "
+        "linked to the tire (rim_heat), D/tau_d (1 + UA_air/UA) goes into that node instead, of which D/tau_d "
+        "reaches rubber and gas in the end";
     info.source =
         "source §4.2.2, §4.4.1: brakes left out; 2 to 15 % reaches the tire, rim 5 to 9 kJ/K, UA 0.5 to 4 W/K: "
         "effects.md. The baseline has no heat to the rim, so E counts what the brake adds to a rim that else "
-        "exchanges nothing. Assumed: UA_air 4 to 30 W/K (0.5 m2 in moving air), hence tau 3 to 30 min";
+        "exchanges nothing. Assumed: UA_air 4 to 30 W/K (0.5 m2 in moving air), hence tau 3 to 30 min; tau_d, a "
+        "disc of 3 to 6 kJ/K that loses 10 to 40 W/K to rim and air; g, the rim's well faces the gas, its beads the "
+        "rubber";
     info.parameters = {
         {"share_percent", between(0.0, 100.0), {2.0, 15.0, Prior::Scale::kLog}, "w, of the brake's power", 0.0},
-        {"time_constant_min", between(0.5, 600.0), {3.0, 30.0, Prior::Scale::kLog}, "tau, of the rim"}};
-    info.states = {{"rim_heat_kJ", 1e4, "E, heat in the rim on its way to the tire"}};
+        {"time_constant_min", between(0.5, 600.0), {3.0, 30.0, Prior::Scale::kLog}, "tau, of the rim"},
+        {"disc_min", between(0.2, 60.0), {1.5, 6.0, Prior::Scale::kLog}, "tau_d, of the disc"},
+        {"gas_share", between(0.0, 1.0), {0.1, 0.5}, "g, of the heat, that goes into the gas"}};
+    info.states = {{"disc_heat_kJ", 1e4, "D, heat in the disc on its way to the tire"},
+                   {"rim_heat_kJ", 1e4, "E, heat in the rim on its way to the tire"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
     info.faint_on = {RigKind::kFlat};  // a few K move the loss by less than a thousandth of what accelerating takes
     info.visible_in = {"loss_force_N", "traction_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
@@ -32,7 +38,7 @@ struct BrakeHeat {
     return info;
   }
 
-  /// Heat into the rim of which the tire gets all (own delay), or a part (rim node).
+  /// Brake power of which the tire gets all in the end.
   template <class S>
   static S calc_bound_for_tire_W(const EffectView<S>& self, const Instant<S>& now) {
     using std::abs;
@@ -50,24 +56,26 @@ struct BrakeHeat {
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     const std::size_t rim = index_of(Node::kRim);
-    const S bound_W = calc_bound_for_tire_W(self, now);
-    const S arriving_W = self.state(kOnItsWay) / self.parameter(kTimeConstant);
-    port.heat_W[index_of(Node::kRubber)] += arriving_W;
-    port.under_way_J += self.state(kOnItsWay);
-    port.under_way_W -= arriving_W;
+    const S into_rim_W = self.state(kInDisc) / self.parameter(kDisc);
+    const S arriving_W = self.state(kInRim) / self.parameter(kTimeConstant);
+    port.heat_W[index_of(Node::kRubber)] += (S(1.0) - self.parameter(kGasShare)) * arriving_W;
+    port.heat_W[index_of(Node::kGas)] += self.parameter(kGasShare) * arriving_W;
+    port.under_way_J += self.state(kInDisc) + self.state(kInRim);
+    port.under_way_W += calc_bound_for_tire_W(self, now) - arriving_W;
     const S link_W_per_K = calc_rim_link_W_per_K(port);
     if (value_of(link_W_per_K) > 0.0) {
-      port.heat_W[rim] += bound_W * (S(1.0) + port.air_W_per_K[rim] / link_W_per_K);
-    } else {
-      port.under_way_W += bound_W;
+      port.heat_W[rim] += into_rim_W * (S(1.0) + port.air_W_per_K[rim] / link_W_per_K);
+      port.under_way_W -= into_rim_W;
     }
   }
 
   template <class S>
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
-    rates[kOnItsWay] = -self.state(kOnItsWay) / self.parameter(kTimeConstant);
+    const S into_rim_W = self.state(kInDisc) / self.parameter(kDisc);
+    rates[kInDisc] = calc_bound_for_tire_W(self, now) - into_rim_W;
+    rates[kInRim] = -self.state(kInRim) / self.parameter(kTimeConstant);
     const bool has_linked_rim = value_of(calc_rim_link_W_per_K(now.thermal)) > 0.0;
-    if (!has_linked_rim) rates[kOnItsWay] += calc_bound_for_tire_W(self, now);
+    if (!has_linked_rim) rates[kInRim] += into_rim_W;
   }
 };
 

@@ -5,7 +5,7 @@ namespace rollrig::models {
 namespace {
 
 struct DrivelineWarming {
-  enum Parameter { kForce, kTimeConstant, kFall };
+  enum Parameter { kForce, kTimeConstant, kFall, kAmbientShare };
   enum State { kRise };
 
   static EffectInfo info() {
@@ -13,15 +13,17 @@ struct DrivelineWarming {
     info.id = "driveline_warming";
     info.summary = "Cold oil and bearings of the vehicle cost a force that falls as they warm; force of one wheel";
     info.equation =
-        "F_par <- F_par + F_c exp(-k w), tau dw/dt = v/v_ref - w; w rise of the oil over ambient, relative to that "
-        "in steady driving at v_ref = 80 km/h";
+        "F_par <- F_par + F_c exp(-k (w + a (T_amb - T_0)/D)), tau dw/dt = v/v_ref - w; w rise of the oil, relative to "
+        "that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
     info.source =
         "viscosity of oil falls exponentially with temperature (Reynolds); 3 to 25 N, 15 to 60 min: effects.md. "
-        "Assumed: k, heating in proportion to speed. Not soaked: warm before the rest";
+        "Assumed: k, heating in proportion to speed, D; a, between 0 (warmed to a temperature that the air does not "
+        "matter to) and 1. Not soaked: warm before the rest";
     info.parameters = {
-        {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold", 0.0},
+        {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold at 25 degC", 0.0},
         {"time_constant_min", between(0.5, 600.0), {15.0, 60.0, Prior::Scale::kLog}, "tau, of the oil's warm-up"},
-        {"fall", between(0.0, 10.0), {0.7, 2.5, Prior::Scale::kLog}, "k, exponent of the fall by w = 1"}};
+        {"fall", between(0.0, 10.0), {0.7, 2.5, Prior::Scale::kLog}, "k, exponent of the fall by w = 1"},
+        {"ambient_share", between(-1.0, 3.0), {0.0, 0.8}, "a, of the air's temperature that the oil takes on"}};
     info.states = {{"oil_rise", 1.0, "w, rise of the oil's temperature over ambient, relative"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
     info.visible_in = {"loss_force_N", "traction_force_N"};
@@ -43,9 +45,12 @@ struct DrivelineWarming {
   }
 
   template <class S>
-  static void parasitic(const EffectView<S>& self, const Instant<S>&, ParasiticPort<S>& port) {
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, ParasiticPort<S>& port) {
     using std::exp;
-    port.extra_force_N += self.parameter(kForce) * exp(-self.parameter(kFall) * self.state(kRise));
+    const S warmer_dK = now.recorded.ambient_K - quantity<S>(298.15, dimension::kTemperature);
+    const S usual_dK = quantity<S>(30.0, dimension::kTemperature);
+    const S relative = self.state(kRise) + self.parameter(kAmbientShare) * warmer_dK / usual_dK;
+    port.extra_force_N += self.parameter(kForce) * exp(-self.parameter(kFall) * relative);
   }
 
   template <class S>

@@ -5,7 +5,7 @@ namespace rollrig::models {
 namespace {
 
 struct SpeedRecord {
-  enum Parameter { kError };
+  enum Parameter { kError, kGrowingShare };
 
   static EffectInfo info() {
     EffectInfo info;
@@ -14,17 +14,20 @@ struct SpeedRecord {
         "What really turns is faster or slower than recorded, by a fixed share: loss, heat, drag and inertia go with "
         "the "
         "true speed, while the record keeps its own";
-    info.equation = "v <- v (1 + s), dv/dt <- (1 + s) dv/dt, on entry as recorded";
+    info.equation =
+        "v <- v (1 + s (1 - g + g v/v_ref)), dv/dt <- (1 + s (1 - g + 2 g v/v_ref)) dv/dt, on entry as recorded; "
+        "v_ref = 80 km/h";
     info.source =
         "scale, 1 to 10 %: effects.md. The record is given and the truth follows from it; torque and force are "
         "measured "
         "by themselves, so that their channels have no error of their own from it. A slope is taken as it is recorded. "
-        "Assumed: either sign";
+        "Assumed: either sign; g, a diameter or a belt that grows with speed";
     info.parameters = {{"error_percent",
                         between(-50.0, 50.0),
                         {1.0, 10.0, Prior::Scale::kLog, true},
-                        "s, true over recorded, less one",
-                        0.0}};
+                        "s, true over recorded at 80 km/h, less one",
+                        0.0},
+                       {"growing_share", between(-1.0, 1.0), {-0.3, 0.3}, "g, of the error, in proportion to speed"}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
                        "cavity_pressure_kPa"};
     info.confused_with = {"inertia_error"};
@@ -35,9 +38,12 @@ struct SpeedRecord {
 
   template <class S>
   static void input(const EffectView<S>& self, const Instant<S>&, InputPort<S>& port) {
-    const S factor = S(1.0) + self.parameter(kError);
-    port.speed_m_s *= factor;
-    port.acceleration_m_s2 *= factor;
+    using std::abs;
+    const S& error = self.parameter(kError);
+    const S growing = self.parameter(kGrowingShare) * abs(port.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S constant = S(1.0) - self.parameter(kGrowingShare);
+    port.speed_m_s *= S(1.0) + error * (constant + growing);
+    port.acceleration_m_s2 *= S(1.0) + error * (constant + S(2.0) * growing);
   }
 };
 

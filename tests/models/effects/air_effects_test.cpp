@@ -37,8 +37,21 @@ double find_air_speed_m_s(double deficit, double speed_m_s, double other_m_s = 1
       .now.boundary.air_speed_m_s;
 }
 
+HandFedCorner<double> start_under(const ActiveEffect& effect, double load_N) {
+  models::InitialPort<double> initial;
+  initial.load_N = load_N;
+  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {effect}, initial);
+  at.inputs.load_N = load_N;
+  at.inputs.speed_m_s = 0.0;
+  at.evaluate();
+  return at;
+}
+
+/// Once the gas has come to terms with it.
 double find_volume_ratio(const ActiveEffect& effect, double speed_m_s, double load_N) {
-  return corner_with(effect, speed_m_s, load_N).now.gas.volume_ratio;
+  auto at = corner_with(effect, speed_m_s, load_N);
+  at.advance(1800.0);
+  return at.now.gas.volume_ratio;
 }
 
 }  // namespace
@@ -183,6 +196,7 @@ TEST_CASE("the cavity shrinks under load by its size, grows with the square of t
           "[fast]") {
   const auto on_lifted = switch_on("cavity_volume", {1.0, 1.0, 0.0, 0.0});
   CHECK(find_volume_ratio(on_lifted, 20.0, 0.0) == 1.0);
+  CHECK(start_under(on_lifted, 5400.0).now.gas.volume_ratio == Approx(0.99));
   CHECK(find_volume_ratio(on_lifted, 20.0, 5400.0) == Approx(0.99));
   CHECK(find_volume_ratio(on_lifted, 20.0, 2700.0) == Approx(0.995));
   CHECK(find_volume_ratio(switch_on("cavity_volume", {1.0, 1.0, 0.0, 1.0}), 20.0, 5400.0) == Approx(1.0));
@@ -197,13 +211,32 @@ TEST_CASE("the cavity shrinks under load by its size, grows with the square of t
 
 TEST_CASE("absolute pressure times volume stays, and the loss follows the pressure", "[fast]") {
   const auto effect = switch_on("cavity_volume", {1.0, 1.0, 0.0, 0.0});
-  const auto at = corner_with(effect, 20.0);
+  auto at = start_under(effect, 5400.0);
+  at.inputs.speed_m_s = 20.0;
+  at.evaluate();
   constexpr double kAmbient_Pa = 101325.0;
   CHECK((at.now.pressure_Pa + kAmbient_Pa) * at.now.gas.volume_ratio == Approx(280e3 + kAmbient_Pa));
   HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
   without.inputs.speed_m_s = 20.0;
   CHECK(at.now.rolling_resistance_N / without.evaluate().rolling_resistance_N ==
         Approx(std::pow(at.now.pressure_Pa / 280e3, -0.4)));
+}
+
+TEST_CASE("a sudden load presses the gas without heat, which it gives up with its own time constant, C_gas/H",
+          "[fast]") {
+  auto at = start_under(switch_on("cavity_volume", {1.0, 1.0, 0.0, 0.0}), 0.0);
+  constexpr double kAmbient_Pa = 101325.0;
+  const auto absolute_Pa = [&] { return at.now.pressure_Pa + kAmbient_Pa; };
+  const double unloaded_Pa = absolute_Pa();
+  at.inputs.load_N = 5400.0;
+  at.evaluate();
+  CHECK(absolute_Pa() / unloaded_Pa == Approx(std::pow(0.99, -1.4)).epsilon(1e-4));
+  const double sudden_Pa = absolute_Pa() - unloaded_Pa / 0.99;
+  const auto& thermal = at.corner.context().tire.thermal;
+  at.advance(thermal.gas_heat_capacity_J_per_K / thermal.H_gas_W_per_K);  // at rest, all of one temperature
+  CHECK((absolute_Pa() - unloaded_Pa / 0.99) / sudden_Pa == Approx(std::exp(-1.0)).epsilon(2e-2));
+  at.advance(1800.0);
+  CHECK(absolute_Pa() == Approx(unloaded_Pa / 0.99).epsilon(1e-6));
 }
 
 TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H), stirred by speed where a part is",

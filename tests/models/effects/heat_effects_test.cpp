@@ -143,28 +143,33 @@ TEST_CASE("a well conducting tire has one temperature", "[fast]") {
 }
 
 TEST_CASE("of the brake's power the tire gets its share in steady braking, late", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0})});
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25})});
   HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
   for (auto* one : {&at, &plain}) {
     one->inputs.speed_m_s = 20.0;
     one->inputs.brake_force_N = 500.0;  // 10 kW, of which 1 kW is bound for the tire
   }
   const auto rubber = at.corner.state_of(Node::kRubber);
+  const auto gas = at.corner.state_of(Node::kGas);
   const auto arriving_W = [&] {
-    return at.evaluate().thermal.heat_W[rubber] - at.now.heating_force_N * at.inputs.speed_m_s;
+    const auto& heat_W = at.evaluate().thermal.heat_W;
+    const double loss_W = at.now.heating_force_N * at.inputs.speed_m_s;
+    CHECK(heat_W[gas] == Approx((heat_W[rubber] - loss_W) / 3.0).margin(1e-9));  // a quarter of all
+    return heat_W[rubber] + heat_W[gas] - loss_W;
   };
   CHECK(arriving_W() == Approx(0.0).margin(1e-9));  // none at once
   CHECK(at.now.heat.heat_in_W - plain.evaluate().heat.heat_in_W == Approx(1000.0));
   check_heat_balance(at);
   at.advance(600.0);
-  CHECK(arriving_W() == Approx(1000.0 * (1.0 - std::exp(-1.0))).epsilon(1e-6));
+  // two lags, one after the other: 10 min and 2 min
+  CHECK(arriving_W() == Approx(1000.0 * (1.0 - (10.0 * std::exp(-1.0) - 2.0 * std::exp(-5.0)) / 8.0)).epsilon(1e-6));
   check_heat_balance(at);
   at.advance(4.0 * 3600.0, 4000);
   CHECK(arriving_W() == Approx(1000.0).epsilon(1e-6));
 }
 
 TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fast]") {
-  HandFedCorner<double> at(insulated(RigKind::kFlat), {switch_on("brake_heat", {5.0, 8.0})});
+  HandFedCorner<double> at(insulated(RigKind::kFlat), {switch_on("brake_heat", {5.0, 8.0, 3.0, 0.0})});
   at.inputs.speed_m_s = 25.0;
   at.inputs.brake_force_N = 2000.0;
   const double before_J = at.corner.calc_stored_heat_J(at.x.data());
@@ -173,7 +178,7 @@ TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fa
   at.inputs.speed_m_s = 0.0;         // no loss of its own
   at.inputs.brake_force_N = 2000.0;  // holds, without work
   const double rubber_K = at.temperature_K(Node::kRubber);
-  const double on_its_way_J = at.state("brake_heat.rim_heat_kJ");
+  const double on_its_way_J = at.state("brake_heat.disc_heat_kJ") + at.state("brake_heat.rim_heat_kJ");
   at.advance(4.0 * 3600.0, 4000);
   CHECK(at.corner.calc_stored_heat_J(at.x.data()) == Approx(after_J).epsilon(1e-9));
   CHECK((at.temperature_K(Node::kRubber) - rubber_K) * at.corner.context().tire.thermal.heat_capacity_J_per_K ==

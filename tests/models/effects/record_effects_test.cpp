@@ -8,10 +8,10 @@
 using namespace rollrig;
 using models::RigKind;
 using tests::apply_trace;
-using tests::run_trace;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::NamedChannel;
+using tests::run_trace;
 using tests::switch_on;
 
 namespace {
@@ -29,7 +29,7 @@ double find_acting_N(const models::ActiveEffect& effect, double recorded_N, RigK
 
 TEST_CASE("a wrong speed record turns the tire faster than it says, and the record stays", "[fast]") {
   for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
-    HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0})});
+    HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0, 0.0})});
     HandFedCorner<double> right(make_context_on(kind), {});
     wrong.inputs.speed_m_s = 20.0;
     wrong.inputs.acceleration_m_s2 = 0.4;
@@ -43,6 +43,24 @@ TEST_CASE("a wrong speed record turns the tire faster than it says, and the reco
     CHECK(wrong.temperature_K(models::Node::kRubber) == Approx(right.temperature_K(models::Node::kRubber)));
     CHECK(wrong.now.heat.heat_in_W == Approx(wrong.now.rolling_resistance_N * 21.0));
   }
+}
+
+TEST_CASE("an error of the speed that grows with it is its size at 80 km/h, and the acceleration is the speed's own",
+          "[fast]") {
+  const auto at_speed = [](double speed_m_s) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, 0.4})});
+    at.inputs.speed_m_s = speed_m_s;
+    at.inputs.acceleration_m_s2 = 0.5;
+    at.evaluate();
+    return std::pair{at.now.acting.speed_m_s, at.now.acting.acceleration_m_s2};
+  };
+  const double v_m_s = 80.0 / 3.6;
+  CHECK(at_speed(v_m_s).first == Approx(1.05 * v_m_s));
+  CHECK(at_speed(0.5 * v_m_s).first == Approx((1.0 + 0.05 * 0.8) * 0.5 * v_m_s));
+  const double h_s = 1e-4;
+  const double later_m_s = at_speed(v_m_s + 0.5 * h_s).first;
+  const double sooner_m_s = at_speed(v_m_s - 0.5 * h_s).first;
+  CHECK(at_speed(v_m_s).second == Approx((later_m_s - sooner_m_s) / (2.0 * h_s)).epsilon(1e-6));
 }
 
 TEST_CASE("a wrong load record is a scale, an offset, or some of both, and the error at the reference load is the size",

@@ -58,7 +58,7 @@ TEST_CASE("a flat spot comes back at rest, and starts from the rest before the r
 }
 
 TEST_CASE("brake drag is set by braking, never above its size, and decays with its time constant", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_drag", {8.0, 2.0, 3.0, 100.0})});
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 0.0})});
   HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
   CHECK(at.evaluate().parasitic_N == plain.evaluate().parasitic_N);  // nothing before the first braking
   for (auto* one : {&at, &plain}) {
@@ -73,6 +73,22 @@ TEST_CASE("brake drag is set by braking, never above its size, and decays with i
   at.inputs.brake_force_N = 0.0;
   at.advance(120.0);
   CHECK(at.state("brake_drag.dragging") == Approx(set * std::exp(-1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("drag that the disc pushes back is worn off by distance, and stays at standstill", "[fast]") {
+  const auto left_after = [](double speed_m_s, double duration_s) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 1.0})});
+    at.inputs.brake_force_N = 3000.0;
+    at.advance(30.0);
+    const double set = at.state("brake_drag.dragging");
+    at.inputs.brake_force_N = 0.0;
+    at.inputs.speed_m_s = speed_m_s;
+    at.advance(duration_s);
+    return at.state("brake_drag.dragging") / set;
+  };
+  CHECK(left_after(10.0, 100.0) == Approx(left_after(20.0, 50.0)).epsilon(2e-3));
+  CHECK(left_after(40.0 / 3.6, 120.0) == Approx(std::exp(-1.0)).epsilon(2e-3));
+  CHECK(left_after(0.0, 120.0) > 0.95);
 }
 
 TEST_CASE("light and short braking sets less drag than strong and long", "[fast]") {
@@ -100,6 +116,39 @@ TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, by a first-or
   at.inputs.speed_m_s = 0.0;
   at.advance(1800.0);
   CHECK(at.state("driveline_warming.oil_rise") == Approx(std::exp(-1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("bearings are cold after a soak, warm right after a run, and between them after a rest", "[fast]") {
+  const auto effect = switch_on("bearing_warmup", {0.02, 30.0, 15.0});
+  const auto rise_dK = [&](const models::InitialPort<double>& initial) {
+    return HandFedCorner<double>(make_context_on(RigKind::kDrum), {effect}, initial)
+        .state("bearing_warmup.bearing_rise_dK");
+  };
+  CHECK(rise_dK({}) == 0.0);
+  CHECK(rise_dK(warm()) == Approx(15.0));
+  CHECK(rise_dK(rested(0.5)) == Approx(15.0 * std::exp(-1.0)));
+}
+
+TEST_CASE("bearings in the cold turn as hard as by as many degrees less of their own warmth, oil by its share of them",
+          "[fast]") {
+  const auto find_N = [](const models::ActiveEffect& effect, double ambient_K) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {effect});
+    HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+    at.inputs.ambient_K = plain.inputs.ambient_K = ambient_K;
+    return std::pair{at.evaluate().parasitic_N, plain.evaluate().parasitic_N};
+  };
+  const auto bearing = switch_on("bearing_warmup", {0.02, 30.0, 15.0, 1.0});
+  CHECK(find_N(bearing, 298.15 + 15.0).first == Approx(find_N(bearing, 298.15).second));
+  CHECK(find_N(bearing, 298.15 - 20.0).first / find_N(bearing, 298.15).first == Approx(std::exp(0.4)));
+  const auto oil = switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.5});
+  const auto of_oil_N = [&](double ambient_K) {
+    const auto [with_N, without_N] = find_N(oil, ambient_K);
+    return with_N - without_N;
+  };
+  CHECK(of_oil_N(298.15) == Approx(12.0));
+  CHECK(of_oil_N(298.15 - 20.0) / 12.0 == Approx(std::exp(1.5 * 0.5 * 20.0 / 30.0)));
+  CHECK(find_N(switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.0}), 270.0).first ==
+        Approx(find_N(oil, 298.15).first));
 }
 
 TEST_CASE("oil is cold after a soak, warm right after a run, and between them after a rest", "[fast]") {
