@@ -86,8 +86,8 @@ struct NextTest {
   std::string test;
   std::vector<std::string> splits;
   double expected_bits_per_hour = 0.0;
-  double hours = 0.0;                             // of the rig
-  bool soaked = false;                            // every run starts after a soak
+  double hours = 0.0;   // of the rig
+  bool soaked = false;  // every run starts after a soak
   bool force_at_standstill = false;
   std::vector<std::string> by_hand = {};          // what is done at the rig beside the runs, a sentence each
   std::vector<scenarios::MeasuredRun> runs = {};  // their inputs

@@ -226,7 +226,7 @@ std::string format_fleet(const Fleet& fleet) {
   constexpr std::size_t kVerdict = 12;
   constexpr std::size_t kCause = 25;
   const auto row = [&](const std::string& set, const std::string& verdict, const std::string& cause,
-                      const std::string& probability, const std::string& gap) {
+                       const std::string& probability, const std::string& gap) {
     std::string line = fmt::format("{:<{}} {:<{}}{:<{}} {:>5}  {}", clip(set, kSet), kSet, verdict, kVerdict,
                                    clip(cause, kCause), kCause, probability, gap);
     line.erase(line.find_last_not_of(' ') + 1);

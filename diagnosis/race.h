@@ -25,6 +25,7 @@ struct ModelError {
   double baseline_floors = 0.1;   // Assumed: of the baseline's equations, per channel
   double law_share = 0.05;        // Assumed: of what an effect changes in a channel that nothing else can change
   double whole_share = 0.015;     // Assumed: of all that it changes there, base parameters held
+  double size_share = 0.1;        // Assumed: of an effect's size, by which its law may be wrong everywhere alike
   double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
 };
 

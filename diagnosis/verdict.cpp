@@ -26,11 +26,11 @@ double distance_from_off(const Model& model, const Contender& contender, std::si
 }
 
 /// Own parameters with their intervals. The remainder covers a law that is wrong here and there; that it may be wrong
-/// by `law_share` everywhere alike widens the size.
+/// by `size_share` everywhere alike widens the size.
 std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
                                                    const std::vector<identification::FreeParameter>& base,
                                                    const Remainder& remainder, const Contender& contender,
-                                                   double law_share) {
+                                                   double size_share) {
   const Model model(set, base, contender.fit.hypothesis);
   const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
   const Eigen::MatrixXd covariance = evidence.calc_term(contender.amplitudes, true).covariance;
@@ -41,7 +41,7 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
     const Unit unit = unit_of_key(declared.key);
     const double u = contender.fit.unknowns[at(i)];
     const bool is_size = model.own_parameters()[i].index == 0;
-    const double of_law_u = is_size ? law_share * distance_from_off(model, contender, i) : 0.0;
+    const double of_law_u = is_size ? size_share * distance_from_off(model, contender, i) : 0.0;
     const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
     const auto value_at = [&](double shifted) { return model.own_value(i, shifted).value_SI / unit.factor; };
     ParameterEstimate estimate;
@@ -183,7 +183,7 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
     }
     for (const std::string& id : cause.effects) others.erase(id);
     cause.indistinguishable_from.assign(others.begin(), others.end());
-    cause.parameters = estimate_parameters(set, base, remainder, *lead, race.model_error.law_share);
+    cause.parameters = estimate_parameters(set, base, remainder, *lead, race.model_error.size_share);
     if (causes.empty()) cause.objections = find_objections(set, base, remainder, *lead);
     cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));

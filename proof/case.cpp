@@ -11,18 +11,49 @@ namespace {
 
 using diagnosis::Verdict;
 
-/// Parameters that are the size as the generator has it (docs/blind.md, "Effects"); of some less the neutral size.
+/// The parameter that is the size as the generator has it (docs/blind.md, "Effects"), and what makes it that size.
 struct SizeParameter {
   const char* name;
-  bool is_shift = false;
+  double (*to_generators)(double value, double neutral) = [](double value, double) { return value; };
 };
+
+double add_neutral(double value, double neutral) { return value + neutral; }
+double subtract_from_neutral(double value, double neutral) { return neutral - value; }
+double invert(double value, double) { return 1.0 / value; }
+double per_10_min(double per_hour, double) { return per_hour / 6.0; }
+
 const std::map<std::string, SizeParameter>& size_parameters() {
   static const std::map<std::string, SizeParameter> parameters{
-      {"bearing_load_friction", {"force_N"}}, {"clock_shift", {"shift_s"}},
-      {"load_exponent", {"exponent"}},        {"pressure_exponent", {"exponent_shift", true}},
-      {"rim_heat", {"conductance_W_per_K"}},  {"rubber_memory", {"excess_percent"}},
-      {"slow_leak", {"rate_kPa_per_h"}},      {"standing_wave", {"force_N"}},
+      {"bearing_load_friction", {"force_N"}},
+      {"brake_drag", {"force_N"}},
+      {"brake_heat", {"share_percent"}},
+      {"cavity_volume", {"contraction_percent"}},
+      {"cell_air_warming", {"rise_dK"}},
+      {"clock_shift", {"shift_s"}},
+      {"convection_law", {"exponent_deficit", subtract_from_neutral}},
+      {"curvature_exponent", {"exponent"}},
+      {"driveline_warming", {"force_N"}},
+      {"flat_spot", {"excess_percent"}},
+      {"inertia_error", {"error_percent"}},
+      {"load_cross_talk", {"angle_mrad"}},
+      {"load_exponent", {"exponent"}},
+      {"load_record", {"error_percent"}},
+      {"pressure_exponent", {"exponent_shift", add_neutral}},
+      {"pressure_record", {"offset_kPa"}},
+      {"rim_heat", {"conductance_W_per_K"}},
+      {"rubber_memory", {"excess_percent"}},
+      {"slip_loss", {"compliance_per_kN", invert}},
+      {"slow_leak", {"rate_kPa_per_h"}},
+      {"speed_record", {"error_percent"}},
+      {"standing_wave", {"force_N"}},
+      {"surface_warming", {"rise_dK"}},
+      {"tie_down_load", {"added_load_N"}},
       {"tire_loss_in_skim", {"force_N"}},
+      {"toe_camber_drag", {"force_N"}},
+      {"torque_gain", {"gain_percent"}},
+      {"torque_zero_drift", {"drift_N_per_h", per_10_min}},
+      {"wind_and_grade", {"wind_m_s"}},
+      {"windage", {"force_N"}},
   };
   return parameters;
 }
@@ -103,10 +134,11 @@ std::optional<SizeCheck> Case::check_size() const {
   const std::string name = effect.id + "." + known->second.name;
   for (const diagnosis::ParameterEstimate& parameter : cause().parameters) {
     if (parameter.name != name) continue;
-    const double shift = known->second.is_shift ? effect.neutral : 0.0;
-    const double whole = std::abs(effect.size - effect.neutral);
-    return SizeCheck{std::abs(parameter.value + shift - effect.size) / whole,
-                     parameter.low_95 + shift <= effect.size && effect.size <= parameter.high_95 + shift};
+    const auto convert = [&](double value) { return known->second.to_generators(value, effect.neutral); };
+    const auto [low, high] = std::minmax({convert(parameter.low_95), convert(parameter.high_95)});
+    const double whole = std::isfinite(effect.neutral) ? std::abs(effect.size - effect.neutral) : std::abs(effect.size);
+    return SizeCheck{std::abs(convert(parameter.value) - effect.size) / whole,
+                     low <= effect.size && effect.size <= high};
   }
   return std::nullopt;
 }

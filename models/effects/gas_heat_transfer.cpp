@@ -13,14 +13,17 @@ struct GasHeatTransfer {
     info.summary =
         "The coefficient from tire to gas is another than the tire file's, so that the pressure follows the tire's "
         "temperature sooner or later";
-    info.equation = "H <- H (1 + (h - 1)(1 - s + s |v|/v_ref)), not below H/50; v_ref = 80 km/h";
+    info.equation = "H <- H h^(1 - s + s |v|/v_ref), v_ref = 80 km/h";
     info.source =
         "1 to 8 W/K other than assumed: effects.md; as a ratio to the tire file's H, about 4 W/K, so that 1 is the "
         "baseline for every tire. Assumed: s, since a turning tire stirs its gas, so that what is off may go with "
         "speed";
-    info.parameters = {
-        {"transfer_ratio", between(0.02, 50.0), {0.25, 2.0}, "h, coefficient over the tire file's, at 80 km/h", 1.0},
-        {"stirred_share", between(-1.0, 2.0), {0.0, 0.7}, "s, of what differs, in proportion to speed"}};
+    info.parameters = {{"transfer_ratio",
+                        between(0.02, 50.0),
+                        {0.25, 2.0, Prior::Scale::kLog},
+                        "h, coefficient over the tire file's, at 80 km/h",
+                        1.0},
+                       {"stirred_share", between(-1.0, 2.0), {0.0, 0.7}, "s, of the exponent, in proportion to speed"}};
     info.faint_on = {RigKind::kFlat};  // no pressure channel
     info.visible_in = {"cavity_pressure_kPa"};
     info.confused_with = {"rim_heat"};
@@ -31,11 +34,10 @@ struct GasHeatTransfer {
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     using std::abs;
-    constexpr double kLeast = 0.02;
+    using std::pow;
     const S speed_ratio = abs(now.motion.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
     const S stirring = S(1.0) + self.parameter(kStirred) * (speed_ratio - S(1.0));
-    const S factor = S(1.0) + (self.parameter(kRatio) - S(1.0)) * stirring;
-    port.link(Node::kRubber, Node::kGas) *= value_of(factor) < kLeast ? S(kLeast) : factor;
+    port.link(Node::kRubber, Node::kGas) *= pow(self.parameter(kRatio), stirring);
   }
 };
 

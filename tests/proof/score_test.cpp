@@ -126,7 +126,13 @@ TEST_CASE("sizes are compared from where an effect does nothing", "[fast]") {
   const auto check = one.check_size().value();
   CHECK(check.error == Approx(0.2));
   CHECK_FALSE(check.covered);
-  CHECK_FALSE(say_cause(make_case("0002", {"windage"}), {"windage"}, 0.9).check_size().has_value());  // other meaning
+  Case stiff = say_cause(make_case("0002", {"slip_loss"}), {"slip_loss"}, 0.9);
+  stiff.truth.effects.front() = {"slip_loss", 100.0, std::numeric_limits<double>::infinity(), "kN", ""};
+  stiff = say_size(stiff, "slip_loss.compliance_per_kN", 0.008, 0.003);  // 125 kN, 91 to 200
+  CHECK(stiff.check_size().value().error == Approx(0.25));
+  CHECK(stiff.check_size().value().covered);
+  const Case other_meaning = say_cause(make_case("0003", {"tread_liner_lag"}), {"tread_liner_lag"}, 0.9);
+  CHECK_FALSE(other_meaning.check_size().has_value());
 }
 
 TEST_CASE("a diagnosis that failed is missed, and never right", "[fast]") {

@@ -103,14 +103,21 @@ TEST_CASE("light and short braking sets less drag than strong and long", "[fast]
   CHECK(set_by(0.0, 10.0) == 0.0);
 }
 
-TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, by a first-order warm-up", "[fast]") {
+TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, and the thicker it is the faster it warms",
+          "[fast]") {
+  const auto rise_after_30_min = [](double fall) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("driveline_warming", {12.0, 30.0, fall})});
+    at.advance(1800.0);
+    return at.state("driveline_warming.oil_rise");
+  };
+  CHECK(rise_after_30_min(0.0) == Approx(1.0 - std::exp(-1.0)).epsilon(1e-6));  // first order
+  CHECK(rise_after_30_min(1.5) > rise_after_30_min(0.7));
+  CHECK(rise_after_30_min(0.7) > rise_after_30_min(0.0));
   HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("driveline_warming", {12.0, 30.0, 1.5})});
   HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
   const double baseline_N = plain.evaluate().parasitic_N;
   CHECK(at.evaluate().parasitic_N - baseline_N == Approx(12.0));
   CHECK(at.now.heating_force_N == plain.now.heating_force_N);
-  at.advance(1800.0);
-  CHECK(at.state("driveline_warming.oil_rise") == Approx(1.0 - std::exp(-1.0)).epsilon(1e-6));
   at.advance(30.0 * 3600.0, 4000);
   CHECK(at.now.parasitic_N - baseline_N == Approx(12.0 * std::exp(-1.5)).epsilon(1e-6));
   at.inputs.speed_m_s = 0.0;
