@@ -121,8 +121,11 @@ int oracle_command(const RunOptions& options) {
                       "--race left_out beside it", ""});
   }
   const auto race = is_alone ? proof::OracleRace::kAlone : proof::OracleRace::kLeftOut;
+  const std::vector<proof::Truth> truths = proof::open_truth(options.bank, options.seal);
+  const proof::Twins twins =
+      is_alone ? proof::Twins{} : proof::find_twins(truths, folder_or("", options.bank, "answers"));
   return run_tasks(options, folder_or(options.out, options.bank, is_alone ? kAloneFolder : kLeftOutFolder),
-                   proof::plan_oracle(proof::open_truth(options.bank, options.seal), race, options.race.only));
+                   proof::plan_oracle(truths, race, options.race.only, twins));
 }
 
 void add_make(CLI::App& blind, Action& action) {
@@ -159,8 +162,9 @@ void add_run(CLI::App& blind, Action& action) {
 }
 
 void add_oracle(CLI::App& blind, Action& action) {
-  CLI::App* command = blind.add_subcommand(
-      "oracle", "Open the seal and diagnose with the truth known: alone in the race, or left out of it");
+  CLI::App* command = blind.add_subcommand("oracle",
+                                           "Open the seal and diagnose with the truth known: alone in the race, or "
+                                           "left out of it with what the answers could not tell from it");
   auto options = add_run_options(*command);
   command->add_option("--race", options->kind, "alone or left_out [alone]")
       ->check(CLI::IsMember({"alone", "left_out"}));

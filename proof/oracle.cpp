@@ -2,9 +2,32 @@
 
 #include <algorithm>
 
+#include "proof/case.h"
+
 namespace rollrig::proof {
 
-std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race, const std::vector<std::string>& only) {
+Twins find_twins(const std::vector<Truth>& truths, const std::string& answers) {
+  Twins twins;
+  for (const Truth& truth : truths) {
+    const std::optional<Answer> answer = find_answer(answers, truth.set);
+    if (!answer || !answer->failure.empty()) continue;
+    Case one;
+    one.truth = truth;
+    one.answer = *answer;
+    std::vector<std::string> named = one.named_set();
+    const std::vector<std::string> ids = truth.ids();
+    const auto holds = [&named](const std::string& id) {
+      return std::find(named.begin(), named.end(), id) != named.end();
+    };
+    if (ids.empty() || !std::all_of(ids.begin(), ids.end(), holds)) continue;
+    for (const std::string& id : ids) named.erase(std::remove(named.begin(), named.end(), id), named.end());
+    if (!named.empty()) twins[truth.set] = named;
+  }
+  return twins;
+}
+
+std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race, const std::vector<std::string>& only,
+                              const Twins& twins) {
   std::vector<Task> tasks;
   for (const Truth& truth : truths) {
     if (truth.effects.empty() || truth.outside) continue;
@@ -14,8 +37,11 @@ std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race,
       continue;
     }
     Task task{truth.set, only, ids};
-    for (const std::string& id : ids)
+    const auto of_set = twins.find(truth.set);
+    if (of_set != twins.end()) task.without.insert(task.without.end(), of_set->second.begin(), of_set->second.end());
+    for (const std::string& id : task.without) {
       task.only.erase(std::remove(task.only.begin(), task.only.end(), id), task.only.end());
+    }
     tasks.push_back(std::move(task));
   }
   return tasks;

@@ -1,6 +1,8 @@
 #pragma once
 /// Races that know the truth, run after the seal is open: what can be achieved, and what happens without the truth.
 
+#include <map>
+
 #include "proof/bank.h"
 #include "proof/run_bank.h"
 
@@ -8,10 +10,18 @@ namespace rollrig::proof {
 
 enum class OracleRace {
   kAlone,    // the true effects alone: how far the gap can shrink
-  kLeftOut,  // without the true effects: whether a neighbour is named instead
+  kLeftOut,  // without the true effects and their twins: whether a neighbour is named instead
 };
 
-/// A task for each set with effects of the catalogue. `only` as in plan_race().
-std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race, const std::vector<std::string>& only);
+/// Effects by set.
+using Twins = std::map<std::string, std::vector<std::string>>;
+
+/// What a set's own data do not tell from the truth: the others of the set that its answer names, where the truth is in
+/// that, of whatever size.
+Twins find_twins(const std::vector<Truth>& truths, const std::string& answers);
+
+/// A task for each set with effects of the catalogue. `only` as in plan_race(); `twins` are left out with the truth.
+std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race, const std::vector<std::string>& only,
+                              const Twins& twins = {});
 
 }  // namespace rollrig::proof

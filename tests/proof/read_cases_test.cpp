@@ -75,4 +75,27 @@ TEST_CASE("races that know the truth are of effects of the catalogue", "[fast]")
   REQUIRE(left_out.size() == 1);
   CHECK(left_out[0].only == std::vector<std::string>{"windage"});
   CHECK(left_out[0].without == std::vector<std::string>{"rim_heat"});
+  const auto without_twins = proof::plan_oracle(truths, proof::OracleRace::kLeftOut,
+                                                {"rim_heat", "windage", "slow_leak"}, {{"0002", {"windage"}}});
+  CHECK(without_twins[0].only == std::vector<std::string>{"slow_leak"});
+  CHECK(without_twins[0].without == std::vector<std::string>{"rim_heat", "windage"});
+}
+
+TEST_CASE("twins of a truth are what its own set could not tell from it, and no cause that misses it", "[fast]") {
+  const BankFolder made;
+  answer_all(made);
+  const auto truths = proof::open_truth(made.bank, "");
+  proof::Answer answer = proof::find_answer(made.bank + "/answers", "0002").value();
+  answer.failure.clear();
+  const auto say = [&](const std::vector<std::string>& effects, const std::vector<std::string>& others) {
+    diagnosis::Cause cause;
+    cause.effects = effects;
+    cause.indistinguishable_from = others;
+    answer.diagnosis.causes = {cause};
+    proof::write_answer(made.bank + "/answers", answer);
+    return proof::find_twins(truths, made.bank + "/answers");
+  };
+  CHECK(say({"windage"}, {"rim_heat", "slow_leak"}).at("0002") == std::vector<std::string>{"windage", "slow_leak"});
+  CHECK(say({"rim_heat"}, {}).empty());
+  CHECK(say({"windage"}, {"slow_leak"}).empty());
 }
