@@ -95,7 +95,8 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
     };
     const double speed_km_h = 3.6 * mean(run.measured.columns.at("speed_km_h"));
     const double load_share = mean(run.measured.columns.at("load_N")) / tire.reference_load_N;
-    const std::size_t first_row = series.rows[series.blocks[k].first];
+    const double acceleration_m_s2 = series.mean_over(
+        series.blocks[k], [&](std::size_t r) { return identification::find_acceleration(run.measured, r); });
     Eigen::RowVectorXd row(columns);
     Eigen::Index at_column = 0;
     const auto put = [&](double x, const std::vector<double>& knots) {
@@ -106,8 +107,7 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
     put(load_share, kLoadShares);
     put(series.time_s[k] - run.measured.time_s.front(), kTimes_s);
     put(mean(since_load_s), kSinceLoad_s);
-    row.tail(kSingles) << 1.0, load_share * speed_km_h / 80.0,
-        identification::find_acceleration(run.measured, first_row) / 0.5,
+    row.tail(kSingles) << 1.0, load_share * speed_km_h / 80.0, acceleration_m_s2 / 0.5,
         (run.measured.cold_pressure_Pa - tire.reference_pressure_Pa) / 5e4,
         (run.measured.initial_tire_temperature_K - run.measured.columns.at("ambient_degC").front()) / 10.0;
     basis.row(at(k)) = row;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "identification/replay_start.h"
+#include "models/drum_curvature.h"
 #include "models/rolling_resistance.h"
 #include "models/vehicle.h"
 #include "rigs/drum_channels.h"
@@ -213,7 +214,8 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
 
 namespace {
 
-/// Temperature of a tire in steady driving at 80 km/h under its static load, from the network of its file.
+/// Temperature of a tire in steady driving at 80 km/h under its static load, from the network of its file. Assumed: at
+/// the cold pressure, which a warm tire exceeds by some 10 %, so that it would lose 4 % less.
 template <class S>
 S calc_warm_temperature_K(const models::Corner<S>& corner, const S& load_N, const rigs::DrumStart<S>& start) {
   const models::Context<S>& context = corner.context();
@@ -222,7 +224,8 @@ S calc_warm_temperature_K(const models::Corner<S>& corner, const S& load_N, cons
   S warm_K = start.tire_temperature_K;
   constexpr int kRounds = 20;  // each takes about a third of the error
   for (int i = 0; i < kRounds; ++i) {
-    const S loss_N = models::calc_rolling_resistance_N(context.tire, speed_m_s, load_N, start.cold_pressure_Pa, warm_K);
+    const S loss_N = models::calc_curvature_factor(context) *
+                     models::calc_rolling_resistance_N(context.tire, speed_m_s, load_N, start.cold_pressure_Pa, warm_K);
     warm_K = start.tire_temperature_K + loss_N * speed_m_s / cooling_W_per_K;
   }
   return warm_K;

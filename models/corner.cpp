@@ -17,14 +17,6 @@ std::vector<S> convert_parameters(const ActiveEffect& active) {
   return parameters;
 }
 
-/// K of baseline.md: 1/K_r of (3.1) from this surface to the drum on which A0 and A1 hold.
-template <class S>
-S calc_curvature_factor(const Context<S>& context) {
-  const S reference_per_m = S(2.0) / context.tire.rolling_resistance.reference_drum_diameter_m;
-  const S tire_radius_m = context.tire.geometry.outer_diameter_m / S(2.0);
-  return calc_drum_correction(reference_per_m, context.surface_curvature_per_m, tire_radius_m);
-}
-
 /// The functions of an effect on this kind of rig, against this baseline: none where it does not act.
 template <class S>
 const EffectHooks<S>* find_hooks(const Effect& effect, const Context<S>& context) {

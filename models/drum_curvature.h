@@ -1,7 +1,7 @@
 #pragma once
 /// Correction of rolling resistance from one drum to another.
 
-#include "sim/core/scalar.h"
+#include "models/ports.h"
 
 namespace rollrig::models {
 
@@ -16,6 +16,14 @@ template <class S>
 S calc_drum_correction(const S& curvature_1_per_m, const S& curvature_2_per_m, const S& tire_radius_m) {
   using std::sqrt;
   return sqrt((S(1.0) + tire_radius_m * curvature_2_per_m) / (S(1.0) + tire_radius_m * curvature_1_per_m));
+}
+
+/// K of baseline.md: from the drum on which A0 and A1 hold to the surface of this context.
+template <class S>
+S calc_curvature_factor(const Context<S>& context) {
+  const S reference_per_m = S(2.0) / context.tire.rolling_resistance.reference_drum_diameter_m;
+  const S tire_radius_m = context.tire.geometry.outer_diameter_m / S(2.0);
+  return calc_drum_correction(reference_per_m, context.surface_curvature_per_m, tire_radius_m);
 }
 
 }  // namespace rollrig::models

@@ -13,7 +13,8 @@ struct BrakeDrag {
     info.id = "brake_drag";
     info.summary = "After braking the pads keep dragging on the disc until they have worked back";
     info.equation =
-        "F_par <- F_par + F_d d, dd/dt = (1 - d) F_brake/I_s - d (v/v_t)^n/tau, v_t = 40 km/h; its heat goes into "
+        "F_par <- F_par + F_d d, dd/dt = (1 - d) F_brake/I_s - d (v/v_t)^n/tau, v_t = 40 km/h, v not below 0.5 m/s; "
+        "its heat goes into "
         "the disc and the air";
     info.source =
         "residual torque of disc brakes: SAE 2015-01-2670; 2 to 12 N, decays after braking: effects.md. Assumed: "

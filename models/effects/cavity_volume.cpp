@@ -60,7 +60,7 @@ struct CavityVolume {
 
   template <class S>
   static void gas(const EffectView<S>& self, const Instant<S>& now, GasPort<S>& port) {
-    constexpr double kKappaLessOne = 0.4;
+    constexpr double kKappaLessOne = 0.4;  // of a gas of two atoms
     const S change = calc_change(self, *now.context, now.motion.load_N, now.motion.speed_m_s);
     const S warmer = kKappaLessOne * (self.state(kFelt) - change);
     port.volume_ratio *= (S(1.0) + change) / (S(1.0) + warmer);
@@ -68,9 +68,10 @@ struct CavityVolume {
 
   template <class S>
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
-    const auto& thermal = now.context->tire.thermal;
+    const std::size_t gas = index_of(Node::kGas);
     const S change = calc_change(self, *now.context, now.motion.load_N, now.motion.speed_m_s);
-    rates[kFelt] = (change - self.state(kFelt)) * thermal.H_gas_W_per_K / thermal.gas_heat_capacity_J_per_K;
+    rates[kFelt] = (change - self.state(kFelt)) * now.thermal.link_W_per_K[index_of(Node::kRubber)][gas] /
+                   now.thermal.heat_capacity_J_per_K[gas];
   }
 };
 

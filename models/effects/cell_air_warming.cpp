@@ -29,7 +29,7 @@ struct CellAirWarming {
          "D, in steady rolling at 80 km/h and the reference load",
          0.0},
         {"time_constant_min", between(0.5, 1200.0), {20.0, 120.0, Prior::Scale::kLog}, "tau, of the air's warm-up"},
-        {"power", between(-1.0, 3.0), {0.0, 1.0}, "n, of the speed"},
+        {"power", between(0.0, 3.0), {0.0, 1.0}, "n, of the speed"},
         {"tire_share", between(-1.0, 2.0), {0.2, 0.9}, "s, of the heat, given off by the loaded tire"}};
     info.states = {{"air_rise_dK", 10.0, "theta, air at the tire over the recorded ambient"}};
     info.acts_on = {RigKind::kDrum, RigKind::kDyno};

@@ -56,8 +56,9 @@ struct RubberMemory {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     constexpr double kHalfLoad = 0.2;  // x_0, where a load works the rubber half
     const S load = positive_part(now.motion.load_N) / now.context->tire.rolling_resistance.reference_load_N;
+    using std::abs;
     const S working =
-        calc_standstill_fade(now.motion.speed_m_s) * (load * load / (load * load + S(kHalfLoad * kHalfLoad)));
+        calc_standstill_fade(S(abs(now.motion.speed_m_s))) * (load * load / (load * load + S(kHalfLoad * kHalfLoad)));
     rates[kMemory] = (S(1.0) - self.state(kMemory)) * (S(1.0) - working) / self.parameter(kRecoveryTime) -
                      self.state(kMemory) * working / self.parameter(kDecayTime);
   }

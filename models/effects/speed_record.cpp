@@ -11,7 +11,8 @@ struct SpeedRecord {
     EffectInfo info;
     info.id = "speed_record";
     info.summary =
-        "What really turns is faster or slower than recorded, by a fixed share: loss, heat, drag and inertia go with "
+        "What really turns is faster or slower than recorded, by a share, fixed or growing with speed: loss, heat, "
+        "drag and inertia go with "
         "the "
         "true speed, while the record keeps its own";
     info.equation =

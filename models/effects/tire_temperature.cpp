@@ -16,7 +16,8 @@ struct TireTemperature {
         "constant coefficient says";
     info.equation =
         "F_rr <- F_rr e, e = exp(-B (T - T_r)), T_r = 25 degC + D; tau dT/dt = D q - g (T - T_amb), "
-        "q = e v Fz/(v_r Fz_ref), g = (v_0 + v)/(v_0 + v_r); v_r = 80 km/h, v_0 = z/f";
+        "q = L v Fz/(v_r Fz_ref), L factor of all effects on the loss, e among them; g = (v_0 + v)/(v_0 + v_r); v_r = "
+        "80 km/h, v_0 = z/f";
     info.source =
         "source (3.4), (3.8) to (3.14), with the heat balance in units of that at 80 km/h, 25 degC and the reference "
         "load, where the coefficient of ISO 28580 holds; B 0.008 to 0.03 /K, warm-up 5 to 30 min: effects.md. "

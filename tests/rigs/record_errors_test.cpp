@@ -93,7 +93,8 @@ TEST_CASE("a load record whose offset takes all of the skim load lets the tire l
 
 TEST_CASE("air that is warm at once is a warmer cell, on the drum in both fidelities", "[fast]") {
   for (const bool multibody : {false, true}) {
-    const auto wrong = run_drum(multibody, {switch_on("cell_air_warming", {5.0, 0.5, 0.0, 0.0})}, drum_program(1.0, 1.0));
+    const auto wrong =
+        run_drum(multibody, {switch_on("cell_air_warming", {5.0, 0.5, 0.0, 0.0})}, drum_program(1.0, 1.0));
     const auto right = run_drum(multibody, {}, drum_program(1.0, 1.0, 303.15));
     const auto plain = run_drum(multibody, {}, drum_program(1.0, 1.0));
     const auto warmer_K = [&](const sim::Recording<double>& run, std::size_t row) {
