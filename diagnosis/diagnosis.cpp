@@ -1,5 +1,7 @@
 #include "diagnosis/diagnosis.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "diagnosis/balance.h"
@@ -17,7 +19,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// Effects in the race: those that act on the rig and can be seen there, less those left out.
+/// Effects in the race: those that act on the rig and can be seen there, less those left out. Throws InputError.
 std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSet& set,
                                                   const DiagnosisOptions& options) {
   const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
@@ -34,6 +36,11 @@ std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSe
     if (!models::acts_in(info, kind, set.baseline) || faint) continue;
     if (holds(options.without, info.id) || (!options.only.empty() && !holds(options.only, info.id))) continue;
     effects.push_back(effect);
+  }
+  if (effects.empty() && !options.only.empty()) {
+    throw InputError({"none of the effects that are to race can be seen on such a set", set.path, 0, "--only",
+                      fmt::format("{}", fmt::join(options.only, ",")),
+                      "effects that act there; --explain NAME says where one does", ""});
   }
   return effects;
 }

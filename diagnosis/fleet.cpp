@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPrior = 0.02;
+constexpr double kRecurs = 0.8;    // Assumed: what is named once and not excluded elsewhere says little
 constexpr double kCertain = 1e-6;  // a race is not surer than this
 
 bool names(const Diagnosis& diagnosis, const std::string& effect) {
@@ -101,7 +102,6 @@ Recurrence judge(const std::string& effect, const Group& group) {
   recurrence.effect = effect;
   recurrence.shared = group.shared;
   recurrence.name = group.name;
-  recurrence.sets = group.members.size();
   std::vector<double> in_sets;
   std::vector<ParameterEstimate> sizes;
   for (const FleetMember* member : group.members) {
@@ -110,6 +110,7 @@ Recurrence judge(const std::string& effect, const Group& group) {
     if (at != probability.end()) in_sets.push_back(at->second);
     if (const auto size = find_size(*member->diagnosis, effect)) sizes.push_back(*size);
   }
+  recurrence.sets = in_sets.size();
   recurrence.named_in = sizes.size();
   recurrence.probability = calc_recurrence_probability(in_sets, kPrior);
   average_sizes(sizes, recurrence);
@@ -154,6 +155,10 @@ std::vector<std::string> find_sets(const std::string& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (fs::exists(entry.path() / "set.toml")) sets.push_back(entry.path().string());
   }
+  if (sets.empty()) {
+    throw InputError({fmt::format("there is no measurement set in '{}'", folder), folder, 0, "set", folder,
+                      "a folder with set.toml, or one with such folders right in it", ""});
+  }
   std::sort(sets.begin(), sets.end());
   return sets;
 }
@@ -176,7 +181,7 @@ std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members
     std::optional<Recurrence> widest;
     for (const Group& group : groups) {
       const Recurrence one = judge(effect, group);
-      if (one.probability <= 0.5 || one.named_in == 0) continue;
+      if (one.sets < 2 || one.probability <= kRecurs || one.named_in == 0) continue;
       const bool wider =
           !widest || one.sets > widest->sets || (one.sets == widest->sets && one.probability > widest->probability);
       if (wider) widest = one;

@@ -43,7 +43,8 @@ struct Fleet {
       recurrences;  // the likeliest first; of each effect the widest group in which that is likelier than not
 };
 
-/// Folders below `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself.
+/// Folders below `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself. Errors InputError:
+/// a folder without any
 std::vector<std::string> find_sets(const std::string& folder);
 
 /// Probability that an effect acts in all sets of a group, rather than in each by itself or not.

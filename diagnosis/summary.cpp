@@ -112,16 +112,25 @@ std::string describe_interval(const ParameterEstimate& size) {
   return fmt::format("{:.3g} to {:.3g}", size.low_95, size.high_95);
 }
 
-/// One effect: its size and interval. Two: their sizes; the intervals stand in the next line.
+/// An effect with its size and the interval of that, as far as they are known.
+std::string describe_effect(const std::string& effect, const std::vector<ParameterEstimate>& sizes) {
+  for (const ParameterEstimate& size : sizes) {
+    if (size.name.rfind(effect + ".", 0) != 0) continue;
+    return fmt::format("{}: {} (95 %: {})", effect, describe_size(size), describe_interval(size));
+  }
+  return effect;
+}
+
 std::string cause_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
   if (diagnosis.causes.empty()) return line("Cause", "none of the catalogue");
-  const std::vector<ParameterEstimate> sizes = find_sizes(diagnosis.causes.front());
-  std::vector<std::string> parts;
-  for (const ParameterEstimate& size : sizes) parts.push_back(describe_size(size));
-  if (sizes.size() == 1) parts[0] += " (95 %: " + describe_interval(sizes[0]) + ")";
-  const std::string names = fmt::format("{}", fmt::join(diagnosis.causes.front().effects, " with "));
-  return line("Cause", parts.empty() ? names : fmt::format("{}: {}", names, fmt::join(parts, ", ")));
+  const Cause& cause = diagnosis.causes.front();
+  return line("Cause", describe_effect(cause.effects.front(), find_sizes(cause)));
+}
+
+std::string describe_alternatives(const Cause& cause) {
+  const std::string why = " (this set cannot tell)";
+  return join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why;
 }
 
 /// The summary of an effect, where the catalogue has it.
@@ -132,20 +141,20 @@ std::string meaning_of(const std::string& id) {
   return id;
 }
 
-std::string alternatives_line(const Diagnosis& diagnosis) {
+/// What acts beside the first effect; else what may act in its place; else what it is.
+std::string second_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) {
     return line("", "the simulation stands, within the uncertainty of its numbers");
   }
   if (diagnosis.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
   const Cause& cause = diagnosis.causes.front();
-  if (!cause.indistinguishable_from.empty()) {
-    const std::string why = " (this set cannot tell)";
-    return line("or as well", join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why);
+  std::string more;
+  for (std::size_t i = 1; i < cause.effects.size(); ++i) {
+    more += line("  with", describe_effect(cause.effects[i], find_sizes(cause)));
   }
-  if (cause.effects.size() == 1) return line("", meaning_of(cause.effects.front()));
-  std::vector<std::string> intervals;
-  for (const ParameterEstimate& size : find_sizes(cause)) intervals.push_back(describe_interval(size));
-  return line("", fmt::format("95 %: {}", fmt::join(intervals, ", ")));
+  if (!more.empty()) return more;
+  if (!cause.indistinguishable_from.empty()) return line("or as well", describe_alternatives(cause));
+  return line("", meaning_of(cause.effects.front()));
 }
 
 std::string where_line(const Diagnosis& diagnosis) {
@@ -230,14 +239,17 @@ std::string describe_rest(const LoneRun& lone) {
 }  // namespace
 
 std::string format_summary(const Diagnosis& diagnosis) {
-  std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + alternatives_line(diagnosis) +
-                     where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) +
-                     shrinkage_line(diagnosis);
+  std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + second_line(diagnosis) + where_line(diagnosis) +
+                     equation_line(diagnosis) + gap_lines(diagnosis) + shrinkage_line(diagnosis);
   text +=
       line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                           : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
   text += next_line(diagnosis);
   if (!diagnosis.causes.empty()) {
+    const Cause& first = diagnosis.causes.front();
+    if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
+      text += note("Or as well", describe_alternatives(first));
+    }
     for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
   }
   if (const auto& lone = diagnosis.without_run) {

@@ -104,11 +104,14 @@ bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, co
 std::vector<std::string> find_objections(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                          const Remainder& remainder, const Contender& contender) {
   constexpr double kTail = 3.0;
-  constexpr double kSizeShare = 0.2;  // Assumed: what a law's idealisation may do to the size from run to run
+  constexpr double kSizeShare = 0.3;  // Assumed: what a law's idealisation may do to the size from run to run
   std::vector<std::string> objections;
   if (contender.remainder_probability > contender.probability) {
-    objections.push_back(fmt::format("something else is missing: a free remainder on top of it is {:.0f} nats likelier",
-                                     contender.log_remainder - contender.log_evidence));
+    constexpr double kBeyondDoubt_nats = 50.0;
+    const double gain_nats = contender.log_remainder - contender.log_evidence;
+    const std::string by =
+        gain_nats < kBeyondDoubt_nats ? fmt::format("{:.0f} nats likelier", gain_nats) : "likelier beyond all doubt";
+    objections.push_back("something else is missing: a free remainder on top of it is " + by);
   }
   const Model model(set, base, contender.fit.hypothesis);
   for (std::size_t i = 0; i < model.own_count(); ++i) {

@@ -31,7 +31,9 @@ double EnergyAudit::find_term_J(const std::string& name) const {
 }
 
 double EnergyAudit::calc_closure(EnergyTerm::Ledger ledger) const {
-  const double scale_J = throughput_J > 0.0 ? throughput_J : find_largest_J();
+  constexpr double kIdle = 1e-3;  // Assumed: a motor that did less than this share of the largest term stood
+  const double largest_J = find_largest_J();
+  const double scale_J = throughput_J > kIdle * largest_J ? throughput_J : largest_J;
   return scale_J > 0.0 ? std::abs(find_residual_J(ledger)) / scale_J : 0.0;
 }
 

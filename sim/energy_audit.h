@@ -28,7 +28,7 @@ struct EnergyAudit {
   /// The work of the named term [J]; 0 when there is none.
   double find_term_J(const std::string& name) const;
   /// |residual| / scale, where scale is the throughput of the motor (its net work would vanish for a
-  /// lossless wheel that is run up and down again), or the largest term when it did nothing.
+  /// lossless wheel that is run up and down again), or the largest term when it did next to nothing.
   double calc_closure(EnergyTerm::Ledger ledger) const;
   /// Throws RunFailure, naming the ledger and every term of it, when a closure is above the limit.
   void require_closed(double limit) const;

@@ -18,7 +18,8 @@ struct DrivelineWarming {
         "of the oil, relative to that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
     info.source =
         "viscosity of oil falls exponentially with temperature (Reynolds); 3 to 25 N, 15 to 60 min: effects.md. "
-        "Assumed: k; half of the heat by the friction that falls, half by forces that do not; D; a, between 0 (warmed "
+        "Assumed: k; half of the heat by the friction that falls, half by forces that do not; its exponent in the "
+        "heating levels off at 3; D; a, between 0 (warmed "
         "to a temperature that the air does not "
         "matter to) and 1. Not soaked: warm before the rest";
     info.parameters = {
@@ -59,8 +60,11 @@ struct DrivelineWarming {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     using std::abs;
     using std::exp;
+    using std::tanh;
+    constexpr double kMost = 3.0;
     const S speed_ratio = abs(now.motion.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
-    const S friction_ratio = exp(self.parameter(kFall) * (S(1.0) - self.state(kRise)));  // to that at w = 1
+    const S thicker = kMost * tanh(self.parameter(kFall) * (S(1.0) - self.state(kRise)) / kMost);
+    const S friction_ratio = exp(thicker);  // to that at w = 1
     const S heating = 0.5 * speed_ratio * (S(1.0) + friction_ratio);
     rates[kRise] = (heating - self.state(kRise)) / self.parameter(kTimeConstant);
   }

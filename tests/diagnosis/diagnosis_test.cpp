@@ -156,6 +156,7 @@ TEST_CASE("an effect that does not exist is refused, wherever it is named", "[fa
   options = {};
   options.without = {"nothing"};
   CHECK_THROWS_AS(diagnose(warm_bearings(), options), InputError);
+  CHECK_THROWS_WITH(diagnose(warm_bearings(), only({"brake_heat"})), Catch::Contains("brake_heat"));  // not on a drum
 }
 
 TEST_CASE("a set that cannot be what it says has no cause", "[fast]") {

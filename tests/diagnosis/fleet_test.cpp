@@ -88,6 +88,15 @@ TEST_CASE("what one set of three has does not come back", "[fast]") {
   CHECK(find_recurrences({warms("drum-1", "a40")}).empty());
 }
 
+TEST_CASE("a set in which an effect cannot act says nothing of it", "[fast]") {
+  FleetMember elsewhere = is_clean("drum-1", "a50");
+  elsewhere.diagnosis->probability.erase("bearing_warmup");
+  CHECK(find_recurrences({warms("drum-1", "a40"), elsewhere}).empty());
+  const auto found = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a60"), elsewhere});
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].sets == 2);
+}
+
 TEST_CASE("sizes are averaged by their uncertainty, and it is said where they differ", "[fast]") {
   const auto alike = find_recurrences({warms("d", "a40", 0.020, 0.002), warms("d", "a50", 0.022, 0.002)});
   REQUIRE(alike.size() == 1);

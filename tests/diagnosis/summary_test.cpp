@@ -88,10 +88,17 @@ TEST_CASE("two effects together both show their size", "[fast]") {
   made.causes[0].effects = {"bearing_warmup", "slow_leak"};
   made.causes[0].parameters = {{"bearing_warmup.fall_per_K", 0.02, 0.0, 0.01, 0.03, "1/K"},
                                {"slow_leak.rate_kPa_per_h", 1.0, 0.1, 0.8, 1.2, "kPa/h"}};
-  CHECK_THAT(line_of(format_summary(made), "Cause"),
-             Contains("bearing_warmup with slow_leak: fall 0.02 1/K, rate 1 kPa/h"));
-  CHECK_THAT(format_summary(made), Contains("95 %: 0.01 to 0.03, 0.8 to 1.2"));
+  CHECK_THAT(line_of(format_summary(made), "Cause"), Contains("bearing_warmup: fall 0.02 1/K (95 %: 0.01 to 0.03)"));
+  CHECK_THAT(line_of(format_summary(made), "  with"), Contains("slow_leak: rate 1 kPa/h (95 %: 0.8 to 1.2)"));
   check_layout(format_summary(made), 10);
+}
+
+TEST_CASE("what cannot be told from two effects stands below", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].effects = {"bearing_warmup", "slow_leak"};
+  made.causes[0].indistinguishable_from = {"rim_heat"};
+  CHECK_THAT(line_of(format_summary(made), "Or as well"), Contains("rim_heat (this set cannot tell)"));
+  check_layout(format_summary(made), 11);
 }
 
 TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {

@@ -125,6 +125,26 @@ TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, and the thick
   CHECK(at.state("driveline_warming.oil_rise") == Approx(std::exp(-1.0)).epsilon(1e-6));
 }
 
+TEST_CASE("bearings in steady running at 80 km/h come to their rise, the sooner the harder they turn, and cool at rest",
+          "[fast]") {
+  const auto run_for = [](double fall_per_K, double duration_s) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("bearing_warmup", {fall_per_K, 30.0, 15.0})});
+    at.advance(duration_s, 4000);
+    return at;
+  };
+  CHECK(run_for(0.0, 1800.0).state("bearing_warmup.bearing_rise_dK") ==
+        Approx(15.0 * (1.0 - std::exp(-1.0))).epsilon(1e-6));  // friction that does not fall: first order
+  CHECK(run_for(0.03, 1800.0).state("bearing_warmup.bearing_rise_dK") >
+        run_for(0.01, 1800.0).state("bearing_warmup.bearing_rise_dK"));
+  HandFedCorner<double> at = run_for(0.03, 12.0 * 3600.0);
+  CHECK(at.state("bearing_warmup.bearing_rise_dK") == Approx(15.0).epsilon(1e-6));
+  at.inputs.speed_m_s = 0.0;
+  at.advance(1800.0);
+  const double left = at.state("bearing_warmup.bearing_rise_dK") / 15.0;
+  CHECK(left > std::exp(-1.0));  // air that nothing moves
+  CHECK(left < 1.0);
+}
+
 TEST_CASE("bearings are cold after a soak, warm right after a run, and between them after a rest", "[fast]") {
   const auto effect = switch_on("bearing_warmup", {0.02, 30.0, 15.0});
   const auto rise_dK = [&](const models::InitialPort<double>& initial) {
