@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/test_menu.h"
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
 
@@ -51,7 +52,6 @@ double find_sample_interval_s(const MeasurementSet& set) {
 }
 
 std::string write_run_file(const MeasurementSet& set, const NextTest& test, std::size_t index) {
-  constexpr double kSoak_h = 3.0;  // test_menu.h
   const MeasuredRun& run = test.runs[index];
   const bool is_combined = set.baseline == models::Baseline::kCombined;
   std::string text = fmt::format(

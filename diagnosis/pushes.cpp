@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "models/reference_conditions.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
@@ -85,7 +86,7 @@ struct DragPush : TimePush {
   static models::EffectInfo info() { return describe("air drag"); }
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
-    const S share = now.recorded.speed_m_s / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S share = now.recorded.speed_m_s / models::get_reference_speed_m_s<S>();
     port.extra_force_N += share * share * calc(self, quantity<S>(1.0, dimension::kForce));
   }
 };

@@ -8,6 +8,8 @@
 
 namespace rollrig::diagnosis {
 
+constexpr double kSoak_h = 3.0;  // Assumed: until nothing of the tire or the bearings remembers
+
 /// A test as an engineer would order it.
 struct PlannedTest {
   std::string id;

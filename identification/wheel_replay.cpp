@@ -5,6 +5,7 @@
 
 #include "identification/replay_start.h"
 #include "models/drum_curvature.h"
+#include "models/reference_conditions.h"
 #include "models/rolling_resistance.h"
 #include "models/vehicle.h"
 #include "rigs/drum_channels.h"
@@ -219,7 +220,7 @@ namespace {
 template <class S>
 S calc_warm_temperature_K(const models::Corner<S>& corner, const S& load_N, const rigs::DrumStart<S>& start) {
   const models::Context<S>& context = corner.context();
-  const S speed_m_s(80.0 / 3.6);
+  const S speed_m_s = models::get_reference_speed_m_s<S>();
   const S cooling_W_per_K = context.tire.thermal.z_W_per_K + context.tire.thermal.f_W_s_per_m_K * speed_m_s;
   S warm_K = start.tire_temperature_K;
   constexpr int kRounds = 20;  // each takes about a third of the error

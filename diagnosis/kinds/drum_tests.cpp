@@ -111,15 +111,10 @@ PlannedTest short_soak(const TestConditions& at) {
 }
 
 PlannedTest rim_thermocouple(const TestConditions& at) {
-  TestConditions with_rim = at;
-  with_rim.channels.emplace_back(kRimTemperature);
-  PlannedTest test =
+  const TestConditions with_rim = read_rim_too(at);
+  return fit_rim_thermocouple(
       make_test("rim_thermocouple", "thermocouple on the rim: 20 min at 120 km/h, then 45 min at standstill, lifted", 0,
-                short_soak(with_rim).runs);
-  test.hours += find_rig_sensor(kRimTemperature).hours;
-  test.extra.sensors = {kRimTemperature};
-  test.by_hand = {"Fit a thermocouple to the rim, with a slip ring or a logger on the wheel."};
-  return test;
+                short_soak(with_rim).runs));
 }
 
 PlannedTest soak_with_pressure(const TestConditions& at) {

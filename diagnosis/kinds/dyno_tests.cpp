@@ -2,7 +2,6 @@
 
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/test_plan.h"
-#include "diagnosis/rig_sensors.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -89,16 +88,11 @@ PlannedTest soak_with_pressure(const TestConditions& at) {
 }
 
 PlannedTest rim_thermocouple(const TestConditions& at) {
-  TestConditions with_rim = at;
-  with_rim.channels.emplace_back(kRimTemperature);
+  const TestConditions with_rim = read_rim_too(at);
   RunPlan run = begin_warm(with_rim);
   run.roll(20.0, at.load_N, 120.0).stand(45.0, at.load_N);
-  PlannedTest test = make_test("rim_thermocouple", "thermocouple on the rim: 20 min at 120 km/h, then 45 min at rest",
-                               0, {run.finish()});
-  test.hours += find_rig_sensor(kRimTemperature).hours;
-  test.extra.sensors = {kRimTemperature};
-  test.by_hand = {"Fit a thermocouple to the rim, with a slip ring or a logger on the wheel."};
-  return test;
+  return fit_rim_thermocouple(make_test(
+      "rim_thermocouple", "thermocouple on the rim: 20 min at 120 km/h, then 45 min at rest", 0, {run.finish()}));
 }
 
 PlannedTest warm_surface(const TestConditions& at) {

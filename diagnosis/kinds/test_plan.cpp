@@ -13,7 +13,6 @@ namespace rollrig::diagnosis {
 namespace {
 
 constexpr double kSetUp_h = 0.5;
-constexpr double kSoak_h = 3.0;
 constexpr double kAcceleration_km_h_s = 1.0;
 
 }  // namespace
@@ -106,6 +105,18 @@ RunPlan begin_warm(const TestConditions& at) {
 }
 
 RunPlan begin_cold(const TestConditions& at) { return {at, kUsual_km_h}; }
+
+TestConditions read_rim_too(TestConditions at) {
+  at.channels.emplace_back(kRimTemperature);
+  return at;
+}
+
+PlannedTest fit_rim_thermocouple(PlannedTest test) {
+  test.hours += find_rig_sensor(kRimTemperature).hours;
+  test.extra.sensors = {kRimTemperature};
+  test.by_hand = {"Fit a thermocouple to the rim, with a slip ring or a logger on the wheel."};
+  return test;
+}
 
 PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs) {
   PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false, soaks > 0};

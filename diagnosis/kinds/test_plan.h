@@ -61,6 +61,10 @@ class RunPlan {
 RunPlan begin_warm(const TestConditions& at);
 RunPlan begin_cold(const TestConditions& at);
 
+/// Conditions under which the rim's temperature is read as well, and a test that needs the thermocouple for it.
+TestConditions read_rim_too(TestConditions at);
+PlannedTest fit_rim_thermocouple(PlannedTest test);
+
 PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs);
 
 }  // namespace rollrig::diagnosis

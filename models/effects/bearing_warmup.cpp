@@ -1,5 +1,6 @@
 /// The bearings of the rig run easier as they warm.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -47,18 +48,13 @@ struct BearingWarmup {
 
   template <class S>
   static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
-    using std::exp;
-    if (port.started_warm) {
-      states[kBearingRise] = self.parameter(kRise);
-    } else if (!port.soaked) {
-      states[kBearingRise] = self.parameter(kRise) * exp(-port.rest_before_s / self.parameter(kTimeConstant));
-    }
+    states[kBearingRise] = calc_rise_at_start(port, self.parameter(kRise), self.parameter(kTimeConstant));
   }
 
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>& now, ParasiticPort<S>& port) {
     using std::exp;
-    const S reference_K = quantity<S>(298.15, dimension::kTemperature);
+    const S reference_K = get_reference_temperature_K<S>();
     const S over_reference_dK = now.recorded.ambient_K - reference_K + self.state(kBearingRise) -
                                 self.parameter(kReference) * self.parameter(kRise);
     port.factor *= exp(-self.parameter(kFall) * over_reference_dK);
@@ -71,7 +67,7 @@ struct BearingWarmup {
     using std::tanh;
     constexpr double kForced = 0.4;
     constexpr double kMost = 3.0;
-    const S speed_ratio = abs(now.motion.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S speed_ratio = abs(now.motion.speed_m_s) / get_reference_speed_m_s<S>();
     const S& steady_dK = self.parameter(kRise);
     const S& rise_dK = self.state(kBearingRise);
     const S thinner = kMost * tanh(self.parameter(kFall) * (steady_dK - rise_dK) / kMost);

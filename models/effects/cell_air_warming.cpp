@@ -1,5 +1,6 @@
 /// The air at the tire warms, which the thermometer of the test cell does not see.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -42,12 +43,7 @@ struct CellAirWarming {
 
   template <class S>
   static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
-    using std::exp;
-    if (port.started_warm) {
-      states[kAirRise] = self.parameter(kRise);
-    } else if (!port.soaked) {
-      states[kAirRise] = self.parameter(kRise) * exp(-port.rest_before_s / self.parameter(kTimeConstant));
-    }
+    states[kAirRise] = calc_rise_at_start(port, self.parameter(kRise), self.parameter(kTimeConstant));
   }
 
   template <class S>
@@ -59,7 +55,7 @@ struct CellAirWarming {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     using std::abs;
     using std::pow;
-    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S reference_m_s = get_reference_speed_m_s<S>();
     const S speed_ratio = abs(now.motion.speed_m_s) / reference_m_s;
     const S& reference_N = now.context->tire.rolling_resistance.reference_load_N;
     const S given_off = S(1.0) + self.parameter(kTireShare) * (positive_part(now.motion.load_N) / reference_N - S(1.0));

@@ -1,5 +1,6 @@
 /// Oil and bearings of the vehicle run easier as they warm.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -39,18 +40,13 @@ struct DrivelineWarming {
 
   template <class S>
   static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
-    using std::exp;
-    if (port.started_warm) {
-      states[kRise] = S(1.0);
-    } else if (!port.soaked) {
-      states[kRise] = exp(-port.rest_before_s / self.parameter(kTimeConstant));
-    }
+    states[kRise] = calc_rise_at_start(port, S(1.0), self.parameter(kTimeConstant));
   }
 
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>& now, ParasiticPort<S>& port) {
     using std::exp;
-    const S warmer_dK = now.recorded.ambient_K - quantity<S>(298.15, dimension::kTemperature);
+    const S warmer_dK = now.recorded.ambient_K - get_reference_temperature_K<S>();
     const S usual_dK = quantity<S>(30.0, dimension::kTemperature);
     const S relative = self.state(kRise) + self.parameter(kAmbientShare) * warmer_dK / usual_dK;
     port.extra_force_N += self.parameter(kForce) * exp(-self.parameter(kFall) * relative);
@@ -62,7 +58,7 @@ struct DrivelineWarming {
     using std::exp;
     using std::tanh;
     constexpr double kMost = 3.0;
-    const S speed_ratio = abs(now.motion.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S speed_ratio = abs(now.motion.speed_m_s) / get_reference_speed_m_s<S>();
     const S thicker = kMost * tanh(self.parameter(kFall) * (S(1.0) - self.state(kRise)) / kMost);
     const S friction_ratio = exp(thicker);  // to that at w = 1
     const S heating = 0.5 * speed_ratio * (S(1.0) + friction_ratio);

@@ -1,5 +1,6 @@
 /// The gas takes up the tire's heat faster or slower than assumed.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -35,7 +36,7 @@ struct GasHeatTransfer {
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     using std::abs;
     using std::pow;
-    const S speed_ratio = abs(now.motion.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S speed_ratio = abs(now.motion.speed_m_s) / get_reference_speed_m_s<S>();
     const S stirring = S(1.0) + self.parameter(kStirred) * (speed_ratio - S(1.0));
     port.link(Node::kRubber, Node::kGas) *= pow(self.parameter(kRatio), stirring);
   }

@@ -1,5 +1,6 @@
 /// The pressure sensor of the cavity reads too much or too little.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -36,7 +37,7 @@ struct PressureRecord {
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
     std::vector<S>* pressure_Pa = port.find("cavity_pressure_kPa");
     if (pressure_Pa == nullptr) return;
-    const S reference_K = quantity<S>(298.15, dimension::kTemperature);
+    const S reference_K = get_reference_temperature_K<S>();
     const std::vector<S>* liner_K = port.find("liner_temperature_degC");
     for (std::size_t row = 0; row < pressure_Pa->size(); ++row) {
       (*pressure_Pa)[row] += self.parameter(kOffset);

@@ -1,5 +1,6 @@
 /// The recorded speed is off by a scale.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -41,7 +42,7 @@ struct SpeedRecord {
   static void input(const EffectView<S>& self, const Instant<S>&, InputPort<S>& port) {
     using std::abs;
     const S& error = self.parameter(kError);
-    const S growing = self.parameter(kGrowingShare) * abs(port.speed_m_s) / quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S growing = self.parameter(kGrowingShare) * abs(port.speed_m_s) / get_reference_speed_m_s<S>();
     const S constant = S(1.0) - self.parameter(kGrowingShare);
     port.speed_m_s *= S(1.0) + error * (constant + growing);
     port.acceleration_m_s2 *= S(1.0) + error * (constant + S(2.0) * growing);

@@ -1,5 +1,6 @@
 /// Drum or roller warms under the tire.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -39,12 +40,7 @@ struct SurfaceWarming {
 
   template <class S>
   static void initial(const EffectView<S>& self, const InitialPort<S>& port, S* states) {
-    using std::exp;
-    if (port.started_warm) {
-      states[kSurfaceRise] = self.parameter(kRise);
-    } else if (!port.soaked) {
-      states[kSurfaceRise] = self.parameter(kRise) * exp(-port.rest_before_s / self.parameter(kTimeConstant));
-    }
+    states[kSurfaceRise] = calc_rise_at_start(port, self.parameter(kRise), self.parameter(kTimeConstant));
   }
 
   template <class S>
@@ -56,7 +52,7 @@ struct SurfaceWarming {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     using std::abs;
     using std::pow;
-    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S reference_m_s = get_reference_speed_m_s<S>();
     const S& reference_N = now.context->tire.rolling_resistance.reference_load_N;
     const S work_ratio = abs(now.motion.speed_m_s) / reference_m_s * (positive_part(now.motion.load_N) / reference_N);
     const bool rolls = value_of(work_ratio) > 0.0;

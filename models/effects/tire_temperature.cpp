@@ -1,5 +1,6 @@
 /// The loss follows the tire's temperature, where the baseline has one constant coefficient.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -45,7 +46,7 @@ struct TireTemperature {
 
   template <class S>
   static S calc_reference_K(const EffectView<S>& self) {
-    return quantity<S>(298.15, dimension::kTemperature) + self.parameter(kRise);  // ISO 28580: 25 degC
+    return get_reference_temperature_K<S>() + self.parameter(kRise);  // ISO 28580: 25 degC
   }
 
   template <class S>
@@ -64,7 +65,7 @@ struct TireTemperature {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     using std::abs;
     const TireParameters<S>& tire = now.context->tire;
-    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S reference_m_s = get_reference_speed_m_s<S>();
     const S standing_m_s = tire.thermal.z_W_per_K / tire.thermal.f_W_s_per_m_K;
     const S speed_m_s = abs(now.motion.speed_m_s);
     const S heat = now.loss.factor * (speed_m_s / reference_m_s) *

@@ -1,5 +1,6 @@
 /// The turning tire stirs the air.
 #include "models/effect.h"
+#include "models/reference_conditions.h"
 
 namespace rollrig::models {
 namespace {
@@ -32,7 +33,7 @@ struct Windage {
   static void loss(const EffectView<S>& self, const Instant<S>& now, LossPort<S>& port) {
     using std::abs;
     using std::pow;
-    const S reference_m_s = quantity<S>(80.0 / 3.6, dimension::kSpeed);
+    const S reference_m_s = get_reference_speed_m_s<S>();
     const S speed_ratio = abs(now.motion.speed_m_s) / reference_m_s;
     if (value_of(speed_ratio) <= 0.0 || value_of(now.motion.load_N) <= 0.0) return;  // lifted: nothing turns it
     port.add_force(self.parameter(kForce) * pow(speed_ratio, self.parameter(kSpeedPower)), S(0.0));

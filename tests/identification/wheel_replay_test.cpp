@@ -1,6 +1,10 @@
 // Runs of a vehicle simulated again from recorded inputs: on a dynamometer and on the road.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "identification/wheel_replay.h"
 #include "models/vehicle.h"
@@ -108,6 +112,45 @@ TEST_CASE("drive and brake force cost slip, by their square, and no more", "[fas
   }
 }
 
+TEST_CASE("no effect makes a replay unstable, wherever in its ranges a fit looks", "[fast]") {
+  MeasurementSet set = tests::make_dyno_set({}, 1);
+  MeasuredRun run = thin_out(set.runs.front(), 2);
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  std::vector<double>& force_N = run.columns.at("longitudinal_force_N");
+  for (std::size_t row = 0; row + 1 < force_N.size(); ++row) {
+    force_N[row] = 450.0 * (speed_m_s[row + 1] - speed_m_s[row]) / (run.time_s[row + 1] - run.time_s[row]);
+    if (row % 50 < 4) force_N[row] = -3000.0;  // hard braking
+  }
+  std::mt19937_64 generator(1);
+  std::uniform_real_distribution<double> within(-3.0, 3.0);  // prior units
+  for (const models::Effect* effect : models::all_effects()) {
+    if (!models::acts_in(effect->info, models::RigKind::kDyno, models::Baseline::kCombined)) continue;
+    for (int draw = 0; draw < 25; ++draw) {
+      std::vector<double> values;
+      for (const models::EffectParameter& parameter : effect->info.parameters) {
+        const models::Prior& prior = parameter.prior;
+        const bool is_log = prior.scale == models::Prior::Scale::kLog;
+        const double low = is_log ? std::log(prior.low) : prior.low;
+        const double high = is_log ? std::log(prior.high) : prior.high;
+        const double drawn = 0.5 * (low + high) + 0.5 * (high - low) * within(generator);
+        const double value = is_log ? std::exp(drawn) : drawn;
+        values.push_back(std::clamp(value, parameter.range.lower, parameter.range.upper));
+      }
+      INFO(effect->info.id << " at " << fmt::format("{}", fmt::join(values, ", ")));
+      const sim::Recording<double> replayed = replay(set, run, {tests::make_active(*effect, values)});
+      const auto largest = [&](const char* channel) {
+        double most = 0.0;
+        for (const double value : replayed.channel(channel))
+          most = std::isfinite(value) ? std::max(most, std::abs(value)) : 1e99;
+        return most;
+      };
+      CHECK(largest("loss_force_N") < 5000.0);
+      CHECK(largest("liner_temperature_degC") < 1000.0);
+      CHECK(largest("cavity_pressure_kPa") < 3e6);
+    }
+  }
+}
+
 TEST_CASE("what is recorded every other second gives nearly the same", "[fast]") {
   const MeasurementSet set = tests::make_dyno_set({}, 1);
   const MeasuredRun thin = thin_out(set.runs.front(), 2);
@@ -151,13 +194,13 @@ TEST_CASE("derivatives of a run agree with differences", "[fast]") {
 namespace {
 
 /// A run on the road at one speed and slope.
-MeasuredRun steady_run(double km_h, double slope, double acceleration_m_s2 = 0.0) {
+MeasuredRun steady_run(double km_h, double slope, double acceleration_m_s2 = 0.0, int seconds = 60) {
   MeasuredRun run;
   run.id = "steady";
   run.initial_tire_temperature_K = 293.15;
   run.cold_pressure_Pa = 250e3;
   double way_m = 0.0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < seconds; ++i) {
     const double speed_m_s = km_h / 3.6 + acceleration_m_s2 * i;
     run.time_s.push_back(i);
     run.columns["speed_km_h"].push_back(speed_m_s);
@@ -168,14 +211,15 @@ MeasuredRun steady_run(double km_h, double slope, double acceleration_m_s2 = 0.0
   return run;
 }
 
-double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::vector<ActiveEffect>& effects = {}) {
+double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::vector<ActiveEffect>& effects = {},
+                  std::size_t row = 30) {
   models::Context<double> context;
   context.rig_kind = models::RigKind::kFlat;
   context.baseline = set.baseline;
   context.vehicle = set.vehicle->body;
   context.tire = set.tire.parameters_with_class_values(5000.0, 250e3);
   models::Corner<double> corner(context, effects);
-  return identification::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N")[30];
+  return identification::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N")[row];
 }
 
 }  // namespace
@@ -191,6 +235,17 @@ TEST_CASE("on the road the traction force is the sum of its four parts", "[fast]
   CHECK(traction_N(set, steady_run(90.0, 0.02)) - level_N == Approx(0.02 * weight_N).epsilon(1e-3));
   const double faster_N = traction_N(set, steady_run(90.0 - 3.6 * 15.0, 0.0, 0.5));
   CHECK(faster_N - level_N == Approx(0.5 * (body.mass_kg + body.rotating_mass_kg)).epsilon(1e-3));
+}
+
+TEST_CASE("a drive right after another starts as warm as steady driving makes the tire", "[fast]") {
+  const MeasurementSet set = tests::make_road_set({}, 1, models::Baseline::kCombined);
+  MeasuredRun run = steady_run(80.0, 0.0, 0.0, 7200);
+  const double cold_N = traction_N(set, run);
+  const double steady_N = traction_N(set, run, {}, 7190);
+  run.started_warm = true;
+  const double warm_N = traction_N(set, run);
+  CHECK(cold_N > 1.05 * steady_N);
+  CHECK(std::abs(warm_N - steady_N) < 0.1 * (cold_N - steady_N));
 }
 
 TEST_CASE("wind, slope and density act as what they are", "[fast]") {
