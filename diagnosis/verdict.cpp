@@ -58,7 +58,8 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
 }
 
 /// Whether the size that each run by itself asks for is one: chi2 of the runs' shifts, in prior units, about their
-/// mean. A run's shift is judged by its own residual along the size's derivative, everything else of the fit held.
+/// mean. A run's shift is judged by its own residual along the size's derivative, everything else of the fit held,
+/// where it alone says more than the prior and knows the size to within `allowed_u`.
 bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, const Contender& contender,
                           std::size_t size_column, double allowed_u) {
   constexpr double kChance = 1e-3;
@@ -84,7 +85,8 @@ bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, co
       along += d.dot(residual.segment(at(series.first_residual), at(series.size())));
       square += d.squaredNorm();
     }
-    if (!(square > 1.0)) continue;  // the run alone says less than the prior
+    const bool is_witness = square > 1.0 && square > 1.0 / (allowed_u * allowed_u);  // no vaguer than what is allowed
+    if (!is_witness) continue;
     shifts.push_back(-along / square);
     weights.push_back(1.0 / (1.0 / square + allowed_u * allowed_u));
   }

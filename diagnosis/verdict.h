@@ -24,7 +24,7 @@ double expected_log_bayes_factor(const Remainder& remainder, const Contender& a,
 /// (the same prediction, but with parameters that are most unusual), are not listed beside it.
 /// The first cause is held adequate unless
 /// - a free remainder on top of it is likelier than it alone,
-/// - its size differs from run to run, by more than noise and 30 % of it explain (1 in 1000),
+/// - its size differs from run to run, by more than noise and 30 % of it explain, among runs that know it so well (1 in 1000),
 /// - its size or a shape lies more than 3 standard deviations out in its prior.
 std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                const Remainder& remainder, const Race& race);

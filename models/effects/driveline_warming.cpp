@@ -14,15 +14,12 @@ struct DrivelineWarming {
     info.id = "driveline_warming";
     info.summary = "Cold oil and bearings of the vehicle cost a force that falls as they warm; force of one wheel";
     info.equation =
-        "F_par <- F_par + F_c exp(-k (w + a (T_amb - T_0)/D)), tau dw/dt = (v/v_ref) (1 + exp(k (1 - w)))/2 - w; w "
-        "rise "
-        "of the oil, relative to that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
+        "F_par <- F_par + F_c exp(-k (w + a (T_amb - T_0)/D)), tau dw/dt = (v/v_ref) exp(k (1 - w)) - w; w rise of the "
+        "oil, relative to that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
     info.source =
         "viscosity of oil falls exponentially with temperature (Reynolds); 3 to 25 N, 15 to 60 min: effects.md. "
-        "Assumed: k; half of the heat by the friction that falls, half by forces that do not; its exponent in the "
-        "heating levels off at 3; D; a, between 0 (warmed "
-        "to a temperature that the air does not "
-        "matter to) and 1. Not soaked: warm before the rest";
+        "Assumed: k; heating by the friction itself, whose exponent levels off at 3 there; D; a, between 0 (warmed to a "
+        "temperature that the air does not matter to) and 1. Not soaked: warm before the rest";
     info.parameters = {
         {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold at 25 degC", 0.0},
         {"time_constant_min", between(0.5, 600.0), {15.0, 60.0, Prior::Scale::kLog}, "tau, of the oil's warm-up"},
@@ -61,8 +58,7 @@ struct DrivelineWarming {
     const S speed_ratio = abs(now.motion.speed_m_s) / get_reference_speed_m_s<S>();
     const S thicker = kMost * tanh(self.parameter(kFall) * (S(1.0) - self.state(kRise)) / kMost);
     const S friction_ratio = exp(thicker);  // to that at w = 1
-    const S heating = 0.5 * speed_ratio * (S(1.0) + friction_ratio);
-    rates[kRise] = (heating - self.state(kRise)) / self.parameter(kTimeConstant);
+    rates[kRise] = (speed_ratio * friction_ratio - self.state(kRise)) / self.parameter(kTimeConstant);
   }
 };
 
