@@ -24,7 +24,7 @@ struct DrivelineWarming {
         {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold at 25 degC", 0.0},
         {"time_constant_min", between(0.5, 600.0), {15.0, 60.0, Prior::Scale::kLog}, "tau, of the oil's warm-up"},
         {"fall", between(0.0, 10.0), {0.7, 2.5, Prior::Scale::kLog}, "k, exponent of the fall by w = 1"},
-        {"ambient_share", between(-1.0, 3.0), {0.0, 0.4}, "a, of the air's temperature that the oil takes on"}};
+        {"ambient_share", between(-1.0, 3.0), {0.0, 0.2}, "a, of the air's temperature that the oil takes on"}};
     info.states = {{"oil_rise", 1.0, "w, rise of the oil's temperature over ambient, relative"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
     info.visible_in = {"loss_force_N", "traction_force_N"};

@@ -6,7 +6,7 @@ namespace rollrig::models {
 namespace {
 
 struct TireTemperature {
-  enum Parameter { kFall, kWarmUp, kRise };
+  enum Parameter { kFall, kWarmUp, kRise, kReferenceShift };
   enum State { kTemperature };
 
   static EffectInfo info() {
@@ -16,13 +16,14 @@ struct TireTemperature {
         "The tire's loss falls as the tire warms: more after a cold start, in cold air and at low speed than one "
         "constant coefficient says";
     info.equation =
-        "F_rr <- F_rr e, e = exp(-B (T - T_r)), T_r = 25 degC + D; tau dT/dt = D q - g (T - T_amb), "
+        "F_rr <- F_rr e, e = exp(-B (T - T_r)), T_r = 25 degC + D + d; tau dT/dt = D q - g (T - T_amb), "
         "q = L v Fz/(v_r Fz_ref), L factor of all effects on the loss, e among them; g = (v_0 + v)/(v_0 + v_r); v_r = "
         "80 km/h, v_0 = z/f";
     info.source =
         "source (3.4), (3.8) to (3.14), with the heat balance in units of that at 80 km/h, 25 degC and the reference "
         "load, where the coefficient of ISO 28580 holds; B 0.008 to 0.03 /K, warm-up 5 to 30 min: effects.md. "
-        "Assumed: D; z/f of the tire's file or its class. Right after another run the tire begins D above its start";
+        "Assumed: D; d, since a coefficient off a label may be of another tire's test; z/f of the tire's file or its "
+        "class. Right after another run the tire begins D above its start";
     info.parameters = {
         {"fall_per_K",
          between(-0.1, 0.2),
@@ -33,7 +34,11 @@ struct TireTemperature {
         {"rise_dK",
          between(1.0, 150.0),
          {15.0, 40.0, Prior::Scale::kLog},
-         "D, over the air in steady driving at 80 km/h with the loss of 25 degC"}};
+         "D, over the air in steady driving at 80 km/h with the loss of 25 degC"},
+        {"reference_shift_dK",
+         between(-60.0, 60.0),
+         {-8.0, 8.0},
+         "d, at which the coefficient holds, over that of 25 degC"}};
     info.states = {{"tire_temperature_degC", 10.0, "T, that the loss follows"}};
     info.only_against = Baseline::kConstantRrc;
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
@@ -46,7 +51,8 @@ struct TireTemperature {
 
   template <class S>
   static S calc_reference_K(const EffectView<S>& self) {
-    return get_reference_temperature_K<S>() + self.parameter(kRise);  // ISO 28580: 25 degC
+    return get_reference_temperature_K<S>() + self.parameter(kRise) +
+           self.parameter(kReferenceShift);  // ISO 28580: 25 degC
   }
 
   template <class S>
