@@ -36,7 +36,10 @@ std::string join_or(const std::vector<std::string>& words, const char* none) {
 
 std::string list_kinds(const std::vector<models::RigKind>& kinds) {
   std::vector<std::string> names;
-  for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
+  // As sets call their kinds: what rigs call flat is the road.
+  for (const models::RigKind kind : kinds) {
+    names.emplace_back(kind == models::RigKind::kFlat ? "road" : models::name_of(kind));
+  }
   return join_or(names, "none");
 }
 

@@ -106,10 +106,12 @@ std::string describe_run(const NextTest& test, std::size_t index) {
   const double ambient_degC = run.columns.at("ambient_degC").front() - kZeroCelsius_K;
   std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
                                  (run.time_s.back() - run.time_s.front()) / 60.0);
-  text += fmt::format("     {} {:.1f} degC, {:.1f} kPa set at that temperature\n",
-                      test.soaked ? "soak for 3 h at" : "any tire temperature, the first stage warms it; air",
+  const std::vector<Stage> stages = find_stages(run);
+  const bool is_warmed = !stages.empty() && stages.front().speed_m_s > 0.0;
+  const char* any_start = is_warmed ? "warm or cold, the first stage warms the tire; air" : "warm or cold; air";
+  text += fmt::format("     {} {:.1f} degC, {:.1f} kPa cold\n", test.soaked ? "soak for 3 h at" : any_start,
                       ambient_degC, run.cold_pressure_Pa / 1e3);
-  for (const Stage& stage : find_stages(run)) text += describe_stage(stage);
+  for (const Stage& stage : stages) text += describe_stage(stage);
   return text;
 }
 
