@@ -193,7 +193,7 @@ RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapp
 
 void read_tire_and_machine(TableReader& reader, const std::string& folder, Mapping& mapping) {
   scenarios::MeasurementSet& set = mapping.set;
-  const std::string tire = scenarios::find_asset_from(folder, "tires", reader.text("tire"));
+  const std::string tire = scenarios::find_asset_of(reader, "tire", folder, "tires", reader.text("tire"));
   set.tire = models::read_tire(read_config(tire));
   set.tire.content = read_text_file(tire);
   mapping.machine_content = scenarios::read_machine(reader, folder, set);
@@ -202,7 +202,8 @@ void read_tire_and_machine(TableReader& reader, const std::string& folder, Mappi
 void read_sensor_tables(TableReader& reader, const std::string& folder, scenarios::MeasurementSet& set) {
   const ConfigValue* value = reader.source().find("sensors");
   if (value != nullptr && value->as_table() == nullptr) {
-    set.sensors = scenarios::read_sensor_asset(scenarios::find_asset_from(folder, "sensors", reader.text("sensors")));
+    set.sensors = scenarios::read_sensor_asset(
+        scenarios::find_asset_of(reader, "sensors", folder, "sensors", reader.text("sensors")));
     return;
   }
   const ConfigTable* table = reader.table("sensors");

@@ -55,4 +55,21 @@ std::string find_asset(const std::string& folder, const std::string& name_or_pat
   return find_asset_from("", folder, name_or_path);
 }
 
+std::string find_asset_of(const TableReader& reader, const std::string& key, const std::string& base_folder,
+                          const std::string& folder, const std::string& name_or_path) {
+  std::string path;
+  try {
+    path = find_asset_from(base_folder, folder, name_or_path);
+  } catch (const InputError& error) {
+    InputProblem at_key = reader.problem(key, error.problem().what, error.problem().allowed).problem();
+    at_key.nearest = error.problem().nearest;
+    throw InputError(at_key);
+  }
+  if (!fs::exists(path)) {
+    throw reader.problem(key, fmt::format("no such file '{}'", path),
+                         fmt::format("a name under assets/{}, or a path relative to this file", folder));
+  }
+  return path;
+}
+
 }  // namespace rollrig::scenarios

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/schema.h"
+
 namespace rollrig::scenarios {
 
 /// Folder of the assets: $ROLLRIG_ASSETS, else beside the program as installed, else that of the
@@ -17,6 +19,10 @@ std::string find_asset(const std::string& folder, const std::string& name_or_pat
 
 /// The same, with paths taken relative to `base_folder` (for names inside a file).
 std::string find_asset_from(const std::string& base_folder, const std::string& folder, const std::string& name_or_path);
+
+/// The same for what a key of a file says; the file must be there. Throws InputError that names the key's place.
+std::string find_asset_of(const TableReader& reader, const std::string& key, const std::string& base_folder,
+                          const std::string& folder, const std::string& name_or_path);
 
 /// Names under assets/<folder>, without their ending, sorted.
 std::vector<std::string> list_assets(const std::string& folder);

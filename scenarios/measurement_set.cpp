@@ -34,6 +34,9 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) 
   run.id = reader.text("id");
   if (run.id.empty()) throw reader.problem("id", "a run needs a name", "a text that is not empty");
   run.file = (fs::path(folder) / reader.text("file")).string();
+  if (!fs::exists(run.file)) {
+    throw reader.problem("file", fmt::format("no such file '{}'", run.file), "a path relative to this file");
+  }
   run.session = reader.text("session");
   run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", kTemperatureRange, ""});
   run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
@@ -148,11 +151,11 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
   const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
   if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
     set.kind = SetKind::kRoad;
-    const std::string path = find_asset_from(folder, "vehicles", reader.text("vehicle"));
+    const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
     set.vehicle = rigs::read_vehicle(read_config(path));
     return read_text_file(path);
   }
-  const std::string path = find_asset_from(folder, "rigs", reader.text("rig"));
+  const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));
   set.rig = rigs::read_rig(read_config(path));
   set.rig->content = read_text_file(path);
   if (set.rig->kind == rigs::RigKind::kFlat) {
@@ -203,7 +206,7 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   set.baseline = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined"
                      ? models::Baseline::kCombined
                      : models::Baseline::kConstantRrc;
-  const std::string tire_path = find_asset_from(base, "tires", reader.text("tire"));
+  const std::string tire_path = find_asset_of(reader, "tire", base, "tires", reader.text("tire"));
   set.tire = models::read_tire(read_config(tire_path));
   set.tire.content = read_text_file(tire_path);
   read_machine(reader, base, set);

@@ -50,7 +50,7 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
                          "no sensors, or none");
   }
   if (table != nullptr) return models::read_sensors(*reader.table("sensors"), measured_drum_channels());
-  return read_sensor_file(read_config(find_asset_from(base_folder, "sensors", name)));
+  return read_sensor_file(read_config(find_asset_of(reader, "sensors", base_folder, "sensors", name)));
 }
 
 template <class Parameters>
@@ -155,7 +155,8 @@ void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::st
     }
     return;
   }
-  const std::string path = find_asset_from(base_folder, "vehicles", reader.text_or("vehicle", "source_car"));
+  const std::string path =
+      find_asset_of(reader, "vehicle", base_folder, "vehicles", reader.text_or("vehicle", "source_car"));
   const std::string content = read_text_file(path);
   spec.vehicle = rigs::read_vehicle(read_with_overrides(path, content, find_override(overrides, "vehicle")));
   spec.vehicle->content = content;
@@ -204,11 +205,12 @@ RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folde
   const ConfigTable no_changes;
   const ConfigTable* override_table = reader.table("override");
   TableReader overrides(override_table != nullptr ? *override_table : no_changes, "[override]");
-  const std::string tire_path = find_asset_from(base_folder, "tires", reader.text("tire"));
+  const std::string tire_path = find_asset_of(reader, "tire", base_folder, "tires", reader.text("tire"));
   const std::string tire_content = read_text_file(tire_path);
   spec.tire = models::read_tire(read_with_overrides(tire_path, tire_content, find_override(overrides, "tire")));
   spec.tire.content = tire_content;
-  const std::string rig_path = find_asset_from(base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
+  const std::string rig_path =
+      find_asset_of(reader, "rig", base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
   const std::string rig_content = read_text_file(rig_path);
   spec.rig = rigs::read_rig(read_with_overrides(rig_path, rig_content, find_override(overrides, "rig")));
   spec.rig.content = rig_content;

@@ -120,3 +120,19 @@ cold_pressure_kPa = 280.0
   CHECK(set.sensors.at("cavity_pressure_kPa").noise_sd == Approx(500.0));
   CHECK(set.sensors.count("liner_temperature_degC") == 0);  // not measured
 }
+
+TEST_CASE("a file that a set names and that is not there is refused where it is named", "[fast]") {
+  for (const auto& [file, key] : {std::pair{"rig.toml", "rig"}, std::pair{"tire.toml", "tire"}}) {
+    const WrittenSet written("warm_up", {});
+    fs::remove(written.folder.file(file));
+    try {
+      scenarios::read_measurement_set(written.folder.path());
+      FAIL("read without " << file);
+    } catch (const InputError& error) {
+      CHECK(error.problem().key == key);
+      CHECK(error.problem().line > 0);
+      CHECK_THAT(error.problem().file, Catch::EndsWith("set.toml"));
+      CHECK_THAT(error.problem().what, Catch::Contains(file));
+    }
+  }
+}
