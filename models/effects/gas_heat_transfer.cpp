@@ -14,7 +14,7 @@ struct GasHeatTransfer {
     info.summary =
         "The coefficient from tire to gas is another than the tire file's, so that the pressure follows the tire's "
         "temperature sooner or later";
-    info.equation = "H <- H h^(1 - s + s |v|/v_ref), v_ref = 80 km/h";
+    info.equation = "H <- H h^(1 - s + s |v|/v_ref), not above 3 H; v_ref = 80 km/h";
     info.source =
         "1 to 8 W/K other than assumed: effects.md; as a ratio to the tire file's H, about 4 W/K, so that 1 is the "
         "baseline for every tire. Assumed: s, since a turning tire stirs its gas, so that what is off may go with "
@@ -36,9 +36,12 @@ struct GasHeatTransfer {
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     using std::abs;
     using std::pow;
+    constexpr double kMost =
+        3.0;  // 12 W/K, the most of effects.md; faster gas hardly differs from gas that follows at once
     const S speed_ratio = abs(now.motion.speed_m_s) / get_reference_speed_m_s<S>();
     const S stirring = S(1.0) + self.parameter(kStirred) * (speed_ratio - S(1.0));
-    port.link(Node::kRubber, Node::kGas) *= pow(self.parameter(kRatio), stirring);
+    const S factor = pow(self.parameter(kRatio), stirring);
+    port.link(Node::kRubber, Node::kGas) *= value_of(factor) > kMost ? S(kMost) : factor;
   }
 };
 

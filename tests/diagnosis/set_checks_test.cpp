@@ -1,6 +1,7 @@
 // Sets that cannot be what they are said to be are met before the race, and sets that can are let through.
 #include "diagnosis/set_checks.h"
 
+#include <fmt/format.h>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -112,8 +113,9 @@ TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]"
     for (int i = 0; i < kDraws; ++i) {
       tests::Campaign campaign = tests::make_wide_campaign();
       campaign.effects = {draw_effect(*effect, random)};
+      INFO(effect->info.id << " at " << fmt::format("{}", fmt::join(campaign.effects.front().parameters, ", ")));
       const SetChecks checks = check_set(tests::simulate_campaign(campaign, static_cast<std::uint64_t>(i)));
-      INFO(effect->info.id << " " << join(checks.warnings));
+      INFO(join(checks.warnings));
       CHECK_THAT(join(checks.warnings), !Contains("looks as if"));
       CHECK(checks.doubtful.empty());
       ++sets;
