@@ -363,6 +363,13 @@ TEST_CASE("a tire that follows its temperature: the coefficient holds warm at 80
     CHECK(temperatures_K[0] == Approx(298.15).margin(0.2));
     for (std::size_t i = 1; i < temperatures_K.size(); ++i) CHECK(temperatures_K[i] > temperatures_K[i - 1] + 1.0);
   }
+  SECTION("a coefficient that holds on a warmer tire is less than the loss of this one") {
+    const auto shifted = switch_on("tire_temperature", {fall_per_K, warm_up_min, rise_K, 6.0});
+    HandFedCorner<double> at(context, {shifted}, {}, 298.15 + rise_K + 6.0);
+    CHECK(at.evaluate().loss.factor == Approx(1.0));
+    HandFedCorner<double> colder(context, {shifted}, {}, 298.15 + rise_K);
+    CHECK(colder.evaluate().loss.factor == Approx(std::exp(fall_per_K * 6.0)));
+  }
   SECTION("begins at the temperature that the run gives") {
     CHECK(begin(320.0, {}).state("tire_temperature.tire_temperature_degC") == 320.0);
   }
