@@ -5,57 +5,30 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace rollrig::proof {
 namespace {
 
 using diagnosis::Verdict;
 
-/// The parameter that is the size as the generator has it (docs/blind.md, "Effects"), and what makes it that size.
-struct SizeParameter {
-  const char* name;
-  double (*to_generators)(double value, double neutral) = [](double value, double) { return value; };
-};
+using Conversion = double (*)(double value, double neutral);
 
-double add_neutral(double value, double neutral) { return value + neutral; }
-double subtract_from_neutral(double value, double neutral) { return neutral - value; }
-double invert(double value, double) { return 1.0 / value; }
-double per_10_min(double per_hour, double) { return per_hour / 6.0; }
-
-const std::map<std::string, SizeParameter>& size_parameters() {
-  static const std::map<std::string, SizeParameter> parameters{
-      {"bearing_load_friction", {"force_N"}},
-      {"brake_drag", {"force_N"}},
-      {"brake_heat", {"share_percent"}},
-      {"cavity_volume", {"contraction_percent"}},
-      {"cell_air_warming", {"rise_dK"}},
-      {"clock_shift", {"shift_s"}},
-      {"convection_law", {"exponent_deficit", subtract_from_neutral}},
-      {"curvature_exponent", {"exponent"}},
-      {"driveline_warming", {"force_N"}},
-      {"flat_spot", {"excess_percent"}},
-      {"inertia_error", {"error_percent"}},
-      {"load_cross_talk", {"angle_mrad"}},
-      {"load_exponent", {"exponent"}},
-      {"load_record", {"error_percent"}},
-      {"pressure_exponent", {"exponent_shift", add_neutral}},
-      {"pressure_record", {"offset_kPa"}},
-      {"rim_heat", {"conductance_W_per_K"}},
-      {"rubber_memory", {"excess_percent"}},
-      {"slip_loss", {"compliance_per_kN", invert}},
-      {"slow_leak", {"rate_kPa_per_h"}},
-      {"speed_record", {"error_percent"}},
-      {"standing_wave", {"force_N"}},
-      {"surface_warming", {"rise_dK"}},
-      {"tie_down_load", {"added_load_N"}},
-      {"tire_loss_in_skim", {"force_N"}},
-      {"toe_camber_drag", {"force_N"}},
-      {"torque_gain", {"gain_percent"}},
-      {"torque_zero_drift", {"drift_N_per_h", per_10_min}},
-      {"wind_and_grade", {"wind_m_s"}},
-      {"windage", {"force_N"}},
+/// What makes the generator's size of an effect's own, where they are not the same number (docs/blind.md, "Effects").
+const std::map<std::string, Conversion>& size_conversions() {
+  static const std::map<std::string, Conversion> conversions{
+      {"convection_law", [](double deficit, double neutral) { return neutral - deficit; }},
+      {"pressure_exponent", [](double shift, double neutral) { return neutral + shift; }},
+      {"slip_loss", [](double compliance, double) { return 1.0 / compliance; }},
+      {"torque_zero_drift", [](double per_hour, double) { return per_hour / 6.0; }},  // per 10 min
   };
-  return parameters;
+  return conversions;
+}
+
+/// Effects whose size means something else in the generator's law, so that nothing can be compared.
+const std::set<std::string>& sizes_apart() {
+  static const std::set<std::string> ids{"bearing_warmup", "gas_heat_transfer", "tire_temperature", "tread_liner_lag"};
+  return ids;
 }
 
 bool holds(const std::vector<std::string>& all, const std::string& one) {
@@ -129,12 +102,13 @@ std::string Case::said() const {
 std::optional<SizeCheck> Case::check_size() const {
   if (!is_single() || !has_cause() || !is_exact()) return std::nullopt;
   const TrueEffect& effect = truth.effects.front();
-  const auto known = size_parameters().find(effect.id);
-  if (known == size_parameters().end() || std::isnan(effect.size)) return std::nullopt;
-  const std::string name = effect.id + "." + known->second.name;
+  if (sizes_apart().count(effect.id) > 0 || std::isnan(effect.size)) return std::nullopt;
+  const auto known = size_conversions().find(effect.id);
+  const auto convert = [&](double value) {
+    return known == size_conversions().end() ? value : known->second(value, effect.neutral);
+  };
   for (const diagnosis::ParameterEstimate& parameter : cause().parameters) {
-    if (parameter.name != name) continue;
-    const auto convert = [&](double value) { return known->second.to_generators(value, effect.neutral); };
+    if (parameter.name.rfind(effect.id + ".", 0) != 0) continue;  // the first of an effect's parameters is its size
     const auto [low, high] = std::minmax({convert(parameter.low_95), convert(parameter.high_95)});
     const double whole = std::isfinite(effect.neutral) ? std::abs(effect.size - effect.neutral) : std::abs(effect.size);
     return SizeCheck{std::abs(convert(parameter.value) - effect.size) / whole,

@@ -38,11 +38,10 @@ double EnergyAudit::calc_closure(EnergyTerm::Ledger ledger) const {
 }
 
 void EnergyAudit::require_closed(double limit) const {
-  constexpr double kNegligible_J = 0.01;  // Assumed: twice the integrator's own tolerance (rigs/drum_channels.cpp)
   for (const auto& [ledger, name] :
        {std::pair{EnergyTerm::Ledger::kMechanical, "mechanical"}, std::pair{EnergyTerm::Ledger::kThermal, "thermal"}}) {
     const double closure = calc_closure(ledger);
-    if (closure <= limit || std::abs(find_residual_J(ledger)) <= kNegligible_J) continue;  // NaN goes on
+    if (closure <= limit) continue;  // NaN goes on
     std::string text = fmt::format("the {} energy audit does not close: {:.3g} of the motor work, allowed {:.3g}", name,
                                    closure, limit);
     for (const EnergyTerm& term : terms) {

