@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "diagnosis/black_box.h"
+#include "diagnosis/held_out.h"
 #include "diagnosis/report_unit.h"
 #include "sim/core/parallel.h"
 #include "sim/core/random.h"
@@ -89,51 +89,6 @@ Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& s
   return difference;
 }
 
-/// What a hypothesis, fitted without one run, says of every run.
-struct Prediction {
-  Eigen::VectorXd simulated;  // empty where it cannot be simulated
-  double uncertainty = 0.0;   // of the run left out: sum of the squares of its standard deviations, whitened
-};
-
-/// One step of Gauss and Newton from the fit to all runs, whose derivatives are known; the prediction is simulated.
-Prediction predict_without(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
-                           const Remainder& remainder, const Contender& contender, std::size_t held_out) {
-  RowMatrix jacobian = contender.fit.jacobian;
-  Eigen::VectorXd residuals = contender.fit.residuals;
-  remainder.whiten(contender.amplitudes, jacobian);
-  remainder.whiten(contender.amplitudes, residuals);
-  RowMatrix left_out = RowMatrix::Zero(jacobian.rows(), jacobian.cols());
-  for (const Series& series : set.series()) {
-    if (series.run != held_out) continue;
-    auto rows = jacobian.middleRows(at(series.first_residual), at(series.size()));
-    left_out.middleRows(at(series.first_residual), at(series.size())) = rows;
-    rows.setZero();
-    residuals.segment(at(series.first_residual), at(series.size())).setZero();
-  }
-  const Eigen::Index n = jacobian.cols();
-  const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
-  Eigen::VectorXd unknowns =
-      contender.fit.unknowns - curvature.solve(jacobian.transpose() * residuals + contender.fit.unknowns);
-  const Model model(set, base, contender.fit.hypothesis);
-  for (std::size_t i = 0; i < model.own_count(); ++i) {
-    const PriorBounds bounds = model.own_bounds(i);
-    unknowns[at(i)] = std::clamp(unknowns[at(i)], bounds.lower, bounds.upper);
-  }
-  for (std::size_t i = 0; i < base.size(); ++i) {
-    // One step from a set that is not of this tire may lead out of physics.
-    constexpr double kMostRelative = 0.9;
-    const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
-    double& u = unknowns[at(model.own_count() + i)];
-    if (most > 0.0) u = std::clamp(u, -most, most);
-  }
-  Prediction prediction;
-  const auto parameters = at(model.parameter_count());  // offsets are taken off anew
-  left_out.rightCols(n - parameters).setZero();
-  prediction.uncertainty = curvature.matrixL().solve(Eigen::MatrixXd(left_out.transpose())).squaredNorm();
-  if (!model.simulate(unknowns, 1, prediction.simulated, nullptr)) prediction.simulated.resize(0);
-  return prediction;
-}
-
 /// What the cause changes in a run, whitened, in squares.
 double measure_change(const PreparedSet& set, const Remainder& remainder, const Contender& null, const Contender& cause,
                       std::size_t run) {
@@ -214,7 +169,7 @@ Shrinkage resample(const Measure& before, const Measure& after) {
 }  // namespace
 
 Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParameter>& base, const Remainder& remainder,
-             const Contender& null, const Contender* cause, int threads) {
+             const Contender& null, const Contender* cause, int threads, const BlackBox& black_box) {
   const std::size_t runs = set.runs().size();
   const bool can_leave_out = runs > 1;
   std::vector<Prediction> before(runs);
@@ -241,12 +196,11 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
     add_run(set, run, difference, measured_before);
     add_run(set, run, with_cause, measured_after);
     if (!can_leave_out) continue;
-    add_run(set, run, subtract_black_box(set, difference, run), measured_black_box);
+    add_run(set, run, black_box(set, difference, run), measured_black_box);
     gap.held_out.push_back(set.runs()[run].measured.id);
     if (cause == nullptr) continue;
-    constexpr double kCertain = 0.25;  // Assumed: of what the cause changes, in squares
     const double change = measure_change(set, remainder, null, *cause, run);
-    if (std::max(before[run].uncertainty, after[run].uncertainty) > kCertain * change) continue;
+    if (std::max(before[run].uncertainty, after[run].uncertainty) > thresholds::kCertainHeldOut * change) continue;
     add_run(set, run, difference, certain_before);
     add_run(set, run, with_cause, certain_after);
   }

@@ -1,10 +1,17 @@
 #pragma once
 /// How large the gap is, and how far it shrinks on runs that the fit did not see.
 
+#include <functional>
+
+#include "diagnosis/black_box.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/race.h"
 
 namespace rollrig::diagnosis {
+
+/// As subtract_black_box().
+using BlackBox =
+    std::function<Eigen::VectorXd(const PreparedSet& set, const Eigen::VectorXd& difference, std::size_t run)>;
 
 /// The gap before and after `cause` is added (null: no cause; then nothing shrinks).
 ///
@@ -17,6 +24,7 @@ namespace rollrig::diagnosis {
 ///           runs
 /// Checked   tests/diagnosis/gap_test.cpp
 Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParameter>& base, const Remainder& remainder,
-             const Contender& null, const Contender* cause, int threads);
+             const Contender& null, const Contender* cause, int threads,
+             const BlackBox& black_box = subtract_black_box);
 
 }  // namespace rollrig::diagnosis

@@ -224,7 +224,7 @@ namespace {
 /// Whether two predictions overlap as little as two of equal covariance whose expected log Bayes factor is 3: their
 /// distance of Bhattacharyya is a quarter of it. Unlike the divergence it does not depend on which is true.
 bool are_told_apart(const PredictedOutcome& a, const PredictedOutcome& b) {
-  return 4.0 * calc_overlap_distance_nats(a, b) >= kToldApart_nats;
+  return 4.0 * calc_overlap_distance_nats(a, b) >= thresholds::kToldApart_nats;
 }
 
 /// What a test splits.

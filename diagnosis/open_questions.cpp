@@ -120,7 +120,7 @@ std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
   std::vector<OpenHypothesis> open{describe(remainder, lead, most)};
   std::vector<const Contender*> runners_up;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
-    const bool told_apart = expected_log_bayes_factor(remainder, lead, *ranked[i]) >= kToldApart_nats;
+    const bool told_apart = expected_log_bayes_factor(remainder, lead, *ranked[i]) >= thresholds::kToldApart_nats;
     if (is_baseline || told_apart || is_lead_and_a_trifle(lead, *ranked[i])) {
       if (probability_of(*ranked[i]) >= kRunnerUp) runners_up.push_back(ranked[i]);
     } else if (open.size() < kMost) {

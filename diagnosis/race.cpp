@@ -40,11 +40,23 @@ Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& diff
   return sums;
 }
 
+/// Of what a hypothesis changes in a channel, as far as the loosest of its laws goes.
+double find_law_share(const ModelError& error, const Hypothesis& hypothesis) {
+  double share = error.law_share;
+  for (const LooseLaw& loose : thresholds::kLooseLaws) {
+    for (const ActingEffect& on : hypothesis.effects) {
+      if (on.effect->info.id == loose.effect) share = std::max(share, loose.law_share);
+    }
+  }
+  return share;
+}
+
 Amplitudes expect_model_error(const ModelError& error, const Contender& contender) {
+  const double law_share = find_law_share(error, contender.fit.hypothesis);
   Amplitudes expected;
   for (std::size_t c = 0; c < contender.signature.size(); ++c) {
-    expected.push_back(std::hypot(error.baseline_floors, error.law_share * contender.signature[c],
-                                  error.whole_share * contender.whole[c]));
+    expected.push_back(
+        std::hypot(error.baseline_floors, law_share * contender.signature[c], error.whole_share * contender.whole[c]));
   }
   return expected;
 }
@@ -147,10 +159,10 @@ Contender Referee::fit_once(const Model& model, const Contender& null, const Amp
 /// Fits a hypothesis from `start`, under model error in proportion to what it changes against `null`: twice, since that
 /// change is known after the first fit only.
 Contender Referee::fit_contender(const Model& model, const Contender& null, const Eigen::VectorXd& start) const {
-  constexpr int kMost = 30;
-  const Contender first = fit_once(model, null, null.amplitudes, start, kMost);
+  const Contender first = fit_once(model, null, null.amplitudes, start, thresholds::kMostSteps);
   if (!std::isfinite(first.fit.cost)) return first;
-  return fit_once(model, null, expect_model_error(settings_.model_error, first), first.fit.unknowns, kMost);
+  return fit_once(model, null, expect_model_error(settings_.model_error, first), first.fit.unknowns,
+                  thresholds::kMostSteps);
 }
 
 Contender Referee::fit_null() const {
@@ -167,28 +179,26 @@ Contender Referee::fit_null() const {
   return null;
 }
 
-/// Screened effects worth a refit: within 6 nats of the best, and the best six at least.
+/// Screened effects worth a refit: within 6 nats of the best, the best six at least, and those of which screening could
+/// not say anything.
 std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, double nats) {
   std::stable_sort(screened.begin(), screened.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
   std::vector<Screened> chosen;
   for (const Screened& one : screened) {
-    if (chosen.size() < least || one.score > screened.front().score - nats) chosen.push_back(one);
+    const bool is_near = chosen.size() < least || one.score > screened.front().score - nats;
+    if (is_near || !one.was_simulated) chosen.push_back(one);
   }
   return chosen;
 }
 
 std::vector<Contender> Referee::refit_all(const Contender& from, const std::vector<Screened>& chosen,
                                           const Contender& null) const {
-  constexpr int kFirstSteps = 4;
-  constexpr double kFaint_nats = 2.0;       // a screening score that cannot make a cause: one step will do
-  constexpr double kWorthwhile_nats = 1.0;  // over the baseline, below which a better fit decides nothing
-  constexpr double kHopeless_nats = 20.0;   // Assumed: more than the steps that are left could gain ...
-  constexpr double kHopelessShare = 0.25;   // ... and so much of what the best gains
   std::vector<Contender> contenders(chosen.size());
   const auto model_of = [&](std::size_t i) { return Model(set_, base_, from.fit.hypothesis.with(chosen[i].effect)); };
   parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
     const Model model = model_of(i);
-    const int steps = chosen[i].score < kFaint_nats ? 1 : kFirstSteps;
+    const bool is_faint = chosen[i].was_simulated && chosen[i].score < thresholds::kFaint_nats;
+    const int steps = is_faint ? 1 : thresholds::kFirstSteps;
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
     contenders[i] = fit_once(model, null, from.amplitudes, start, steps);
     if (std::isfinite(contenders[i].fit.cost)) return;
@@ -199,9 +209,10 @@ std::vector<Contender> Referee::refit_all(const Contender& from, const std::vect
   double best = std::max(from.log_evidence, from.log_remainder);
   for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
   parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
-    const bool hopeless = std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
-                          best - std::max(kHopeless_nats, kHopelessShare * (best - from.log_evidence));
-    const bool faint = contenders[i].log_evidence < null.log_evidence + kWorthwhile_nats;
+    const bool hopeless =
+        std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
+        best - std::max(thresholds::kHopeless_nats, thresholds::kHopelessShare * (best - from.log_evidence));
+    const bool faint = contenders[i].log_evidence < null.log_evidence + thresholds::kWorthFinishing_nats;
     if (hopeless || faint) return;
     contenders[i] = fit_contender(model_of(i), null, contenders[i].fit.unknowns);
   });
@@ -268,7 +279,6 @@ void assign_probabilities(const RaceSettings& settings, Race& race) {
 /// On top of the best `firsts` hypotheses of so many effects the `seconds` effects that gain most: those whose score
 /// could make up for the smaller prior.
 void add_on_top(const Referee& referee, std::size_t effects, std::size_t firsts, std::size_t seconds, Race& race) {
-  constexpr double kWorthwhile_nats = 3.0;
   std::vector<Contender> lower;
   for (const Contender& contender : race.contenders) {
     if (contender.fit.hypothesis.effects.size() == effects && lower.size() < firsts) lower.push_back(contender);
@@ -281,7 +291,7 @@ void add_on_top(const Referee& referee, std::size_t effects, std::size_t firsts,
     }
     std::vector<Screened> screened = referee.screen_on_top_of(first, others);
     screened.erase(std::remove_if(screened.begin(), screened.end(),
-                                  [](const Screened& one) { return one.score < kWorthwhile_nats; }),
+                                  [](const Screened& one) { return one.score < thresholds::kWorthAdding_nats; }),
                    screened.end());
     if (screened.empty()) continue;
     add_contenders(referee.refit_all(first, choose(screened, seconds, 0.0), race.null), race.contenders);
@@ -310,16 +320,17 @@ Race run_race(const PreparedSet& set, const std::vector<identification::FreePara
   settings.progress(0.1, "screening");
   race.screened = referee.screen_on_top_of(race.null, settings.effects);
   settings.progress(0.2, "refit of effects");
-  constexpr double kNats = 6.0;
-  constexpr std::size_t kLeast = 6;
-  add_contenders(referee.refit_all(race.null, choose(race.screened, kLeast, kNats), race.null), race.contenders);
+  add_contenders(
+      referee.refit_all(race.null, choose(race.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats),
+                        race.null),
+      race.contenders);
   assign_probabilities(settings, race);
   settings.progress(0.6, "pairs");
-  add_on_top(referee, 1, 2, 3, race);
+  add_on_top(referee, 1, thresholds::kFirstsOfPairs, thresholds::kSecondsOfPairs, race);
   assign_probabilities(settings, race);
   if (asks_for(race, 2)) {
     settings.progress(0.9, "triples");
-    add_on_top(referee, 2, 1, 2, race);
+    add_on_top(referee, 2, thresholds::kFirstsOfTriples, thresholds::kSecondsOfTriples, race);
     assign_probabilities(settings, race);
   }
   return race;

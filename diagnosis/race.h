@@ -6,28 +6,9 @@
 #include <vector>
 
 #include "diagnosis/screen.h"
+#include "diagnosis/thresholds.h"
 
 namespace rollrig::diagnosis {
-
-/// Probabilities before the measurement. Source: design of the method; the rest of a kind is shared evenly.
-struct RacePriors {
-  double none = 0.50;
-  double singles = 0.35;
-  double pairs = 0.05;
-  double triples = 0.01;
-  double unknown = 0.03;  // on top of the baseline
-  double look_alike =
-      0.06;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
-};
-
-/// Sizes of model error, in noise floors and relative.
-struct ModelError {
-  double baseline_floors = 0.1;   // Assumed: of the baseline's equations, per channel
-  double law_share = 0.05;        // Assumed: of what an effect changes in a channel that nothing else can change
-  double whole_share = 0.015;     // Assumed: of all that it changes there, base parameters held
-  double size_share = 0.1;        // Assumed: of an effect's size, by which its law may be wrong everywhere alike
-  double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
-};
 
 /// One hypothesis in the race.
 struct Contender {

@@ -78,6 +78,7 @@ Fit refit(const Model& model, const Remainder& remainder, const Amplitudes& ampl
   options.max_num_iterations = most_iterations;
   options.function_tolerance = 1e-6;  // of a chi2 of thousands: far below what decides between hypotheses
   options.parameter_tolerance = 1e-4;
+  options.max_num_consecutive_invalid_steps = 20;  // each twice, four, eight times ... shorter than the one before
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   FLAGS_minloglevel = google::GLOG_FATAL;  // a start that cannot be simulated is an answer, not a mistake

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.h"
 #include "identification/sample_selection.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr double kScales_s[] = {120.0, 480.0};  // Assumed: shorter is noise, longer is a phase
 constexpr double kLevels = 4.0;
 
 /// Triangles of that width, spread evenly over the series' time.
@@ -41,7 +41,7 @@ void add_phases(const Series& series, Eigen::MatrixXd& basis) {
 Eigen::MatrixXd make_time_basis(const Series& series) {
   Eigen::MatrixXd columns(at(series.size()), 1);
   columns.setOnes();
-  for (const double scale_s : kScales_s) add_hats(series, scale_s, columns);
+  for (const double scale_s : thresholds::kRemainderScales_s) add_hats(series, scale_s, columns);
   add_phases(series, columns);
   return columns / std::sqrt(kLevels);
 }

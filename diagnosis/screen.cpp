@@ -77,9 +77,11 @@ std::vector<Screened> screen(const Model& null, const Remainder& remainder, cons
       const ActingEffect acting{&effect, size.sign};
       const Model larger(null.set(), base, null.hypothesis().with(acting), null.held_out());
       std::vector<Screened> of_shapes;
+      bool was_simulated = false;
       for (const Eigen::VectorXd& own : find_shape_trials(effect, size.u)) {
         Eigen::VectorXd simulated;
         if (!larger.simulate(insert_own(larger, fit, effect, own), 1, simulated, nullptr, true)) continue;
+        was_simulated = true;
         const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
         if (!(variance > 0.0)) continue;
         Screened one{acting, own, along > 0.0 ? 0.5 * along * along / variance : 0.0, std::sqrt(variance)};
@@ -88,7 +90,11 @@ std::vector<Screened> screen(const Model& null, const Remainder& remainder, cons
       }
       const auto best = std::max_element(of_shapes.begin(), of_shapes.end(),
                                          [](const auto& a, const auto& b) { return a.score < b.score; });
-      if (best != of_shapes.end()) found[e].push_back(*best);
+      if (best != of_shapes.end()) {
+        found[e].push_back(*best);
+      } else if (!was_simulated) {
+        found[e].push_back({acting, find_shape_trials(effect, size.u).front(), 0.0, 0.0, false});
+      }
     }
   });
   std::vector<Screened> all;

@@ -62,7 +62,6 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
 /// where it alone says more than the prior and knows the size to within `allowed_u`.
 bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, const Contender& contender,
                           std::size_t size_column, double allowed_u) {
-  constexpr double kChance = 1e-3;
   RowMatrix jacobian = contender.fit.jacobian;
   Eigen::VectorXd residual = contender.fit.residuals;
   remainder.whiten(contender.amplitudes, jacobian);
@@ -100,13 +99,11 @@ bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, co
   double chi2 = 0.0;
   for (std::size_t i = 0; i < shifts.size(); ++i) chi2 += weights[i] * std::pow(shifts[i] - sum / weight, 2);
   const boost::math::chi_squared distribution(static_cast<double>(shifts.size() - 1));
-  return boost::math::cdf(boost::math::complement(distribution, chi2)) < kChance;
+  return boost::math::cdf(boost::math::complement(distribution, chi2)) < thresholds::kRunSizeChance;
 }
 
 std::vector<std::string> find_objections(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                          const Remainder& remainder, const Contender& contender) {
-  constexpr double kTail = 3.0;
-  constexpr double kSizeShare = 0.3;  // Assumed: what a law's idealisation may do to the size from run to run
   std::vector<std::string> objections;
   if (contender.remainder_probability > contender.probability) {
     constexpr double kBeyondDoubt_nats = 50.0;
@@ -120,13 +117,13 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
     const Model::OwnParameter& own = model.own_parameters()[i];
     const std::string& id = contender.fit.hypothesis.effects[own.effect].effect->info.id;
     const double u = contender.fit.unknowns[at(i)];
-    if (std::abs(u) > kTail) {
+    if (std::abs(u) > thresholds::kTail_sd) {
       objections.push_back(fmt::format(
           "{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", model.declaration(own).key,
           id, model.own_value(i, u).value_SI / unit_of_key(model.declaration(own).key).factor, std::abs(u)));
     }
-    if (own.index == 0 &&
-        differs_between_runs(set, remainder, contender, i, kSizeShare * distance_from_off(model, contender, i))) {
+    if (own.index == 0 && differs_between_runs(set, remainder, contender, i,
+                                               thresholds::kRunSizeShare * distance_from_off(model, contender, i))) {
       objections.push_back(fmt::format("its size ({}) differs from run to run", model.declaration(own).key));
     }
   }
@@ -137,7 +134,7 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
 /// that are most unusual, is told from it already.
 bool is_open_beside(const Contender& lead, const Contender& other) {
   const auto posterior = [](const Contender& one) { return one.probability + one.remainder_probability; };
-  return posterior(other) >= std::exp(-kToldApart_nats) * posterior(lead);
+  return posterior(other) >= std::exp(-thresholds::kToldApart_nats) * posterior(lead);
 }
 
 }  // namespace
@@ -146,6 +143,24 @@ double expected_log_bayes_factor(const Remainder& remainder, const Contender& a,
   Eigen::VectorXd difference = a.fit.residuals - b.fit.residuals;
   remainder.whiten(a.amplitudes, difference);
   return 0.5 * difference.squaredNorm();
+}
+
+std::vector<std::string> find_named_beside(const std::vector<std::string>& lead, double lead_weight,
+                                           std::map<std::string, double> beside) {
+  for (const std::string& id : lead) beside.erase(id);
+  double total = lead_weight;
+  for (const auto& [id, weight] : beside) total += weight;
+  double left_out = 0.0;
+  while (lead.size() + beside.size() > thresholds::kLongSet) {
+    const auto least = std::min_element(beside.begin(), beside.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (beside.empty() || left_out + least->second > thresholds::kLeftOutOfLongSet * total) break;
+    left_out += least->second;
+    beside.erase(least);
+  }
+  std::vector<std::string> ids;
+  for (const auto& [id, weight] : beside) ids.push_back(id);
+  return ids;
 }
 
 std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects) {
@@ -161,7 +176,6 @@ std::map<std::string, double> find_probabilities(const Race& race, const std::ve
 
 std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                const Remainder& remainder, const Race& race) {
-  constexpr double kWorthNaming = 0.001;
   std::vector<const Contender*> left;
   for (const Contender& contender : race.contenders) {
     if (was_fitted(contender)) left.push_back(&contender);
@@ -173,21 +187,21 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
   std::set<const Contender*> taken;
   for (const Contender* lead : left) {
     if (taken.count(lead) > 0) continue;
-    if (!causes.empty() && lead->probability + lead->remainder_probability < kWorthNaming) break;
+    if (!causes.empty() && lead->probability + lead->remainder_probability < thresholds::kWorthNaming) break;
     Cause cause;
     cause.effects = lead->fit.hypothesis.ids();
-    std::set<std::string> others;
+    const auto weight_of = [](const Contender& one) { return one.probability + one.remainder_probability; };
+    std::map<std::string, double> beside;
     for (const Contender* other : left) {
       if (taken.count(other) > 0) continue;
-      if (other != lead && expected_log_bayes_factor(remainder, *lead, *other) >= kToldApart_nats) continue;
+      if (other != lead && expected_log_bayes_factor(remainder, *lead, *other) >= thresholds::kToldApart_nats) continue;
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.effects.size() > lead->fit.hypothesis.effects.size()) continue;  // lead, and a trifle
       if (!is_open_beside(*lead, *other)) continue;
-      for (const std::string& id : other->fit.hypothesis.ids()) others.insert(id);
+      for (const std::string& id : other->fit.hypothesis.ids()) beside[id] += weight_of(*other);
     }
-    for (const std::string& id : cause.effects) others.erase(id);
-    cause.indistinguishable_from.assign(others.begin(), others.end());
+    cause.indistinguishable_from = find_named_beside(cause.effects, weight_of(*lead), std::move(beside));
     cause.parameters = estimate_parameters(set, base, remainder, *lead, race.model_error.size_share);
     if (causes.empty()) cause.objections = find_objections(set, base, remainder, *lead);
     cause.adequate = cause.objections.empty();
@@ -199,7 +213,6 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<identif
 }
 
 void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability) {
-  constexpr double kKept = 0.05;
   if (causes.empty()) return;
   Cause& first = causes.front();
   if (gap.worse_where_certain) {
@@ -207,7 +220,7 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   }
   first.adequate = first.objections.empty();
   if (first.adequate) return;
-  const double moved = (1.0 - kKept) * first.probability;
+  const double moved = (1.0 - thresholds::kKeptUnderObjection) * first.probability;
   first.probability -= moved;
   probability["unknown"] += moved;
   for (const auto* ids : {&first.effects, &first.indistinguishable_from}) {
@@ -217,7 +230,6 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
 
 std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
                                            const std::vector<Cause>& causes) {
-  constexpr double kDetectable = 5.0;  // named then in 19 of 20 sets, against the priors of race.h
   const std::map<std::string, double> probability = find_probabilities(race, effects);
   double likeliest = probability.at("none");
   for (const Cause& cause : causes) likeliest = std::max(likeliest, cause.probability);
@@ -232,8 +244,8 @@ std::vector<std::string> find_not_excluded(const Race& race, const std::vector<c
         !causes.empty() && (std::count(causes.front().effects.begin(), causes.front().effects.end(), id) +
                             std::count(causes.front().indistinguishable_from.begin(),
                                        causes.front().indistinguishable_from.end(), id)) > 0;
-    const bool is_open = probability.at(id) >= std::exp(-kToldApart_nats) * likeliest;
-    if ((detectability < kDetectable || is_open) && !named) hidden.push_back(id);
+    const bool is_open = probability.at(id) >= std::exp(-thresholds::kToldApart_nats) * likeliest;
+    if ((detectability < thresholds::kDetectableEffect_sd || is_open) && !named) hidden.push_back(id);
   }
   return hidden;
 }
@@ -242,7 +254,11 @@ Verdict find_verdict(const std::map<std::string, double>& probability, const std
   const double none = probability.at("none");
   const double unknown = probability.at("unknown");
   const double named = causes.empty() ? 0.0 : causes.front().probability;
-  if (none >= unknown && none >= named) return Verdict::kNoGap;
+  const bool is_long = !causes.empty() && causes.front().effects.size() + causes.front().indistinguishable_from.size() >
+                                              thresholds::kLongSet;
+  const bool beats_each =
+      std::all_of(probability.begin(), probability.end(), [none](const auto& entry) { return none >= entry.second; });
+  if (none >= unknown && (none >= named || (is_long && beats_each))) return Verdict::kNoGap;
   if (unknown >= named || !causes.front().adequate) return Verdict::kUnexplained;
   return Verdict::kExplained;
 }

@@ -22,8 +22,7 @@ class DynoKind : public KindWithRig {
   models::RigKind rig_kind() const override { return models::RigKind::kDyno; }
 
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelReplay>(run, identification::replay_dyno_run<double>,
-                                         identification::replay_dyno_run<Jet>);
+    return std::make_shared<WheelReplay>(run, scenarios::replay_dyno_run<double>, scenarios::replay_dyno_run<Jet>);
   }
 
   ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }

@@ -17,39 +17,21 @@ using scenarios::MeasurementSet;
 
 constexpr const char* kTraction = "traction_force_N";
 
-double find_tire_load_N(const rigs::VehicleFile& vehicle) {
-  return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
-}
-
 class RoadKind : public MeasurementKind {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kFlat; }
 
   models::Context<double> make_context(const MeasurementSet& set) const override {
-    const rigs::VehicleFile& vehicle = *set.vehicle;
-    if (vehicle.road_load.has_value()) {
-      throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
-                        "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
-    }
-    models::Context<double> context;
-    context.rig_kind = models::RigKind::kFlat;
-    context.baseline = set.baseline;
-    context.vehicle = vehicle.body;
-    context.tire =
-        set.baseline == models::Baseline::kConstantRrc
-            ? set.tire.parameters_with_class_values(find_tire_load_N(vehicle), set.runs.front().cold_pressure_Pa)
-            : set.tire.parameters_on("", set.baseline);
-    return context;
+    return scenarios::make_road_context(set);
   }
 
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelReplay>(run, identification::replay_road_run<double>,
-                                         identification::replay_road_run<Jet>);
+    return std::make_shared<WheelReplay>(run, scenarios::replay_road_run<double>, scenarios::replay_road_run<Jet>);
   }
 
   /// Every tire carries its share of the weight.
   void complete(const MeasurementSet& set, MeasuredRun& run) const override {
-    run.columns["load_N"].assign(run.time_s.size(), find_tire_load_N(*set.vehicle));
+    run.columns["load_N"].assign(run.time_s.size(), scenarios::find_tire_load_N(*set.vehicle));
   }
 
   ForceChannel force_channel(const MeasurementSet&) const override { return {kTraction, "traction force", 1.0}; }

@@ -4,32 +4,33 @@
 #include <vector>
 
 #include "diagnosis/kinds/measurement_kind.h"
-#include "identification/wheel_replay.h"
+#include "scenarios/wheel_replay.h"
 
 namespace rollrig::diagnosis {
 
-/// A run whose intervals are made once and simulated by one of the functions of identification/wheel_replay.h. Those
+/// A run whose intervals are made once and simulated by one of the functions of scenarios/wheel_replay.h. Those
 /// record the measured channels alone, whatever the detail.
 class WheelReplay : public RunReplay {
  public:
   template <class S>
   using Function = sim::Recording<S> (*)(const scenarios::MeasurementSet&, const scenarios::MeasuredRun&,
-                                         const std::vector<identification::WheelInterval>&, models::Corner<S>&);
+                                         const std::vector<scenarios::WheelInterval>&, models::Corner<S>&,
+                                         scenarios::ReplayObserver<S>*);
 
   WheelReplay(const scenarios::MeasuredRun& run, Function<double> plain, Function<Jet> derived)
-      : intervals_(identification::make_wheel_intervals(run)), plain_(plain), derived_(derived) {}
+      : intervals_(scenarios::make_wheel_intervals(run)), plain_(plain), derived_(derived) {}
 
   sim::Recording<double> simulate(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
                                   models::Corner<double>& corner, rigs::Detail) const override {
-    return plain_(set, run, intervals_, corner);
+    return plain_(set, run, intervals_, corner, nullptr);
   }
   sim::Recording<Jet> simulate(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
                                models::Corner<Jet>& corner, rigs::Detail) const override {
-    return derived_(set, run, intervals_, corner);
+    return derived_(set, run, intervals_, corner, nullptr);
   }
 
  private:
-  std::vector<identification::WheelInterval> intervals_;
+  std::vector<scenarios::WheelInterval> intervals_;
   Function<double> plain_;
   Function<Jet> derived_;
 };

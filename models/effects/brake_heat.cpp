@@ -5,7 +5,7 @@ namespace rollrig::models {
 namespace {
 
 struct BrakeHeat {
-  enum Parameter { kShare, kTimeConstant, kDisc, kGasShare };
+  enum Parameter { kShare, kTimeConstant, kDisc, kGasShare, kDiscShare };
   enum State { kInDisc, kInRim };
 
   static EffectInfo info() {
@@ -13,21 +13,22 @@ struct BrakeHeat {
     info.id = "brake_heat";
     info.summary = "A share of the friction brake's power reaches the tire, late, through the rim";
     info.equation =
-        "dD/dt = w F_brake |v| - D/tau_d, dE/dt = D/tau_d - E/tau; (1 - g) E/tau heats the rubber, g E/tau the gas: "
-        "D and E are the heat in disc and rim that is bound for the tire, tau = C_rim/(UA + UA_air). With a rim node "
-        "linked to the tire (rim_heat), D/tau_d (1 + UA_air/UA) goes into that node instead, of which D/tau_d "
-        "reaches rubber and gas in the end";
+        "P = w F_brake |v|; dD/dt = d P - D/tau_d, Q = (1 - d) P + D/tau_d, dE/dt = Q - E/tau; (1 - g) E/tau heats the "
+        "rubber, g E/tau the gas: D and E are the heat in disc and rim that is bound for the tire, tau = C_rim/(UA + "
+        "UA_air). With a rim node linked to the tire (rim_heat), Q (1 + UA_air/UA) goes into that node instead, of "
+        "which Q reaches rubber and gas in the end";
     info.source =
         "source §4.2.2, §4.4.1: brakes left out; 2 to 15 % reaches the tire, rim 5 to 9 kJ/K, UA 0.5 to 4 W/K: "
         "effects.md. The baseline has no heat to the rim, so E counts what the brake adds to a rim that else "
         "exchanges nothing. Assumed: UA_air 4 to 30 W/K (0.5 m2 in moving air), hence tau 3 to 30 min; tau_d, a "
         "disc of 3 to 6 kJ/K that loses 10 to 40 W/K to rim and air; g, the rim's well faces the gas, its beads the "
-        "rubber";
+        "rubber; 1 - d, what pads and hot air give to the rim at once";
     info.parameters = {
         {"share_percent", between(0.0, 100.0), {2.0, 15.0, Prior::Scale::kLog}, "w, of the brake's power", 0.0},
         {"time_constant_min", between(0.5, 600.0), {3.0, 30.0, Prior::Scale::kLog}, "tau, of the rim"},
         {"disc_min", between(0.2, 60.0), {1.5, 6.0, Prior::Scale::kLog}, "tau_d, of the disc"},
-        {"gas_share", between(0.0, 1.0), {0.1, 0.5}, "g, of the heat, that goes into the gas"}};
+        {"gas_share", between(0.0, 1.0), {0.1, 0.5}, "g, of the heat, that goes into the gas"},
+        {"disc_share", between(0.0, 1.0), {0.3, 1.0}, "d, of the heat, that goes through the disc"}};
     info.states = {{"disc_heat_kJ", 1e4, "D, heat in the disc on its way to the tire"},
                    {"rim_heat_kJ", 1e4, "E, heat in the rim on its way to the tire"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
@@ -45,6 +46,13 @@ struct BrakeHeat {
     return self.parameter(kShare) * now.acting.brake_force_N * abs(now.motion.speed_m_s);
   }
 
+  /// Q, of that, what comes to the rim now.
+  template <class S>
+  static S calc_into_rim_W(const EffectView<S>& self, const Instant<S>& now) {
+    const S at_once = S(1.0) - self.parameter(kDiscShare);
+    return at_once * calc_bound_for_tire_W(self, now) + self.state(kInDisc) / self.parameter(kDisc);
+  }
+
   /// Conductance between the rim and the tire, gas included; 0 without a rim.
   template <class S>
   static S calc_rim_link_W_per_K(const ThermalPort<S>& port) {
@@ -56,7 +64,7 @@ struct BrakeHeat {
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     const std::size_t rim = index_of(Node::kRim);
-    const S into_rim_W = self.state(kInDisc) / self.parameter(kDisc);
+    const S into_rim_W = calc_into_rim_W(self, now);
     const S arriving_W = self.state(kInRim) / self.parameter(kTimeConstant);
     port.heat_W[index_of(Node::kRubber)] += (S(1.0) - self.parameter(kGasShare)) * arriving_W;
     port.heat_W[index_of(Node::kGas)] += self.parameter(kGasShare) * arriving_W;
@@ -71,8 +79,8 @@ struct BrakeHeat {
 
   template <class S>
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
-    const S into_rim_W = self.state(kInDisc) / self.parameter(kDisc);
-    rates[kInDisc] = calc_bound_for_tire_W(self, now) - into_rim_W;
+    const S into_rim_W = calc_into_rim_W(self, now);
+    rates[kInDisc] = calc_bound_for_tire_W(self, now) - into_rim_W;  // d P - D/tau_d
     rates[kInRim] = -self.state(kInRim) / self.parameter(kTimeConstant);
     const bool has_linked_rim = value_of(calc_rim_link_W_per_K(now.thermal)) > 0.0;
     if (!has_linked_rim) rates[kInRim] += into_rim_W;

@@ -367,7 +367,7 @@ TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
     };
     return expected_log_bayes_factor(raced.remainder, find("tire_loss_in_skim"), find("load_exponent"));
   };
-  REQUIRE(find_factor(before) < kToldApart_nats);
+  REQUIRE(find_factor(before) < thresholds::kToldApart_nats);
   const std::vector<NextTest> proposed = before.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().splits.size() >= 2);
@@ -377,6 +377,6 @@ TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
   }
   REQUIRE(runs.size() >= 2);
   const Raced after(measure(truth, runs), effects);
-  CHECK(find_factor(after) >= kToldApart_nats);
+  CHECK(find_factor(after) >= thresholds::kToldApart_nats);
   CHECK(after.race.contenders.front().fit.hypothesis.contains(models::find_effect("tire_loss_in_skim")));
 }

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "diagnosis/kinds/kinds.h"
 #include "scenarios/run_spec.h"
 #include "scenarios/sensor_file.h"
+#include "tests/diagnosis/driving_sets.h"
 #include "tests/diagnosis/hand_made.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -84,7 +86,7 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
       CHECK(spec.sample_interval_s == Approx(0.5));  // the set's own
       CHECK(spec.sensors->size() == set.sensors.size());
       CHECK(spec.tire.name == set.tire.name);
-      const scenarios::MeasuredRun written = scenarios::read_drum_inputs(folder.file(wanted.id + ".csv"));
+      const scenarios::MeasuredRun written = scenarios::read_run_inputs(folder.file(wanted.id + ".csv"), set.kind);
       CHECK(written.time_s.size() < 60);  // for a person
       CHECK(written.has("surface_temperature_degC") == wanted.has("surface_temperature_degC"));
       double worst = 0.0;
@@ -130,9 +132,104 @@ TEST_CASE("where no test is proposed there is no plan", "[fast]") {
   CHECK(write_plan(make_set(), tests::make_no_gap()).empty());
 }
 
-TEST_CASE("a plan needs a drum", "[fast]") {
-  scenarios::MeasurementSet set = make_set();
-  CHECK_NOTHROW(require_plannable(set, "plan"));
-  set.kind = scenarios::SetKind::kRoad;
-  CHECK_THROWS_AS(require_plannable(set, "plan"), InputError);
+namespace {
+
+using Visit = std::function<void(const scenarios::MeasurementSet& rehearsed, const scenarios::RunSpec& spec)>;
+
+/// Every run of the plan of a test, run without errors of sensors and read back as a set; `effect` as of --set.
+void visit_rehearsals(const scenarios::MeasurementSet& set, const PlannedTest& test, const std::string& effect,
+                      const Visit& visit) {
+  const tests::TemporaryFolder folder;
+  for (const auto& [name, content] : write_plan(set, propose(test))) tests::write_file(folder.file(name), content);
+  for (std::size_t i = 0; i < test.runs.size(); ++i) {
+    ConfigTable document = read_config(folder.file("run-" + std::to_string(i + 1) + ".toml"));
+    if (!effect.empty()) scenarios::set_run_value(document, effect);
+    scenarios::RunSpec spec = scenarios::read_run_spec(document, folder.path());
+    CHECK(spec.sensors->size() == set.sensors.size());
+    for (auto& [channel, sensor] : *spec.sensors) sensor = {};  // without error
+    const tests::TemporaryFolder written;
+    for (const auto& [name, content] : scenarios::write_measurement_set(spec, spec.scenario->run(spec, {}), "paper")) {
+      tests::write_file(written.file(name), content);
+    }
+    visit(scenarios::read_measurement_set(written.path()), spec);
+  }
+}
+
+/// Largest difference of a set's channels from their replay, as a share; `replayed` is the set measured again.
+double find_worst_share(const scenarios::MeasurementSet& set, const scenarios::MeasurementSet& replayed) {
+  double worst = 0.0;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    for (const auto& [channel, sensor] : set.sensors) {
+      const std::vector<double>& written = set.runs[r].columns.at(channel);
+      const std::vector<double>& simulated = replayed.runs[r].columns.at(channel);
+      for (std::size_t row = 0; row < written.size(); ++row) {
+        if (std::isnan(written[row])) continue;
+        // A traction force near zero is the difference of forces a hundred times as large.
+        const double scale = std::max(std::abs(simulated[row]), channel == "traction_force_N" ? 100.0 : 1.0);
+        worst = std::max(worst, std::abs(written[row] - simulated[row]) / scale);
+      }
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("plans of wheel and vehicle are run as a set whose replay is what was written", "[fast]") {
+  const scenarios::MeasurementSet sets[] = {tests::make_dyno_set({}, 1), tests::make_road_set({}, 1),
+                                            tests::make_road_set({}, 1, models::Baseline::kCombined)};
+  for (const scenarios::MeasurementSet& set : sets) {
+    const bool is_road = set.kind == scenarios::SetKind::kRoad;
+    for (const PlannedTest& test : (is_road ? make_road_tests : make_dyno_tests)(PreparedSet(set))) {
+      for (const char* effect : {"", "effects.toe_camber_drag.force_N=20"}) {
+        INFO(test.id << " " << effect);
+        std::size_t runs = 0;
+        visit_rehearsals(set, test, effect,
+                         [&](const scenarios::MeasurementSet& rehearsed, const scenarios::RunSpec& spec) {
+                           ++runs;
+                           REQUIRE(rehearsed.runs.size() == 1);
+                           CHECK(rehearsed.kind == set.kind);
+                           CHECK(rehearsed.baseline == set.baseline);
+                           CHECK(rehearsed.tire.name == set.tire.name);
+                           scenarios::MeasurementSet replayed = rehearsed;
+                           tests::measure_again(replayed, spec.effects);
+                           CHECK(find_worst_share(rehearsed, replayed) < 1e-6);
+                           if (spec.effects.empty()) return;
+                           tests::measure_again(replayed, {});
+                           CHECK(find_worst_share(rehearsed, replayed) > 1e-2);  // the effect was there
+                         });
+        CHECK(runs == test.runs.size());
+      }
+    }
+  }
+}
+
+TEST_CASE("a set and its next test, run with the true effect, are diagnosed together", "[slow]") {
+  const std::string effect = "effects.toe_camber_drag.force_N=20";
+  scenarios::MeasurementSet set = tests::make_dyno_set({}, 2, models::Baseline::kCombined, 45.0);
+  const PlannedTest test = make_dyno_tests(PreparedSet(set)).front();
+  visit_rehearsals(set, test, effect, [&](const scenarios::MeasurementSet& rehearsed, const scenarios::RunSpec& spec) {
+    tests::measure_again(set, spec.effects);
+    set.runs.push_back(rehearsed.runs.front());
+  });
+  REQUIRE(set.runs.size() == 3);
+  const Diagnosis diagnosed = diagnose(set, {{}, {"toe_camber_drag", "torque_zero_drift"}, 2});
+  REQUIRE_FALSE(diagnosed.causes.empty());
+  CHECK(diagnosed.causes.front().effects.front() == "toe_camber_drag");
+}
+
+TEST_CASE("a plan tells a person of force on the wheel, and of a road without loads", "[fast]") {
+  const scenarios::MeasurementSet dyno = tests::make_dyno_set({}, 1);
+  for (const PlannedTest& test : make_dyno_tests(PreparedSet(dyno))) {
+    if (test.id != "drive_and_brake") continue;
+    const std::string plan = write_plan(dyno, propose(test)).at("plan.txt");
+    CHECK_THAT(plan, Catch::Contains("5400 N, driving with 1000 N"));
+    CHECK_THAT(plan, Catch::Contains("5400 N, braking with 1000 N"));
+  }
+  const scenarios::MeasurementSet road = tests::make_road_set({}, 1);
+  const auto files = write_plan(road, propose(make_road_tests(PreparedSet(road)).front()));
+  CHECK_THAT(files.at("plan.txt"), Catch::Contains("On the road, in this order"));
+  CHECK_THAT(files.at("plan.txt"), !Catch::Contains(" N\n"));
+  CHECK(files.count("vehicle.toml") == 1);
+  CHECK(files.count("rig.toml") == 0);
 }

@@ -143,7 +143,7 @@ TEST_CASE("a well conducting tire has one temperature", "[fast]") {
 }
 
 TEST_CASE("of the brake's power the tire gets its share in steady braking, late", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25})});
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25, 1.0})});
   HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
   for (auto* one : {&at, &plain}) {
     one->inputs.speed_m_s = 20.0;
@@ -166,6 +166,16 @@ TEST_CASE("of the brake's power the tire gets its share in steady braking, late"
   check_heat_balance(at);
   at.advance(4.0 * 3600.0, 4000);
   CHECK(arriving_W() == Approx(1000.0).epsilon(1e-6));
+}
+
+TEST_CASE("brake heat that passes the disc by comes by the rim's lag alone", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25, 0.0})});
+  at.inputs.speed_m_s = 20.0;
+  at.inputs.brake_force_N = 500.0;  // 10 kW, of which 1 kW is bound for the tire
+  at.advance(600.0);
+  CHECK(at.state("brake_heat.disc_heat_kJ") == 0.0);
+  CHECK(at.state("brake_heat.rim_heat_kJ") == Approx(1000.0 * 600.0 * (1.0 - std::exp(-1.0))).epsilon(1e-6));
+  check_heat_balance(at);
 }
 
 TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fast]") {

@@ -92,7 +92,7 @@ TEST_CASE("tie-downs add to the true load, not to the record", "[fast]") {
 }
 
 TEST_CASE("the pressure sensor's error is in its channel alone, the same at every row", "[fast]") {
-  const auto effect = switch_on("pressure_record", {-8.0, 0.0});
+  const auto effect = switch_on("pressure_record", {-8.0, 0.0, 0.0});
   const std::vector<double> values{250e3, kNan, 270e3};
   const auto shown = apply_trace(effect, {0.0, 1.0, 2.0}, {"cavity_pressure_kPa", values});
   CHECK(shown[0] == 242e3);
@@ -104,7 +104,7 @@ TEST_CASE("the pressure sensor's error is in its channel alone, the same at ever
 }
 
 TEST_CASE("the pressure sensor's zero shifts with the liner's temperature, from 25 degC", "[fast]") {
-  const auto effect = switch_on("pressure_record", {-8.0, 0.05});
+  const auto effect = switch_on("pressure_record", {-8.0, 0.05, 0.0});
   const auto context = make_context_on(RigKind::kDrum);
   models::TracePort<double> port;
   port.time_s = {0.0, 1.0};
@@ -115,8 +115,18 @@ TEST_CASE("the pressure sensor's zero shifts with the liner's temperature, from 
   CHECK((*port.find("liner_temperature_degC"))[1] == 318.15);
 }
 
+TEST_CASE("a pressure sensor of a wrong scale is off by a share, its size at the reference pressure", "[fast]") {
+  const auto effect = switch_on("pressure_record", {14.0, 0.0, 1.0});
+  const double reference_Pa = make_context_on(RigKind::kDrum).tire.rolling_resistance.reference_pressure_Pa;
+  const auto shown =
+      apply_trace(effect, {0.0, 1.0, 2.0}, {"cavity_pressure_kPa", {reference_Pa, 1.2 * reference_Pa, 0.0}});
+  CHECK(shown[0] - reference_Pa == Approx(14e3));
+  CHECK(shown[1] / (1.2 * reference_Pa) == Approx(shown[0] / reference_Pa));
+  CHECK(shown[2] == 0.0);
+}
+
 TEST_CASE("a wrong pressure sensor does not change the pressure that the tire rolls on", "[fast]") {
-  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("pressure_record", {15.0, 0.02})});
+  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("pressure_record", {15.0, 0.02, 0.5})});
   HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
   CHECK(with.evaluate().pressure_Pa == without.evaluate().pressure_Pa);
   CHECK(with.now.pressure_Pa == Approx(280e3));  // as the setting gauge said

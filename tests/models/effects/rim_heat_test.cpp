@@ -136,7 +136,7 @@ TEST_CASE("into a linked rim the brake puts what makes the same share arrive", "
   for (const double link_W_per_K : {0.0, 2.0}) {
     for (const double gas_share : {0.0, 0.5, 1.0}) {
       HandFedCorner<double> at(make_context_on(RigKind::kDyno),
-                               {rim_at(link_W_per_K, gas_share), switch_on("brake_heat", {10.0, 10.0, 2.0})});
+                               {rim_at(link_W_per_K, gas_share), switch_on("brake_heat", {10.0, 10.0, 2.0, 0.3, 1.0})});
       at.inputs.brake_force_N = 450.0;
       at.inputs.speed_m_s = 20.0;                           // 900 W bound for the tire
       at.state("brake_heat.disc_heat_kJ") = 900.0 * 120.0;  // J, as in steady braking

@@ -289,7 +289,7 @@ TEST_CASE("rubber's memory starts from the rest before the run", "[fast]") {
 }
 
 TEST_CASE("a slow leak takes its rate off the pressure at the temperature at which it was set", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0})});
+  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0, 0.0})});
   at.inputs.speed_m_s = 0.0;  // at ambient temperature
   CHECK(at.evaluate().pressure_Pa == Approx(280e3).epsilon(1e-14));
   at.advance(2.0 * 3600.0);
@@ -305,8 +305,21 @@ TEST_CASE("a slow leak takes its rate off the pressure at the temperature at whi
         Approx((268e3 + p_amb_Pa) / (280e3 + p_amb_Pa)).epsilon(1e-9));
 }
 
+TEST_CASE("gas that goes through the rubber goes faster while it is warm, at its rate at 40 degC", "[fast]") {
+  const auto lost_at = [](double liner_K, double growth_per_K) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0, growth_per_K})});
+    at.temperature_K(Node::kRubber) = liner_K;
+    at.evaluate();
+    at.advance(1.0, 1);
+    return at.state("slow_leak.gas_lost");
+  };
+  CHECK(lost_at(313.15, 0.03) == Approx(lost_at(313.15, 0.0)).epsilon(1e-3));
+  CHECK(lost_at(333.15, 0.03) / lost_at(313.15, 0.03) == Approx(std::exp(0.6)).epsilon(1e-3));
+  CHECK(lost_at(293.15, 0.03) < lost_at(313.15, 0.03));
+}
+
 TEST_CASE("a leaking tire loses more, is full again when filled, and never falls below the ambient", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {20.0})});
+  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {20.0, 0.0})});
   HandFedCorner<double> tight(make_context_on(RigKind::kDrum), {});
   for (auto* one : {&at, &tight}) one->advance(4.0 * 3600.0, 2000);
   CHECK(at.now.rolling_resistance_N > 1.02 * tight.now.rolling_resistance_N);

@@ -1,0 +1,73 @@
+#pragma once
+/// Every number that decides what the diagnosis says, in one place: what a proof freezes before its bank is made.
+///
+/// tests/proof/frozen_thresholds_test.cpp holds this file to the SHA-256 in docs/blind_proof/frozen.sha256. Who changes
+/// a number runs a new bank, publishes it beside the old ones, and writes the new hash (docs/blind.md, "Freezing").
+
+#include <cstddef>
+
+namespace rollrig::diagnosis {
+
+/// Probabilities before the measurement. Source: design of the method; the rest of a kind is shared evenly.
+struct RacePriors {
+  double none = 0.50;
+  double singles = 0.35;
+  double pairs = 0.05;
+  double triples = 0.01;
+  double unknown = 0.03;  // on top of the baseline
+  double look_alike =
+      0.06;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
+};
+
+/// Sizes of model error, in noise floors and relative.
+struct ModelError {
+  double baseline_floors = 0.1;   // Assumed: of the baseline's equations, per channel
+  double law_share = 0.05;        // Assumed: of what an effect changes in a channel that nothing else can change
+  double whole_share = 0.015;     // Assumed: of all that it changes there, base parameters held
+  double size_share = 0.1;        // Assumed: of an effect's size, by which its law may be wrong everywhere alike
+  double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
+};
+
+/// Effects whose law leaves out more than `law_share`, and how much.
+struct LooseLaw {
+  const char* effect;
+  double law_share;
+};
+
+namespace thresholds {
+
+constexpr LooseLaw kLooseLaws[] = {
+    {"wind_and_grade", 0.3}};  // Assumed: gusts and turns of the road, a third of a mean wind
+
+// Screening and refits.
+constexpr double kScreened_nats = 6.0;        // design: all effects within so much of the best are refitted,
+constexpr std::size_t kScreenedLeast = 6;     // design: and so many at least
+constexpr int kFirstSteps = 4;                // of Levenberg and Marquardt, for each of them
+constexpr int kMostSteps = 30;                // for those that could still win
+constexpr double kFaint_nats = 2.0;           // a screening score that cannot make a cause: one step will do
+constexpr double kWorthFinishing_nats = 1.0;  // over the baseline, below which a better fit decides nothing
+constexpr double kHopeless_nats = 20.0;     // Assumed: behind the best more than the steps that are left could gain ...
+constexpr double kHopelessShare = 0.25;     // ... and so much of what the best gains
+constexpr double kWorthAdding_nats = 3.0;   // Assumed: screening score of a second or third effect
+constexpr std::size_t kFirstsOfPairs = 2;   // singles on top of which second effects are tried,
+constexpr std::size_t kSecondsOfPairs = 3;  // and how many of these
+constexpr std::size_t kFirstsOfTriples = 1;  // likewise pairs and third effects
+constexpr std::size_t kSecondsOfTriples = 2;
+
+// Remainder: a smooth unknown function of time.
+constexpr double kRemainderScales_s[] = {120.0, 480.0};  // Assumed: shorter is noise, longer is a phase
+
+// Verdict.
+constexpr double kToldApart_nats = 3.0;       // design: below it hypotheses are named together
+constexpr double kTail_sd = 3.0;              // design: a parameter so far out in its prior is an objection
+constexpr double kRunSizeChance = 1e-3;       // Assumed: of the test whether the size is one in all runs ...
+constexpr double kRunSizeShare = 0.3;         // ... by which a law's idealisation may change it from run to run
+constexpr double kKeptUnderObjection = 0.05;  // Assumed: of a cause's probability, the rest goes to "unknown"
+constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a run left out is judged
+constexpr double kDetectableEffect_sd = 5.0;  // named then in 19 of 20 sets, against the priors above
+constexpr std::size_t kLongSet = 3;           // effects named together; more than that name nothing, so that
+constexpr double kLeftOutOfLongSet = 0.1;     // Assumed: the unlikeliest are left out, up to this share of the set
+constexpr double kWorthNaming = 0.001;        // probability of a further cause
+
+}  // namespace thresholds
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,48 @@
+#include "diagnosis/verdict.h"
+
+#include <catch2/catch.hpp>
+
+using rollrig::diagnosis::find_named_beside;
+using Ids = std::vector<std::string>;
+
+TEST_CASE("a short set is named whole, however unlikely its last", "[fast]") {
+  CHECK(find_named_beside({"rim_heat"}, 0.97, {{"slow_leak", 0.01}, {"flat_spot", 0.02}}) ==
+        Ids{"flat_spot", "slow_leak"});
+}
+
+TEST_CASE("of a long set the unlikeliest are left out, up to a tenth of it", "[fast]") {
+  CHECK(find_named_beside({"a"}, 0.60, {{"b", 0.25}, {"c", 0.06}, {"d", 0.04}, {"e", 0.05}}) == Ids{"b", "c"});
+  SECTION("not more, so that it stays long and names nothing") {
+    CHECK(find_named_beside({"a"}, 0.40, {{"b", 0.20}, {"c", 0.20}, {"d", 0.20}}).size() == 3);
+    CHECK(find_named_beside({"a"}, 0.50, {{"b", 0.20}, {"c", 0.14}, {"d", 0.09}, {"e", 0.07}}).size() == 3);
+  }
+  SECTION("two effects of the lead count as two") {
+    CHECK(find_named_beside({"a", "b"}, 0.90, {{"c", 0.07}, {"d", 0.03}}) == Ids{"c"});
+  }
+  SECTION("the lead is never left out") { CHECK(find_named_beside({"a", "b", "c", "d"}, 1.0, {}).empty()); }
+}
+
+TEST_CASE("the lead's own effects are not named beside it", "[fast]") {
+  CHECK(find_named_beside({"a", "b"}, 0.9, {{"a", 0.05}, {"c", 0.05}}) == Ids{"c"});
+}
+
+TEST_CASE("no gap where none is likelier than the cause, or than each effect of one that names too many", "[fast]") {
+  using rollrig::diagnosis::Cause;
+  using rollrig::diagnosis::find_verdict;
+  using rollrig::diagnosis::Verdict;
+  Cause cause;
+  cause.effects = {"a"};
+  cause.indistinguishable_from = {"b", "c", "d"};
+  cause.probability = 0.56;
+  cause.adequate = true;
+  CHECK(find_verdict({{"none", 0.40}, {"unknown", 0.04}, {"a", 0.2}, {"b", 0.2}, {"c", 0.1}}, {cause}) ==
+        Verdict::kNoGap);
+  CHECK(find_verdict({{"none", 0.20}, {"unknown", 0.04}, {"a", 0.3}, {"b", 0.2}, {"c", 0.1}}, {cause}) ==
+        Verdict::kExplained);
+  CHECK(find_verdict({{"none", 0.20}, {"unknown", 0.58}, {"a", 0.2}}, {cause}) == Verdict::kUnexplained);
+  cause.indistinguishable_from = {"b", "c"};
+  CHECK(find_verdict({{"none", 0.40}, {"unknown", 0.04}, {"a", 0.2}, {"b", 0.2}, {"c", 0.1}}, {cause}) ==
+        Verdict::kExplained);
+  cause.adequate = false;
+  CHECK(find_verdict({{"none", 0.20}, {"unknown", 0.04}, {"a", 0.6}}, {cause}) == Verdict::kUnexplained);
+}
