@@ -25,6 +25,13 @@ const EffectKind* find_effect_kind(const std::string& id) {
   return nullptr;
 }
 
+const Form* find_form(const EffectKind& kind, const std::string& name) {
+  for (const Form& form : kind.forms) {
+    if (name == form.name) return &form;
+  }
+  return nullptr;
+}
+
 double warm_heating_W(const Specimen& specimen) {
   constexpr double kWarm_degC = 45.0;  // Assumed: a passenger-car tire after an hour
   if (specimen.constant_rrc) return 1e-3 * specimen.truth(Base::kRrc) * specimen.reference_load_N * kSpeed80_m_s;
@@ -47,17 +54,28 @@ double strength(const EffectKind& kind, double size) {
   return std::isinf(kind.neutral) ? 1.0 / std::abs(size) : std::abs(size - kind.neutral);
 }
 
-/// Where the thirds meet, from many draws that are the same in each bank.
-std::array<double, 2> find_thirds(const EffectKind& kind) {
-  constexpr std::size_t kThird = 1000;
+constexpr std::size_t kThird = 1000;
+
+/// Many sizes, which are the same in each bank, by strength.
+std::vector<double> sort_sizes(const EffectKind& kind) {
   Draws draws(0, std::string("thirds/") + kind.id);
-  std::vector<double> strengths(3 * kThird);
-  for (double& one : strengths) one = strength(kind, draw_size(kind, draws));
-  std::sort(strengths.begin(), strengths.end());
-  return {strengths[kThird], strengths[2 * kThird]};
+  std::vector<double> sizes(3 * kThird);
+  for (double& one : sizes) one = draw_size(kind, draws);
+  std::sort(sizes.begin(), sizes.end(), [&kind](double a, double b) { return strength(kind, a) < strength(kind, b); });
+  return sizes;
+}
+
+/// Where the thirds meet.
+std::array<double, 2> find_thirds(const EffectKind& kind) {
+  const std::vector<double> sizes = sort_sizes(kind);
+  return {strength(kind, sizes[kThird]), strength(kind, sizes[2 * kThird])};
 }
 
 }  // namespace
+
+double typical_size(const EffectKind& kind, SizeClass wanted) {
+  return sort_sizes(kind)[static_cast<std::size_t>(wanted) * kThird + kThird / 2];
+}
 
 double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws) {
   const std::array<double, 2> thirds = find_thirds(kind);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -94,6 +95,22 @@ class Effect {
   Shape shape;  // everything drawn beside the size
 };
 
+/// One functional form of an effect. In all forms of an effect the size means the same.
+struct Form {
+  const char* name;
+  const char* law;
+  std::unique_ptr<Effect> (*make)(double size, Draws& shape, const Specimen& specimen);
+};
+
+template <class Law>
+std::unique_ptr<Effect> make_law(double size, Draws& shape, [[maybe_unused]] const Specimen& specimen) {
+  if constexpr (std::is_constructible_v<Law, double, Draws&, const Specimen&>) {
+    return std::make_unique<Law>(size, shape, specimen);
+  } else {
+    return std::make_unique<Law>(size, shape);
+  }
+}
+
 /// An effect before its size is known.
 struct EffectKind {
   const char* id;
@@ -103,10 +120,9 @@ struct EffectKind {
   double lowest;        // sizes that may be asked for
   double highest;
   Spread size;
-  bool either_sign;  // the size is drawn positive, then given a sign
-  double gap;        // sizes nearer to the neutral one than this are drawn again: they would be no effect
-  const char* law;
-  std::unique_ptr<Effect> (*make)(double size, Draws& shape, const Specimen& specimen);
+  bool either_sign;             // the size is drawn positive, then given a sign
+  double gap;                   // sizes nearer to the neutral one than this are drawn again: they would be no effect
+  std::vector<Form> forms;      // drawn evenly
   Grounds acts = kRigGrounds;   // where it can be made
   Grounds drawn = kRigGrounds;  // where banks have it: the others hardly change with it
   bool outside = false;         // of the catalogue
@@ -114,6 +130,8 @@ struct EffectKind {
 
 const std::vector<const EffectKind*>& effect_kinds();
 const EffectKind* find_effect_kind(const std::string& id);
+/// None where the effect has no form of that name.
+const Form* find_form(const EffectKind& kind, const std::string& name);
 double draw_size(const EffectKind& kind, Draws& draws);
 
 /// Thirds of the sizes that are drawn, by how far they are from doing nothing.
@@ -121,5 +139,7 @@ enum class SizeClass { kSmall, kMiddle, kLarge };
 constexpr std::array<const char*, 3> kSizeClassNames{"small", "middle", "large"};
 /// A size of one class: sizes of the three classes in equal numbers are as those of draw_size().
 double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws);
+/// The middle of a class.
+double typical_size(const EffectKind& kind, SizeClass wanted);
 
 }  // namespace blind

@@ -4,14 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <boost/algorithm/string/classification.hpp>
-#include <boost/algorithm/string/split.hpp>
-#include <cmath>
+#include <chrono>
 #include <iostream>
-#include <set>
 
 #include "blind/bank.h"
+#include "blind/ceiling.h"
 #include "blind/effect.h"
+#include "blind/effect_options.h"
 #include "blind/kind_options.h"
 #include "blind/measurement_set.h"
 #include "blind/output.h"
@@ -22,69 +21,12 @@ namespace {
 
 enum ExitStatus { kDone = 0, kInputError = 2, kRunFailed = 3 };
 
-constexpr const char* kNone = "none";
-
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> parts;
-  if (!list.empty()) boost::algorithm::split(parts, list, boost::algorithm::is_any_of(","));
-  return parts;
-}
-
-std::vector<std::string> known_effects() {
-  std::vector<std::string> ids{kNone};
-  for (const EffectKind* kind : effect_kinds()) ids.push_back(kind->id);
-  return ids;
-}
-
-/// The effects of "a,b"; none of "none".
-std::vector<std::string> read_effects(const std::string& list) {
-  std::vector<std::string> ids = split(list);
-  const std::vector<std::string> known = known_effects();
-  for (const std::string& id : ids) {
-    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    throw InputError({fmt::format("unknown effect '{}'", id), "--effect", id, fmt::format("{}", fmt::join(known, ", ")),
-                      find_nearest(id, known)});
-  }
-  if (std::set<std::string>(ids.begin(), ids.end()).size() != ids.size()) {
-    throw InputError({"an effect is named twice", "--effect", list, "each effect once", ""});
-  }
-  if (ids.size() > 1 && std::find(ids.begin(), ids.end(), kNone) != ids.end()) {
-    throw InputError({"'none' stands with other effects", "--effect", list, "none alone, or effects", ""});
-  }
-  if (ids.size() == 1 && ids.front() == kNone) ids.clear();
-  return ids;
-}
-
-std::vector<std::optional<double>> read_sizes(const std::string& list, const std::vector<std::string>& ids) {
-  const std::size_t effects = ids.size();
-  std::vector<std::optional<double>> sizes(effects);
-  const std::vector<std::string> parts = split(list);
-  if (parts.empty()) return sizes;
-  if (parts.size() != effects) {
-    throw InputError({fmt::format("{} sizes for {} effects", parts.size(), effects), "--size", list,
-                      "one number an effect, in its order", ""});
-  }
-  for (std::size_t i = 0; i < effects; ++i) {
-    double value = 0.0;
-    if (!CLI::detail::lexical_cast(parts[i], value) || std::isnan(value)) {
-      throw InputError({fmt::format("'{}' is not a number", parts[i]), "--size", parts[i],
-                        "a number in the unit of the effect's size, see rollrig_blind list", ""});
-    }
-    const EffectKind& kind = *find_effect_kind(ids[i]);
-    if (value < kind.lowest || value > kind.highest) {
-      throw InputError({fmt::format("the size of {} is out of range", ids[i]), "--size", parts[i],
-                        fmt::format("{:g} to {:g} {}: {}", kind.lowest, kind.highest, kind.unit, kind.meaning), ""});
-    }
-    sizes[i] = value;
-  }
-  return sizes;
-}
-
 struct MakeOptions {
   std::string kind = name_of(Kind::kDrum);
   std::string baseline;
   std::string effects = kNone;
   std::string sizes;
+  std::string forms;
   std::string out;
   std::string truth;
   std::string counterfactual;
@@ -108,6 +50,7 @@ void check_places(const MakeOptions& options) {
 int make_command(MakeOptions options) {
   options.order.effects = read_effects(options.effects);
   options.order.sizes = read_sizes(options.sizes, options.order.effects);
+  options.order.forms = read_forms(options.forms, options.order.effects);
   options.order.kind = read_kind(options.kind);
   check_grounds(options.order.effects, options.order.kind, false);
   if (find_common_grounds(options.order.effects, options.order.kind, false) == kNowhere) {
@@ -169,12 +112,23 @@ int bank_command(const BankOptions& options) {
   return kDone;
 }
 
+int ceiling_command(const CeilingOrder& order) {
+  constexpr auto kQuiet = std::chrono::seconds(2);
+  const auto start = std::chrono::steady_clock::now();
+  write_ceiling(order, [&](std::size_t done, std::size_t of) {
+    if (::isatty(STDERR_FILENO) == 0 || std::chrono::steady_clock::now() - start < kQuiet) return;
+    std::cerr << fmt::format("\r{} of {} sets{}", done, of, done == of ? "\n" : "");
+  });
+  return kDone;
+}
+
 int list_command() {
   for (const EffectKind* kind : effect_kinds()) {
-    std::cout << fmt::format(
-        "{}{}\n  size     {} [{}]; {:g} does nothing\n  law      {}\n  made on  {}\n  drawn on {}\n", kind->id,
-        kind->outside ? " (outside of the catalogue)" : "", kind->meaning, kind->unit, kind->neutral, kind->law,
-        list_kinds(kind->acts), list_kinds(kind->drawn));
+    std::cout << fmt::format("{}{}\n  size     {} [{}]; {:g} does nothing\n", kind->id,
+                             kind->outside ? " (outside of the catalogue)" : "", kind->meaning, kind->unit,
+                             kind->neutral);
+    for (const Form& form : kind->forms) std::cout << fmt::format("  form     {}: {}\n", form.name, form.law);
+    std::cout << fmt::format("  made on  {}\n  drawn on {}\n", list_kinds(kind->acts), list_kinds(kind->drawn));
   }
   return kDone;
 }
@@ -200,6 +154,7 @@ CLI::App* add_make(CLI::App& app, MakeOptions& options) {
   make->add_option("--baseline", options.baseline, "Of a road set: combined or constant_rrc [drawn]");
   make->add_option("--effect", options.effects, "Effect, two as a,b, or none [none]");
   make->add_option("--size", options.sizes, "Its size in its own unit, for two a,b [drawn]");
+  make->add_option("--form", options.forms, "Its functional form, for two a,b [drawn]");
   make->add_option("--seed", options.order.seed, "Decides all that is drawn [1]");
   make->add_option("--out", options.out, "Folder of the set, new or empty")->required();
   make->add_option("--truth", options.truth, "File for the truth, outside of the set");
@@ -231,20 +186,35 @@ CLI::App* add_bank(CLI::App& app, BankOptions& options) {
   return bank;
 }
 
+CLI::App* add_ceiling(CLI::App& app, CeilingOrder& order) {
+  constexpr int kMostThreads = 1024;
+  CLI::App* ceiling =
+      app.add_subcommand("ceiling", "Open the seal of a bank: what an ideal observer makes of its sets");
+  ceiling->add_option("bank", order.bank, "Folder made by bank")->required();
+  ceiling->add_option("--out", order.out, "File for the ceiling [ceiling.json in the bank]");
+  ceiling->add_option("--sets", order.sets, "Numbers of sets, as 0001,0002 [all]")->delimiter(',');
+  ceiling->add_option("--threads", order.threads, "Sets at a time [as many as there are cores]")
+      ->check(CLI::Range(1, kMostThreads));
+  return ceiling;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"rollrig_blind: measurement sets with a known hidden cause, for judging a diagnosis"};
   app.require_subcommand(1);
   MakeOptions make;
   BankOptions bank;
+  CeilingOrder ceiling;
   const CLI::App* make_app = add_make(app, make);
   const CLI::App* bank_app = add_bank(app, bank);
+  const CLI::App* ceiling_app = add_ceiling(app, ceiling);
   app.add_subcommand("list", "Effects, their sizes and laws");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    throw InputError({error.what(), "command line", "", "make, bank or list; see rollrig_blind <command> --help",
+    throw InputError({error.what(), "command line", "",
+                      "make, bank, ceiling or list; see rollrig_blind <command> --help",
                       find_nearest_option(app, argc, argv)});
   }
   int status = kDone;
@@ -252,6 +222,8 @@ int parse_and_run(int argc, char** argv) {
     status = make_command(make);
   } else if (bank_app->parsed()) {
     status = bank_command(bank);
+  } else if (ceiling_app->parsed()) {
+    status = ceiling_command(ceiling);
   } else {
     status = list_command();
   }

@@ -2,36 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "blind/recorder.h"
-#include "blind/sensors.h"
+#include "blind/laboratory.h"
 
 namespace blind {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Effects = std::vector<std::unique_ptr<Effect>>;
-using Columns = std::vector<std::vector<double>>;
-
-constexpr double kLeastForceSpeed_km_h = 20.0;  // formats.md: below it the force may be empty
-
-struct Laboratory {
-  Kind kind = Kind::kDrum;
-  Specimen specimen;
-  Campaign campaign;
-  Sensors sensors;
-};
-
-Columns columns_of(const RunRecord& record) {
-  Columns columns{record.force};
-  if (record.specimen->kind != Kind::kRoad) {
-    columns.push_back(record.liner_degC);
-    columns.push_back(record.pressure_kPa);
-  }
-  return columns;
-}
 
 std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
   std::string text = fmt::format("format = \"rollrig-measurements/1\"\nname = \"{}\"\n", order.name);
@@ -92,15 +70,6 @@ std::string write_run_file(const RunRecord& record, const Columns& measured, boo
   return text;
 }
 
-void add_noise(const SetOrder& order, const Laboratory& lab, const RunPlan& run, const RunRecord& record,
-               Columns& columns) {
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Channel& channel = channels_of(lab.kind)[i];
-    apply_sensor(lab.sensors[i], order.seed, run.session, run.id, channel, record.time_s, columns[i]);
-    drop_samples(order.seed, run.id, channel, columns[i]);
-  }
-}
-
 Files write_files(const SetOrder& order, const Laboratory& lab, const std::vector<RunRecord>& records,
                   bool noise_free) {
   Files files;
@@ -112,29 +81,24 @@ Files write_files(const SetOrder& order, const Laboratory& lab, const std::vecto
     files["rig.toml"] = write_rig(lab.specimen);
   }
   for (std::size_t r = 0; r < records.size(); ++r) {
-    Columns columns = columns_of(records[r]);
-    if (!noise_free) add_noise(order, lab, lab.campaign.runs[r], records[r], columns);
-    for (std::size_t row = 0; row < records[r].time_s.size(); ++row) {
-      if (records[r].speed_km_h[row] < kLeastForceSpeed_km_h) columns[0][row] = std::nan("");
-    }
-    files[lab.campaign.runs[r].id + ".csv"] = write_run_file(records[r], columns, noise_free);
+    const RunPlan& run = lab.campaign.runs[r];
+    const Columns columns = measure(order.seed, lab, run, records[r], noise_free);
+    files[run.id + ".csv"] = write_run_file(records[r], columns, noise_free);
   }
   return files;
 }
 
 /// Root mean square of what the effect does to each channel, in noise floors, 30 s after load changes left out.
 Json find_signal(const Laboratory& lab, const std::vector<RunRecord>& with, const std::vector<RunRecord>& without) {
-  constexpr double kSettling_s = 30.0;
   const std::size_t channels = lab.sensors.size();
   std::vector<double> sum(channels, 0.0);
   double count = 0.0;
   for (std::size_t r = 0; r < with.size(); ++r) {
     const Columns a = columns_of(with[r]);
     const Columns b = columns_of(without[r]);
-    double changed_s = -kSettling_s;
+    const std::vector<bool> settled = find_settled_rows(with[r]);
     for (std::size_t row = 0; row < with[r].time_s.size(); ++row) {
-      if (row > 0 && with[r].load_N[row] != with[r].load_N[row - 1]) changed_s = with[r].time_s[row];
-      if (with[r].time_s[row] < changed_s + kSettling_s || with[r].speed_km_h[row] < kLeastForceSpeed_km_h) continue;
+      if (!settled[row] || with[r].speed_km_h[row] < kLeastForceSpeed_km_h) continue;
       if (std::isnan(a[0][row])) continue;
       for (std::size_t i = 0; i < channels; ++i) {
         const double floors = (a[i][row] - b[i][row]) / lab.sensors[i].floor();
@@ -168,47 +132,6 @@ Json describe(const SetOrder& order, const Laboratory& lab) {
   return truth;
 }
 
-Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& described) {
-  Effects effects;
-  for (std::size_t i = 0; i < order.effects.size(); ++i) {
-    const EffectKind& kind = *find_effect_kind(order.effects[i]);
-    Draws sizes(order.seed, fmt::format("size/{}", kind.id));
-    Draws shapes(order.seed, fmt::format("shape/{}", kind.id));
-    const bool has_class = !order.size_classes.empty();
-    const double drawn = has_class ? draw_size(kind, order.size_classes[i], sizes) : draw_size(kind, sizes);
-    const double size = order.sizes[i].value_or(drawn);
-    effects.push_back(kind.make(size, shapes, specimen));
-    Json shape = Json::object();
-    for (const auto& [name, value] : effects.back()->shape) shape[name] = value;
-    described.push_back({{"id", kind.id},
-                         {"size", size},
-                         {"unit", kind.unit},
-                         {"size_is", kind.meaning},
-                         {"neutral", kind.neutral},
-                         {"shape", shape},
-                         {"law", kind.law}});
-    if (has_class) described.back()["size_class"] = kSizeClassNames[static_cast<std::size_t>(order.size_classes[i])];
-  }
-  return effects;
-}
-
-std::vector<RunRecord> record_all(const Laboratory& lab, const Effects& effects) {
-  std::vector<RunRecord> records;
-  for (const RunPlan& run : lab.campaign.runs) records.push_back(record_run(lab.specimen, effects, run));
-  return records;
-}
-
-/// Which law a road set is to be judged against.
-bool draw_constant_rrc(const SetOrder& order) {
-  if (order.kind != Kind::kRoad) return false;
-  Draws draws(order.seed, "baseline");
-  const bool drawn = draws.happens(0.5);
-  const Grounds grounds = find_common_grounds(order.effects, order.kind, false);
-  if ((grounds & kConstantGround) == 0) return false;
-  if ((grounds & kRoadGround) == 0) return true;
-  return order.constant_rrc.value_or(drawn);
-}
-
 }  // namespace
 
 Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, bool drawn) {
@@ -221,17 +144,13 @@ Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, 
 }
 
 MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
-  Laboratory lab;
-  lab.kind = order.kind;
-  lab.specimen = draw_specimen({order.seed, order.kind, draw_constant_rrc(order), order.nominal_base});
-  lab.campaign = draw_campaign(order.seed, lab.specimen, order.runs, order.dyno_runs);
-  lab.sensors = draw_sensors(order.seed, order.kind);
+  const Laboratory lab = draw_laboratory(order);
   MadeSet made;
   made.truth = describe(order, lab);
   const Effects effects = draw_effects(order, lab.specimen, made.truth["effects"]);
-  const std::vector<RunRecord> records = record_all(lab, effects);
+  const std::vector<RunRecord> records = record_all(lab.specimen, lab.campaign, effects);
   made.files = write_files(order, lab, records, order.noise_free);
-  const std::vector<RunRecord> without = effects.empty() ? records : record_all(lab, {});
+  const std::vector<RunRecord> without = effects.empty() ? records : record_all(lab.specimen, lab.campaign, {});
   made.truth["signal_floors"] = find_signal(lab, records, without);
   if (with_counterfactual) made.counterfactual = write_files(order, lab, without, true);
   return made;

@@ -18,6 +18,7 @@ struct SetOrder {
   std::vector<std::string> effects;          // none: the baseline
   std::vector<std::optional<double>> sizes;  // one an effect; none: drawn
   std::uint64_t seed = 1;
+  std::vector<std::string> forms;       // one an effect; none: drawn
   std::vector<SizeClass> size_classes;  // one an effect; none: sizes from all that are drawn
   Kind kind = Kind::kDrum;
   DynoRuns dyno_runs = DynoRuns::kAsUsual;

@@ -178,10 +178,6 @@ std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOpti
   add_sizes(cases, figures);
   add_shrinkage(cases, figures);
   add_the_rest(cases, figures);
-  for (Figure& figure : figures) {
-    const auto at = options.baselines.find(figure.id);
-    if (at != options.baselines.end()) figure.best_baseline = at->second;
-  }
   return figures;
 }
 

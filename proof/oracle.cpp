@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "models/effect.h"
 #include "proof/case.h"
 
 namespace rollrig::proof {
@@ -24,6 +25,25 @@ Twins find_twins(const std::vector<Truth>& truths, const std::string& answers) {
     if (!named.empty()) twins[truth.set] = named;
   }
   return twins;
+}
+
+void add_confusable(const std::vector<Truth>& truths, Twins& twins) {
+  const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
+  for (const Truth& truth : truths) {
+    if (truth.outside) continue;
+    const std::vector<std::string> ids = truth.ids();
+    for (const models::Effect* effect : models::all_effects()) {
+      const models::EffectInfo& info = effect->info;
+      const bool is_confusable = std::any_of(ids.begin(), ids.end(), [&](const std::string& id) {
+        return holds(info.confused_with, id) || holds(models::find_effect(id).info.confused_with, info.id);
+      });
+      if (!is_confusable || holds(ids, info.id)) continue;
+      std::vector<std::string>& of_set = twins[truth.set];
+      if (!holds(of_set, info.id)) of_set.push_back(info.id);
+    }
+  }
 }
 
 std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race, const std::vector<std::string>& only,

@@ -40,6 +40,20 @@ std::string format_figures(const Score& score) {
   return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n";
 }
 
+std::string format_baselines(const Score& score) {
+  if (score.baselines.empty()) return "";
+  std::string text = fmt::format("\n{:<33}", "baselines");
+  for (const BaselineScore& baseline : score.baselines) text += fmt::format(" {:>8}", baseline.id);
+  for (const Figure& figure : score.figures) {
+    if (!figure.best_baseline.has_value()) continue;
+    text += fmt::format("\n{:<33}", figure.label);
+    for (const BaselineScore& baseline : score.baselines) {
+      text += fmt::format(" {:>8}", format_value(figure, find_value(baseline, figure)));
+    }
+  }
+  return text + '\n';
+}
+
 std::string format_tally_row(const std::string& name, const Tally& tally) {
   const double share =
       100.0 * static_cast<double>(tally.named) / static_cast<double>(std::max<std::size_t>(1, tally.sets));
@@ -107,6 +121,11 @@ std::string format_value(const Figure& figure, const std::optional<double>& valu
   return fmt::format("{:.3g}", *value);
 }
 
+std::optional<double> find_value(const BaselineScore& baseline, const Figure& figure) {
+  const auto at = baseline.values.find(figure.id);
+  return at == baseline.values.end() ? std::nullopt : std::optional<double>(at->second);
+}
+
 std::string describe_truth(const Case& one) {
   std::string text = fmt::format("{} {}", one.truth.set, one.truth.campaign);
   for (const TrueEffect& effect : one.truth.effects) {
@@ -145,7 +164,7 @@ std::string describe_answer(const Case& one) {
 }
 
 std::string format_score(const Score& score) {
-  std::string text = fmt::format("{} sets\n", score.sets) + format_figures(score);
+  std::string text = fmt::format("{} sets\n", score.sets) + format_figures(score) + format_baselines(score);
   for (const std::string& warning : score.warnings) text += wrap("warning: " + warning, 0);
   text += format_tallies("effect", score.by_effect) + format_tally_row("all effects", score.all_effects);
   text += format_tallies("campaign", score.by_campaign) + format_tallies("size", score.by_size_class);

@@ -16,6 +16,8 @@ Json make_score_json(const Score& score);
 
 /// Value of a figure in its unit, "-" where there is none.
 std::string format_value(const Figure& figure, const std::optional<double>& value);
+/// Value of a baseline's figure.
+std::optional<double> find_value(const BaselineScore& baseline, const Figure& figure);
 /// What a case's data and answer are, in one sentence each.
 std::string describe_truth(const Case& one);
 std::string describe_answer(const Case& one);

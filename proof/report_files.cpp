@@ -38,6 +38,7 @@ Json make_figure(const Figure& figure) {
           {"floor", number(figure.floor)},
           {"more_is_better", figure.more_is_better},
           {"best_baseline", number(figure.best_baseline)},
+          {"best_baseline_id", figure.best_baseline_id.empty() ? Json(nullptr) : Json(figure.best_baseline_id)},
           {"note", figure.note}};
 }
 
@@ -81,6 +82,11 @@ std::string judge(const Figure& figure) {
   return figure.floor.has_value() && !figure.meets(figure.floor) ? "**missed, floor too**" : "**missed**";
 }
 
+std::string format_best_baseline(const Figure& figure) {
+  if (!figure.best_baseline.has_value()) return "-";
+  return fmt::format("{} (`{}`)", format_value(figure, figure.best_baseline), figure.best_baseline_id);
+}
+
 std::string write_figures(const Score& score) {
   std::string text =
       "| figure | value | 95 % | cases | target | floor | | best baseline |\n|---|---|---|---|---|---|---|---|\n";
@@ -91,10 +97,35 @@ std::string write_figures(const Score& score) {
         format_value(figure, figure.value) + (figure.unit == Unit::kPercent && figure.value ? " %" : ""),
         is_share ? fmt::format("{:.1f} to {:.1f}", 100.0 * figure.interval->low, 100.0 * figure.interval->high) : "",
         is_share ? fmt::format("{} of {}", figure.k, figure.n) : fmt::format("{}", figure.n),
-        bar(figure, figure.target), bar(figure, figure.floor), judge(figure),
-        format_value(figure, figure.best_baseline));
+        bar(figure, figure.target), bar(figure, figure.floor), judge(figure), format_best_baseline(figure));
   }
   return text;
+}
+
+std::string write_baselines(const Score& score) {
+  if (score.baselines.empty()) return "";
+  std::string text = "\n| baselines |";
+  std::string line = "|---|";
+  for (const BaselineScore& baseline : score.baselines) {
+    text += fmt::format(" {} |", baseline.label);
+    line += "---|";
+  }
+  text += '\n' + line + '\n';
+  for (const Figure& figure : score.figures) {
+    if (!figure.best_baseline.has_value()) continue;
+    text += fmt::format("| {} |", figure.label.substr(figure.label.find_first_not_of(' ')));
+    for (const BaselineScore& baseline : score.baselines) {
+      text += fmt::format(" {} |", format_value(figure, find_value(baseline, figure)));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+Json make_baselines(const Score& score) {
+  Json json = Json::object();
+  for (const BaselineScore& baseline : score.baselines) json[baseline.id] = baseline.values;
+  return json;
 }
 
 std::string write_tallies(const char* title, const Tallies& tallies) {
@@ -149,6 +180,7 @@ std::string cell(std::string text) {
 
 std::string format_score_markdown(const Score& score) {
   std::string text = fmt::format("{} sets. Intervals are Wilson's, 95 %.\n\n", score.sets) + write_figures(score);
+  text += write_baselines(score);
   for (const std::string& warning : score.warnings) text += "\n* " + warning;
   text += (score.warnings.empty() ? "" : "\n") + write_tallies("effect", score.by_effect);
   text += write_tallies("campaign", score.by_campaign) + write_tallies("size", score.by_size_class);
@@ -175,6 +207,7 @@ Json make_score_json(const Score& score) {
   return {{"format", "rollrig-blind-score/1"},
           {"sets", score.sets},
           {"figures", figures},
+          {"baselines", make_baselines(score)},
           {"by_effect", make_tallies(score.by_effect)},
           {"by_campaign", make_tallies(score.by_campaign)},
           {"by_size_class", make_tallies(score.by_size_class)},

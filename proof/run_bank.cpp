@@ -35,15 +35,11 @@ void make_folder(const std::string& folder) {
 }
 
 /// The diagnosis of a set, or why there is none. Throws Interrupted.
-void diagnose(const std::string& folder, Answer& answer) {
+void diagnose(const std::string& folder, const AnswerBy& answer_by, Answer& answer) {
   const auto start = std::chrono::steady_clock::now();
   const double cpu_start_s = thread_cpu_s();
   try {
-    diagnosis::DiagnosisOptions how;
-    how.threads = 1;
-    how.only = answer.settings.only;
-    how.without = answer.settings.without;
-    answer.diagnosis = diagnosis::diagnose(scenarios::read_measurement_set(folder), how);
+    answer.diagnosis = answer_by(scenarios::read_measurement_set(folder), answer.settings);
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& error) {
@@ -81,7 +77,7 @@ class BankRun {
       ++kept_;
       failed_ += before->failure.empty() ? 0 : 1;
     } else {
-      diagnose(folder, answer);
+      diagnose(folder, order_.answer_by, answer);
       write_answer(order_.out, answer);
       ++made_;
       failed_ += answer.failure.empty() ? 0 : 1;
@@ -99,6 +95,14 @@ class BankRun {
 };
 
 }  // namespace
+
+diagnosis::Diagnosis answer_by_diagnosis(const scenarios::MeasurementSet& set, const Settings& settings) {
+  diagnosis::DiagnosisOptions how;
+  how.threads = 1;
+  how.only = settings.only;
+  how.without = settings.without;
+  return diagnosis::diagnose(set, how);
+}
 
 std::vector<Task> plan_race(const std::string& bank, const std::vector<std::string>& only,
                             const std::vector<std::string>& without) {

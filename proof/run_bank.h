@@ -17,6 +17,12 @@ struct Task {
   std::vector<std::string> without;
 };
 
+/// What answers a set. Throws what diagnosis::diagnose() throws.
+using AnswerBy = std::function<diagnosis::Diagnosis(const scenarios::MeasurementSet& set, const Settings& settings)>;
+
+/// The diagnosis, on one thread.
+diagnosis::Diagnosis answer_by_diagnosis(const scenarios::MeasurementSet& set, const Settings& settings);
+
 struct RunOrder {
   std::string bank;
   std::string out;          // folder of the answers
@@ -25,6 +31,7 @@ struct RunOrder {
   std::size_t rank = 0;     // this process takes every `ranks`-th task
   std::size_t ranks = 1;
   std::function<void(std::size_t done, std::size_t of)> progress = {};
+  AnswerBy answer_by = answer_by_diagnosis;
 };
 
 struct RunTally {

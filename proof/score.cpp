@@ -19,10 +19,16 @@ namespace {
 using diagnosis::Verdict;
 
 /// What an ideal observer makes of the sets: rollrig-blind-ceiling/1, `sets` with `d_prime` and `identifiable`.
-void read_ceiling(const std::string& file, std::vector<Case>& cases) {
+void read_ceiling(const std::string& bank, const std::string& file, std::vector<Case>& cases) {
   if (file.empty()) return;
   try {
     const Json json = Json::parse(read_text_file(file));
+    const bool is_of_another =
+        json.contains("truth_sha256") && json["truth_sha256"] != calc_sha256(read_text_file(bank + "/truth.json"));
+    if (is_of_another) {
+      throw InputError({"the ceiling is of another bank's truth", file, 0, "truth_sha256", json["truth_sha256"].dump(),
+                        "rollrig_blind ceiling " + bank + " makes this bank's own", ""});
+    }
     for (Case& one : cases) {
       const auto at = json.at("sets").find(one.truth.set);
       if (at == json.at("sets").end()) continue;
@@ -39,13 +45,17 @@ bool is_of_these_files(const std::string& bank, const Answer& answer) {
   return answer.set_sha256 == hash_set(set_folder(bank, answer.set));
 }
 
+std::string how_to_answer(const ScoreOrder& order) {
+  if (order.by_baseline) return fmt::format("rollrig blind baselines {}", order.bank);
+  const bool is_oracle = order.truth_was_left_out;
+  return fmt::format("rollrig blind {} {}{} --out {}", is_oracle ? "oracle" : "run", order.bank,
+                     is_oracle ? " --race left_out" : "", order.answers);
+}
+
 void require_all(const ScoreOrder& order, std::size_t lacking, std::size_t all) {
   if (lacking == 0) return;
-  const std::string command = order.truth_was_left_out ? "oracle" : "run";
-  const std::string option = order.truth_was_left_out ? " --race left_out" : "";
-  throw InputError(
-      {fmt::format("{} of {} sets have no answer to their files as they are now", lacking, all), order.answers, 0, "",
-       "", fmt::format("first: rollrig blind {} {}{} --out {}", command, order.bank, option, order.answers), ""});
+  throw InputError({fmt::format("{} of {} sets have no answer to their files as they are now", lacking, all),
+                    order.answers, 0, "", "", "first: " + how_to_answer(order), ""});
 }
 
 }  // namespace
@@ -125,7 +135,7 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
     cases.push_back(std::move(one));
   }
   require_all(order, lacking, all);
-  read_ceiling(order.ceiling, cases);
+  read_ceiling(order.bank, order.ceiling, cases);
   return cases;
 }
 

@@ -25,7 +25,8 @@ struct Figure {
   std::optional<double> floor = {};  // the least that is asked for
   bool more_is_better = true;
   std::optional<double> best_baseline = {};
-  std::string note = {};  // where there is no value: why
+  std::string best_baseline_id = {};  // of that method
+  std::string note = {};              // where there is no value: why
 
   bool meets(const std::optional<double>& bar) const;
 };
@@ -46,11 +47,18 @@ using Confusion = std::map<std::string, std::map<std::string, std::size_t>>;  //
 struct ScoreOptions {
   double detectable_d_prime = 5.0;  // from here on an effect is to be found: design of the proof
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
-  std::map<std::string, double> baselines = {};  // best of the baselines, by a figure's id
+};
+
+/// The same figures of a baseline's answers.
+struct BaselineScore {
+  std::string id;
+  std::string label;
+  std::map<std::string, double> values;  // by a figure's id, of those that the method is judged by
 };
 
 struct Score {
   std::vector<Figure> figures;
+  std::vector<BaselineScore> baselines;
   Tallies by_effect, by_campaign, by_size_class;
   Tally all_effects;
   Confusion confusion;
@@ -70,6 +78,7 @@ struct ScoreOrder {
   std::string oracle;               // folder of answers with the true effect alone in the race; empty: none
   std::string ceiling;              // file with d' of the sets; empty: none
   bool truth_was_left_out = false;  // the true effects were not in the race: none is in the catalogue
+  bool by_baseline = false;         // the answers are of rollrig blind baselines
 };
 
 /// Opens the seal and puts truths and answers together.

@@ -1,4 +1,4 @@
-/// Friction of the spindle's bearings after the makers' catalogues: a sliding and a rolling part.
+/// Friction of the spindle's bearings under load: a sliding and a rolling part, or Palmgren's moment.
 #include <algorithm>
 #include <cmath>
 
@@ -30,6 +30,23 @@ class BearingLoadFriction : public Effect {
   double boundary_ = 0.0;
 };
 
+/// Moment f1 P d of Palmgren and Harris, f1 with P^y: y 0 for cylindrical rollers, 0.55 for deep-groove balls.
+class PalmgrenFriction : public Effect {
+ public:
+  PalmgrenFriction(double force_N, Draws& draws) : force_N_(force_N) {
+    power_ = 1.0 + draws.uniform(0.0, 0.55);
+    shape = {{"load_power", power_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    now.rig_force_N += force_N_ * std::pow(std::max(0.0, now.load_N) / kReference_N, power_);
+  }
+
+ private:
+  double force_N_;
+  double power_ = 1.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_bearing_load_friction;
@@ -43,10 +60,13 @@ const EffectKind kind_bearing_load_friction{
     log_normal(0.3, 3.0, 0.15, 5.0),
     false,
     0.0,
-    "sliding part in proportion to the load, higher at creep, and rolling part with load^(4/3), as in bearing makers' "
-    "friction models",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<BearingLoadFriction>(size, draws);
-    }};
+    {{"sliding_and_rolling",
+      "sliding part in proportion to the load, higher at creep, and rolling part with load^(4/3), as in bearing "
+      "makers' "
+      "friction models",
+      make_law<BearingLoadFriction>},
+     {"palmgren",
+      "Palmgren's moment under load, P^(1 + y), y 0 to 0.55 from roller to ball bearings, whatever the speed",
+      make_law<PalmgrenFriction>}}};
 
 }  // namespace blind

@@ -1,4 +1,4 @@
-/// Pads that keep rubbing after braking until the disc has pushed them back.
+/// Pads that keep rubbing after braking, until the disc has pushed them back or has cooled.
 #include <cmath>
 
 #include "blind/effect.h"
@@ -32,6 +32,29 @@ class BrakeDrag : public Effect {
   double half_N_ = 1.0;
 };
 
+/// A disc that swells by the energy of brakings and shrinks as it cools: r' = (1 - r) P/E - r/tau.
+class HotDisc : public Effect {
+ public:
+  HotDisc(double force_N, Draws& draws) : force_N_(force_N) {
+    full_J_ = draws.from(log_normal(4e3, 15e3, 3e3, 20e3));  // Assumed: a braking from 50 km/h is 30 to 70 kJ a wheel
+    cooling_s_ = draws.from(log_normal(40.0, 300.0, 30.0, 450.0));
+    shape = {{"full_J", full_J_}, {"cooling_s", cooling_s_}};
+  }
+
+  std::size_t state_count() const override { return 1; }
+
+  void act(const double* rubbing, Instant& now) const override { now.rig_force_N += force_N_ * rubbing[0]; }
+
+  void rates(const double* rubbing, const Instant& now, double* rates) const override {
+    rates[0] = (1.0 - rubbing[0]) * now.brake_N * now.speed_m_s / full_J_ - rubbing[0] / cooling_s_;
+  }
+
+ private:
+  double force_N_;
+  double full_J_ = 1.0;
+  double cooling_s_ = 1.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_brake_drag;
@@ -45,10 +68,10 @@ const EffectKind kind_brake_drag{
     log_normal(2.0, 12.0, 1.2, 18.0),
     false,
     0.0,
-    "set by brakings with the square of their force, worn off over distance instead of time",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<BrakeDrag>(size, draws);
-    },
+    {{"worn_off", "set by brakings with the square of their force, worn off over distance instead of time",
+      make_law<BrakeDrag>},
+     {"hot_disc", "pads rub as long as the disc is hot: set by the energy of brakings, gone with time",
+      make_law<HotDisc>}},
     kVehicleGrounds,
     kVehicleGrounds};
 

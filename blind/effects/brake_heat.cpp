@@ -1,4 +1,4 @@
-/// Heat of the brakes goes through the disc, cooled by the air, to the rim and on to bead and gas.
+/// Heat of the brakes goes to bead and gas: through a disc that the air cools and a rim, or as a share, late.
 #include <algorithm>
 #include <cmath>
 
@@ -47,6 +47,34 @@ class BrakeHeat : public Effect {
   double passed_ = 0.0;
 };
 
+/// A share of the brake's power, delayed by the rim alone.
+class ShareOfBrake : public Effect {
+ public:
+  ShareOfBrake(double percent, Draws& draws) : share_(0.01 * percent) {
+    const double delay_min = draws.from(log_normal(3.0, 30.0, 2.5, 30.0));
+    gas_share_ = draws.uniform(0.1, 0.5);
+    shape = {{"delay_min", delay_min}, {"gas_share", gas_share_}};
+    delay_s_ = 60.0 * delay_min;
+  }
+
+  std::size_t state_count() const override { return 1; }
+
+  void act(const double* bound_J, Instant& now) const override {
+    const double to_tire_W = bound_J[0] / delay_s_;
+    now.liner_heat_W += (1.0 - gas_share_) * to_tire_W;
+    now.gas_heat_W += gas_share_ * to_tire_W;
+  }
+
+  void rates(const double* bound_J, const Instant& now, double* rates) const override {
+    rates[0] = share_ * now.brake_N * now.speed_m_s - bound_J[0] / delay_s_;
+  }
+
+ private:
+  double share_;
+  double delay_s_ = 1.0;
+  double gas_share_ = 0.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_brake_heat;
@@ -60,10 +88,11 @@ const EffectKind kind_brake_heat{
     log_normal(2.0, 15.0, 1.5, 20.0),
     false,
     0.0,
-    "excess heat in a disc that loses to the air faster with speed, led to a rim and from there to bead and gas",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<BrakeHeat>(size, draws);
-    },
+    {{"disc_and_rim",
+      "excess heat in a disc that loses to the air faster with speed, led to a rim and from there to bead and gas",
+      make_law<BrakeHeat>},
+     {"share", "a fixed share of the brake's power, late by one first-order delay, whatever the speed",
+      make_law<ShareOfBrake>}},
     kVehicleGrounds,
     kDynoGround};
 

@@ -1,4 +1,6 @@
-/// The logger of temperature and pressure has a clock of its own.
+/// The logger of temperature and pressure has a clock of its own, left alone or set anew time and again.
+#include <cmath>
+
 #include "blind/effect.h"
 #include "blind/recorder.h"
 
@@ -26,6 +28,33 @@ class ClockShift : public Effect {
   double rate_ = 0.0;
 };
 
+/// A clock that drifts and is set anew each some minutes: d (1 + a saw(t)), saw from -1 to 1.
+class SetAnewClock : public Effect {
+ public:
+  SetAnewClock(double late_s, Draws& draws) : late_s_(late_s) {
+    swing_ = draws.uniform(0.04, 0.14);
+    period_s_ = 60.0 * draws.uniform(4.0, 20.0);
+    phase_ = draws.uniform();
+    shape = {{"swing_over_size", swing_}, {"set_each_min", period_s_ / 60.0}};
+  }
+
+  void trace(RunRecord& record) const override {
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      const double turns = record.time_s[row] / period_s_ + phase_;
+      const double saw = 2.0 * (turns - std::floor(turns)) - 1.0;
+      const double shift_s = -late_s_ * (1.0 + swing_ * saw);
+      record.liner_degC[row] = record.sample(record.liner, row, shift_s);
+      record.pressure_kPa[row] = record.sample(record.pressure, row, shift_s);
+    }
+  }
+
+ private:
+  double late_s_;
+  double swing_ = 0.0;
+  double period_s_ = 1.0;
+  double phase_ = 0.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_clock_shift;
@@ -39,9 +68,12 @@ const EffectKind kind_clock_shift{
     log_normal(0.5, 10.0, 0.2, 20.0),
     true,
     0.0,
-    "the logger of temperature and pressure starts late or early, and its clock runs up to 60 millionths fast or slow",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<ClockShift>(size, draws);
-    }};
+    {{"rate",
+      "the logger of temperature and pressure starts late or early, and its clock runs up to 60 millionths fast or "
+      "slow",
+      make_law<ClockShift>},
+     {"set_anew",
+      "the logger's clock runs fast or slow and is set anew time and again: the shift is a saw-tooth about the size",
+      make_law<SetAnewClock>}}};
 
 }  // namespace blind

@@ -6,27 +6,32 @@
 namespace blind {
 namespace {
 
-class ConvectionLaw : public Effect {
+/// Laminar and turbulent parts of the boundary layer.
+class BoundaryLayers : public Effect {
  public:
-  ConvectionLaw(double exponent, Draws& draws) : exponent_(exponent) {
-    with_fan_ = draws.happens(0.5);
-    shape = {{"with_fan", with_fan_ ? 1.0 : 0.0}};
-  }
+  BoundaryLayers(double exponent, Draws&) : exponent_(exponent) {}
 
   void act(const double*, Instant& now) const override {
     const double x = now.air_speed_m_s / kSpeed80_m_s;
-    double effective = 0.0;
-    if (with_fan_) {  // speeds of fan and roller add by their squares; the file's f holds at 80 km/h
-      effective = std::sqrt(exponent_ * x * x + 1.0 - exponent_);
-    } else {  // laminar and turbulent parts of the boundary layer
-      effective = (2.0 * exponent_ - 1.0) * x + 2.0 * (1.0 - exponent_) * std::sqrt(x);
-    }
-    now.air_speed_m_s = kSpeed80_m_s * effective;
+    now.air_speed_m_s = kSpeed80_m_s * ((2.0 * exponent_ - 1.0) * x + 2.0 * (1.0 - exponent_) * std::sqrt(x));
   }
 
  private:
   double exponent_;
-  bool with_fan_ = false;
+};
+
+/// Speeds of fan and roller add by their squares; the file's f holds at 80 km/h.
+class Fan : public Effect {
+ public:
+  Fan(double exponent, Draws&) : exponent_(exponent) {}
+
+  void act(const double*, Instant& now) const override {
+    const double x = now.air_speed_m_s / kSpeed80_m_s;
+    now.air_speed_m_s = kSpeed80_m_s * std::sqrt(exponent_ * x * x + 1.0 - exponent_);
+  }
+
+ private:
+  double exponent_;
 };
 
 }  // namespace
@@ -42,10 +47,8 @@ const EffectKind kind_convection_law{
     normal(0.6, 1.0, 0.52, 0.96),
     false,
     0.0,
-    "either a part with sqrt(v) beside one with v, or a fan whose air speed adds by squares; f holds at 80 km/h",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<ConvectionLaw>(size, draws);
-    },
+    {{"boundary_layers", "a part with sqrt(v) beside one with v; f holds at 80 km/h", make_law<BoundaryLayers>},
+     {"fan", "a fan whose air speed adds by squares; f holds at 80 km/h", make_law<Fan>}},
     kEveryGround,
     kRigGrounds};
 

@@ -25,6 +25,19 @@ class CurvatureExponent : public Effect {
   double load_power_ = 0.0;
 };
 
+/// K^n in place of K.
+class PowerOfFactor : public Effect {
+ public:
+  PowerOfFactor(double exponent, Draws&) : exponent_(exponent) {}
+
+  void act(const double*, Instant& now) const override {
+    now.loss_factor *= std::pow(now.curvature_factor, exponent_ - 1.0);
+  }
+
+ private:
+  double exponent_;
+};
+
 }  // namespace
 
 extern const EffectKind kind_curvature_exponent;
@@ -38,10 +51,9 @@ const EffectKind kind_curvature_exponent{
     normal(0.6, 1.4, 0.3, 1.7),
     false,
     0.08,
-    "what the curvature adds counts n-fold, K -> 1 + n (K - 1), the more the higher the load",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<CurvatureExponent>(size, draws);
-    },
+    {{"straight", "what the curvature adds counts n-fold, K -> 1 + n (K - 1), the more the higher the load",
+      make_law<CurvatureExponent>},
+     {"power", "the correction factor to the power n, at every load", make_law<PowerOfFactor>}},
     kRigGrounds | kRoadGround,
     kDynoGround | kRoadGround};
 

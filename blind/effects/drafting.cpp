@@ -36,21 +36,19 @@ class Drafting : public Effect {
 }  // namespace
 
 extern const EffectKind kind_drafting;
-const EffectKind kind_drafting{"drafting",
-                               "percent",
-                               "drag saved in the wake",
-                               0.0,
-                               0.0,
-                               80.0,
-                               log_normal(10.0, 30.0, 8.0, 40.0),
-                               false,
-                               0.0,
-                               "the drag falls and comes back over stretches of some km",
-                               [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                 return std::make_unique<Drafting>(size, draws);
-                               },
-                               kRoadGrounds,
-                               kRoadGrounds,
-                               true};
+const EffectKind kind_drafting{
+    "drafting",
+    "percent",
+    "drag saved in the wake",
+    0.0,
+    0.0,
+    80.0,
+    log_normal(10.0, 30.0, 8.0, 40.0),
+    false,
+    0.0,
+    {{"only", "the drag falls and comes back over stretches of some km", make_law<Drafting>}},
+    kRoadGrounds,
+    kRoadGrounds,
+    true};
 
 }  // namespace blind

@@ -39,21 +39,19 @@ class HeaterRadiation : public Effect {
 }  // namespace
 
 extern const EffectKind kind_heater_radiation;
-const EffectKind kind_heater_radiation{"heater_radiation",
-                                       "W",
-                                       "heat into the tread while on",
-                                       0.0,
-                                       0.0,
-                                       2000.0,
-                                       log_normal(40.0, 200.0, 30.0, 300.0),
-                                       false,
-                                       0.0,
-                                       "on and off by turns of a drawn period, whatever the tire does",
-                                       [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                         return std::make_unique<HeaterRadiation>(size, draws);
-                                       },
-                                       kRigGrounds,
-                                       kRigGrounds,
-                                       true};
+const EffectKind kind_heater_radiation{
+    "heater_radiation",
+    "W",
+    "heat into the tread while on",
+    0.0,
+    0.0,
+    2000.0,
+    log_normal(40.0, 200.0, 30.0, 300.0),
+    false,
+    0.0,
+    {{"only", "on and off by turns of a drawn period, whatever the tire does", make_law<HeaterRadiation>}},
+    kRigGrounds,
+    kRigGrounds,
+    true};
 
 }  // namespace blind

@@ -6,36 +6,46 @@
 namespace blind {
 namespace {
 
-class InertiaError : public Effect {
+class RigidInertia : public Effect {
  public:
-  InertiaError(double percent, Draws& draws, const Specimen& specimen) {
-    follows_s_ = draws.uniform(0.05, 0.4);  // Assumed: response of a rig's simulation of inertia
-    rigid_ = draws.happens(0.5);
+  RigidInertia(double percent, Draws&, const Specimen& specimen) {
     const double radius_m = 0.5 * specimen.drum_diameter_m;
     on_road_ = specimen.kind == Kind::kRoad;
     const double mass_kg = on_road_ ? specimen.truth(Base::kMass) + specimen.truth(Base::kRotatingMass)
                                     : specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
     excess_kg_ = 0.01 * percent * mass_kg;
-    shape = {{"follows_s", rigid_ ? 0.0 : follows_s_}};
+  }
+
+  void act(const double*, Instant& now) const override { add(now.acceleration_m_s2, now); }
+
+ protected:
+  void add(double acceleration_m_s2, Instant& now) const {
+    (on_road_ ? now.body_force_N : now.rig_force_N) += excess_kg_ * acceleration_m_s2;
+  }
+
+ private:
+  double excess_kg_ = 0.0;
+  bool on_road_ = false;
+};
+
+/// Follows the speed with a lag of first order.
+class SoftInertia : public RigidInertia {
+ public:
+  SoftInertia(double percent, Draws& draws, const Specimen& specimen) : RigidInertia(percent, draws, specimen) {
+    follows_s_ = draws.uniform(0.05, 0.4);  // Assumed: response of a rig's simulation of inertia
+    shape = {{"follows_s", follows_s_}};
   }
 
   std::size_t state_count() const override { return 1; }
 
-  void act(const double* behind_m_s, Instant& now) const override {
-    const double followed_m_s2 = rigid_ ? now.acceleration_m_s2 : behind_m_s[0] / follows_s_;
-    const double force_N = excess_kg_ * followed_m_s2;
-    (on_road_ ? now.body_force_N : now.rig_force_N) += force_N;
-  }
+  void act(const double* behind_m_s, Instant& now) const override { add(behind_m_s[0] / follows_s_, now); }
 
   void rates(const double* behind_m_s, const Instant& now, double* rates) const override {
     rates[0] = now.acceleration_m_s2 - behind_m_s[0] / follows_s_;
   }
 
  private:
-  double excess_kg_ = 0.0;
   double follows_s_ = 1.0;
-  bool rigid_ = false;
-  bool on_road_ = false;
 };
 
 }  // namespace
@@ -51,10 +61,9 @@ const EffectKind kind_inertia_error{
     log_normal(0.3, 4.0, 0.25, 6.0),
     true,
     0.0,
-    "either rigid, or hanging on through a soft coupling that follows the speed with a lag of first order",
-    [](double size, Draws& draws, const Specimen& specimen) -> std::unique_ptr<Effect> {
-      return std::make_unique<InertiaError>(size, draws, specimen);
-    },
+    {{"rigid", "a factor on the inertia", make_law<RigidInertia>},
+     {"soft", "hanging on through a soft coupling that follows the speed with a lag of first order",
+      make_law<SoftInertia>}},
     kEveryGround,
     kEveryGround};
 

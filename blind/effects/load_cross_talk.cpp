@@ -1,4 +1,4 @@
-/// The load acts a little along the way of the drum, more so as the frame bends.
+/// The load acts a little along the way of the drum, by a fixed angle or more so as the frame bends.
 #include <cmath>
 
 #include "blind/effect.h"
@@ -27,23 +27,38 @@ class LoadCrossTalk : public Effect {
   double bending_ = 0.0;
 };
 
+/// One angle at every load.
+class FixedAngle : public Effect {
+ public:
+  FixedAngle(double angle_mrad, Draws&) : sine_(std::sin(1e-3 * angle_mrad)) {}
+
+  void trace(RunRecord& record) const override {
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      record.force[row] += record.lever * record.load_N[row] * sine_;
+    }
+  }
+
+ private:
+  double sine_;
+};
+
 }  // namespace
 
 extern const EffectKind kind_load_cross_talk;
-const EffectKind kind_load_cross_talk{"load_cross_talk",
-                                      "mrad",
-                                      "angle of the load off the vertical at the reference load",
-                                      0.0,
-                                      -5.0,
-                                      5.0,
-                                      log_normal(0.08, 0.5, 0.05, 0.8),
-                                      true,
-                                      0.0,
-                                      "Fz sin(d) with an angle that has a fixed part and one that grows with the load",
-                                      [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                        return std::make_unique<LoadCrossTalk>(size, draws);
-                                      },
-                                      kRigGrounds,
-                                      kDrumGround};
+const EffectKind kind_load_cross_talk{
+    "load_cross_talk",
+    "mrad",
+    "angle of the load off the vertical at the reference load",
+    0.0,
+    -5.0,
+    5.0,
+    log_normal(0.08, 0.5, 0.05, 0.8),
+    true,
+    0.0,
+    {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the load",
+      make_law<LoadCrossTalk>},
+     {"fixed", "Fz sin(d) with a fixed angle", make_law<FixedAngle>}},
+    kRigGrounds,
+    kDrumGround};
 
 }  // namespace blind

@@ -1,4 +1,4 @@
-/// Loss over load as a mixture of two powers.
+/// Loss over load as a mixture of two powers, or with a coefficient that is a straight line of the load.
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +25,22 @@ class LoadExponent : public Effect {
   double spread_ = 0.0;
 };
 
+/// Coefficient that is a straight line of the load, with the slope that the power b - 1 has at the reference load.
+class StraightCoefficient : public Effect {
+ public:
+  StraightCoefficient(double exponent, Draws&) : excess_(exponent - 1.0) {}
+
+  void act(const double*, Instant& now) const override {
+    const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
+    now.loss_factor *= std::max(kLeast, 1.0 + excess_ * (load - 1.0));
+  }
+
+ private:
+  static constexpr double kLeast = 0.1;  // out of reach of the sizes that are drawn
+
+  double excess_;
+};
+
 }  // namespace
 
 extern const EffectKind kind_load_exponent;
@@ -38,9 +54,11 @@ const EffectKind kind_load_exponent{
     normal(0.85, 1.15, 0.7, 1.3),
     false,
     0.02,
-    "mean of two powers of the load, b + d and b - d, so that the exponent moves with load and is b at the reference",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<LoadExponent>(size, draws);
-    }};
+    {{"two_powers",
+      "mean of two powers of the load, b + d and b - d, so that the exponent moves with load and is b at the reference",
+      make_law<LoadExponent>},
+     {"straight",
+      "the coefficient is a straight line of the load, 1 + (b - 1)(x - 1), as in the regression of SAE J1269",
+      make_law<StraightCoefficient>}}};
 
 }  // namespace blind

@@ -36,21 +36,20 @@ class LoadStiction : public Effect {
 }  // namespace
 
 extern const EffectKind kind_load_stiction;
-const EffectKind kind_load_stiction{"load_stiction",
-                                    "N",
-                                    "half of the width of the hysteresis",
-                                    0.0,
-                                    0.0,
-                                    1000.0,
-                                    log_normal(50.0, 160.0, 40.0, 180.0),
-                                    false,
-                                    0.0,
-                                    "play: the load stays short by the size after a rise and above by it after a fall",
-                                    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                      return std::make_unique<LoadStiction>(size, draws);
-                                    },
-                                    kDrumGround,
-                                    kDrumGround,
-                                    true};
+const EffectKind kind_load_stiction{
+    "load_stiction",
+    "N",
+    "half of the width of the hysteresis",
+    0.0,
+    0.0,
+    1000.0,
+    log_normal(50.0, 160.0, 40.0, 180.0),
+    false,
+    0.0,
+    {{"only", "play: the load stays short by the size after a rise and above by it after a fall",
+      make_law<LoadStiction>}},
+    kDrumGround,
+    kDrumGround,
+    true};
 
 }  // namespace blind

@@ -1,4 +1,6 @@
-/// Loss over pressure by a + b p + c/p instead of a power.
+/// Loss over pressure by a + b p + c/p, or by a power of the tire's stiffness, instead of a power of the pressure.
+#include <cmath>
+
 #include "blind/effect.h"
 
 namespace blind {
@@ -22,6 +24,25 @@ class PressureExponent : public Effect {
   double line_ = 0.0;
 };
 
+/// Loss with a power of s + (1 - s) p/p_ref, the tire's vertical stiffness over that at the reference pressure.
+class StiffnessOfPressure : public Effect {
+ public:
+  StiffnessOfPressure(double exponent, Draws& draws, const Specimen& specimen) {
+    carcass_ = draws.uniform(0.1, 0.4);  // Assumed: share of the stiffness without pressure
+    power_ = (exponent - specimen.pressure_exponent) / (1.0 - carcass_);
+    shape = {{"carcass_share", carcass_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    const double p = now.pressure_kPa / now.specimen->reference_pressure_kPa;
+    now.loss_factor *= std::pow(carcass_ + (1.0 - carcass_) * p, -power_);
+  }
+
+ private:
+  double carcass_ = 0.0;
+  double power_ = 0.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_pressure_exponent;
@@ -35,9 +56,13 @@ const EffectKind kind_pressure_exponent{
     normal(0.25, 0.55, 0.1, 0.7),
     false,
     0.02,
-    "what goes beyond the nominal exponent is a + b p + c/p, with the slope of the exponent at the reference pressure",
-    [](double size, Draws& draws, const Specimen& specimen) -> std::unique_ptr<Effect> {
-      return std::make_unique<PressureExponent>(size, draws, specimen);
-    }};
+    {{"regression",
+      "what goes beyond the nominal exponent is a + b p + c/p, with the slope of the exponent at the reference "
+      "pressure",
+      make_law<PressureExponent>},
+     {"stiffness",
+      "a power of the tire's vertical stiffness, a carcass share beside one in proportion to the pressure, with the "
+      "slope of the exponent at the reference pressure",
+      make_law<StiffnessOfPressure>}}};
 
 }  // namespace blind

@@ -1,4 +1,4 @@
-/// The sensor in the cavity reads off by a constant and by a part that goes with its temperature.
+/// The sensor in the cavity reads off by a constant that goes with its temperature, or by a scale.
 #include <cmath>
 
 #include "blind/effect.h"
@@ -25,23 +25,37 @@ class PressureRecord : public Effect {
   double per_K_ = 0.0;
 };
 
+/// A share of the pressure.
+class PressureScale : public Effect {
+ public:
+  PressureScale(double offset_kPa, Draws&) : offset_kPa_(offset_kPa) {}
+
+  void trace(RunRecord& record) const override {
+    for (double& pressure_kPa : record.pressure_kPa) {
+      pressure_kPa += offset_kPa_ * pressure_kPa / record.specimen->reference_pressure_kPa;
+    }
+  }
+
+ private:
+  double offset_kPa_;
+};
+
 }  // namespace
 
 extern const EffectKind kind_pressure_record;
-const EffectKind kind_pressure_record{"pressure_record",
-                                      "kPa",
-                                      "reading less true pressure at 35 degC",
-                                      0.0,
-                                      -100.0,
-                                      100.0,
-                                      log_normal(2.0, 15.0, 1.3, 20.0),
-                                      true,
-                                      0.0,
-                                      "an offset with a share that goes with the temperature",
-                                      [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                        return std::make_unique<PressureRecord>(size, draws);
-                                      },
-                                      kRigGrounds,
-                                      kRigGrounds};
+const EffectKind kind_pressure_record{
+    "pressure_record",
+    "kPa",
+    "reading less true pressure at 35 degC and the reference pressure",
+    0.0,
+    -100.0,
+    100.0,
+    log_normal(2.0, 15.0, 1.3, 20.0),
+    true,
+    0.0,
+    {{"warming", "an offset with a share that goes with the temperature", make_law<PressureRecord>},
+     {"scale", "an error of scale, at the reference pressure", make_law<PressureScale>}},
+    kRigGrounds,
+    kRigGrounds};
 
 }  // namespace blind

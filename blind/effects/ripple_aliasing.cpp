@@ -43,10 +43,8 @@ const EffectKind kind_ripple_aliasing{
     log_normal(1.0, 5.0, 0.8, 7.0),
     false,
     0.0,
-    "sines of the angle of drum or roller at the rows, so that constant speeds beat slowly",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<RippleAliasing>(size, draws);
-    },
+    {{"only", "sines of the angle of drum or roller at the rows, so that constant speeds beat slowly",
+      make_law<RippleAliasing>}},
     kRigGrounds,
     kRigGrounds,
     true};

@@ -34,21 +34,19 @@ class SensorSelfHeating : public Effect {
 }  // namespace
 
 extern const EffectKind kind_sensor_self_heating;
-const EffectKind kind_sensor_self_heating{"sensor_self_heating",
-                                          "K",
-                                          "excess of the reading at standstill",
-                                          0.0,
-                                          0.0,
-                                          50.0,
-                                          log_normal(1.5, 6.0, 1.0, 9.0),
-                                          false,
-                                          0.0,
-                                          "first order from the start of each run, less in moving gas",
-                                          [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                            return std::make_unique<SensorSelfHeating>(size, draws);
-                                          },
-                                          kRigGrounds,
-                                          kRigGrounds,
-                                          true};
+const EffectKind kind_sensor_self_heating{
+    "sensor_self_heating",
+    "K",
+    "excess of the reading at standstill",
+    0.0,
+    0.0,
+    50.0,
+    log_normal(1.5, 6.0, 1.0, 9.0),
+    false,
+    0.0,
+    {{"only", "first order from the start of each run, less in moving gas", make_law<SensorSelfHeating>}},
+    kRigGrounds,
+    kRigGrounds,
+    true};
 
 }  // namespace blind

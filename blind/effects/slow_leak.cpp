@@ -12,34 +12,39 @@ constexpr double kZero_K = 273.15;
 
 class SlowLeak : public Effect {
  public:
-  SlowLeak(double rate_kPa_per_h, Draws& draws) : rate_kPa_per_h_(rate_kPa_per_h) {
-    through_rubber_ = draws.happens(0.5);
-    activation_K_ = draws.uniform(25e3, 45e3) / 8.314462618;
-    shape = {{"through_rubber", through_rubber_ ? 1.0 : 0.0}, {"activation_K", activation_K_}};
-  }
+  explicit SlowLeak(double rate_kPa_per_h) : rate_kPa_per_h_(rate_kPa_per_h) {}
 
   void act(const double*, Instant& now) const override {
     // The rate of the size holds at the reference pressure; n falls as p does at constant temperature.
     const double reference_kPa = now.specimen->reference_pressure_kPa;
     const double reference_abs_kPa = reference_kPa + kAir_kPa;
     const double per_s = rate_kPa_per_h_ / 3600.0 / reference_abs_kPa;
-    const double abs_kPa = std::max(0.0, now.pressure_kPa) + kAir_kPa;
-    double relative = 0.0;
-    if (through_rubber_) {  // driven by the difference of pressures, faster in warm rubber
-      const double warm_K = now.liner_degC + kZero_K;
-      relative = now.pressure_kPa / reference_kPa * std::exp(activation_K_ * (1.0 / 313.15 - 1.0 / warm_K));
-    } else {
-      relative = flow(abs_kPa) / flow(reference_abs_kPa) * std::sqrt(298.15 / (now.gas_degC + kZero_K));
-    }
-    now.leak_mol_s += per_s * relative * reference_amount(now);
+    now.leak_mol_s += per_s * find_relative(now) * reference_amount(now);
   }
 
  private:
+  /// Flow over that to which the size refers.
+  virtual double find_relative(const Instant& now) const = 0;
+
   /// Amount in the cavity at the reference pressure and 25 degC: the cavity holds n = p V/(R T).
   static double reference_amount(const Instant& now) {
     const double abs_kPa = now.pressure_kPa + kAir_kPa;
     return now.gas_mol * (now.specimen->reference_pressure_kPa + kAir_kPa) / abs_kPa * (now.gas_degC + kZero_K) /
            298.15;
+  }
+
+  double rate_kPa_per_h_;
+};
+
+class NozzleLeak : public SlowLeak {
+ public:
+  NozzleLeak(double rate_kPa_per_h, Draws&) : SlowLeak(rate_kPa_per_h) {}
+
+ private:
+  double find_relative(const Instant& now) const override {
+    const double abs_kPa = std::max(0.0, now.pressure_kPa) + kAir_kPa;
+    const double reference_abs_kPa = now.specimen->reference_pressure_kPa + kAir_kPa;
+    return flow(abs_kPa) / flow(reference_abs_kPa) * std::sqrt(298.15 / (now.gas_degC + kZero_K));
   }
 
   /// Flow through a nozzle, but for factors: sonic above 1.893 times the pressure outside (Saint-Venant, Wantzel).
@@ -48,9 +53,23 @@ class SlowLeak : public Effect {
     const double ratio = std::max(kAir_kPa / abs_kPa, std::pow(2.0 / (kGamma + 1.0), kGamma / (kGamma - 1.0)));
     return abs_kPa * std::sqrt(std::max(0.0, std::pow(ratio, 2.0 / kGamma) - std::pow(ratio, (kGamma + 1.0) / kGamma)));
   }
+};
 
-  double rate_kPa_per_h_;
-  bool through_rubber_ = false;
+/// Driven by the difference of pressures, faster in warm rubber.
+class Permeation : public SlowLeak {
+ public:
+  Permeation(double rate_kPa_per_h, Draws& draws) : SlowLeak(rate_kPa_per_h) {
+    activation_K_ = draws.uniform(25e3, 45e3) / 8.314462618;
+    shape = {{"activation_K", activation_K_}};
+  }
+
+ private:
+  double find_relative(const Instant& now) const override {
+    const double warm_K = now.liner_degC + kZero_K;
+    return now.pressure_kPa / now.specimen->reference_pressure_kPa *
+           std::exp(activation_K_ * (1.0 / 313.15 - 1.0 / warm_K));
+  }
+
   double activation_K_ = 0.0;
 };
 
@@ -67,10 +86,10 @@ const EffectKind kind_slow_leak{
     log_normal(0.2, 2.0, 0.1, 3.5),
     false,
     0.0,
-    "either a nozzle (Saint-Venant and Wantzel, sonic here) or permeation, with the gauge pressure and by Arrhenius' "
-    "law faster in warm rubber; what leaves takes its enthalpy along",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<SlowLeak>(size, draws);
-    }};
+    {{"nozzle", "a nozzle (Saint-Venant and Wantzel, sonic here); what leaves takes its enthalpy along",
+      make_law<NozzleLeak>},
+     {"permeation",
+      "with the gauge pressure, and by Arrhenius' law faster in warm rubber; what leaves takes its enthalpy along",
+      make_law<Permeation>}}};
 
 }  // namespace blind

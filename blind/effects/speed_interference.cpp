@@ -42,10 +42,7 @@ const EffectKind kind_speed_interference{
     log_normal(0.8, 4.0, 0.6, 6.0),
     true,
     0.0,
-    "a skewed resonance over speed, added to the reading",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<SpeedInterference>(size, draws);
-    },
+    {{"only", "a skewed resonance over speed, added to the reading", make_law<SpeedInterference>}},
     kEveryGround,
     kEveryGround,
     true};

@@ -1,4 +1,4 @@
-/// Waves behind the contact, setting in exponentially.
+/// Waves behind the contact, setting in exponentially or with a soft square.
 #include <algorithm>
 #include <cmath>
 
@@ -32,6 +32,31 @@ class StandingWave : public Effect {
   double load_power_ = 1.0;
 };
 
+/// Square of the speed above the critical one, round the corner with a width s.
+class SoftSquare : public Effect {
+ public:
+  SoftSquare(double force_N, Draws& draws) : force_N_(force_N) {
+    critical_m_s_ = draws.from(normal(26.0, 33.0, 24.0, 32.0));
+    width_m_s_ = draws.uniform(0.5, 2.0);  // Assumed
+    load_power_ = draws.uniform(0.3, 1.2);
+    shape = {{"critical_m_s", critical_m_s_}, {"width_m_s", width_m_s_}, {"load_power", load_power_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
+    const double above = corner(now.speed_m_s) / corner(kSpeed120_m_s);
+    now.heating_force_N += force_N_ * above * above * std::pow(load, load_power_);
+  }
+
+ private:
+  double corner(double speed_m_s) const { return std::log1p(std::exp((speed_m_s - critical_m_s_) / width_m_s_)); }
+
+  double force_N_;
+  double critical_m_s_ = 0.0;
+  double width_m_s_ = 1.0;
+  double load_power_ = 1.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_standing_wave;
@@ -45,9 +70,9 @@ const EffectKind kind_standing_wave{
     log_normal(0.5, 4.0, 0.25, 6.0),
     false,
     0.0,
-    "exp((v - v_c)/s) - 1 above the critical speed, with a power of the load; heats the rubber",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<StandingWave>(size, draws);
-    }};
+    {{"exponential", "exp((v - v_c)/s) - 1 above the critical speed, with a power of the load; heats the rubber",
+      make_law<StandingWave>},
+     {"soft_square", "square of a soft corner s ln(1 + exp((v - v_c)/s)), with a power of the load; heats the rubber",
+      make_law<SoftSquare>}}};
 
 }  // namespace blind

@@ -52,10 +52,8 @@ const EffectKind kind_surface_texture{
     log_normal(5.0, 15.0, 4.0, 20.0),
     false,
     0.0,
-    "exponential in runs and way rolled on a rig; on a road rough and smooth patches of some km by turns",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<SurfaceTexture>(size, draws);
-    },
+    {{"only", "exponential in runs and way rolled on a rig; on a road rough and smooth patches of some km by turns",
+      make_law<SurfaceTexture>}},
     kEveryGround,
     kEveryGround,
     true};

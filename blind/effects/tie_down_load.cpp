@@ -1,4 +1,4 @@
-/// Straps press the wheels onto the rollers: they creep, and the pull of the wheels tightens them.
+/// Straps press the wheels onto the rollers: they creep and are tightened by the pull, or they relax.
 #include <cmath>
 
 #include "blind/effect.h"
@@ -26,6 +26,25 @@ class TieDownLoad : public Effect {
   double pull_ = 0.0;
 };
 
+/// Load L (1 - r (1 - exp(-t/tau))) from tying down at the start of a run on.
+class RelaxingStraps : public Effect {
+ public:
+  RelaxingStraps(double load_N, Draws& draws) : load_N_(load_N) {
+    relaxing_ = draws.uniform(0.0, 0.25);
+    time_s_ = 60.0 * draws.uniform(5.0, 30.0);
+    shape = {{"relaxing_share", relaxing_}, {"time_constant_min", time_s_ / 60.0}};
+  }
+
+  void enter(const double*, Instant& now) const override {
+    now.load_N += load_N_ * (1.0 + relaxing_ * std::expm1(-now.time_s / time_s_));
+  }
+
+ private:
+  double load_N_;
+  double relaxing_ = 0.0;
+  double time_s_ = 1.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_tie_down_load;
@@ -39,10 +58,10 @@ const EffectKind kind_tie_down_load{
     log_normal(50.0, 400.0, 30.0, 600.0),
     false,
     0.0,
-    "falls with the logarithm of time as straps creep, rises with the pull of the wheel",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<TieDownLoad>(size, draws);
-    },
+    {{"creeping", "falls with the logarithm of time as straps creep, rises with the pull of the wheel",
+      make_law<TieDownLoad>},
+     {"relaxing", "straps of a spring and a damper relax to a lower load over minutes, whatever the wheel does",
+      make_law<RelaxingStraps>}},
     kDynoGround,
     kDynoGround};
 

@@ -29,21 +29,19 @@ class TireGrowth : public Effect {
 }  // namespace
 
 extern const EffectKind kind_tire_growth;
-const EffectKind kind_tire_growth{"tire_growth",
-                                  "percent",
-                                  "further load at 120 km/h, of the reference load",
-                                  0.0,
-                                  0.0,
-                                  50.0,
-                                  log_normal(2.0, 8.0, 1.5, 12.0),
-                                  false,
-                                  0.0,
-                                  "load rises with about the square of the speed by the same amount at every load",
-                                  [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                    return std::make_unique<TireGrowth>(size, draws);
-                                  },
-                                  kRigGrounds,
-                                  kRigGrounds,
-                                  true};
+const EffectKind kind_tire_growth{
+    "tire_growth",
+    "percent",
+    "further load at 120 km/h, of the reference load",
+    0.0,
+    0.0,
+    50.0,
+    log_normal(2.0, 8.0, 1.5, 12.0),
+    false,
+    0.0,
+    {{"only", "load rises with about the square of the speed by the same amount at every load", make_law<TireGrowth>}},
+    kRigGrounds,
+    kRigGrounds,
+    true};
 
 }  // namespace blind

@@ -1,5 +1,6 @@
 /// A loss of the tire that is there as soon as it touches, and hardly more at full load.
 #include <algorithm>
+#include <cmath>
 
 #include "blind/effect.h"
 
@@ -29,6 +30,32 @@ class TireLossInSkim : public Effect {
   double in_skim_ = 1.0;
 };
 
+/// F (Fz/F_skim)^m exp(-b (T - 25 degC)), which fades within some newtons of no load.
+class PowerInSkim : public Effect {
+ public:
+  PowerInSkim(double force_N, Draws& draws, const Specimen& specimen) : force_N_(force_N) {
+    power_ = draws.uniform(-0.15, 0.15);
+    fall_per_K_ = draws.from(log_normal(0.008, 0.03, 0.004, 0.045));
+    shape = {{"load_power", power_}, {"fall_per_K", fall_per_K_}};
+    skim_N_ = specimen.skim_load_N;
+  }
+
+  void act(const double*, Instant& now) const override {
+    const double load_N = std::max(1e-3, now.load_N);
+    const double touching = -std::expm1(-load_N / kTouch_N);
+    now.heating_force_N +=
+        force_N_ * touching * std::pow(load_N / skim_N_, power_) * std::exp(-fall_per_K_ * (now.rubber_degC - 25.0));
+  }
+
+ private:
+  static constexpr double kTouch_N = 15.0;  // Assumed: below it the contact is lost
+
+  double force_N_;
+  double power_ = 0.0;
+  double fall_per_K_ = 0.0;
+  double skim_N_ = 200.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_tire_loss_in_skim;
@@ -42,11 +69,14 @@ const EffectKind kind_tire_loss_in_skim{
     log_normal(0.3, 3.0, 0.15, 5.0),
     false,
     0.0,
-    "Fz/(Fz + F_half) over its value in skim, so that it saturates with load; falls as 1/(1 + b (T - 25 degC)); heats "
-    "the rubber",
-    [](double size, Draws& draws, const Specimen& specimen) -> std::unique_ptr<Effect> {
-      return std::make_unique<TireLossInSkim>(size, draws, specimen);
-    },
+    {{"hyperbola",
+      "Fz/(Fz + F_half) over its value in skim, so that it saturates with load; falls as 1/(1 + b (T - 25 degC)); "
+      "heats "
+      "the rubber",
+      make_law<TireLossInSkim>},
+     {"power",
+      "a power of the load over that in skim, gone without load; falls exponentially from 25 degC on; heats the rubber",
+      make_law<PowerInSkim>}},
     kDrumGround,
     kDrumGround};
 

@@ -26,6 +26,27 @@ class TireTemperature : public Effect {
   double power_ = 4.0;
 };
 
+/// Arrhenius' law with the fall of the size at the temperature where the coefficient holds.
+class ArrheniusLoss : public Effect {
+ public:
+  ArrheniusLoss(double fall_per_K, Draws& draws) {
+    const double reference_degC = draws.uniform(28.0, 42.0);
+    shape = {{"reference_degC", reference_degC}};
+    reference_K_ = reference_degC + kZero_K;
+    activation_K_ = fall_per_K * reference_K_ * reference_K_;
+  }
+
+  void act(const double*, Instant& now) const override {
+    now.loss_factor *= std::exp(activation_K_ * (1.0 / (now.rubber_degC + kZero_K) - 1.0 / reference_K_));
+  }
+
+ private:
+  static constexpr double kZero_K = 273.15;
+
+  double activation_K_ = 0.0;
+  double reference_K_ = 300.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_tire_temperature;
@@ -38,11 +59,14 @@ const EffectKind kind_tire_temperature{"tire_temperature",
                                        log_normal(0.008, 0.03, 0.006, 0.035),
                                        false,
                                        0.0,
-                                       "power of a linear function of the temperature instead of an exponential; "
-                                       "heated by the loss, cooled by air and road with the speed",
-                                       [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                         return std::make_unique<TireTemperature>(size, draws);
-                                       },
+                                       {{"power",
+                                         "power of a linear function of the temperature instead of an exponential; "
+                                         "heated by the loss, cooled by air and road with the speed",
+                                         make_law<TireTemperature>},
+                                        {"arrhenius",
+                                         "Arrhenius' law exp(E/R (1/T - 1/T_0)) instead of an exponential; heated by "
+                                         "the loss, cooled by air and road with the speed",
+                                         make_law<ArrheniusLoss>}},
                                        kConstantGround,
                                        kConstantGround};
 

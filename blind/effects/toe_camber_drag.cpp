@@ -1,4 +1,4 @@
-/// Drag of a wheel at an angle to its way: a side force that saturates with load and softens with heat.
+/// Drag of a wheel at an angle to its way: a side force that saturates with load.
 #include <algorithm>
 #include <cmath>
 
@@ -31,6 +31,30 @@ class ToeCamberDrag : public Effect {
   double fall_per_K_ = 0.0;
 };
 
+/// Cornering stiffness that rises with the load up to x_0 and falls beyond, sin(2 atan(x/x_0)).
+class ArctangentStiffness : public Effect {
+ public:
+  ArctangentStiffness(double force_N, Draws& draws) : force_N_(force_N) {
+    heat_share_ = draws.uniform(0.3, 0.9);
+    peak_ = draws.uniform(1.2, 2.5);
+    shape = {{"heat_share", heat_share_}, {"peak_over_reference_load", peak_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
+    const double drag_N = force_N_ * stiffness(load) / stiffness(1.0);
+    now.heating_force_N += heat_share_ * drag_N;
+    now.rig_force_N += (1.0 - heat_share_) * drag_N;
+  }
+
+ private:
+  double stiffness(double load) const { return std::sin(2.0 * std::atan(load / peak_)); }
+
+  double force_N_;
+  double heat_share_ = 0.5;
+  double peak_ = 2.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_toe_camber_drag;
@@ -44,10 +68,12 @@ const EffectKind kind_toe_camber_drag{
     log_normal(2.0, 12.0, 1.2, 18.0),
     false,
     0.0,
-    "side force x (1 + s)/(1 + s x) of the load ratio x, softer in warm rubber; a share heats the rubber",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<ToeCamberDrag>(size, draws);
-    },
+    {{"saturating",
+      "side force x (1 + s)/(1 + s x) of the load ratio x, softer in warm rubber; a share heats the rubber",
+      make_law<ToeCamberDrag>},
+     {"arctangent",
+      "cornering stiffness of the load as sin(2 atan(x/x_0)), whatever the temperature; a share heats the rubber",
+      make_law<ArctangentStiffness>}},
     kEveryGround,
     kEveryGround};
 

@@ -1,4 +1,4 @@
-/// The zero of the torque meter moves as its amplifier warms, and with the air.
+/// The zero of the torque meter moves as its amplifier warms or its gauge creeps, and with the air.
 #include <cmath>
 
 #include "blind/effect.h"
@@ -32,6 +32,29 @@ class TorqueZeroDrift : public Effect {
   double air_ = 0.0;
 };
 
+/// Zero that creeps with ln(1 + t/tau), as strain gauges and their glue do.
+class GaugeCreep : public Effect {
+ public:
+  GaugeCreep(double rate_N_per_10min, Draws& draws) : rate_N_per_10min_(rate_N_per_10min) {
+    onset_s_ = 60.0 * draws.uniform(3.0, 20.0);  // Assumed
+    air_ = draws.uniform(-0.4, 0.4);
+    shape = {{"onset_min", onset_s_ / 60.0}, {"N_per_K_of_air_over_size", air_}};
+  }
+
+  void trace(RunRecord& record) const override {
+    const double scale_N = rate_N_per_10min_ * kSpan_s / 600.0 / std::log1p(kSpan_s / onset_s_);
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      const double air_N = air_ * rate_N_per_10min_ * (record.ambient_degC[row] - record.ambient_degC.front());
+      record.force[row] += record.lever * (scale_N * std::log1p(record.time_s[row] / onset_s_) + air_N);
+    }
+  }
+
+ private:
+  double rate_N_per_10min_;
+  double onset_s_ = 1.0;
+  double air_ = 0.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_torque_zero_drift;
@@ -45,9 +68,12 @@ const EffectKind kind_torque_zero_drift{
     normal(-0.5, 0.5, -1.2, 1.2),
     false,
     0.04,
-    "zeroed before each run; then an amplifier's exponential approach (25 to 120 min) and a part that follows the air",
-    [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-      return std::make_unique<TorqueZeroDrift>(size, draws);
-    }};
+    {{"amplifier",
+      "zeroed before each run; then an amplifier's exponential approach (25 to 120 min) and a part that follows the "
+      "air",
+      make_law<TorqueZeroDrift>},
+     {"creep",
+      "zeroed before each run; then the gauge's creep with the logarithm of time, and a part that follows the air",
+      make_law<GaugeCreep>}}};
 
 }  // namespace blind

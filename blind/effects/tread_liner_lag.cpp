@@ -1,4 +1,4 @@
-/// Heat takes its time through the wall from tread to liner.
+/// Heat takes its time through the wall from tread to liner: conduction through layers, or between two nodes.
 #include <cmath>
 #include <limits>
 
@@ -34,6 +34,30 @@ class TreadLinerLag : public Effect {
   double tread_share_ = 1.0;
 };
 
+/// Two halves of the wall, each at one temperature, and the conductance between them.
+class TwoNodes : public Effect {
+ public:
+  TwoNodes(double between_W_per_K, Draws& draws) : between_W_per_K_(between_W_per_K) {
+    skew_ = draws.uniform(0.0, 0.5);
+    tread_share_ = draws.uniform(0.6, 1.0);
+    shape = {{"loss_skew_to_tread", skew_}, {"tread_share_of_air", tread_share_}};
+  }
+
+  void lay_out(Wall& wall) const override {
+    if (std::isinf(between_W_per_K_)) return;
+    wall.layers = 2;
+    wall.conductance_W_per_K =
+        0.5 * between_W_per_K_;  // of the whole wall; twice as much lies between its halves' middles
+    wall.loss_skew = skew_;
+    wall.tread_share_of_air = tread_share_;
+  }
+
+ private:
+  double between_W_per_K_;
+  double skew_ = 0.0;
+  double tread_share_ = 1.0;
+};
+
 }  // namespace
 
 extern const EffectKind kind_tread_liner_lag;
@@ -46,11 +70,14 @@ const EffectKind kind_tread_liner_lag{"tread_liner_lag",
                                       log_normal(30.0, 150.0, 20.0, 230.0),
                                       false,
                                       0.0,
-                                      "conduction through three to six radial layers, each losing at its own "
-                                      "temperature, more towards the tread; road and most "
-                                      "of the air cool the outermost, the sensor and the gas see the innermost",
-                                      [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                        return std::make_unique<TreadLinerLag>(size, draws);
-                                      }};
+                                      {{"layers",
+                                        "conduction through three to six radial layers, each losing at its own "
+                                        "temperature, more towards the tread; road and most "
+                                        "of the air cool the outermost, the sensor and the gas see the innermost",
+                                        make_law<TreadLinerLag>},
+                                       {"two_nodes",
+                                        "two nodes, each with half of the heat and a loss of its own temperature; road "
+                                        "and most of the air cool the tread, the sensor and the gas see the liner",
+                                        make_law<TwoNodes>}}};
 
 }  // namespace blind

@@ -65,11 +65,10 @@ const EffectKind kind_wet_surface{"wet_surface",
                                   log_normal(10.0, 50.0, 8.0, 80.0),
                                   false,
                                   0.0,
-                                  "in most runs wet for some minutes, then drying: cooling towards the wet bulb with "
-                                  "sqrt(v), drag with v^1.6, six times as much on a road",
-                                  [](double size, Draws& draws, const Specimen&) -> std::unique_ptr<Effect> {
-                                    return std::make_unique<WetSurface>(size, draws);
-                                  },
+                                  {{"only",
+                                    "in most runs wet for some minutes, then drying: cooling towards the wet bulb with "
+                                    "sqrt(v), drag with v^1.6, six times as much on a road",
+                                    make_law<WetSurface>}},
                                   kEveryGround,
                                   kEveryGround,
                                   true};

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
 
 #include "identification/sample_selection.h"
 #include "models/corner.h"
@@ -87,6 +88,20 @@ BlindSet make_effect_set(const std::string& kind, const std::string& effect, con
   return make_blind_set(
       fmt::format("--kind {} --effect {} --size {} --seed {} --noise-free --nominal-base", kind, effect, size, seed));
 }
+
+std::map<std::string, std::vector<std::string>> list_forms() {
+  std::istringstream in(run_blind("list").out);
+  std::map<std::string, std::vector<std::string>> forms;
+  std::string effect;
+  const std::string mark = "  form     ";
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty() && line.front() != ' ') effect = line.substr(0, line.find(' '));
+    if (line.rfind(mark, 0) == 0) forms[effect].push_back(line.substr(mark.size(), line.find(':') - mark.size()));
+  }
+  return forms;
+}
+
+std::string with_form(const std::string& kind, const std::string& form) { return kind + " --form " + form; }
 
 std::vector<double> find_difference(const BlindSet& made, std::size_t run, const std::string& channel) {
   std::vector<double> difference = made.set.runs[run].columns.at(channel);

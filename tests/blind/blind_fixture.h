@@ -23,6 +23,12 @@ BlindSet make_blind_set(const std::string& arguments);
 /// A set with one effect of that size, without noise and with the files' parameters. `kind` may have further options.
 BlindSet make_effect_set(const std::string& kind, const std::string& effect, const std::string& size, int seed = 21);
 
+/// Functional forms of each effect, as `rollrig_blind list` names them.
+std::map<std::string, std::vector<std::string>> list_forms();
+
+/// What make_effect_set takes as `kind` for a set of a kind whose effect has that form.
+std::string with_form(const std::string& kind, const std::string& form);
+
 /// Difference that the effects make, by row of a run.
 std::vector<double> find_difference(const BlindSet& made, std::size_t run, const std::string& channel);
 

@@ -1,4 +1,5 @@
 // What stands between a bank and its score: the seal, and answers to all sets.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -98,4 +99,39 @@ TEST_CASE("twins of a truth are what its own set could not tell from it, and no 
   CHECK(say({"windage"}, {"rim_heat", "slow_leak"}).at("0002") == std::vector<std::string>{"windage", "slow_leak"});
   CHECK(say({"rim_heat"}, {}).empty());
   CHECK(say({"windage"}, {"slow_leak"}).empty());
+}
+
+TEST_CASE("what the catalogue calls confusable with a truth is left out with it, either way, where that is asked for",
+          "[fast]") {
+  const BankFolder made;
+  const auto truths = proof::open_truth(made.bank, "");
+  proof::Twins twins{{"0002", {"windage", "gas_heat_transfer"}}};  // of rim_heat
+  proof::add_confusable(truths, twins);
+  auto& of_set = twins.at("0002");
+  const auto count = [&of_set](const char* id) { return std::count(of_set.begin(), of_set.end(), id); };
+  CHECK(count("cell_air_warming") == 1);   // says it of rim_heat, and rim_heat of it
+  CHECK(count("brake_heat") == 1);         // says it of rim_heat alone
+  CHECK(count("gas_heat_transfer") == 1);  // known already
+  CHECK(count("windage") == 1);
+  CHECK(count("rim_heat") == 0);
+  CHECK(count("clock_shift") == 0);
+  CHECK(twins.count("0001") == 0);  // no effect
+  CHECK(twins.count("0003") == 0);  // outside of the catalogue
+}
+
+TEST_CASE("a ceiling of another bank is refused, one of this bank read", "[fast]") {
+  const BankFolder made;
+  answer_all(made);
+  proof::ScoreOrder order = make_order(made);
+  order.ceiling = made.bank + "/ceiling.json";
+  const auto write_ceiling = [&](const std::string& sha256) {
+    const Json json = {{"truth_sha256", sha256}, {"sets", {{"0002", {{"d_prime", 7.5}, {"identifiable", true}}}}}};
+    write_file(order.ceiling, json.dump());
+  };
+  write_ceiling(std::string(64, '0'));
+  CHECK_THROWS_AS(proof::read_cases(order), InputError);
+  write_ceiling(made.seal);
+  const std::vector<proof::Case> cases = proof::read_cases(order);
+  CHECK(cases[1].d_prime == 7.5);
+  CHECK_FALSE(cases[0].d_prime.has_value());
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
+#include "proof/baselines/comparison.h"
 #include "proof/report.h"
 #include "tests/proof/hand_made_cases.h"
 
@@ -100,11 +101,17 @@ TEST_CASE("a d' that is known decides what is detectable, and a baseline stands 
   std::vector<Case> bank = make_bank();
   for (Case& one : bank) one.d_prime = 1.0;
   bank[0].d_prime = 5.0;
-  proof::ScoreOptions options;
-  options.baselines = {{"top1_set_aware", 0.71}};
-  const proof::Score score = proof::score_cases(bank, options);
+  proof::Score score = proof::score_cases(bank, {});
+  proof::put_beside({{"aic", "AIC", {{"top1_set_aware", 0.62}, {"false_alarms", 0.3}}},
+                     {"bic", "BIC", {{"top1_set_aware", 0.71}, {"false_alarms", 0.1}}},
+                     {"gp", "process", {}}},
+                    score);
   check_share(score, "top1_set_aware", 1, 1);
   CHECK(figure_of(score, "top1_set_aware").best_baseline.value() == 0.71);
+  CHECK(figure_of(score, "false_alarms").best_baseline.value() == 0.1);  // the less the better
+  CHECK(figure_of(score, "false_alarms").best_baseline_id == "bic");
+  CHECK(proof::make_score_json(score)["baselines"]["aic"]["top1_set_aware"] == 0.62);
+  CHECK(proof::format_score_markdown(score).find("71 (`bic`)") != std::string::npos);
   CHECK_FALSE(figure_of(score, "top3").best_baseline.has_value());
 }
 

@@ -1,0 +1,136 @@
+// rollrig_blind ceiling on banks of a few short sets.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <vector>
+
+#include "sim/core/file_io.h"
+#include "sim/core/json.h"
+#include "tests/support/run_program.h"
+
+namespace fs = std::filesystem;
+using namespace rollrig;
+using namespace rollrig::tests;
+
+namespace {
+
+void seal(const std::string& bank) {
+  write_file(bank + "/seal.sha256", calc_sha256(read_file(bank + "/truth.json")) + "  truth.json\n");
+}
+
+/// A sealed bank of sets made with these options of `rollrig_blind make`.
+void make_bank(const std::string& bank, const std::vector<std::string>& orders) {
+  Json truth{{"format", "rollrig-blind-bank/1"}, {"sets", Json::object()}};
+  fs::create_directories(bank + "/sets");
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const std::string number = fmt::format("{:04}", i + 1);
+    const auto made =
+        run_blind(fmt::format("make {} --out {}/sets/{} --truth {}/one.json", orders[i], bank, number, bank));
+    INFO(made.err);
+    REQUIRE(made.status == 0);
+    truth["sets"][number] = Json::parse(read_file(bank + "/one.json"));
+  }
+  write_file(bank + "/truth.json", truth.dump(1) + "\n");
+  seal(bank);
+}
+
+Json find_ceiling(const std::vector<std::string>& orders, const std::string& options = "") {
+  const TemporaryFolder folder;
+  make_bank(folder.file("bank"), orders);
+  const auto ran = run_blind(fmt::format("ceiling {} {}", folder.file("bank"), options));
+  INFO(ran.err);
+  REQUIRE(ran.status == 0);
+  return Json::parse(read_file(folder.file("bank/ceiling.json"))).at("sets");
+}
+
+bool has_twin(const Json& set, const std::string& id) {
+  const auto twins = set.at("twins").get<std::vector<std::string>>();
+  return std::find(twins.begin(), twins.end(), id) != twins.end();
+}
+
+}  // namespace
+
+TEST_CASE("d' grows in proportion to a small size", "[fast]") {
+  const std::string drum = "--kind drum --runs 2 --seed 4 --effect ";
+  const Json sets = find_ceiling(
+      {drum + "torque_zero_drift --form amplifier --size 0.2", drum + "torque_zero_drift --form amplifier --size 0.4",
+       drum + "rim_heat --form one_node --size 0.05", drum + "rim_heat --form one_node --size 0.1"});
+  const auto d_prime = [&sets](const char* set) { return sets.at(set).at("d_prime").get<double>(); };
+  CHECK(d_prime("0001") > 0.5);
+  CHECK(d_prime("0002") == Approx(2.0 * d_prime("0001")).epsilon(0.002));
+  CHECK(d_prime("0003") > 0.5);
+  CHECK(d_prime("0004") == Approx(2.0 * d_prime("0003")).epsilon(0.05));
+}
+
+TEST_CASE("an effect is compared with all others, a pair also with its members, one from outside with none", "[fast]") {
+  const std::string drum = "--kind drum --runs 2 --seed 4 --effect ";
+  const Json sets =
+      find_ceiling({drum + "rim_heat", drum + "none", drum + "rim_heat,torque_zero_drift", drum + "heater_radiation"});
+  CHECK(sets.size() == 3);
+  const Json& single = sets.at("0001");
+  CHECK(single.at("log_bayes_factors").count("rim_heat") == 0);
+  CHECK(single.at("log_bayes_factors").count("torque_zero_drift") == 1);
+  CHECK(single.at("log_bayes_factors").count("slip_loss") == 0);  // not on a drum
+  const Json& pair = sets.at("0003");
+  CHECK(pair.at("log_bayes_factors").count("rim_heat") == 1);
+  CHECK(pair.at("log_bayes_factors").count("torque_zero_drift") == 1);
+  const Json& outside = sets.at("0004");
+  CHECK(outside.at("d_prime") > 0.0);
+  CHECK(outside.count("identifiable") == 0);
+}
+
+TEST_CASE("under one load straps, load record and curvature scale the loss alike; a clock that is late does not",
+          "[fast]") {
+  const std::string dyno = "--kind dyno --runs 1 --seed 4 --effect ";
+  const Json sets = find_ceiling(
+      {dyno + "tie_down_load --form relaxing --size 600", dyno + "curvature_exponent --form power --size 3"});
+  for (const char* set : {"0001", "0002"}) {
+    INFO(sets.at(set).dump(1));
+    CHECK(sets.at(set).at("d_prime") > 3.0);
+    CHECK_FALSE(sets.at(set).at("identifiable").get<bool>());
+    CHECK(has_twin(sets.at(set), "load_record"));
+    CHECK_FALSE(has_twin(sets.at(set), "clock_shift"));
+  }
+  CHECK(has_twin(sets.at("0001"), "curvature_exponent"));
+}
+
+TEST_CASE("the ceiling does not depend on threads, nor a set's on the other sets", "[fast]") {
+  const std::vector<std::string> orders{"--kind road --runs 1 --effect speed_record --seed 1",
+                                        "--kind drum --runs 1 --effect windage --seed 2",
+                                        "--kind drum --runs 1 --effect slow_leak --seed 3"};
+  const Json all = find_ceiling(orders, "--threads 1");
+  CHECK(find_ceiling(orders, "--threads 3") == all);
+  const Json one = find_ceiling(orders, "--sets 0002");
+  CHECK(one.size() == 1);
+  CHECK(one.at("0002") == all.at("0002"));
+}
+
+TEST_CASE("a truth that was not sealed, other files and a wrong place are refused, and nothing is written", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string bank = folder.file("bank");
+  make_bank(bank, {"--kind drum --runs 1 --effect windage --seed 2"});
+  const auto refuse = [&bank](const std::string& options, const std::string& why) {
+    const auto ran = run_blind("ceiling " + bank + " " + options);
+    INFO(options);
+    CHECK(ran.status == 2);
+    CHECK_THAT(ran.err, Catch::Contains(why));
+    CHECK_FALSE(fs::exists(bank + "/ceiling.json"));
+  };
+  refuse("--out " + bank + "/truth.json", "bank's own files");
+  refuse("--out " + bank + "/sets/0001/ceiling.json", "bank's own files");
+  refuse("--sets 0010", "0001");
+  const std::string truth = read_file(bank + "/truth.json");
+  write_file(bank + "/truth.json", truth + "\n");
+  refuse("", "sealed");
+  seal(bank);
+  const std::string tire = read_file(bank + "/sets/0001/tire.toml");
+  write_file(bank + "/sets/0001/tire.toml", tire + "\n");
+  refuse("", "tire.toml");
+  write_file(bank + "/truth.json", "{}");
+  seal(bank);
+  refuse("", "not the truth of a bank");
+  fs::remove(bank + "/seal.sha256");
+  refuse("", "seal.sha256");
+}
