@@ -1,0 +1,82 @@
+#include "report/blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "report/thinning.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+
+Json rounded(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+}
+
+Json rounded(const std::vector<double>& values) {
+  Json json = Json::array();
+  for (const double value : values) json.push_back(rounded(value));
+  return json;
+}
+
+Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values,
+                 std::size_t most) {
+  double size = 0.0;
+  for (const double value : values) size = std::isfinite(value) ? std::max(size, std::abs(value)) : size;
+  constexpr double kShown = 1e-6;  // of the largest value: less than the six digits that are written
+  Json t = Json::array();
+  Json y = Json::array();
+  for (const std::size_t row : thin(time_s, values, most, kShown * size)) {
+    t.push_back(std::round(1e3 * time_s[row]) / 1e3);
+    y.push_back(rounded(values[row]));
+  }
+  return {{"name", name}, {"t", t}, {"y", y}};
+}
+
+Block make_lines(const std::vector<scenarios::ResultLine>& lines) {
+  Block block = {{"type", "lines"}, {"lines", Json::array()}};
+  for (const scenarios::ResultLine& line : lines) {
+    block["lines"].push_back({{"label", line.label}, {"value", pretty_unit(line.value)}});
+  }
+  return block;
+}
+
+Block make_table(const scenarios::ResultTable& table) {
+  Block block = {{"type", "table"}, {"columns", Json::array()}, {"rows", table.rows}};
+  if (!table.title.empty()) block["caption"] = table.title;
+  for (const std::string& column : table.columns) block["columns"].push_back({{"label", pretty_unit(column)}});
+  return block;
+}
+
+Block make_warnings(const std::vector<std::string>& warnings) { return {{"type", "warnings"}, {"items", warnings}}; }
+
+Block make_paragraph(const std::string& text) { return {{"type", "text"}, {"paragraphs", Json::array({text})}}; }
+
+Block make_lead(const std::string& tone, const std::string& text, const std::string& more) {
+  Block block = {{"type", "lead"}, {"tone", tone}, {"text", text}};
+  if (!more.empty()) block["more"] = more;
+  return block;
+}
+
+Section make_inputs(const Json& groups) {
+  return {"Inputs", "", {{{"type", "inputs"}, {"groups", groups}}}, "All inputs, defaults included"};
+}
+
+std::string plain_name(const std::string& key) {
+  std::string name = name_without_unit(key);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string pretty_unit(std::string symbol) {
+  const std::size_t at = symbol.find("degC");
+  if (at != std::string::npos) symbol.replace(at, 4, "°C");
+  return symbol;
+}
+
+std::string shown_unit(const std::string& key) { return pretty_unit(unit_of_key(key).symbol); }
+
+}  // namespace rollrig::report

@@ -1,0 +1,89 @@
+#include "report/diagnosis_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/kinds/measurement_kind.h"
+#include "report/blocks.h"
+#include "report/diagnosis_sections.h"
+#include "report/set_comparison.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+using diagnosis::Cause;
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+
+/// The cause's effects at their fitted size; those without an estimate at the centre of their prior.
+std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
+  std::vector<models::ActiveEffect> active;
+  for (const std::string& id : cause.effects) {
+    const models::Effect& effect = models::find_effect(id);
+    models::ActiveEffect one{&effect, {}};
+    for (const models::EffectParameter& parameter : effect.info.parameters) {
+      const std::string name = id + "." + parameter.key;
+      const auto at = std::find_if(cause.parameters.begin(), cause.parameters.end(),
+                                   [&name](const diagnosis::ParameterEstimate& each) { return each.name == name; });
+      const double value = at != cause.parameters.end() ? at->value : parameter.prior.centre();
+      one.parameters.push_back(unit_of_key(parameter.key).to_si(value));
+    }
+    active.push_back(std::move(one));
+  }
+  return active;
+}
+
+std::vector<SimulatedSet> simulate_before_and_after(const diagnosis::PreparedSet& set, const Diagnosis& diagnosis) {
+  const models::Context<double> context = set.kind().make_context(set.source());
+  std::vector<SimulatedSet> simulated{simulate_set(set, "simulated, files' numbers", context, {})};
+  if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return simulated;
+  const Cause& cause = diagnosis.causes.front();
+  simulated.push_back(
+      simulate_set(set, fmt::format("with {}", fmt::join(cause.effects, " and ")), context, make_effects(cause)));
+  return simulated;
+}
+
+Section make_runs(const diagnosis::PreparedSet& set, const std::vector<SimulatedSet>& simulated) {
+  Section section{"Run by run",
+                  "Measurement and simulation. Base parameters stand as the files give them, and sensor offsets are "
+                  "not taken off, so a gap that a recalibration takes is seen here as well."};
+  for (std::size_t run = 0; run < set.runs().size(); ++run) {
+    section.blocks.push_back(make_comparison(set, run, simulated));
+  }
+  return section;
+}
+
+std::string describe_set(const scenarios::MeasurementSet& set) {
+  const std::string machine = set.rig.has_value()       ? "rig " + set.rig->name
+                              : set.vehicle.has_value() ? "vehicle " + set.vehicle->name
+                                                        : "";
+  return fmt::format("Tire {}, {}, {} runs", set.tire.name, machine, set.runs.size());
+}
+
+}  // namespace
+
+Page make_diagnosis_page(const scenarios::MeasurementSet& set, const Diagnosis& diagnosis) {
+  const diagnosis::PreparedSet prepared(set);
+  const std::vector<SimulatedSet> simulated = simulate_before_and_after(prepared, diagnosis);
+  Page page{"diagnose", fmt::format("Diagnosis of {}", diagnosis.set), describe_set(set), {}, false, {}};
+  page.add(make_verdict(diagnosis));
+  page.add(make_causes(diagnosis));
+  page.add(make_gap(diagnosis));
+  Section where{"Where it lies"};
+  if (!simulated.front().values.empty()) {
+    where.blocks.push_back(make_gap_map(prepared, simulated.front(), diagnosis.where));
+  }
+  if (!diagnosis.balance.empty()) where.blocks.push_back(make_balance(diagnosis));
+  page.add(std::move(where));
+  page.add(make_next(diagnosis));
+  page.add(make_explanations(diagnosis));
+  page.add(make_runs(prepared, simulated));
+  Json document = diagnosis::make_diagnosis_json(diagnosis);
+  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The diagnosis as JSON"});
+  return page;
+}
+
+}  // namespace rollrig::report

@@ -1,0 +1,276 @@
+#include "report/diagnosis_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/effect.h"
+#include "report/blocks.h"
+#include "report/diagnosis_page.h"
+#include "sim/core/text.h"
+
+namespace rollrig::report {
+namespace {
+
+using diagnosis::Cause;
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+
+constexpr double kListed = 0.005;  // probability from which an effect has a bar
+
+double probability_of(const Diagnosis& diagnosis, const std::string& name) {
+  const auto at = diagnosis.probability.find(name);
+  return at == diagnosis.probability.end() ? 0.0 : at->second;
+}
+
+std::string summary_of(const std::string& id) {
+  if (id == "none") return "no effect is needed";
+  if (id == "unknown") return "something outside the catalogue";
+  const std::vector<std::string> known = models::effect_ids();
+  const bool is_known = std::find(known.begin(), known.end(), id) != known.end();
+  return is_known ? models::find_effect(id).info.summary : id;
+}
+
+std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+std::string show_estimate(const diagnosis::ParameterEstimate& at) {
+  const std::string unit = at.unit.empty() ? "" : " " + pretty_unit(at.unit);
+  return fmt::format("{:.3g}{} (95 %: {:.3g} to {:.3g})", at.value, unit, at.low_95, at.high_95);
+}
+
+std::string describe_shrinkage(const diagnosis::Gap& gap) {
+  if (!gap.shrink_percent.has_value()) return "";
+  return fmt::format(" It takes {:.0f} % of the gap ({:.0f} to {:.0f} %) on runs that the fit did not see.",
+                     *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
+}
+
+Block make_parameter_table(const Cause& cause) {
+  scenarios::ResultTable table{"Fitted size of " + fmt::format("{}", fmt::join(cause.effects, " and ")),
+                               {"parameter", "value", "sd", "95 % from", "to", "unit"},
+                               {}};
+  for (const diagnosis::ParameterEstimate& at : cause.parameters) {
+    table.rows.push_back({at.name, fmt::format("{:.4g}", at.value), fmt::format("{:.2g}", at.sd),
+                          fmt::format("{:.4g}", at.low_95), fmt::format("{:.4g}", at.high_95), pretty_unit(at.unit)});
+  }
+  return make_table(table);
+}
+
+Block make_probabilities(const Diagnosis& diagnosis) {
+  std::vector<std::pair<double, std::string>> ranked;
+  for (const auto& [name, probability] : diagnosis.probability) {
+    if (probability >= kListed || name == "none" || name == "unknown") ranked.emplace_back(probability, name);
+  }
+  std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Json rows = Json::array();
+  for (const auto& [probability, name] : ranked) {
+    rows.push_back({{"label", name},
+                    {"note", summary_of(name)},
+                    {"share", rounded(probability)},
+                    {"text", show_probability(probability)}});
+  }
+  const std::size_t others = diagnosis.probability.size() - ranked.size();
+  return {{"type", "shares"},
+          {"caption", fmt::format("Probability of each effect; {} more are below {:.1f} %", others, 100.0 * kListed)},
+          {"columns", {"effect", "probability"}},
+          {"rows", rows}};
+}
+
+Block make_ranking(const Diagnosis& diagnosis) {
+  scenarios::ResultTable table{
+      "Causes, the likeliest first", {"cause", "probability", "cannot be told from", "size", "adequate"}, {}};
+  for (const Cause& cause : diagnosis.causes) {
+    const bool sized = !cause.parameters.empty();
+    table.rows.push_back({fmt::format("{}", fmt::join(cause.effects, " + ")), show_probability(cause.probability),
+                          cause.indistinguishable_from.empty() ? "-" : join(cause.indistinguishable_from),
+                          sized ? show_estimate(cause.parameters.front()) : "-", cause.adequate ? "yes" : "no"});
+  }
+  return make_table(table);
+}
+
+Block make_channel_gaps(const Diagnosis& diagnosis) {
+  scenarios::ResultTable table{
+      "Gap of each channel, without noise, on held-out runs", {"channel", "before", "after", "unit"}, {}};
+  for (const diagnosis::ChannelGap& at : diagnosis.gap.channels) {
+    table.rows.push_back({plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after),
+                          pretty_unit(at.unit)});
+  }
+  return make_table(table);
+}
+
+std::string describe_parameter(const models::EffectParameter& parameter) {
+  const std::string unit = shown_unit(parameter.key);
+  return fmt::format("{}: {}. Two thirds of the belief before any data lie from {:.4g} to {:.4g}{}{}{}.", parameter.key,
+                     parameter.doc, parameter.prior.low, parameter.prior.high, unit.empty() ? "" : " ", unit,
+                     parameter.prior.either_sign ? ", either sign" : "");
+}
+
+Block make_explanation(const models::EffectInfo& info) {
+  Json items = Json::array();
+  const auto add = [&items](const char* term, const std::vector<std::string>& texts, bool is_code = false) {
+    if (!texts.empty()) items.push_back({{"term", term}, {"texts", texts}, {"code", is_code}});
+  };
+  std::vector<std::string> parameters;
+  for (const models::EffectParameter& parameter : info.parameters) parameters.push_back(describe_parameter(parameter));
+  std::vector<std::string> confusions;
+  for (const std::string& id : info.confused_with) confusions.push_back(id + ": " + summary_of(id));
+  add("What it is", {info.summary});
+  add("Equation", {info.equation}, true);
+  add("Source", {info.source});
+  add("Own parameters", parameters);
+  add("Confused with", confusions);
+  add("Told from those by", info.splitting_tests);
+  return {{"type", "definitions"}, {"title", info.id}, {"items", items}};
+}
+
+}  // namespace
+
+std::string show_probability(double probability) {
+  if (probability > 0.99 && probability < 1.0) return "over 99 %";
+  if (probability < 0.01 && probability > 0.0) return "under 1 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+std::string describe_verdict(const Diagnosis& diagnosis) {
+  const bool has_cause = !diagnosis.causes.empty();
+  if (diagnosis.verdict == Verdict::kNoGap) {
+    return fmt::format(
+        "No gap: the simulation meets the measurement within noise and the files' uncertainties "
+        "(probability {}).",
+        show_probability(probability_of(diagnosis, "none")));
+  }
+  if (diagnosis.verdict == Verdict::kUnexplained || !has_cause) {
+    const std::string like = has_cause ? fmt::format("; it looks most like {}, but that does not explain it",
+                                                     fmt::join(diagnosis.causes.front().effects, " with "))
+                                       : "";
+    return fmt::format("Unexplained: there is a gap that no effect of the catalogue follows (probability {}){}.",
+                       show_probability(probability_of(diagnosis, "unknown")), like);
+  }
+  const Cause& cause = diagnosis.causes.front();
+  std::string text = fmt::format("Explained: the gap is {}", fmt::join(cause.effects, " with "));
+  if (!cause.indistinguishable_from.empty()) text += " or, as well, " + join(cause.indistinguishable_from);
+  return fmt::format("{} (probability {}).", text, show_probability(cause.probability));
+}
+
+Section make_verdict(const Diagnosis& diagnosis) {
+  Section section{"Verdict"};
+  const char* tone = diagnosis.verdict == Verdict::kUnexplained ? "bad" : "good";
+  std::string more;
+  if (diagnosis.verdict == Verdict::kExplained && !diagnosis.causes.empty()) {
+    const Cause& cause = diagnosis.causes.front();
+    std::string meaning = summary_of(cause.effects.front());
+    if (!cause.parameters.empty()) {
+      meaning += fmt::format(
+          "; {} {}", plain_name(cause.parameters.front().name.substr(cause.parameters.front().name.rfind('.') + 1)),
+          show_estimate(cause.parameters.front()));
+    }
+    more = meaning + "." + describe_shrinkage(diagnosis.gap);
+  }
+  section.blocks.push_back(make_lead(tone, describe_verdict(diagnosis), more));
+  if (!diagnosis.warnings.empty()) section.blocks.push_back(make_warnings(diagnosis.warnings));
+  return section;
+}
+
+Section make_causes(const Diagnosis& diagnosis) {
+  Section section{"Causes"};
+  section.blocks.push_back(make_probabilities(diagnosis));
+  if (diagnosis.causes.empty()) return section;
+  section.blocks.push_back(make_ranking(diagnosis));
+  if (!diagnosis.causes.front().parameters.empty()) {
+    section.blocks.push_back(make_parameter_table(diagnosis.causes.front()));
+  }
+  const std::vector<std::string>& objections = diagnosis.causes.front().objections;
+  if (!objections.empty()) {
+    section.blocks.push_back(
+        {{"type", "text"}, {"paragraphs", Json::array({"Against the first cause speaks:"})}, {"items", objections}});
+  }
+  return section;
+}
+
+Section make_gap(const Diagnosis& diagnosis) {
+  const diagnosis::Gap& gap = diagnosis.gap;
+  const bool is_held_out = !gap.held_out.empty();
+  Section section{"Before and after", is_held_out
+                                          ? fmt::format("Judged on {} runs, each left out of the fit in turn: {}.",
+                                                        gap.held_out.size(), join(gap.held_out))
+                                          : "There is one run, so nothing can be left out: judged on the fitted data."};
+  section.blocks.push_back(
+      {{"type", "bars"},
+       {"label", "Gap without noise"},
+       {"unit", "noise floors"},
+       {"categories", {"as calibrated, numbers of the files", "recalibrated, held-out runs"}},
+       {"series",
+        {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
+         {{"name", "with the cause"},
+          {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}}},
+       {"caption", "One noise floor is the standard deviation of a mean over ten seconds."}});
+  const auto percent = [](const std::optional<double>& value) {
+    return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
+  };
+  std::string shrinks = percent(gap.shrink_percent);
+  if (gap.shrink_percent.has_value()) {
+    shrinks += fmt::format(" ({:.0f} to {:.0f} %)", gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
+  }
+  section.blocks.push_back(make_lines({{"The cause takes from the recalibrated gap", shrinks},
+                                       {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
+                                       {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}));
+  if (!gap.channels.empty()) section.blocks.push_back(make_channel_gaps(diagnosis));
+  return section;
+}
+
+Block make_balance(const Diagnosis& diagnosis) {
+  Json rows = Json::array();
+  for (const diagnosis::BalanceShare& share : diagnosis.balance) {
+    rows.push_back({{"label", share.name},
+                    {"share", rounded(share.share_percent / 100.0)},
+                    {"text", fmt::format("{:.0f} %", share.share_percent)}});
+  }
+  return {{"type", "shares"},
+          {"caption", "Which equation needs a push for the simulation to meet the measurement"},
+          {"columns", {"equation", "share of the gap"}},
+          {"rows", rows}};
+}
+
+Section make_next(const Diagnosis& diagnosis) {
+  Section section{"What cannot be told apart, and the test that would"};
+  if (!diagnosis.causes.empty() && !diagnosis.causes.front().indistinguishable_from.empty()) {
+    const Cause& cause = diagnosis.causes.front();
+    section.blocks.push_back(make_paragraph(
+        fmt::format("This set cannot tell {} from {}.", join(cause.effects), join(cause.indistinguishable_from))));
+  }
+  section.blocks.push_back(
+      make_paragraph(diagnosis.not_excluded.empty()
+                         ? std::string("Not excluded: nothing; each effect at its usual size would have shown.")
+                         : "Not excluded, since this set need not show them: " + join(diagnosis.not_excluded) + "."));
+  scenarios::ResultTable tests{
+      "Next tests, the most telling first", {"test", "tells apart", "bits an hour", "hours"}, {}};
+  for (const diagnosis::NextTest& next : diagnosis.next_test) {
+    tests.rows.push_back({next.test, next.splits.empty() ? "-" : join(next.splits),
+                          fmt::format("{:.2f}", next.expected_bits_per_hour), fmt::format("{:.1f}", next.hours)});
+  }
+  if (!tests.rows.empty()) section.blocks.push_back(make_table(tests));
+  scenarios::ResultTable sensors{"Sensors that the rig has not", {"sensor", "tells apart", "bits", "hours to fit"}, {}};
+  for (const diagnosis::NextSensor& next : diagnosis.next_sensor) {
+    sensors.rows.push_back({next.sensor, next.splits.empty() ? "-" : join(next.splits),
+                            fmt::format("{:.2f}", next.expected_bits), fmt::format("{:.2g}", next.hours)});
+  }
+  if (!sensors.rows.empty()) section.blocks.push_back(make_table(sensors));
+  return section;
+}
+
+Section make_explanations(const Diagnosis& diagnosis) {
+  Section section{"The named cause: equation and source"};
+  if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return section;
+  const Cause& cause = diagnosis.causes.front();
+  std::vector<std::string> ids = cause.effects;
+  ids.insert(ids.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
+  const std::vector<std::string> known = models::effect_ids();
+  for (const std::string& id : ids) {
+    if (std::find(known.begin(), known.end(), id) != known.end()) {
+      section.blocks.push_back(make_explanation(models::find_effect(id).info));
+    }
+  }
+  return section;
+}
+
+}  // namespace rollrig::report

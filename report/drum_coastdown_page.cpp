@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "report/blocks.h"
+#include "report/fit_pages.h"
+
+namespace rollrig::report {
+namespace {
+
+using identification::CoastSet;
+using identification::DrumCoastdownFit;
+using identification::Interval;
+using identification::PressureLevel;
+using identification::SpeedPoint;
+
+constexpr double kKmhPerMs = 3.6;
+
+/// A growing series of points with their intervals.
+struct Points {
+  Json x = Json::array(), y = Json::array(), low = Json::array(), high = Json::array();
+
+  void add(double at, const Interval& interval, double scale) {
+    x.push_back(rounded(at));
+    y.push_back(rounded(scale * interval.value));
+    low.push_back(rounded(scale * interval.lower));
+    high.push_back(rounded(scale * interval.upper));
+  }
+  Json finish(const std::string& name) const {
+    return {{"name", name}, {"kind", "points"}, {"x", x}, {"y", y}, {"low", low}, {"high", high}};
+  }
+};
+
+/// Force where the drum's inertia is known, else the net deceleration in mm/s2.
+const Interval& find_net(const PressureLevel& level, bool forces) { return forces ? *level.force_N : level.net_m_s2; }
+
+Block make_net_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
+  const bool forces = set.calc_drum_mass_kg().has_value();
+  std::set<double> pressures_Pa;
+  for (const SpeedPoint& point : fit.points) {
+    for (const PressureLevel& level : point.levels) pressures_Pa.insert(level.pressure_Pa);
+  }
+  Json series = Json::array();
+  for (const double pressure_Pa : pressures_Pa) {
+    Points points;
+    for (const SpeedPoint& point : fit.points) {
+      for (const PressureLevel& level : point.levels) {
+        if (level.pressure_Pa != pressure_Pa || (forces && !level.force_N.has_value())) continue;
+        points.add(kKmhPerMs * point.speed_m_s, find_net(level, forces), forces ? 1.0 : 1e3);
+      }
+    }
+    series.push_back(points.finish(fmt::format("{:.0f} kPa", pressure_Pa / 1e3)));
+  }
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", forces ? "Rolling resistance" : "Net deceleration"}, {"unit", forces ? "N" : "mm/s²"}}},
+          {"series", series},
+          {"caption", "Net of the drum's own loss, with 95 % intervals."}};
+}
+
+Block make_exponent_chart(const DrumCoastdownFit& fit) {
+  Points points;
+  for (const SpeedPoint& point : fit.points) {
+    if (point.pressure_exponent.has_value()) points.add(kKmhPerMs * point.speed_m_s, *point.pressure_exponent, 1.0);
+  }
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", "Exponent of gauge pressure"}, {"unit", ""}}},
+          {"series", Json::array({points.finish("exponent")})},
+          {"caption", "With 95 % intervals."}};
+}
+
+std::string show(const std::optional<Interval>& interval, double scale, int decimals) {
+  if (!interval.has_value()) return "-";
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", scale * interval->value, decimals, scale * interval->lower,
+                     decimals, scale * interval->upper, decimals);
+}
+
+Block make_levels(const DrumCoastdownFit& fit) {
+  scenarios::ResultTable table{"Net of the drum's own loss, with 95 % intervals; * interpolated",
+                               {"speed km/h", "pressure kPa", "runs", "net mm/s²", "force N", "over the reference"},
+                               {}};
+  for (const SpeedPoint& point : fit.points) {
+    for (const PressureLevel& level : point.levels) {
+      table.rows.push_back({fmt::format("{:.1f}{}", kKmhPerMs * point.speed_m_s, level.in_range_left_out ? "*" : ""),
+                            fmt::format("{:.0f}", level.pressure_Pa / 1e3), fmt::format("{}", level.runs),
+                            show(level.net_m_s2, 1e3, 2), show(level.force_N, 1.0, 2), show(level.ratio, 1.0, 3)});
+    }
+  }
+  return make_table(table);
+}
+
+/// What the fits leave of the coasts' speeds; of long coasts every so many-th row.
+Block make_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
+  constexpr std::size_t kMost = 4000;
+  std::size_t rows = 0;
+  for (const auto& analysis : fit.analyses) {
+    for (const auto& at : analysis.decelerations) rows += at.residuals.size();
+  }
+  const std::size_t stride = 1 + rows / kMost;
+  std::map<std::string, Points> by_state;
+  std::size_t row = 0;
+  for (const auto& analysis : fit.analyses) {
+    const bool is_loaded = set.runs[analysis.run].state == identification::CoastState::kLoaded;
+    Points& points = by_state[is_loaded ? "tire loaded" : "tire lifted"];
+    for (const auto& at : analysis.decelerations) {
+      for (const identification::FittedRow& fitted : at.residuals) {
+        if (row++ % stride != 0) continue;
+        points.x.push_back(rounded(kKmhPerMs * fitted.speed_m_s));
+        points.y.push_back(rounded(1e3 * (fitted.speed_m_s - fitted.fitted_m_s)));
+      }
+    }
+  }
+  Json series = Json::array();
+  for (const auto& [name, points] : by_state) {
+    series.push_back({{"name", name}, {"kind", "points"}, {"x", points.x}, {"y", points.y}});
+  }
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", "Measured less fitted speed"}, {"unit", "mm/s"}}},
+          {"marks", {0.0}},
+          {"series", series},
+          {"caption", stride > 1 ? fmt::format("Every {}th row.", stride) : std::string("Every row.")}};
+}
+
+}  // namespace
+
+Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) {
+  Page page{"fit drum-coastdown",
+            fmt::format("Rolling resistance from coast-downs: {}", set.name),
+            fmt::format("{} runs; reference {:.1f} kPa, {:.1f} km/h", set.runs.size(), fit.reference_pressure_Pa / 1e3,
+                        kKmhPerMs * set.reference_speed_m_s),
+            {},
+            false,
+            {}};
+  Section result{"Result"};
+  if (!fit.warnings.empty()) result.blocks.push_back(make_warnings(fit.warnings));
+  result.blocks.push_back(make_net_chart(set, fit));
+  result.blocks.push_back(make_levels(fit));
+  page.add(std::move(result));
+  const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
+                                        [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
+  if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});
+  page.add({"Residuals", "", {make_residual_chart(set, fit)}});
+  Json document = identification::make_coastdown_json(set, fit);
+  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
+  return page;
+}
+
+}  // namespace rollrig::report

@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include "diagnosis/diagnosis_json.h"
+#include "report/blocks.h"
+#include "report/diagnosis_page.h"
+#include "report/diagnosis_sections.h"
+
+namespace rollrig::report {
+namespace {
+
+using diagnosis::Fleet;
+using diagnosis::FleetMember;
+using diagnosis::Recurrence;
+using diagnosis::Shared;
+
+Block make_members(const Fleet& fleet) {
+  scenarios::ResultTable table{
+      "", {"set", "machine", "tire", "verdict", "cause", "probability", "gap before", "after"}, {}};
+  for (const FleetMember& member : fleet.members) {
+    std::vector<std::string> row{member.folder, member.machine, member.tire};
+    if (!member.diagnosis.has_value()) {
+      row.insert(row.end(), {"failed: " + member.failure, "", "", "", ""});
+    } else {
+      const diagnosis::Diagnosis& one = *member.diagnosis;
+      const bool has_cause = !one.causes.empty() && one.verdict != diagnosis::Verdict::kNoGap;
+      row.insert(row.end(), {diagnosis::name_of(one.verdict),
+                             has_cause ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "-",
+                             has_cause ? show_probability(one.causes.front().probability) : "-",
+                             fmt::format("{:.2f}", one.gap.recalibrated.before),
+                             fmt::format("{:.2f}", one.gap.recalibrated.after)});
+    }
+    table.rows.push_back(row);
+  }
+  return make_table(table);
+}
+
+std::string name_shared(const Recurrence& at) {
+  switch (at.shared) {
+    case Shared::kMachine:
+      return "machine " + at.name;
+    case Shared::kTire:
+      return "tire " + at.name;
+    case Shared::kMachineAndTire:
+      break;
+  }
+  return "machine and tire " + at.name;
+}
+
+Block make_recurrences(const Fleet& fleet) {
+  scenarios::ResultTable table{
+      "", {"effect", "with", "sets", "named in", "probability that it acts in all", "mean size", "sd", "unit"}, {}};
+  for (const Recurrence& at : fleet.recurrences) {
+    table.rows.push_back(
+        {at.effect, name_shared(at), fmt::format("{}", at.sets), fmt::format("{}", at.named_in),
+         show_probability(at.probability), at.mean_size.has_value() ? fmt::format("{:.3g}", *at.mean_size) : "-",
+         at.mean_size.has_value() ? fmt::format("{:.2g}", at.mean_size_sd) : "-", pretty_unit(at.unit)});
+  }
+  return make_table(table);
+}
+
+/// Gap of every set before and after its cause.
+Block make_gaps(const Fleet& fleet) {
+  Json names = Json::array(), before = Json::array(), after = Json::array();
+  for (const FleetMember& member : fleet.members) {
+    if (!member.diagnosis.has_value()) continue;
+    names.push_back(member.folder.substr(member.folder.rfind('/') + 1));
+    before.push_back(rounded(member.diagnosis->gap.recalibrated.before));
+    after.push_back(rounded(member.diagnosis->gap.recalibrated.after));
+  }
+  return {{"type", "bars"},
+          {"label", "Gap on held-out runs"},
+          {"unit", "noise floors"},
+          {"categories", names},
+          {"series", {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}}}};
+}
+
+}  // namespace
+
+Page make_fleet_page(const Fleet& fleet) {
+  Page page{"diagnose", fmt::format("Diagnosis of {} sets", fleet.members.size()), "", {}, false, {}};
+  page.add({"Sets", "", {make_members(fleet), make_gaps(fleet)}});
+  Section back{"What comes back"};
+  back.blocks.push_back(
+      fleet.recurrences.empty()
+          ? make_paragraph("No effect is likelier than not to act in all sets of a machine or a tire.")
+          : make_recurrences(fleet));
+  page.add(std::move(back));
+  for (const FleetMember& member : fleet.members) {
+    if (!member.diagnosis.has_value()) continue;
+    page.add({member.folder.substr(member.folder.rfind('/') + 1),
+              "",
+              {make_lead(member.diagnosis->verdict == diagnosis::Verdict::kUnexplained ? "bad" : "good",
+                         describe_verdict(*member.diagnosis))}});
+  }
+  return page;
+}
+
+}  // namespace rollrig::report

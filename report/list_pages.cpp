@@ -1,0 +1,148 @@
+#include "report/list_pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/blocks.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+/// Settings that are varied, in their order.
+std::vector<std::string> find_axes(const Json& sweep) {
+  std::vector<std::string> axes;
+  for (const auto& [key, value] : sweep["points"].front()["set"].items()) axes.push_back(key);
+  return axes;
+}
+
+bool is_numeric(const Json& sweep, const std::string& axis) {
+  return std::all_of(sweep["points"].begin(), sweep["points"].end(), [&axis](const Json& point) {
+    return parse_number(point["set"][axis].get<std::string>()).has_value();
+  });
+}
+
+/// Values of the axes other than the first, as one name: a line each.
+std::string name_line(const Json& point, const std::vector<std::string>& axes) {
+  std::string name;
+  for (std::size_t i = 1; i < axes.size(); ++i) {
+    name += fmt::format("{}{} {}", i > 1 ? ", " : "", axes[i], point["set"][axes[i]].get<std::string>());
+  }
+  return name;
+}
+
+Block make_sweep_chart(const Json& sweep, const std::vector<std::string>& axes, const std::string& result) {
+  Json series = Json::array();
+  for (const Json& point : sweep["points"]) {
+    const std::string name = axes.size() > 1 ? name_line(point, axes) : plain_name(result);
+    auto at = std::find_if(series.begin(), series.end(), [&name](const Json& each) { return each["name"] == name; });
+    if (at == series.end()) {
+      series.push_back({{"name", name}, {"kind", "line"}, {"x", Json::array()}, {"y", Json::array()}});
+      at = series.end() - 1;
+    }
+    const Json value = point["result"].value(result, Json(nullptr));
+    (*at)["x"].push_back(*parse_number(point["set"][axes.front()].get<std::string>()));
+    (*at)["y"].push_back(value.is_number() ? rounded(value.get<double>()) : Json(nullptr));
+  }
+  const std::string axis = axes.front().substr(axes.front().rfind('.') + 1);
+  return {{"type", "curves"},
+          {"x", {{"label", plain_name(axis)}, {"unit", shown_unit(axis)}}},
+          {"y", {{"label", plain_name(result)}, {"unit", shown_unit(result)}}},
+          {"series", series}};
+}
+
+/// Single numbers of the result that are not the same in every run; times of evaluation do not count.
+std::vector<std::string> find_changing(const Json& sweep) {
+  constexpr double kSame = 1e-6;  // relative
+  std::vector<std::string> keys;
+  for (const auto& [key, first] : sweep["points"].front()["result"].items()) {
+    if (!first.is_number() || unit_of_key(key).symbol == "s") continue;
+    const bool changes =
+        std::any_of(sweep["points"].begin(), sweep["points"].end(), [&key = key, &first = first](const Json& point) {
+          const Json& result = point["result"];
+          const double value = result.contains(key) && result[key].is_number() ? result[key].get<double>() : 0.0;
+          return std::abs(value - first.get<double>()) > kSame * std::abs(first.get<double>());
+        });
+    if (changes) keys.push_back(key);
+  }
+  return keys;
+}
+
+/// A row a point: what is set, then every single number of the result.
+Block make_sweep_table(const Json& sweep, const std::vector<std::string>& axes) {
+  scenarios::ResultTable table{fmt::format("All {} runs", sweep["points"].size()), axes, {}};
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : sweep["points"].front()["result"].items()) {
+    if (value.is_number()) keys.push_back(key);
+  }
+  table.columns.insert(table.columns.end(), keys.begin(), keys.end());
+  for (const Json& point : sweep["points"]) {
+    std::vector<std::string> row;
+    for (const std::string& axis : axes) row.push_back(point["set"][axis].get<std::string>());
+    for (const std::string& key : keys) {
+      const Json value = point["result"].value(key, Json(nullptr));
+      row.push_back(value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "-");
+    }
+    table.rows.push_back(row);
+  }
+  return make_table(table);
+}
+
+}  // namespace
+
+Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle) {
+  if (shown.empty()) shown = find_changing(sweep);
+  const std::vector<std::string> axes = find_axes(sweep);
+  Page page{"sweep",  fmt::format("Sweep of {} over {}", sweep["scenario"].get<std::string>(), fmt::join(axes, ", ")),
+            subtitle, {},
+            false,    {}};
+  Section charts{"Results"};
+  if (is_numeric(sweep, axes.front()) && sweep["points"].size() > 1) {
+    for (const std::string& result : shown) charts.blocks.push_back(make_sweep_chart(sweep, axes, result));
+  }
+  page.add(std::move(charts));
+  page.add({"All runs", "", {make_sweep_table(sweep, axes)}});
+  return page;
+}
+
+Page make_regress_page(const Json& regression) {
+  const Json& runs = regression["runs"];
+  std::size_t good = 0;
+  std::vector<std::string> problems;
+  scenarios::ResultTable table{"", {"run", "status", "values", "worst, share of tolerance", "of"}, {}};
+  Json names = Json::array();
+  Json shares = Json::array();
+  for (const Json& run : runs) {
+    const std::string name = run["name"];
+    const std::string status = run["status"];
+    if (status == "same" || status == "updated") ++good;
+    for (const Json& problem : run["problems"]) problems.push_back(name + ": " + problem.get<std::string>());
+    const double worst = run["worst_share_of_tolerance"];
+    table.rows.push_back({name, status, fmt::format("{}", run["compared"].get<std::size_t>()),
+                          fmt::format("{:.2g}", worst), run["worst"].get<std::string>()});
+    names.push_back(name);
+    shares.push_back(rounded(worst));
+  }
+  const bool is_good = good == runs.size();
+  Page page{"regress", "Regression runs against their goldens", fmt::format("{} runs", runs.size()), {}, false, {}};
+  Section verdict{"Verdict"};
+  verdict.blocks.push_back(
+      make_lead(is_good ? "good" : "bad",
+                is_good ? fmt::format("All {} runs are as their goldens.", runs.size())
+                        : fmt::format("{} of {} runs differ from their goldens.", runs.size() - good, runs.size())));
+  verdict.blocks.push_back({{"type", "bars"},
+                            {"label", "Worst difference of each run"},
+                            {"unit", "of its tolerance"},
+                            {"categories", names},
+                            {"series", Json::array({{{"name", "worst"}, {"values", shares}}})},
+                            {"caption", "A run differs where its bar is above 1."}});
+  verdict.blocks.push_back(make_table(table));
+  page.add(std::move(verdict));
+  if (!problems.empty()) page.add({"What differs", "", {{{"type", "text"}, {"items", problems}}}});
+  return page;
+}
+
+}  // namespace rollrig::report

@@ -1,0 +1,62 @@
+#include "report/page.h"
+
+#include <fmt/format.h>
+
+#include "report/page_template.h"
+
+namespace rollrig::report {
+namespace {
+
+constexpr std::string_view kPlaceholder = "/*PAYLOAD*/";
+
+Json make_section(const Section& section) {
+  Json json = {{"title", section.title}, {"blocks", section.blocks}};
+  if (!section.note.empty()) json["note"] = section.note;
+  if (!section.folded.empty()) json["folded"] = section.folded;
+  return json;
+}
+
+Json make_payload(const Page& page) {
+  Json json = {{"format", "rollrig-page/1"},
+               {"command", page.command},
+               {"title", page.title},
+               {"subtitle", page.subtitle},
+               {"about", fmt::format("Made by rollrig {}.", ROLLRIG_VERSION)},
+               {"sections", Json::array()}};
+  if (page.has_clock) {
+    json["clock"] = {{"start_s", page.clock.start_s}, {"end_s", page.clock.end_s}, {"now_s", page.clock.now_s}};
+  }
+  for (const Section& section : page.sections) json["sections"].push_back(make_section(section));
+  return json;
+}
+
+}  // namespace
+
+void Page::add(Section section) {
+  if (!section.blocks.empty()) sections.push_back(std::move(section));
+}
+
+std::string escape_json(const Json& json) {
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string escaped;
+  escaped.reserve(text.size());
+  for (const char c : text) {  // "<" stands in strings alone, so nothing in the text can end the script
+    if (c == '<') {
+      escaped += "\\u003c";
+    } else {
+      escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string make_html(const Page& page) {
+  const std::string_view html = page_template();
+  const std::size_t at = html.find(kPlaceholder);
+  std::string whole(html.substr(0, at));
+  whole += escape_json(make_payload(page));
+  whole += html.substr(at + kPlaceholder.size());
+  return whole;
+}
+
+}  // namespace rollrig::report

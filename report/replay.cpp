@@ -1,0 +1,219 @@
+#include "report/replay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/blocks.h"
+#include "report/time_panels.h"
+#include "rigs/vehicle_channels.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+using scenarios::RunSpec;
+using Column = std::vector<double>;
+using Recording = sim::Recording<double>;
+
+/// A recorded pose, or nothing.
+const Column* find_pose(const Recording& recording, const std::string& name) {
+  for (std::size_t i = 0; i < recording.poses.size(); ++i) {
+    const bool is_whole = recording.pose_values[i].size() == recording.row_count();
+    if (recording.poses[i].name == name && is_whole) return &recording.pose_values[i];
+  }
+  return nullptr;
+}
+
+const Column* find_channel(const Recording& recording, const std::string& name) {
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    if (recording.channels[i].name == name) return &recording.values[i];
+  }
+  return nullptr;
+}
+
+/// Way at the recorded speed, in metres.
+Column integrate_speed(const Recording& recording) {
+  const Column& speed_m_s = recording.channel("speed_km_h");
+  Column way_m(speed_m_s.size(), 0.0);
+  for (std::size_t i = 1; i < way_m.size(); ++i) {
+    way_m[i] = way_m[i - 1] + 0.5 * (speed_m_s[i] + speed_m_s[i - 1]) * (recording.time_s[i] - recording.time_s[i - 1]);
+  }
+  return way_m;
+}
+
+Column scaled(Column values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+/// The wheel position of formats ("front_left") that ends a channel's quantity; empty for the only wheel.
+std::string named(const std::string& channel, const std::string& position) {
+  return rigs::wheel_channel(channel, {position});
+}
+
+class Scene {
+ public:
+  Scene(const RunSpec& spec, const Recording& recording) : spec_(spec), recording_(recording) {}
+
+  Json series(const Column& values_SI, const char* key) const {
+    const Unit unit = unit_of_key(key);
+    Column values;
+    for (const double value : values_SI) values.push_back(unit.from_si(value));
+    Json json = make_series("", recording_.time_s, values);
+    json.erase("name");
+    return json;
+  }
+
+  Json make_tire() const {
+    const auto& geometry = spec_.tire.values.geometry;
+    return {{"radius_m", geometry.outer_diameter_m / 2.0}, {"rim_radius_m", geometry.rim_diameter_m / 2.0}};
+  }
+
+  double surface_radius_m() const { return spec_.rig.drum.diameter_m / 2.0; }
+
+  /// Height of an axle above the surface that carries it, from what the contact carries.
+  Column height_by_load(const Column& load_N) const {
+    const auto& tire = spec_.tire.values;
+    Column height_m;
+    for (const double load : load_N) {
+      height_m.push_back(tire.geometry.outer_diameter_m / 2.0 - load / tire.stiffness.vertical_N_per_m);
+    }
+    return height_m;
+  }
+
+  Column angle_of(const std::string& pose, double radius_m) const {
+    const Column* recorded = find_pose(recording_, pose);
+    return recorded != nullptr ? *recorded : scaled(integrate_speed(recording_), 1.0 / radius_m);
+  }
+
+  /// What every wheel has: load, temperature, angles; the height is the machine's to add.
+  Json make_wheel(const std::string& position, const std::string& surface_pose) const {
+    const Column& load_N = recording_.channel(named("contact_load_N", position));
+    const double rolling_m = height_by_load({load_N[load_N.size() / 2]}).front();
+    Json wheel = {{"x_m", 0.0},
+                  {"load_N", series(load_N, "load_N")},
+                  {"temperature_degC", series(recording_.channel(named("liner_temperature_degC", position)), "x_degC")},
+                  {"angle_rad", series(angle_of(named("wheel_angle_rad", position), rolling_m), "angle_rad")}};
+    if (surface_radius_m() > 0.0) {
+      wheel["surface_angle_rad"] = series(angle_of(surface_pose, surface_radius_m()), "angle_rad");
+    }
+    return wheel;
+  }
+
+  Json temperature_range_degC() const {
+    double low = 1e9;
+    double high = -1e9;
+    for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
+      if (without_wheel(recording_.channels[i].name) != "liner_temperature_degC") continue;
+      const Column& values = recording_.values[i];
+      low = std::min(low, *std::min_element(values.begin(), values.end()));
+      high = std::max(high, *std::max_element(values.begin(), values.end()));
+    }
+    return {std::floor(low - kZeroCelsius_K), std::ceil(high - kZeroCelsius_K)};
+  }
+
+  const RunSpec& spec() const { return spec_; }
+  const Recording& recording() const { return recording_; }
+
+ private:
+  const RunSpec& spec_;
+  const Recording& recording_;
+};
+
+Json make_drum_wheel(const Scene& scene) {
+  Json wheel = scene.make_wheel("", "drum_angle_rad");
+  const Column* pose = find_pose(scene.recording(), "axle_height_m");
+  Column height_m = scene.height_by_load(scene.recording().channel("contact_load_N"));
+  for (double& height : height_m) height += scene.surface_radius_m();
+  wheel["axle_height_m"] = scene.series(pose != nullptr ? *pose : height_m, "height_m");
+  return wheel;
+}
+
+/// Height of an axle: the body's heave and pitch and the axle's own travel on top of the static one.
+Column find_axle_height_m(const Scene& scene, const std::string& position, double axle_x_m, double static_load_N) {
+  const Recording& recording = scene.recording();
+  Column height_m = scene.height_by_load(recording.channel(named("contact_load_N", position)));
+  const Column* heave_m = find_pose(recording, "body_heave_m");
+  const Column* travel_m = find_pose(recording, named("axle_travel_m", position));
+  if (heave_m == nullptr || travel_m == nullptr) return height_m;
+  const Column* pitch_rad = find_pose(recording, "body_pitch_rad");
+  const double static_m = scene.height_by_load({static_load_N}).front();
+  for (std::size_t row = 0; row < height_m.size(); ++row) {
+    height_m[row] = static_m + (*heave_m)[row] + (*travel_m)[row];
+    if (pitch_rad != nullptr) height_m[row] += axle_x_m * (*pitch_rad)[row];
+  }
+  return height_m;
+}
+
+Json make_vehicle_wheel(const Scene& scene, const std::string& position, double axle_x_m) {
+  const Recording& recording = scene.recording();
+  const double static_load_N = recording.channel(named("load_N", position)).front();
+  Json wheel = scene.make_wheel(position, named("roller_angle_rad", position));
+  wheel["x_m"] = axle_x_m;
+  wheel["axle_height_m"] = scene.series(find_axle_height_m(scene, position, axle_x_m, static_load_N), "height_m");
+  wheel["force_N"] = scene.series(recording.channel(named("longitudinal_force_N", position)), "force_N");
+  return wheel;
+}
+
+/// The left side of the vehicle, or the one wheel with its share of it.
+void add_vehicle(const Scene& scene, Block& block) {
+  const Recording& recording = scene.recording();
+  const auto& geometry = scene.spec().vehicle->geometry;
+  const double front_x_m = geometry.wheelbase_m * (1.0 - geometry.front_load_share);
+  const Column still(recording.row_count(), 0.0);
+  const auto pose_or_still = [&](const char* name) {
+    const Column* pose = find_pose(recording, name);
+    return pose != nullptr ? *pose : still;
+  };
+  Json body = {{"height_m", geometry.centre_of_gravity_height_m},
+               {"heave_m", scene.series(pose_or_still("body_heave_m"), "height_m")}};
+  if (find_channel(recording, "load_N") != nullptr) {
+    block["wheels"].push_back(make_vehicle_wheel(scene, "", 0.0));
+  } else {
+    body["wheelbase_m"] = geometry.wheelbase_m;
+    body["front_x_m"] = front_x_m;
+    body["pitch_rad"] = scene.series(pose_or_still("body_pitch_rad"), "angle_rad");
+    for (const char* position : {"front_left", "rear_left"}) {
+      if (find_channel(recording, named("load_N", position)) == nullptr) continue;  // its axle stands
+      const double x_m = std::string(position) == "front_left" ? front_x_m : front_x_m - geometry.wheelbase_m;
+      block["wheels"].push_back(make_vehicle_wheel(scene, position, x_m));
+    }
+  }
+  block["body"] = body;
+  const Column* position_m = find_pose(recording, "position_m");
+  if (block["machine"] == "road") {
+    block["position_m"] = scene.series(position_m != nullptr ? *position_m : integrate_speed(recording), "position_m");
+  }
+}
+
+}  // namespace
+
+Block make_replay(const RunSpec& spec, const Recording& recording) {
+  const Scene scene(spec, recording);
+  const bool is_vehicle = spec.vehicle.has_value();
+  const bool is_road = is_vehicle && scene.surface_radius_m() <= 0.0;
+  const char* of = recording.poses.empty()
+                       ? "Drawn to scale; angles from the recorded speed, heights from the recorded load."
+                       : "Drawn to scale from the recorded positions of the bodies.";
+  const char* machine = !is_vehicle ? "drum" : is_road ? "road" : "rollers";
+  const std::string what = !is_vehicle ? "The drum with the wheel on it"
+                           : is_road   ? "The vehicle on the road"
+                                       : "The vehicle on its rollers";
+  Block block = {{"type", "replay"},
+                 {"machine", machine},
+                 {"label", what + " at the slider's time; the tire is coloured by its temperature"},
+                 {"caption", std::string(of) + " The tire has the colour of its liner temperature."},
+                 {"tire", scene.make_tire()},
+                 {"temperature_degC", scene.temperature_range_degC()},
+                 {"speed_km_h", scene.series(recording.channel("speed_km_h"), "speed_km_h")},
+                 {"wheels", Json::array()}};
+  if (!is_road) block["drum_radius_m"] = scene.surface_radius_m();
+  if (is_vehicle) {
+    add_vehicle(scene, block);
+  } else {
+    block["wheels"].push_back(make_drum_wheel(scene));
+  }
+  return block;
+}
+
+}  // namespace rollrig::report

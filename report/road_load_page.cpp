@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include "identification/road_load_report.h"
+#include "report/blocks.h"
+#include "report/fit_pages.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+using scenarios::RoadLoadFit;
+using scenarios::RoadLoadPoint;
+
+constexpr double kKmhPerMs = 3.6;
+
+std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s²" : "N"; }
+
+Block make_coefficients(const RoadLoadFit& fit) {
+  scenarios::ResultTable table{
+      "At reference conditions, with 95 % intervals", {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto number = [i](double si) { return fmt::format("{:.5g}", identification::road_load_in_file_unit(i, si)); };
+    const std::string unit = pretty_unit(unit_of_key(identification::road_load_key(i, fit.per_mass)).symbol);
+    std::vector<std::string> row{std::string(1, "ABC"[i]), number(fit.values()[at])};
+    if (fit.on_bound[at]) {
+      row.insert(row.end(), {"on its bound", "", ""});
+    } else {
+      row.insert(row.end(), {number(fit.sd(i)), number(fit.interval_95(i)[0]), number(fit.interval_95(i)[1])});
+    }
+    row.push_back(unit);
+    table.rows.push_back(row);
+  }
+  return make_table(table);
+}
+
+/// The fitted curve with its interval over the speeds that the data cover.
+Json make_curve(const RoadLoadFit& fit) {
+  constexpr int kPoints = 40;
+  constexpr double kWide = 1.96;  // of a normal interval of 95 %
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> low;
+  std::vector<double> high;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double speed_m_s = fit.low_m_s + (fit.high_m_s - fit.low_m_s) * i / kPoints;
+    x.push_back(kKmhPerMs * speed_m_s);
+    y.push_back(fit.force_N(speed_m_s));
+    low.push_back(y.back() - kWide * fit.force_sd_N(speed_m_s));
+    high.push_back(y.back() + kWide * fit.force_sd_N(speed_m_s));
+  }
+  return {{"name", "A + B v + C v² at reference conditions, 95 % band"},
+          {"kind", "line"},
+          {"x", rounded(x)},
+          {"y", rounded(y)},
+          {"low", rounded(low)},
+          {"high", rounded(high)}};
+}
+
+/// Points of one heading; `get` gives what is shown of a point.
+template <class Get>
+Json make_points(const identification::CoastdownFile& file, const RoadLoadFit& fit, int heading, Get&& get) {
+  const char* name = heading > 0 ? "runs in + heading" : heading < 0 ? "runs in - heading" : "runs";
+  Json series = {{"name", name}, {"kind", "points"}, {"x", Json::array()}, {"y", Json::array()}};
+  for (const RoadLoadPoint& point : fit.points) {
+    if (file.data.runs[point.run].heading != heading) continue;
+    series["x"].push_back(rounded(kKmhPerMs * point.speed_m_s));
+    series["y"].push_back(rounded(get(point)));
+  }
+  return series;
+}
+
+template <class Get>
+void add_headings(const identification::CoastdownFile& file, const RoadLoadFit& fit, Get&& get, Json& series) {
+  for (const int heading : {1, -1, 0}) {
+    Json points = make_points(file, fit, heading, get);
+    if (!points["x"].empty()) series.push_back(std::move(points));
+  }
+}
+
+Block make_force_chart(const identification::CoastdownFile& file, const RoadLoadFit& fit) {
+  Json series = Json::array({make_curve(fit)});
+  add_headings(
+      file, fit, [](const RoadLoadPoint& point) { return point.force_N; }, series);
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", fit.per_mass ? "Deceleration" : "Force"}, {"unit", force_unit(fit)}, {"from_zero", true}}},
+          {"series", series},
+          {"caption", "Points: mean force over a speed bin as tested, with that run's wind, slope and weather."}};
+}
+
+Block make_residual_chart(const identification::CoastdownFile& file, const RoadLoadFit& fit) {
+  Json series = Json::array();
+  add_headings(
+      file, fit, [](const RoadLoadPoint& point) { return point.residual_N; }, series);
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", "Measured less fitted"}, {"unit", force_unit(fit)}}},
+          {"marks", {0.0}},
+          {"series", series},
+          {"caption", "Fit as tested: wind, slope and weather are in it."}};
+}
+
+Block make_checks(const identification::RoadLoadChecks& checks) {
+  scenarios::ResultTable table{"What the standards ask of coastdowns", {"check", "", "found", "limit", "clause"}, {}};
+  for (const identification::RoadLoadCheck& check : checks.checks) {
+    table.rows.push_back({check.name, identification::name_of(check.status), check.found, check.limit, check.clause});
+  }
+  return make_table(table);
+}
+
+}  // namespace
+
+Page make_road_load_page(const identification::CoastdownFile& file, const scenarios::RoadLoadFitOptions& options,
+                         const RoadLoadFit& fit, const identification::RoadLoadChecks& checks) {
+  Page page{"fit road-load",
+            "Road load from coastdowns",
+            fmt::format("{} runs, {} speed bins, {}", file.data.runs.size(), fit.points.size(),
+                        file.is_trace ? "from speed traces" : "from times through bins"),
+            {},
+            false,
+            {}};
+  Section result{"Coefficients"};
+  if (!fit.warnings.empty()) result.blocks.push_back(make_warnings(fit.warnings));
+  result.blocks.push_back(make_coefficients(fit));
+  page.add(std::move(result));
+  page.add({"Data and fit", "", {make_force_chart(file, fit)}});
+  page.add({"Residuals", "", {make_residual_chart(file, fit)}});
+  page.add({"Checks", "", {make_checks(checks)}});
+  Json document = identification::make_road_load_json(file, options, fit, checks);
+  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
+  return page;
+}
+
+}  // namespace rollrig::report

@@ -1,0 +1,118 @@
+#include "report/run_figures.h"
+
+#include <fmt/format.h>
+
+#include "report/blocks.h"
+
+namespace rollrig::report {
+namespace {
+
+Json column(const Json& rows, const char* key) {
+  Json values = Json::array();
+  for (const Json& row : rows) values.push_back(row.contains(key) ? row[key] : Json(nullptr));
+  return values;
+}
+
+/// The source's figure of a multi-cycle test.
+Block make_section_energies(const Json& sections) {
+  Json labels = Json::array();
+  for (const Json& section : sections) {
+    labels.push_back(fmt::format("{:+.1f} %", section.value("difference_percent", 0.0)));
+  }
+  return {{"type", "bars"},
+          {"label", "Energy of rolling resistance, one tire"},
+          {"unit", "Wh"},
+          {"categories", column(sections, "name")},
+          {"series",
+           {{{"name", "model, tire warming up"}, {"values", column(sections, "rr_energy_Wh")}, {"labels", labels}},
+            {{"name", "constant ISO coefficient"}, {"values", column(sections, "rr_energy_iso_Wh")}}}},
+          {"caption", "Above the bars: how much the model needs more than the coefficient of ISO 28580 says."}};
+}
+
+Block make_section_temperatures(const Json& sections) {
+  return {{"type", "bars"},
+          {"label", "Temperature of the tire's liner"},
+          {"unit", "°C"},
+          {"categories", column(sections, "name")},
+          {"series",
+           {{{"name", "at the start of the section"}, {"values", column(sections, "temperature_start_degC")}},
+            {{"name", "at its end"}, {"values", column(sections, "temperature_end_degC")}}}}};
+}
+
+Json make_cycle_names(const Json& cycles) {
+  Json names = Json::array();
+  for (std::size_t i = 0; i < cycles.size(); ++i) {
+    names.push_back(fmt::format("{}: {:.0f} N, {:.0f} km/h", i + 1, cycles[i].value("load_N", 0.0),
+                                cycles[i].value("speed_km_h", 0.0)));
+  }
+  return names;
+}
+
+Block make_cycle_forces(const Json& cycles) {
+  return {{"type", "bars"},
+          {"label", "Force, mean over the window"},
+          {"unit", "N"},
+          {"categories", make_cycle_names(cycles)},
+          {"series",
+           {{{"name", "rolling resistance"}, {"values", column(cycles, "rolling_resistance_N")}},
+            {{"name", "parasitic loss"}, {"values", column(cycles, "parasitic_N")}}}}};
+}
+
+Block make_cycle_coefficients(const Json& cycles) {
+  return {{"type", "bars"},
+          {"label", "Rolling resistance coefficient"},
+          {"unit", "N/kN"},
+          {"categories", make_cycle_names(cycles)},
+          {"series", Json::array({{{"name", "RRc"}, {"values", column(cycles, "rrc_N_per_kN")}}})}};
+}
+
+Json make_curve(const char* name, const Json& rows, const char* x, const char* y) {
+  return {{"name", name}, {"kind", "line"}, {"x", column(rows, x)}, {"y", column(rows, y)}};
+}
+
+Block make_road_load(const Json& forces) {
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", "Road load"}, {"unit", "N"}, {"from_zero", true}}},
+          {"series", Json::array({make_curve("A + B v + C v²", forces, "speed_km_h", "force_N")})}};
+}
+
+Block make_setting(const Json& differences) {
+  return {{"type", "curves"},
+          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
+          {"y", {{"label", "Road load"}, {"unit", "N"}, {"from_zero", true}}},
+          {"series",
+           {make_curve("target, from the road", differences, "speed_km_h", "target_N"),
+            make_curve("found on the rollers", differences, "speed_km_h", "found_N")}}};
+}
+
+Block make_skim_line(const Json& points) {
+  return {{"type", "curves"},
+          {"x", {{"label", "Load"}, {"unit", "N"}, {"from_zero", true}}},
+          {"y", {{"label", "Force in skim"}, {"unit", "N"}}},
+          {"series", Json::array({make_curve("measured", points, "load_N", "force_N")})},
+          {"caption", "Where the line meets load zero is the loss of the rig alone."}};
+}
+
+}  // namespace
+
+Section make_run_figures(const Json& result) {
+  Section section{"Figures"};
+  const auto add = [&](const char* key, auto&& make) {
+    const auto at = result.find(key);
+    if (at != result.end() && at->is_array() && !at->empty()) section.blocks.push_back(make(*at));
+  };
+  if (result.contains("sections")) section.title = "Section by section";
+  add("sections", make_section_energies);
+  add("sections", make_section_temperatures);
+  if (result.contains("cycles") && result["cycles"].size() > 1) {
+    add("cycles", make_cycle_coefficients);
+    add("cycles", make_cycle_forces);
+  }
+  add("force_N", make_road_load);
+  add("differences", make_setting);
+  add("points", make_skim_line);
+  return section;
+}
+
+}  // namespace rollrig::report

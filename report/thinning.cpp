@@ -1,0 +1,89 @@
+#include "report/thinning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rollrig::report {
+namespace {
+
+constexpr std::size_t kKeptOfStretch = 5;  // first, last, least, greatest, a gap
+
+/// Adds what a stretch of rows [first, last) keeps.
+void keep_of_stretch(const std::vector<double>& values, std::size_t first, std::size_t last,
+                     std::vector<std::size_t>& kept) {
+  std::vector<std::size_t> own{first, last - 1};
+  std::size_t least = last;
+  std::size_t greatest = last;
+  std::size_t gap = last;
+  for (std::size_t i = first; i < last; ++i) {
+    if (!std::isfinite(values[i])) {
+      if (gap == last) gap = i;
+      continue;
+    }
+    if (least == last || values[i] < values[least]) least = i;
+    if (greatest == last || values[i] > values[greatest]) greatest = i;
+  }
+  for (const std::size_t i : {least, greatest, gap}) {
+    if (i != last) own.push_back(i);
+  }
+  std::sort(own.begin(), own.end());
+  own.erase(std::unique(own.begin(), own.end()), own.end());
+  kept.insert(kept.end(), own.begin(), own.end());
+}
+
+std::vector<std::size_t> keep_extremes(const std::vector<double>& values, std::size_t most) {
+  const std::size_t count = values.size();
+  std::vector<std::size_t> kept;
+  if (count <= most) {
+    kept.resize(count);
+    std::iota(kept.begin(), kept.end(), std::size_t{0});
+    return kept;
+  }
+  const std::size_t stretches = (most - 2) / kKeptOfStretch;
+  const std::size_t inner = count - 2;
+  kept.push_back(0);
+  for (std::size_t s = 0; s < stretches; ++s) {
+    keep_of_stretch(values, 1 + s * inner / stretches, 1 + (s + 1) * inner / stretches, kept);
+  }
+  kept.push_back(count - 1);
+  return kept;
+}
+
+/// Whether all rows between two lie on their straight line.
+bool are_on_line(const std::vector<double>& time_s, const std::vector<double>& values,
+                 const std::vector<std::size_t>& kept, std::size_t from, std::size_t to, double tolerance) {
+  const double start = values[kept[from]];
+  const double span_s = time_s[kept[to]] - time_s[kept[from]];
+  for (std::size_t k = from + 1; k < to; ++k) {
+    const double share = span_s > 0.0 ? (time_s[kept[k]] - time_s[kept[from]]) / span_s : 0.0;
+    const double line = start + share * (values[kept[to]] - start);
+    if (!(std::abs(values[kept[k]] - line) <= tolerance)) return false;  // not finite: not on it
+  }
+  return true;
+}
+
+std::vector<std::size_t> drop_collinear(const std::vector<double>& time_s, const std::vector<double>& values,
+                                        const std::vector<std::size_t>& kept, double tolerance) {
+  constexpr std::size_t kLongest = 400;  // rows that one line stands for; bounds the work
+  if (kept.size() < 3) return kept;
+  std::vector<std::size_t> fewer{kept.front()};
+  std::size_t from = 0;
+  for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
+    const bool goes_on = k + 1 - from < kLongest && are_on_line(time_s, values, kept, from, k + 1, tolerance);
+    if (goes_on) continue;
+    fewer.push_back(kept[k]);
+    from = k;
+  }
+  fewer.push_back(kept.back());
+  return fewer;
+}
+
+}  // namespace
+
+std::vector<std::size_t> thin(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t most,
+                              double tolerance) {
+  return drop_collinear(time_s, values, keep_extremes(values, std::max<std::size_t>(most, 8)), tolerance);
+}
+
+}  // namespace rollrig::report

@@ -1,0 +1,158 @@
+#include "report/time_panels.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "report/blocks.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+/// Which quantities share a panel, in the order of the panels.
+struct Rule {
+  const char* quantity;
+  const char* panel;
+};
+constexpr Rule kRules[]{{"speed", "Speed"},
+                        {"load", "Load"},
+                        {"contact_load", "Load"},
+                        {"drum_torque", "Drum torque"},
+                        {"traction_force", "Traction force"},
+                        {"longitudinal_force", "Longitudinal force"},
+                        {"loss_force", "Loss"},
+                        {"rolling_resistance", "Loss"},
+                        {"parasitic", "Loss"},
+                        {"spindle_force", "Spindle force"},
+                        {"liner_temperature", "Temperature"},
+                        {"gas_temperature", "Temperature"},
+                        {"surface_temperature", "Temperature"},
+                        {"ambient", "Temperature"},
+                        {"cavity_pressure", "Cavity pressure"}};
+constexpr std::size_t kRuleCount = std::size(kRules);
+
+constexpr const char* kWheels[]{"front_left", "front_right", "rear_left", "rear_right"};
+
+std::string capitalised(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+struct Place {
+  std::size_t order = 0;
+  std::string panel;
+  std::string series;
+};
+
+/// Panel and name of a channel. With several wheels a panel holds one quantity, a line a wheel.
+Place find_place(const std::string& channel) {
+  const std::string quantity = name_without_unit(without_wheel(channel));
+  const std::string wheel = find_wheel(channel);
+  const std::string unit = unit_of_key(channel).symbol;
+  Place place{kRuleCount, capitalised(plain_name(quantity)), plain_name(quantity)};
+  for (std::size_t i = 0; i < kRuleCount; ++i) {
+    if (quantity != kRules[i].quantity) continue;
+    place.order = i;
+    if (wheel.empty()) place.panel = kRules[i].panel;
+  }
+  const bool is_further_temperature = place.order == kRuleCount && unit == "degC" && wheel.empty();
+  if (is_further_temperature) place = {kRuleCount - 2, "Temperature", place.series};
+  if (!wheel.empty()) place.series = wheel;
+  return place;
+}
+
+struct Panel {
+  std::size_t order = 0;
+  std::string label;
+  std::string unit;
+  Json series = Json::array();
+};
+
+Panel& find_panel(std::vector<Panel>& panels, const Place& place, const std::string& unit) {
+  for (Panel& panel : panels) {
+    if (panel.label == place.panel && panel.unit == unit) return panel;
+  }
+  panels.push_back({place.order, place.panel, unit, Json::array()});
+  return panels.back();
+}
+
+std::vector<double> in_file_units(const std::string& channel, const std::vector<double>& values_SI) {
+  const Unit unit = unit_of_key(channel);
+  std::vector<double> values;
+  for (const double value : values_SI) values.push_back(unit.from_si(value));
+  return values;
+}
+
+/// The load that a wheel is given stays as it is on a vehicle: what its contact carries says more.
+bool says_nothing(const sim::Recording<double>& recording, std::size_t channel) {
+  return without_wheel(recording.channels[channel].name) == "load_N" &&
+         !find_wheel(recording.channels[channel].name).empty();
+}
+
+}  // namespace
+
+std::string find_wheel(const std::string& channel) {
+  for (const char* wheel : kWheels) {
+    if (channel.find(std::string("_") + wheel) != std::string::npos) return plain_name(wheel);
+  }
+  return "";
+}
+
+std::string without_wheel(const std::string& channel) {
+  for (const char* wheel : kWheels) {
+    const std::string mark = std::string("_") + wheel;
+    const std::size_t at = channel.find(mark);
+    if (at != std::string::npos) return channel.substr(0, at) + channel.substr(at + mark.size());
+  }
+  return channel;
+}
+
+Json make_phases(const std::vector<sim::PhaseSpan>& phases) {
+  Json json = Json::array();
+  for (const sim::PhaseSpan& phase : phases) {
+    json.push_back({{"name", phase.name}, {"start_s", rounded(phase.start_s)}, {"end_s", rounded(phase.end_s)}});
+  }
+  return json;
+}
+
+PageClock find_view(const sim::Recording<double>& recording) {
+  constexpr double kRolls_m_s = 0.05;
+  constexpr double kBefore_s = 60.0;
+  constexpr double kNow = 0.5;  // of what is shown: where the slider stands at first
+  PageClock view{recording.time_s.front(), recording.time_s.back(), 0.0};
+  const std::vector<double>& speed_m_s = recording.channel("speed_km_h");
+  for (std::size_t row = 0; row < speed_m_s.size(); ++row) {
+    if (!(std::abs(speed_m_s[row]) > kRolls_m_s)) continue;
+    view.start_s = std::max(view.start_s, recording.time_s[row] - kBefore_s);
+    break;
+  }
+  view.now_s = std::round(view.start_s + kNow * (view.end_s - view.start_s));
+  return view;
+}
+
+Block make_times(const sim::Recording<double>& recording) {
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    if (says_nothing(recording, i)) continue;
+    const std::string& channel = recording.channels[i].name;
+    const Place place = find_place(channel);
+    Panel& panel = find_panel(panels, place, shown_unit(channel));
+    panel.series.push_back(make_series(place.series, recording.time_s, in_file_units(channel, recording.values[i])));
+  }
+  std::stable_sort(panels.begin(), panels.end(), [](const Panel& a, const Panel& b) { return a.order < b.order; });
+  const PageClock view = find_view(recording);
+  Block block = {{"type", "times"},
+                 {"view", {view.start_s, view.end_s}},
+                 {"phases", make_phases(recording.phases)},
+                 {"panels", Json::array()},
+                 {"caption",
+                  "Click on the chart to move the time of slider and replay. The bar below the chart, or Ctrl and the "
+                  "mouse wheel, zoom."}};
+  for (Panel& panel : panels) {
+    block["panels"].push_back({{"label", panel.label}, {"unit", panel.unit}, {"series", std::move(panel.series)}});
+  }
+  return block;
+}
+
+}  // namespace rollrig::report

@@ -1,0 +1,26 @@
+#pragma once
+/// Channels over time as panels of one chart: what belongs together is in one panel.
+
+#include <string>
+#include <vector>
+
+#include "report/page.h"
+#include "sim/recording.h"
+
+namespace rollrig::report {
+
+/// Phases of a recording as the page has them.
+Json make_phases(const std::vector<sim::PhaseSpan>& phases);
+
+/// From a minute before the rolling begins to the end: a soak of hours would fill the axis.
+PageClock find_view(const sim::Recording<double>& recording);
+
+/// Speed, load, torque and forces, losses, temperatures, pressure, then everything else.
+Block make_times(const sim::Recording<double>& recording);
+
+/// The name of a channel's wheel ("front left"), empty where it is the vehicle's or the only one.
+std::string find_wheel(const std::string& channel);
+/// The channel without its wheel: "load_N" of "load_front_left_N".
+std::string without_wheel(const std::string& channel);
+
+}  // namespace rollrig::report

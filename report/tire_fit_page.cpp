@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "diagnosis/kinds/measurement_kind.h"
+#include "report/blocks.h"
+#include "report/fit_pages.h"
+#include "report/set_comparison.h"
+#include "sim/core/units.h"
+
+namespace rollrig::report {
+namespace {
+
+using identification::Estimate;
+using identification::TireFit;
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+/// "load_map.0.A0_N", "thermal.z_W_per_K": the key without what all share.
+std::string short_key(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
+
+/// What the two-step regression says of a parameter, in the unit of its key.
+std::optional<double> find_two_step(const identification::TwoStepEstimate& two_step, const std::string& key) {
+  if (key.find("load_map") != std::string::npos) return std::nullopt;
+  const std::string last = last_part(key);
+  if (last == "A0_N") return two_step.A0_N;
+  if (last == "A1_N_s_per_m") return two_step.A1_N_s_per_m;
+  if (last == "B0_per_degC") return two_step.B0_per_K;
+  if (last == "B1_s_per_m_degC") return two_step.B1_s_per_m_K;
+  if (last == "z_W_per_K") return two_step.z_W_per_K;
+  if (last == "f_W_s_per_m_K") return two_step.f_W_s_per_m_K;
+  if (last == "H_gas_W_per_K") return two_step.H_gas_W_per_K;
+  return std::nullopt;
+}
+
+Block make_parameters(const TireFit& fit) {
+  scenarios::ResultTable table{"Parameters with their 95 % intervals",
+                               {"parameter", "value", "sd", "from", "to", "unit", "two-step regression", ""},
+                               {}};
+  for (const Estimate& at : fit.estimates) {
+    const std::optional<double> two_step = find_two_step(fit.two_step, at.key);
+    table.rows.push_back({short_key(at.key), fmt::format("{:.5g}", at.value), fmt::format("{:.2g}", at.sd),
+                          fmt::format("{:.5g}", at.lower_95()), fmt::format("{:.5g}", at.upper_95()),
+                          pretty_unit(unit_of_key(last_part(at.key)).symbol),
+                          two_step.has_value() ? fmt::format("{:.5g}", *two_step) : "-",
+                          at.nuisance ? "held by the files' uncertainty" : ""});
+  }
+  return make_table(table);
+}
+
+/// Each parameter in percent of its value: the interval, and the two-step regression of the source in it.
+Block make_intervals(const TireFit& fit) {
+  Json names = Json::array();
+  Json two_step = Json::array();
+  Json low = Json::array();
+  Json high = Json::array();
+  for (const Estimate& at : fit.estimates) {
+    if (at.nuisance || at.value == 0.0) continue;
+    const double half_percent = std::abs(100.0 * (at.upper_95() - at.value) / at.value);
+    const std::optional<double> other = find_two_step(fit.two_step, at.key);
+    names.push_back(name_without_unit(last_part(at.key)));
+    two_step.push_back(other.has_value() ? rounded(100.0 * (*other - at.value) / at.value) : Json(nullptr));
+    low.push_back(rounded(-half_percent));
+    high.push_back(rounded(half_percent));
+  }
+  return {{"type", "bars"},
+          {"label", "95 % interval of each parameter (whiskers) and two-step regression less fit (bars)"},
+          {"unit", "% of the value"},
+          {"categories", names},
+          {"series", Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}})}};
+}
+
+Block make_channels(const TireFit& fit) {
+  scenarios::ResultTable table{
+      "What is left, whitened: 1 is the noise that the sensors' table says", {"channel", "samples", "rms"}, {}};
+  for (const identification::ChannelFit& at : fit.channels) {
+    table.rows.push_back({at.channel, fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
+  }
+  return make_table(table);
+}
+
+Block make_correlations(const TireFit& fit) {
+  Block block = {{"type", "map"},
+                 {"caption", "Correlation of the estimates"},
+                 {"columns", Json::array()},
+                 {"rows", Json::array()},
+                 {"legend", "Shade: size of the correlation."}};
+  constexpr double kShade = 4.0;  // a correlation of 1 has the deepest shade
+  for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
+    const std::string name = name_without_unit(last_part(fit.estimates[i].key));
+    block["columns"].push_back(name);
+    Json cells = Json::array();
+    for (const double r : fit.correlation[i]) {
+      cells.push_back({{"text", fmt::format("{:.2f}", r)}, {"shade", static_cast<int>(std::lround(kShade * r))}});
+    }
+    block["rows"].push_back({{"group", ""}, {"label", name}, {"cells", cells}});
+  }
+  return block;
+}
+
+/// The context with every estimate put in, nuisances too.
+models::Context<double> make_fitted_context(const diagnosis::PreparedSet& prepared, scenarios::MeasurementSet set,
+                                            const TireFit& fit) {
+  set.tire = fit.tire;
+  models::Context<double> context = prepared.kind().make_context(set);
+  for (const Estimate& at : fit.estimates) {
+    identification::find_parameter(context, at.key) = at.value * unit_of_key(last_part(at.key)).factor;
+  }
+  return context;
+}
+
+}  // namespace
+
+Page make_tire_fit_page(const scenarios::MeasurementSet& set, const TireFit& fit) {
+  Page page{"fit tire",
+            fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
+            fmt::format("From tire {}, rig {}, {} runs", set.tire.name, set.rig->name, set.runs.size()),
+            {},
+            false,
+            {}};
+  Section result{"Parameters"};
+  if (!fit.warnings.empty()) result.blocks.push_back(make_warnings(fit.warnings));
+  result.blocks.push_back(make_parameters(fit));
+  result.blocks.push_back(make_intervals(fit));
+  page.add(std::move(result));
+  page.add({"What is left", "", {make_channels(fit)}});
+  const diagnosis::PreparedSet prepared(set);
+  const SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared, prepared.source(), fit), {});
+  Section runs{"Data, fit and residuals", "Sensor offsets are not taken off: a residual may lie beside zero by one."};
+  for (std::size_t run = 0; run < prepared.runs().size(); ++run) {
+    runs.blocks.push_back(make_comparison(prepared, run, {fitted}));
+  }
+  page.add(std::move(runs));
+  page.add({"Correlations", "", {make_correlations(fit)}});
+  Json document = identification::make_fit_json(set, fit);
+  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
+  return page;
+}
+
+}  // namespace rollrig::report

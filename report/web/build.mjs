@@ -1,0 +1,61 @@
+// Makes the page: one HTML file with scripts, styles and licences in it, and the same as a C++ source.
+// node build.mjs <page.html> [<page.cpp>]
+import { build } from 'esbuild';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [htmlFile, cppFile] = process.argv.slice(2);
+const read = (...path) => readFileSync(join(here, ...path), 'utf8');
+
+async function bundle(entry) {
+  const result = await build({
+    entryPoints: [join(here, entry)],
+    bundle: true,
+    minify: true,
+    write: false,
+    format: 'iife',
+    target: 'es2020',
+    charset: 'utf8',
+    legalComments: 'none', // the licences stand in the page in full
+    define: { 'process.env.NODE_ENV': '"production"' },
+  });
+  return result.outputFiles[0].text;
+}
+
+/// What the licences of the bundled packages ask to be handed on.
+function collectLicences() {
+  const parts = [];
+  for (const [name, files] of [
+    ['echarts', ['LICENSE', 'NOTICE']],
+    ['zrender', ['LICENSE']],
+    ['tslib', ['LICENSE.txt']],
+  ]) {
+    const { version, license } = JSON.parse(read('node_modules', name, 'package.json'));
+    parts.push(`${name} ${version} (${license})\n`);
+    for (const file of files) parts.push(read('node_modules', name, file).trim() + '\n');
+  }
+  return parts.join('\n');
+}
+
+const escapeScript = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+const escapeHtml = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
+
+/// Raw strings of at most so many characters, since compilers limit the length of one.
+function makeCpp(html) {
+  const kMost = 8000;
+  const parts = [];
+  for (let at = 0; at < html.length; at += kMost) parts.push(`    R"~page~(${html.slice(at, at + kMost)})~page~"`);
+  return `// Made by report/web/build.mjs.\n#include "report/page_template.h"\n\n`
+    + `namespace rollrig::report {\nnamespace {\nconstexpr char kTemplate[] =\n${parts.join('\n')};\n}  // namespace\n\n`
+    + `std::string_view page_template() { return {kTemplate, sizeof kTemplate - 1}; }\n\n}  // namespace rollrig::report\n`;
+}
+
+const fill = (text, name, value) => text.replace(`/*${name}*/`, () => value);
+let html = read('template.html');
+html = fill(html, 'STYLE', await bundle('style.css'));
+html = fill(html, 'SCRIPT', escapeScript(await bundle('src/main.js')));
+html = fill(html, 'LICENCES', escapeHtml(collectLicences()));
+writeFileSync(htmlFile, html);
+if (cppFile) writeFileSync(cppFile, makeCpp(html));

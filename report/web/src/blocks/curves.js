@@ -1,0 +1,87 @@
+// Curves and points over a quantity that is not time:
+// {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | points, x, y, low, high}], caption}
+// A line's low and high are a band, those of points are whiskers.
+import { axisStyle, axisTitle, baseOption, Chart, figure } from '../chart.js';
+import { number } from '../format.js';
+import { colour, seriesStyle } from '../theme.js';
+import { makeTable } from './table.js';
+
+const kSymbols = ['circle', 'rect', 'triangle', 'diamond', 'emptyCircle', 'emptyRect'];
+
+function whiskers(series, style) {
+  return {
+    type: 'custom', name: series.name, silent: true, z: 2,
+    data: series.x.map((x, i) => [x, series.low[i], series.high[i]]).filter((d) => d[1] !== null && d[2] !== null),
+    encode: { x: 0, y: [1, 2] },
+    renderItem: (params, api) => {
+      const [x, low] = api.coord([api.value(0), api.value(1)]);
+      const [, high] = api.coord([api.value(0), api.value(2)]);
+      return { type: 'line', shape: { x1: x, y1: low, x2: x, y2: high }, style: { stroke: style.color, lineWidth: 1.2 } };
+    },
+  };
+}
+
+function band(series, style) {
+  return {
+    type: 'custom', name: series.name, silent: true, z: 0, clip: true,
+    data: [[series.x[0], series.low[0]]],
+    renderItem: (params, api) => {
+      const points = [...series.x.map((x, i) => api.coord([x, series.high[i]])), ...series.x.map((x, i) => api.coord([x, series.low[i]])).reverse()];
+      return { type: 'polygon', shape: { points }, style: { fill: style.color, opacity: 0.16 } };
+    },
+  };
+}
+
+function makeSeries(series, k) {
+  const style = seriesStyle(k);
+  const isLine = series.kind !== 'points';
+  const main = {
+    name: series.name, type: isLine ? 'line' : 'scatter', data: series.x.map((x, i) => [x, series.y[i]]), z: isLine ? 3 : 4,
+    showSymbol: isLine && series.x.length <= 25, symbol: kSymbols[k % kSymbols.length], symbolSize: isLine ? 6 : series.x.length > 400 ? 3 : 6,
+    itemStyle: { color: style.color, opacity: !isLine && series.x.length > 400 ? 0.5 : 1 }, lineStyle: { color: style.color, type: style.type, width: 1.8 },
+  };
+  if (!series.low) return [main];
+  return [main, isLine ? band(series, style) : whiskers(series, style)];
+}
+
+function makeOption(block) {
+  const axis = axisStyle();
+  const name = (q) => (q.unit ? `${q.label}, ${q.unit}` : q.label);
+  const lines = [
+    ...(block.marks || []).map((mark) => ({ yAxis: mark })),
+    ...(block.diagonal ? [[{ coord: [0, 0] }, { coord: [block.diagonal, block.diagonal] }]] : []),
+  ];
+  const series = block.series.flatMap(makeSeries);
+  if (lines.length) series[0].markLine = { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: colour('axis'), type: [4, 4] }, data: lines };
+  return {
+    ...baseOption(),
+    tooltip: { ...baseOption().tooltip, trigger: 'item', formatter: (p) => `${p.seriesName}<br>${name(block.x)}: <b>${number(p.value[0])}</b><br>${name(block.y)}: <b>${number(p.value[1])}</b>` },
+    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14, itemHeight: 9, type: 'scroll', textStyle: { color: colour('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
+    title: axisTitle(name(block.y), block.series.length > 1),
+    grid: { left: 8, right: 16, top: block.series.length > 1 ? 54 : 30, bottom: 26, containLabel: true },
+    xAxis: { ...axis, type: 'value', scale: !block.x.from_zero, name: name(block.x), nameLocation: 'middle', nameGap: 26, splitLine: { show: false } },
+    yAxis: { ...axis, type: 'value', scale: !block.y.from_zero },
+    series,
+  };
+}
+
+function makeNumbers(block) {
+  const columns = [{ label: 'series', align: 'left' }, { label: block.x.label, unit: block.x.unit }, { label: block.y.label, unit: block.y.unit }];
+  const isRanged = block.series.some((s) => s.low);
+  if (isRanged) columns.push({ label: 'from' }, { label: 'to' });
+  const kMost = 60; // rows a series; every so many-th point of longer ones
+  const rows = block.series.flatMap((s) => {
+    const step = Math.ceil(s.x.length / kMost);
+    return s.x.map((x, i) => [s.name, x, s.y[i], ...(isRanged ? [s.low ? s.low[i] : '', s.high ? s.high[i] : ''] : [])]).filter((_, i) => i % step === 0);
+  });
+  return makeTable({ caption: `${block.y.label} over ${block.x.label}`, columns, rows });
+}
+
+export function curvesBlock(block) {
+  const chart = new Chart({
+    height: (width) => block.height || (width < 600 ? 320 : 340),
+    label: `Chart of ${block.y.label} over ${block.x.label}: ${block.series.map((s) => s.name).join(', ')}. The table below has the numbers.`,
+    makeOption: () => makeOption(block),
+  });
+  return figure({ chart, caption: block.caption, table: makeNumbers(block) });
+}

@@ -1,0 +1,39 @@
+// A map of deviations: rows of places, columns of channels, each cell with its number and a shade from
+// -4 (cool) to 4 (warm); a cell that counts has an outline and what makes it count.
+// {caption, columns: [...], rows: [{group, label, cells: [{text, shade, marked, note}]}], legend}
+import { h } from '../dom.js';
+import { typeset } from '../format.js';
+
+function makeCell(cell) {
+  if (!cell) return h('td', { class: 'empty' }, '\u00b7');
+  const side = cell.shade > 0 ? 'above' : 'below';
+  return h('td', { class: `z${Math.abs(cell.shade)} ${side}${cell.marked ? ' marked' : ''}`, title: cell.note },
+    typeset(cell.text), cell.marked && h('span', { class: 'z' }, typeset(cell.marked)));
+}
+
+export function mapBlock({ caption, columns, rows, legend }) {
+  const groups = [];
+  for (const row of rows) {
+    if (!groups.length || groups.at(-1).name !== row.group) groups.push({ name: row.group, rows: [] });
+    groups.at(-1).rows.push(row);
+  }
+  const bodies = groups.map((group) => h('tbody', null, group.rows.map((row, i) => h('tr', null,
+    i === 0 && h('th', { scope: 'rowgroup', rowspan: group.rows.length, class: 'group' }, group.name),
+    h('th', { scope: 'row' }, row.label), row.cells.map(makeCell)))));
+  return h('figure', null,
+    h('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption },
+      h('table', { class: 'map' }, h('caption', null, caption),
+        h('thead', null, h('tr', null, h('th', { scope: 'col' }, 'run'), h('th', { scope: 'col' }, 'phase'), columns.map((c) => h('th', { scope: 'col' }, c)))),
+        bodies)),
+    legend && h('figcaption', null, legend));
+}
+
+/// Shares as bars in a table: {caption, columns: [label, value], rows: [{label, note, share, text}]}
+export function sharesBlock({ caption, columns, rows }) {
+  return h('div', { class: 'scroll' }, h('table', { class: 'shares' }, h('caption', null, caption),
+    h('thead', null, h('tr', null, columns.map((c, i) => h('th', { scope: 'col', class: i === 1 ? 'right' : '' }, c)), h('th', { 'aria-hidden': 'true' }))),
+    h('tbody', null, rows.map((row) => h('tr', null,
+      h('th', { scope: 'row' }, row.label, row.note && h('span', { class: 'note' }, row.note)),
+      h('td', { class: 'right' }, row.text),
+      h('td', { class: 'bar', 'aria-hidden': 'true' }, h('span', { style: `width:${Math.max(0.5, 100 * Math.min(1, row.share)).toFixed(2)}%` })))))));
+}

@@ -1,0 +1,213 @@
+// Channels over time: panels one above the other on one axis, phases shaded, a cursor at the page's time.
+//
+// {title, view: [from_s, to_s], phases: [{name, start_s, end_s}],
+//  panels: [{label, unit, series: [{name, t, y, points}]}]}
+import { axisStyle, baseOption, Chart, graphic } from '../chart.js';
+import { h } from '../dom.js';
+import { clockTime, number, timeUnit } from '../format.js';
+import { colour, isOnPaper, seriesStyle } from '../theme.js';
+import { makePhaseTable } from './phase_table.js';
+
+const kLeft = 62;
+const kRight = 14;
+const kStrip = 20; // height of the row with the phases' names
+const kFoot = 66; // axis and zoom bar
+
+/// Height of a panel: on paper all of them are to fit on a page.
+const kPaper = 800;
+const panelHeight = (count) => (isOnPaper() ? Math.min(100, kPaper / count - 34) : 108);
+/// Room above each panel: for its title, and on a narrow page for the legend on a line of its own.
+const isNarrow = (width) => width < 560;
+const head = (width) => (isNarrow(width) ? 50 : 34);
+const panelTop = (i, width, count) => kStrip + 8 + head(width) + i * (panelHeight(count) + head(width));
+const panelsBottom = (count, width) => panelTop(count, width, count) - head(width);
+
+/// Limits of an axis that do not blow up what hardly changes.
+function limits({ min, max }) {
+  const least = 0.01 * Math.max(Math.abs(min), Math.abs(max));
+  if (max - min >= least || !(least > 0)) return { min: null, max: null };
+  const step = 10 ** Math.floor(Math.log10(least));
+  return { min: Math.floor((min - least / 2) / step) * step, max: Math.ceil((max + least / 2) / step) * step };
+}
+
+function findSpan(block) {
+  const ends = block.panels.flatMap((panel) => panel.series.filter((s) => s.t.length).map((s) => [s.t[0], s.t.at(-1)]));
+  return [Math.min(...ends.map((e) => e[0])), Math.max(...ends.map((e) => e[1]))];
+}
+
+/// Names of the phases as a row of boxes, each cut to its width.
+function phaseStrip(phases, unit) {
+  return {
+    type: 'custom',
+    xAxisIndex: 0,
+    yAxisIndex: 0,
+    silent: true,
+    clip: true,
+    data: phases.map((p, i) => [p.start_s / unit.seconds, p.end_s / unit.seconds, i]),
+    encode: { x: [0, 1] },
+    renderItem: (params, api) => {
+      const [x0] = api.coord([api.value(0), 0]);
+      const [x1] = api.coord([api.value(1), 0]);
+      const area = params.coordSys;
+      const box = graphic.clipRectByRect({ x: x0, y: area.y, width: x1 - x0, height: area.height }, area);
+      if (!box || box.width < 0.5) return undefined;
+      const i = api.value(2);
+      const name = phases[i].name;
+      return {
+        type: 'group',
+        children: [
+          { type: 'rect', shape: box, style: { fill: colour(i % 2 ? 'phase-b' : 'phase-a'), stroke: colour('axis'), lineWidth: 0.5 } },
+          box.width > 26 && {
+            type: 'text',
+            style: { x: box.x + 4, y: area.y + area.height / 2, text: name, width: box.width - 8, overflow: 'truncate',
+              ellipsis: '\u2026', verticalAlign: 'middle', fontSize: 11, fill: colour('ink') },
+          },
+        ].filter(Boolean),
+      };
+    },
+  };
+}
+
+function phaseShading(phases, unit) {
+  return {
+    silent: true,
+    itemStyle: { color: colour('phase-shade') },
+    data: phases.filter((_, i) => i % 2 === 1).map((p) => [{ xAxis: p.start_s / unit.seconds }, { xAxis: p.end_s / unit.seconds }]),
+  };
+}
+
+/// Names of series are those of the whole chart: two panels may have a line of the same name.
+const uniqueName = (panel, series) => `${panel.label}|${series.name}`;
+
+function makeSeries(panel, series, index, k, unit, phases) {
+  const line = panel.series.slice(0, k).filter((one) => !one.points).length; // points take no line's style
+  const style = seriesStyle(line);
+  const isPoints = series.points;
+  return {
+    name: uniqueName(panel, series),
+    type: isPoints ? 'scatter' : 'line',
+    xAxisIndex: index + 1,
+    yAxisIndex: index + 1,
+    data: series.t.map((t, n) => [t / unit.seconds, series.y[n]]),
+    showSymbol: false,
+    symbolSize: isPoints ? 3 : 0,
+    symbol: isPoints ? 'circle' : 'none',
+    z: isPoints ? 1 : 3,
+    itemStyle: { color: isPoints ? colour('soft') : style.color, opacity: isPoints ? 0.55 : 1 },
+    lineStyle: { color: style.color, width: 1.6, type: style.type },
+    step: series.step ? 'end' : false,
+    markArea: k === 0 ? phaseShading(phases, unit) : undefined,
+    markLine: k === 0 && series.zero ? { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: colour('axis'), type: 'solid' }, data: [{ yAxis: 0 }] } : undefined,
+  };
+}
+
+function makeTooltip(block, unit) {
+  return (items) => {
+    if (!items.length) return '';
+    const lines = [`<b>${clockTime(items[0].axisValue * unit.seconds)}</b>`];
+    for (const panel of block.panels) {
+      for (const series of panel.series) {
+        const item = items.find((one) => one.seriesName === uniqueName(panel, series) && one.value[1] !== null);
+        if (item) lines.push(`<span class="tip"><span>${series.name}</span><b>${number(item.value[1])} ${panel.unit}</b></span>`);
+      }
+    }
+    return lines.join('');
+  };
+}
+
+function makeOption(block, span, unit, width) {
+  const axis = axisStyle();
+  const view = (block.view || span).map((t) => t / unit.seconds);
+  const grids = [{ left: kLeft, right: kRight, top: 0, height: kStrip }];
+  const xAxes = [{ type: 'value', gridIndex: 0, show: false, min: span[0] / unit.seconds, max: span[1] / unit.seconds, axisPointer: { show: false } }];
+  const yAxes = [{ type: 'value', gridIndex: 0, show: false, min: 0, max: 1 }];
+  const titles = [];
+  const legends = [];
+  const series = [phaseStrip(block.phases || [], unit)];
+  block.panels.forEach((panel, i) => {
+    const last = i === block.panels.length - 1;
+    const top = panelTop(i, width, block.panels.length);
+    grids.push({ left: kLeft, right: kRight, top, height: panelHeight(block.panels.length) });
+    xAxes.push({
+      ...axis, type: 'value', gridIndex: i + 1, min: xAxes[0].min, max: xAxes[0].max,
+      axisLine: { ...axis.axisLine, onZero: false }, axisTick: { ...axis.axisTick, show: last },
+      axisLabel: { ...axis.axisLabel, show: last, showMinLabel: false, showMaxLabel: false, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') },
+      name: last ? `Time, ${unit.symbol}` : '', nameLocation: 'middle', nameGap: 22, splitLine: { show: false },
+      axisPointer: { snap: false, lineStyle: { color: colour('soft'), type: 'solid', width: 1 }, label: { show: false } },
+    });
+    yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v).min, max: (v) => limits(v).max,
+      axisLabel: { ...axis.axisLabel, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') } });
+    titles.push({ left: kLeft - 4, top: top - (isNarrow(width) ? 38 : 22), padding: 0,
+      text: `{b|${panel.label}} {u|${panel.unit}}`,
+      textStyle: { fontSize: 12, color: colour('ink'), rich: { b: { fontWeight: 600, fontSize: 12, color: colour('ink') }, u: { fontSize: 12, color: colour('soft') } } } });
+    if (panel.series.length > 1) {
+      const narrow = isNarrow(width);
+      legends.push({ data: panel.series.map((s) => ({ name: uniqueName(panel, s), itemStyle: { opacity: s.points ? 1 : 0 } })), formatter: (name) => name.split('|').at(-1), type: 'scroll', top: top - (narrow ? 20 : 24), pageIconSize: 10, pageTextStyle: { color: colour('soft') },
+        ...(narrow ? { left: kLeft - 8, right: kRight } : { right: kRight, width: width - 230 }), itemWidth: 26, itemHeight: 8, itemGap: 12, padding: 0,
+        textStyle: { fontSize: 11, color: colour('soft') }, inactiveColor: colour('grid') });
+    }
+    panel.series.forEach((one, k) => series.push(makeSeries(panel, one, i, k, unit, block.phases || [])));
+  });
+  const allX = xAxes.map((_, i) => i);
+  return {
+    ...baseOption(),
+    tooltip: { ...baseOption().tooltip, trigger: 'axis', formatter: makeTooltip(block, unit) },
+    axisPointer: { link: [{ xAxisIndex: allX.slice(1) }] },
+    title: titles, legend: legends, grid: grids, xAxis: xAxes, yAxis: yAxes,
+    dataZoom: [
+      { type: 'slider', show: !isOnPaper(), xAxisIndex: allX, startValue: view[0], endValue: view[1], bottom: 4, height: 16, left: kLeft, right: kRight,
+        showDataShadow: false, showDetail: false, brushSelect: false, filterMode: 'none', borderColor: colour('rule'),
+        fillerColor: colour('phase-a'), handleStyle: { color: colour('raised'), borderColor: colour('axis') }, moveHandleSize: 4, moveHandleStyle: { color: colour('axis') } },
+      { type: 'inside', xAxisIndex: allX, startValue: view[0], endValue: view[1], filterMode: 'none', zoomOnMouseWheel: 'ctrl', moveOnMouseWheel: false },
+    ],
+    series,
+  };
+}
+
+/// The cursor at the page's time, over all panels; dragging on the chart moves the time.
+function tieToClock(chart, cursor, clock, unit, panels) {
+  const place = () => {
+    if (!chart.instance) return;
+    cursor.style.height = `${panelsBottom(panels, chart.width)}px`;
+    const x = chart.instance.convertToPixel({ xAxisIndex: 1 }, clock.now_s / unit.seconds);
+    const inside = x >= kLeft - 1 && x <= chart.width - kRight + 1;
+    cursor.style.display = inside ? '' : 'none';
+    cursor.style.transform = `translateX(${x}px)`;
+  };
+  clock.onChange(place);
+  chart.afterDraw = () => {
+    place();
+    if (chart.isTied) return;
+    chart.isTied = true;
+    chart.instance.on('datazoom', place);
+    chart.instance.getZr().on('click', (event) => {
+      if (event.offsetX < kLeft || event.offsetY > panelsBottom(panels, chart.width)) return;
+      clock.set(chart.instance.convertFromPixel({ xAxisIndex: 1 }, event.offsetX) * unit.seconds);
+    });
+  };
+}
+
+export function timesBlock(block, { clock }) {
+  const span = findSpan(block);
+  const unit = timeUnit((block.view || span)[1] - (block.view || span)[0]);
+  const names = block.panels.map((panel) => panel.label.toLowerCase()).join(', ');
+  const chart = new Chart({
+    height: (width) => panelsBottom(block.panels.length, width) + kFoot,
+    label: `Line charts over time from ${clockTime(span[0])} to ${clockTime(span[1])}: ${names}. The table below has mean and extremes of each phase.`,
+    makeOption: (width) => makeOption(block, span, unit, width),
+  });
+  const holder = h('div', { class: 'times' }, chart.element);
+  if (clock && !block.unlinked) {
+    const cursor = h('div', { class: 'cursor', 'aria-hidden': 'true' });
+    holder.append(cursor);
+    tieToClock(chart, cursor, clock, unit, block.panels.length);
+  }
+  const zoom = (range) => chart.instance && chart.instance.dispatchAction({ type: 'dataZoom', startValue: range[0] / unit.seconds, endValue: range[1] / unit.seconds });
+  const choice = h('div', { class: 'zoom' },
+    h('label', null, 'Show ', h('select', { onchange: (event) => zoom(JSON.parse(event.target.value)) },
+      block.view && h('option', { value: JSON.stringify(block.view), selected: true }, 'from the start of rolling'),
+      h('option', { value: JSON.stringify(span) }, 'the whole time'),
+      (block.phases || []).map((p) => h('option', { value: JSON.stringify([p.start_s, p.end_s]) }, p.name)))));
+  return h('figure', null, h('div', { class: 'charthead' }, h('h3', null, block.title || ''), choice), holder, block.caption && h('figcaption', null, block.caption),
+    h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), makePhaseTable(block, span)));
+}

@@ -1,0 +1,124 @@
+// A chart of the page: drawn when it comes near the window, redrawn with the theme and for paper, with a caption and a
+// table of the same numbers beside it.
+import * as echarts from 'echarts/core';
+import { BarChart, CustomChart, LineChart, SankeyChart, ScatterChart } from 'echarts/charts';
+import {
+  DataZoomComponent,
+  GridComponent,
+  LegendComponent,
+  MarkAreaComponent,
+  MarkLineComponent,
+  TitleComponent,
+  TooltipComponent,
+} from 'echarts/components';
+import { SVGRenderer } from 'echarts/renderers';
+import { h } from './dom.js';
+import { colour, onThemeChange } from './theme.js';
+
+echarts.use([
+  BarChart, CustomChart, LineChart, SankeyChart, ScatterChart, DataZoomComponent, GridComponent, LegendComponent,
+  MarkAreaComponent, MarkLineComponent, TitleComponent, TooltipComponent, SVGRenderer,
+]);
+
+export const { graphic } = echarts;
+
+const all = [];
+
+/// Text and lines that every chart shares.
+export function baseOption() {
+  return {
+    animation: false,
+    backgroundColor: 'transparent',
+    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily, color: colour('ink'), fontSize: 12 },
+    tooltip: {
+      backgroundColor: colour('raised'),
+      borderColor: colour('rule'),
+      textStyle: { color: colour('ink'), fontSize: 12 },
+      confine: true,
+      transitionDuration: 0,
+    },
+  };
+}
+
+export function axisStyle() {
+  return {
+    axisLine: { show: true, lineStyle: { color: colour('axis') } },
+    axisTick: { show: true, lineStyle: { color: colour('axis') } },
+    axisLabel: { color: colour('soft'), fontSize: 11, hideOverlap: true },
+    splitLine: { show: true, lineStyle: { color: colour('grid'), width: 1 } },
+    nameTextStyle: { color: colour('soft'), fontSize: 11 },
+  };
+}
+
+/// What the upright axis shows, in words above it and below a legend.
+export const axisTitle = (text, hasLegend) => ({ text, left: 0, top: hasLegend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: colour('soft') } });
+
+export class Chart {
+  /// `makeOption(width)` is asked anew for each theme; `height` in px, or of the width.
+  constructor({ height, makeOption, label, afterDraw }) {
+    this.makeOption = makeOption;
+    this.height = typeof height === 'function' ? height : () => height;
+    this.afterDraw = afterDraw;
+    this.element = h('div', { class: 'chart', role: 'img', 'aria-label': label });
+    this.element.style.height = `${this.height(800)}px`;
+    this.instance = null;
+    all.push(this);
+    onThemeChange(() => this.redraw());
+    watchNear.observe(this.element);
+    watchSize.observe(this.element);
+  }
+
+  draw() {
+    if (this.instance || !this.element.isConnected || this.element.clientWidth === 0) return;
+    this.width = this.element.clientWidth;
+    this.element.style.height = `${this.height(this.width)}px`;
+    this.instance = echarts.init(this.element, null, { renderer: 'svg' });
+    this.instance.setOption(this.makeOption(this.width));
+    this.instance.getZr().flush();
+    if (this.afterDraw) this.afterDraw(this);
+  }
+
+  redraw() {
+    if (!this.instance) return;
+    const zoom = this.zoom();
+    this.width = this.element.clientWidth;
+    this.element.style.height = `${this.height(this.width)}px`;
+    this.instance.resize({ animation: { duration: 0 } });
+    this.instance.setOption(this.makeOption(this.width), { notMerge: true });
+    if (zoom) this.instance.dispatchAction({ type: 'dataZoom', startValue: zoom[0], endValue: zoom[1] });
+    this.instance.getZr().flush();
+    if (this.afterDraw) this.afterDraw(this);
+  }
+
+  /// Range shown, where the chart can be zoomed.
+  zoom() {
+    const option = this.instance && this.instance.getOption();
+    const zoom = option && option.dataZoom && option.dataZoom[0];
+    return zoom ? [zoom.startValue, zoom.endValue] : null;
+  }
+}
+
+const chartOf = (element) => all.find((chart) => chart.element === element);
+const watchNear = new IntersectionObserver(
+  (entries) => entries.forEach((entry) => entry.isIntersecting && chartOf(entry.target).draw()),
+  { rootMargin: '600px' },
+);
+const watchSize = new ResizeObserver((entries) =>
+  entries.forEach((entry) => {
+    const chart = chartOf(entry.target);
+    if (chart.instance && Math.abs(chart.element.clientWidth - chart.width) > 1) chart.redraw();
+  }),
+);
+
+/// All charts at the width that they have now, those out of sight too: for paper and for tests.
+export function drawAll() {
+  all.forEach((chart) => (chart.instance ? chart.redraw() : chart.draw()));
+}
+export const chartCount = () => all.filter((chart) => chart.instance).length;
+
+/// A figure: chart, caption, and the numbers as a table that opens.
+export function figure({ chart, caption, table, before }) {
+  return h('figure', null, before, chart.element,
+    caption && h('figcaption', null, caption),
+    table && h('details', { class: 'numbers' }, h('summary', null, 'Numbers of this chart as a table'), table));
+}

@@ -1,0 +1,74 @@
+// The page, made from the payload alone. A payload is {title, subtitle, about, sections: [{title, note, blocks: [...]}]}
+// and each block is drawn by the function of its type.
+import { barsBlock } from './blocks/bars.js';
+import { curvesBlock } from './blocks/curves.js';
+import { energyBlock } from './blocks/energy.js';
+import { inputsBlock } from './blocks/inputs.js';
+import { mapBlock, sharesBlock } from './blocks/map.js';
+import { linesBlock, tableBlock } from './blocks/table.js';
+import { definitionsBlock, leadBlock, preBlock, textBlock, warningsBlock } from './blocks/text.js';
+import { timesBlock } from './blocks/times.js';
+import { chartCount, drawAll } from './chart.js';
+import { Clock } from './clock.js';
+import { h } from './dom.js';
+import { replayBlock } from './replay/replay.js';
+import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
+import { timeBarBlock } from './timebar.js';
+
+const kBlocks = {
+  bars: barsBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
+  map: mapBlock, pre: preBlock, replay: replayBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
+  time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
+};
+
+const slug = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, '-').replace(/^-|-$/g, '');
+
+function makeSection(section, context) {
+  const blocks = section.blocks.map((block) => kBlocks[block.type](block, { ...context, section }));
+  const body = section.folded
+    ? h('details', { class: 'fold' }, h('summary', null, section.folded), blocks)
+    : blocks;
+  return h('section', { id: slug(section.title), class: section.class },
+    h('h2', null, section.title), section.note && h('p', { class: 'note' }, section.note), body);
+}
+
+function makeHeader(payload) {
+  return h('header', null,
+    h('div', { class: 'top' },
+      h('span', { class: 'brand' }, 'rollrig ', h('span', null, payload.command)),
+      h('div', { class: 'tools' }, makeThemeButton(),
+        h('button', { type: 'button', class: 'tool', onclick: () => print() }, 'Print'))),
+    h('h1', null, payload.title), payload.subtitle && h('p', { class: 'subtitle' }, payload.subtitle));
+}
+
+function makeContents(sections) {
+  return h('nav', { 'aria-label': 'Contents' }, sections.map((s) => h('a', { href: `#${slug(s.title)}` }, s.title)));
+}
+
+function start() {
+  const payload = JSON.parse(document.getElementById('payload').textContent);
+  startTheme();
+  document.title = `${payload.title} \u2013 rollrig`;
+  const clock = payload.clock ? new Clock(payload.clock.start_s, payload.clock.end_s, payload.clock.now_s) : null;
+  const context = { clock, payload };
+  const main = h('main', { id: 'content', tabindex: '-1' }, payload.sections.map((section) => makeSection(section, context)));
+  document.getElementById('page').replaceChildren(makeHeader(payload), makeContents(payload.sections), main,
+    h('footer', null, h('p', null, payload.about), h('p', null, 'This page needs no network. Charts: Apache ECharts, Apache License 2.0.')));
+  // A fold of JSON is for programs: it stays off paper.
+  const folds = () => [...document.querySelectorAll('details.fold')].filter((fold) => !fold.querySelector('pre'));
+  addEventListener('beforeprint', () => {
+    folds().forEach((fold) => (fold.open = true));
+    setOnPaper(true);
+    document.documentElement.classList.add('paper');
+    drawAll();
+  });
+  addEventListener('afterprint', () => {
+    document.documentElement.classList.remove('paper');
+    setOnPaper(false);
+    drawAll();
+  });
+  window.rollrig = { clock, drawAll, chartCount };
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start();

@@ -1,0 +1,145 @@
+// Pages of every command in headless Chromium, from file://: no message on the console, nothing asked of a network,
+// charts drawn in pixels, the slider moves the replay, first paint within two seconds, no larger than three megabytes.
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "report/fit_pages.h"
+#include "sim/core/csv.h"
+#include "tests/proof/bank_folder.h"
+#include "tests/support/coast_study.h"
+#include "tests/support/coastdown_study.h"
+#include "tests/support/run_program.h"
+
+namespace fs = std::filesystem;
+using namespace rollrig;
+using namespace rollrig::tests;
+
+namespace {
+
+constexpr std::uintmax_t kMostBytes = 3'000'000;
+
+/// What check_page.mjs says of a page; `asked` are its options.
+void check_page(const std::string& page, const std::string& asked) {
+  CHECK(fs::file_size(page) <= kMostBytes);
+  const std::string script = std::string(ROLLRIG_SOURCE_DIR) + "/tests/report/check_page.mjs";
+  const ProgramResult checked = run_other(ROLLRIG_NODE, "'" + script + "' '" + page + "' " + asked);
+  INFO(checked.out << checked.err);
+  CHECK(checked.status == 0);
+}
+
+/// Runs `rollrig <arguments> --html page.html` and checks the page.
+void check_command(const TemporaryFolder& folder, const std::string& arguments, const std::string& asked,
+                   int status = 0) {
+  const ProgramResult run = run_program(arguments + " --html page.html", folder.path());
+  INFO(arguments << '\n' << run.out << run.err);
+  REQUIRE(run.status == status);
+  check_page(folder.file("page.html"), asked);
+}
+
+/// A set of two warm-ups with an effect in it.
+void write_set(const TemporaryFolder& folder) {
+  const ProgramResult made = run_program(
+      "run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80,120]' --set warm_up_min=10 "
+      "--set effects.bearing_warmup.fall_per_K=0.03 --write-set set --quiet",
+      folder.path());
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+}
+
+}  // namespace
+
+TEST_CASE("page of an ISO test on the multibody drum", "[slow]") {
+  check_command(TemporaryFolder(), "run iso_28580 --tire a50", "--charts 2 --replay");
+}
+
+TEST_CASE("page of a multi-cycle test of a quarter on its roller", "[slow]") {
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --set wheels=1", "--charts 4 --replay");
+}
+
+TEST_CASE("page of a multi-cycle test of four wheels, four hours long", "[slow]") {
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static", "--charts 4 --replay");
+}
+
+TEST_CASE("page of a vehicle that coasts down on the road", "[slow]") {
+  check_command(TemporaryFolder(), "run coastdown --tire a50", "--charts 3 --replay");
+}
+
+TEST_CASE("page of two hours with ten rows a second", "[slow]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("long.toml"),
+             "format = \"rollrig-run/1\"\nscenario = \"warm_up\"\ntire = \"a50\"\nsensors = \"source\"\n"
+             "sample_interval_s = 0.1\n[settings]\nwarm_up_min = 120.0\n");
+  check_command(folder, "run long.toml", "--charts 2 --replay");
+}
+
+TEST_CASE("page of a sweep", "[slow]") {
+  check_command(TemporaryFolder(), "sweep iso_28580 --tire a50 --fidelity quasi_static --vary pressure_kPa=210:310:50",
+                "--charts 3");
+}
+
+TEST_CASE("page of regression runs", "[slow]") {
+  const TemporaryFolder folder;
+  for (const char* file : {"skim_a40.toml", "skim_a40.golden.csv", "iso_28580_a50_quasi_static.toml"}) {
+    fs::copy_file(fs::path(ROLLRIG_SOURCE_DIR) / "assets/regression" / file, folder.file(file));
+  }
+  check_command(folder, "regress .", "--charts 1", 1);  // one has no golden
+}
+
+TEST_CASE("pages of a diagnosis, of a fitted tire and of several diagnoses", "[slow]") {
+  const TemporaryFolder folder;
+  write_set(folder);
+  check_command(folder, "diagnose set --only bearing_warmup,load_exponent", "--charts 3");
+  check_command(folder, "fit tire set", "--charts 3");
+  fs::create_directory(folder.file("sets"));
+  for (const char* name : {"sets/one", "sets/two"}) fs::copy(folder.file("set"), folder.file(name));
+  check_command(folder, "diagnose sets --only bearing_warmup,load_exponent", "--charts 1");
+}
+
+TEST_CASE("page of a fitted road load", "[slow]") {
+  const TemporaryFolder folder;
+  CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
+  for (const auto& run : simulate_coastdowns({}, 1).runs) {
+    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+      csv.begin_row();
+      csv.add(run.time_s[i]);
+      csv.add(3.6 * run.speed_m_s[i]);
+      csv.add(run.id);
+      csv.add(std::string(run.heading > 0 ? "+" : "-"));
+      csv.add(20.0);
+      csv.end_row();
+    }
+  }
+  write_file(folder.file("coast.csv"), csv.take());
+  check_command(folder, "fit road-load coast.csv --mass 2100", "--charts 2");
+}
+
+TEST_CASE("page of a drum's coast-downs", "[slow]") {
+  const TemporaryFolder folder;
+  const identification::CoastSet set = make_coasts({}, 1);
+  const report::Page page = report::make_drum_coastdown_page(set, identification::fit_drum_coastdown(set));
+  write_file(folder.file("page.html"), report::make_html(page));
+  check_page(folder.file("page.html"), "--charts 2");
+}
+
+TEST_CASE("page of a blind score", "[slow]") {
+  const BankFolder made;
+  REQUIRE(run_program("blind run bank --quiet", made.folder.path()).status == 0);
+  check_command(made.folder, "blind score bank", "--charts 1");
+}
+
+TEST_CASE("a page goes to standard output alone, and is refused where it cannot be", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string quick = "run skim --tire a50 --fidelity quasi_static ";
+  const ProgramResult out = run_program(quick + "--html -", folder.path());
+  CHECK(out.status == 0);
+  CHECK_THAT(out.out, Catch::StartsWith("<!doctype html>"));
+  CHECK_THAT(out.out, Catch::EndsWith("</html>\n"));
+  CHECK(folder.entry_count() == 0);
+  for (const char* asked : {"--html nowhere/page.html", "--html . ", "--html - --json -"}) {
+    const ProgramResult refused = run_program(quick + asked, folder.path());
+    INFO(asked << refused.err);
+    CHECK(refused.status == 2);
+    CHECK(refused.out.empty());
+    CHECK(folder.entry_count() == 0);
+  }
+}

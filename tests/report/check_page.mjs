@@ -1,0 +1,200 @@
+// Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
+// node check_page.mjs <page.html> [--charts N] [--replay] [--screenshots DIR]
+import { writeFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { pathToFileURL } from 'node:url';
+import { Chromium } from './chromium.mjs';
+
+const kFirstPaint_s = 2;
+const kLoads = 5;  // the first paint is a figure of the page, not of what else the machine does: the quickest of so many
+const kPatience_ms = 20000;
+const kBrowsers = 3;
+const args = process.argv.slice(2);
+const option = (name) => (args.includes(name) ? args[args.indexOf(name) + 1] : undefined);
+const page = resolve(args[0]);
+const problems = [];
+const check = (isGood, text) => {
+  console.log(`${isGood ? 'ok' : 'BAD'}  ${text}`);
+  if (!isGood) problems.push(text);
+};
+
+let chromium;
+const messages = [];
+const requests = [];
+const hear = (method, params) => {
+  if (method === 'Runtime.exceptionThrown') messages.push(params.exceptionDetails.exception?.description || params.exceptionDetails.text);
+  if (method === 'Log.entryAdded') messages.push(params.entry.text);
+  if (method === 'Runtime.consoleAPICalled') messages.push(params.args.map((a) => a.value ?? a.description).join(' '));
+  if (method === 'Network.requestWillBeSent' && !/^(data|blob|about):/.test(params.request.url)) requests.push(params.request.url);
+};
+
+/// Share of the pixels of an area that differ from its most frequent colour, and how many colours it has.
+const kMeasureInk = `async (png) => {
+  const image = await createImageBitmap(await (await fetch('data:image/png;base64,' + png)).blob());
+  const canvas = new OffscreenCanvas(image.width, image.height);
+  const context = canvas.getContext('2d');
+  context.drawImage(image, 0, 0);
+  const { data } = context.getImageData(0, 0, image.width, image.height);
+  const counts = new Map();
+  for (let i = 0; i < data.length; i += 4) {
+    const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+    counts.set(colour, (counts.get(colour) || 0) + 1);
+  }
+  const pixels = data.length / 4;
+  return { ink: 1 - Math.max(...counts.values()) / pixels, colours: counts.size };
+}`;
+
+/// What is really seen of an element, as PNG.
+async function capture(selector, index) {
+  const box = await chromium.evaluate(`(() => { const b = document.querySelectorAll('${selector}')[${index}].getBoundingClientRect();
+    return { x: b.x + scrollX, y: b.y + scrollY, width: b.width, height: b.height }; })()`);
+  const { data } = await chromium.send('Page.captureScreenshot', { clip: { ...box, scale: 1 }, captureBeyondViewport: true });
+  return { png: data, box };
+}
+
+// Pixels are read on an empty page of its own: the report's policy allows it no fetch.
+let measuring;
+async function measureInk(png) {
+  if (!measuring) {
+    measuring = new Chromium();
+    await measuring.open();
+  }
+  return measuring.evaluate(`(${kMeasureInk})('${png}')`);
+}
+
+async function checkCharts() {
+  const count = await chromium.evaluate(`(rollrig.drawAll(), document.querySelectorAll('.chart').length)`);
+  const wanted = Number(option('--charts') || 0);
+  check(count >= wanted, `${count} charts, at least ${wanted} wanted`);
+  for (let i = 0; i < count; ++i) {
+    const { png, box } = await capture('.chart', i);
+    const { ink, colours } = await measureInk(png);
+    check(box.height > 100 && ink > 0.005 && colours > 8, `chart ${i + 1}: ${(100 * ink).toFixed(1)} % of its pixels drawn, ${colours} colours, ${Math.round(box.height)} px high`);
+  }
+}
+
+/// The slider by keyboard: the drawing, the values and the cursor move.
+async function checkReplay() {
+  const look = `(() => ({ drawing: [...document.querySelectorAll('.replay g[transform]')].map((g) => g.getAttribute('transform')).join(),
+    values: document.querySelector('.readings').textContent, cursor: document.querySelector('.cursor').style.transform, now: document.querySelector('.now').textContent }))()`;
+  const before = await chromium.evaluate(look);
+  const picture = await capture('.replay', 0);
+  check((await measureInk(picture.png)).ink > 0.02, 'the replay is drawn');
+  await chromium.evaluate(`document.querySelector('#time').focus()`);
+  for (const type of ['keyDown', 'keyUp']) await chromium.send('Input.dispatchKeyEvent', { type, key: 'PageDown', code: 'PageDown', windowsVirtualKeyCode: 34 });
+  const after = await chromium.evaluate(look);
+  for (const key of ['drawing', 'cursor', 'now']) check(before[key] !== after[key], `the slider moves the replay: ${key}`);
+  const moved = await capture('.replay', 0);
+  check(moved.png !== picture.png, 'the picture of the replay changes');
+  await chromium.evaluate(`(rollrig.clock.set(rollrig.clock.start_s), 0)`);
+  const start = await chromium.evaluate(look);
+  check(start.values !== before.values, 'the slider moves the values beside it');
+}
+
+async function checkWords() {
+  const odd = await chromium.evaluate(`(document.querySelector('main').textContent.match(/.{0,40}(\\[object|undefined|NaN|Infinity).{0,20}/) || [''])[0]`);
+  check(odd === '', `no word that a person is not to see: ${odd}`);
+}
+
+async function checkAccess() {
+  const unnamed = await chromium.evaluate(`[...document.querySelectorAll('.chart, .replay, input, select, button')].filter((e) =>
+    !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length))).length`);
+  check(unnamed === 0, `${unnamed} charts or controls without a name for a screen reader`);
+  const tables = await chromium.evaluate(`[...document.querySelectorAll('figure')].filter((f) => f.querySelector('.chart') && !f.querySelector('details.numbers table tbody tr')).length`);
+  check(tables === 0, `${tables} charts without their numbers as a table`);
+  const wide = await chromium.evaluate(`document.documentElement.scrollWidth - innerWidth`);
+  check(wide <= 0, `the page is ${wide} px wider than the window`);
+}
+
+async function checkNarrow() {
+  await chromium.send('Emulation.setDeviceMetricsOverride', { width: 400, height: 800, deviceScaleFactor: 1, mobile: false });
+  const fits = await waitFor('innerWidth === 400 && document.documentElement.scrollWidth <= innerWidth');
+  const wide = await chromium.evaluate(`document.documentElement.scrollWidth - innerWidth`);
+  check(fits, `at 400 px the page is ${wide} px wider than the window`);
+  await saveScreenshot('narrow');
+  await chromium.send('Emulation.clearDeviceMetricsOverride');
+}
+
+async function saveScreenshot(name) {
+  if (!option('--screenshots')) return;
+  await chromium.evaluate('(rollrig.drawAll(), 0)');
+  const { data } = await chromium.send('Page.captureScreenshot', { captureBeyondViewport: true, clip: await chromium.evaluate(
+    '({ x: 0, y: 0, width: innerWidth, height: document.documentElement.scrollHeight, scale: 1 })') });
+  writeFileSync(join(option('--screenshots'), `${name}.png`), Buffer.from(data, 'base64'));
+}
+
+async function checkDarkAndPaper() {
+  await chromium.send('Emulation.setEmulatedMedia', { features: [{ name: 'prefers-color-scheme', value: 'dark' }] });
+  const isDark = await waitFor(`getComputedStyle(document.body).backgroundColor !== 'rgb(255, 255, 255)'`);
+  const dark = await chromium.evaluate('getComputedStyle(document.body).backgroundColor');
+  check(isDark, `dark where the system is dark: ${dark}`);
+  await saveScreenshot('dark');
+  await chromium.send('Emulation.setEmulatedMedia', { features: [] });
+  const { data } = await chromium.send('Page.printToPDF', { printBackground: true, preferCSSPageSize: true });
+  check(data.length > 20000, `prints: a PDF of ${Math.round((data.length * 3) / 4096)} kB`);
+  if (option('--screenshots')) writeFileSync(join(option('--screenshots'), 'paper.pdf'), Buffer.from(data, 'base64'));
+}
+
+/// Waits until an expression is true in the page, and says whether it came to be.
+async function waitFor(expression) {
+  return chromium.evaluate(`(async () => {
+    const end = performance.now() + ${kPatience_ms};
+    while (!(${expression})) {
+      if (performance.now() > end) return false;
+      await new Promise((done) => setTimeout(done, 20));
+    }
+    return true;
+  })()`);
+}
+
+/// Loads the page. Returns the time of its first paint with content, in s.
+async function load() {
+  let fire;
+  const loaded = new Promise((done) => (fire = done));
+  const stop = chromium.on((method) => method === 'Page.loadEventFired' && fire());
+  await chromium.send('Page.navigate', { url: pathToFileURL(page).href });
+  await loaded;
+  stop();
+  await waitFor(`performance.getEntriesByName('first-contentful-paint').length > 0`);
+  return chromium.evaluate(`performance.getEntriesByName('first-contentful-paint')[0]?.startTime / 1000`);
+}
+
+async function checkPage() {
+  await chromium.open();
+  let paint_s = await load();
+  check(await waitFor(`document.documentElement.dataset.ready === 'yes'`), 'the page is made from its data');
+  let loads = 1;
+  for (; loads < kLoads && !(paint_s < kFirstPaint_s); ++loads) paint_s = Math.min(paint_s ?? Infinity, (await load()) ?? Infinity);
+  check(paint_s < kFirstPaint_s, `first paint with content after ${paint_s?.toFixed(2)} s (load ${loads}), at most ${kFirstPaint_s} s`);
+  await checkCharts();
+  await saveScreenshot('light');
+  await checkWords();
+  await checkAccess();
+  if (args.includes('--replay')) await checkReplay();
+  await checkNarrow();
+  await checkDarkAndPaper();
+  const strange = requests.filter((url) => url !== pathToFileURL(page).href);
+  check(strange.length === 0, `nothing but the file itself is asked for: ${strange.join(' ')}`);
+  check(messages.length === 0, `no message on the console: ${messages.join(' | ')}`);
+}
+
+// A browser that dies on a machine short of memory says nothing of the page: it is started anew, twice at most.
+for (let browsers = 1; ; ++browsers) {
+  for (const kept of [problems, messages, requests]) kept.length = 0;
+  chromium = new Chromium();
+  chromium.on(hear);
+  measuring = undefined;
+  let died = false;
+  try {
+    await checkPage();
+  } catch (error) {
+    died = Boolean(chromium.ended || measuring?.ended);
+    check(false, `the check itself: ${error.message}; ${messages.join(' | ')}`);
+  } finally {
+    await chromium.close();
+    if (measuring) await measuring.close();
+  }
+  if (!died || browsers === kBrowsers) break;
+  console.log('the browser has died: once more');
+}
+process.exit(problems.length === 0 ? 0 : 1);

@@ -1,0 +1,59 @@
+// A page as text: one file, its data in it once, nothing that a name in a file could break out of.
+#include "report/page.h"
+
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "report/blocks.h"
+
+using namespace rollrig;
+using Catch::Contains;
+
+namespace {
+
+report::Page make_page(const std::string& title) {
+  report::Page page{"run", title, "", {}, false, {}};
+  page.add({"Result", "", {report::make_paragraph(title)}});
+  page.add({"Nothing"});
+  return page;
+}
+
+/// The data of a page.
+Json read_payload(const std::string& html) {
+  const std::string mark = "id=\"payload\">";
+  const std::size_t first = html.find(mark) + mark.size();
+  return Json::parse(html.substr(first, html.find("</script>", first) - first));
+}
+
+}  // namespace
+
+TEST_CASE("a page holds its data once and whole, and no section without blocks", "[fast]") {
+  const std::string html = report::make_html(make_page("a test"));
+  CHECK_THAT(html, Catch::StartsWith("<!doctype html>"));
+  const Json payload = read_payload(html);
+  CHECK(payload["format"] == "rollrig-page/1");
+  CHECK(payload["title"] == "a test");
+  CHECK(payload["sections"].size() == 1);
+  CHECK(html.find("/*PAYLOAD*/") == std::string::npos);
+}
+
+TEST_CASE("names cannot end the script that they stand in", "[fast]") {
+  const std::string evil = "</script><script>alert(1)</script><!-- \xC3\xA9 \xFF";
+  const std::string html = report::make_html(make_page(evil));
+  CHECK(html.find("<script>alert(1)") == std::string::npos);
+  CHECK_THAT(read_payload(html)["title"].get<std::string>(), Contains("</script><script>alert(1)"));
+}
+
+TEST_CASE("a page asks no other place for anything, and brings its licences", "[fast]") {
+  const std::string html = report::make_html(make_page("a test"));
+  CHECK_THAT(html, Contains("default-src 'none'"));
+  CHECK_FALSE(std::regex_search(html, std::regex("<(script|link|img|iframe)[^>]+(src|href)=\"?http")));
+  CHECK_THAT(html, Contains("Apache License") && Contains("zrender"));
+}
+
+TEST_CASE("numbers on a page have six digits; what is not finite is null", "[fast]") {
+  CHECK(report::rounded(1.0 / 3.0) == Json(0.333333));
+  CHECK(report::rounded(std::nan("")).is_null());
+  CHECK(report::pretty_unit("1/degC") == "1/°C");
+  CHECK(report::plain_name("drum_torque_Nm") == "drum torque");
+}
