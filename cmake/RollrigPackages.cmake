@@ -13,6 +13,15 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(edlib REQUIRED IMPORTED_TARGET edlib-1)
 pkg_check_modules(libmd REQUIRED IMPORTED_TARGET libmd)
 
+# HDF5 without MPI, the one that Debian's matio brings along: two of them in one program would meet.
+pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
+# matio: by hand, since its pkg-config file names its own dependencies where they are not.
+find_path(MATIO_INCLUDE_DIR matio.h REQUIRED)
+find_library(MATIO_LIBRARY matio REQUIRED)
+add_library(rollrig_matio INTERFACE)
+target_include_directories(rollrig_matio SYSTEM INTERFACE "${MATIO_INCLUDE_DIR}")
+target_link_libraries(rollrig_matio INTERFACE "${MATIO_LIBRARY}")
+
 # Simbody: its configuration file names libraries and folders only.
 find_package(Simbody 3.7 REQUIRED NAMES Simbody simbody)
 add_library(rollrig_simbody INTERFACE)

@@ -1,0 +1,41 @@
+# cmake --install: programs, libraries, headers, assets, manual page, completions, and find_package(rollrig).
+include(CMakePackageConfigHelpers)
+
+# The shared library is found, and the assets are, wherever the prefix moves.
+file(RELATIVE_PATH rollrig_libraries_from_programs "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+set_target_properties(rollrig PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
+install(TARGETS rollrig rollrig_blind RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(DIRECTORY assets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/rollrig/assets")
+
+install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.bash" RENAME rollrig
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+install(FILES "${PROJECT_BINARY_DIR}/cli/_rollrig" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE NOTICE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATTERN "*.md")
+
+# Libraries: rollrig::scenarios and its like.
+set(rollrig_folders models rigs scenarios identification import diagnosis proof report export)
+set(rollrig_targets rollrig_options rollrig_simbody rollrig_matio rollrig_sim_core rollrig_sim rollrig_cvodes)
+list(TRANSFORM rollrig_folders PREPEND rollrig_ OUTPUT_VARIABLE rollrig_folder_targets)
+list(APPEND rollrig_targets ${rollrig_folder_targets})
+foreach(target IN LISTS rollrig_targets)
+  string(REPLACE "rollrig_" "" name ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+endforeach()
+install(TARGETS ${rollrig_targets} EXPORT rollrigTargets
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+foreach(folder sim ${rollrig_folders})
+  install(DIRECTORY ${folder} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/rollrig"
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "web" EXCLUDE)
+endforeach()
+
+set(rollrig_cmake_folder "${CMAKE_INSTALL_LIBDIR}/cmake/rollrig")
+install(EXPORT rollrigTargets NAMESPACE rollrig:: DESTINATION "${rollrig_cmake_folder}")
+set(rollrig_assets_folder "${CMAKE_INSTALL_DATADIR}/rollrig/assets")
+configure_package_config_file(cmake/rollrigConfig.cmake.in "${PROJECT_BINARY_DIR}/rollrigConfig.cmake"
+  INSTALL_DESTINATION "${rollrig_cmake_folder}" PATH_VARS rollrig_assets_folder)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/rollrigConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/rollrigConfig.cmake" "${PROJECT_BINARY_DIR}/rollrigConfigVersion.cmake"
+  DESTINATION "${rollrig_cmake_folder}")
