@@ -1,17 +1,20 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <set>
 
 #include "cli/command.h"
 #include "cli/command_blind_score.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
 #include "proof/bank.h"
+#include "proof/baselines/baselines.h"
 #include "proof/oracle.h"
 #include "proof/ranks.h"
 #include "proof/run_bank.h"
@@ -73,19 +76,22 @@ struct RunOptions {
   int threads = 0;
   RaceOptions race;
   bool quiet = false;
-  std::string seal;            // of oracle
-  std::string kind = "alone";  // likewise
+  std::string seal;                  // of oracle
+  std::string kind = "alone";        // likewise
+  bool confusable = false;           // likewise
+  std::vector<std::string> methods;  // of baselines
 };
 
 std::string folder_or(const std::string& given, const std::string& bank, const char* name) {
   return given.empty() ? (fs::path(bank) / name).string() : given;
 }
 
-/// Diagnoses what is to be done by all processes together, and says how it went.
-int run_tasks(const RunOptions& options, const std::string& out, std::vector<proof::Task> tasks) {
-  const proof::Ranks ranks;
+/// Answers what is to be answered by all processes together, and says how it went.
+int run_tasks(const proof::Ranks& ranks, const RunOptions& options, const std::string& out,
+              std::vector<proof::Task> tasks, const proof::AnswerBy& answer_by = proof::answer_by_diagnosis) {
   const std::size_t all = tasks.size();
   proof::RunOrder order{options.bank, out, std::move(tasks)};
+  order.answer_by = answer_by;
   order.threads = options.threads > 0 ? options.threads : ranks.threads();
   order.rank = ranks.rank();
   order.ranks = ranks.count();
@@ -109,22 +115,47 @@ int run_tasks(const RunOptions& options, const std::string& out, std::vector<pro
 
 int run_command(const RunOptions& options) {
   options.race.check();
-  return run_tasks(options, folder_or(options.out, options.bank, "answers"),
-                   proof::plan_race(options.bank, options.race.only, options.race.without));
+  std::vector<proof::Task> tasks = proof::plan_race(options.bank, options.race.only, options.race.without);
+  const proof::Ranks ranks;
+  return run_tasks(ranks, options, folder_or(options.out, options.bank, "answers"), std::move(tasks));
+}
+
+int baselines_command(const RunOptions& options) {
+  options.race.check();
+  const std::vector<proof::Task> tasks = proof::plan_race(options.bank, options.race.only, options.race.without);
+  const proof::Ranks ranks;
+  const auto is_asked = [&options](const std::string& id) {
+    return options.methods.empty() ||
+           std::find(options.methods.begin(), options.methods.end(), id) != options.methods.end();
+  };
+  for (const proof::BaselineMethod& method : proof::all_baselines()) {
+    if (!is_asked(method.id)) continue;
+    const int status = run_tasks(ranks, options, proof::baseline_folder(options.bank, method), tasks,
+                                 [&method](const scenarios::MeasurementSet& set, const proof::Settings& settings) {
+                                   return proof::diagnose_by(method, set, settings);
+                                 });
+    if (status != kDone) return status;
+  }
+  return kDone;
 }
 
 int oracle_command(const RunOptions& options) {
   options.race.check();
   const bool is_alone = options.kind == "alone";
+  if (is_alone && options.confusable) {
+    throw InputError(
+        {"the true effect runs alone", "command line", 0, "--confusable", "", "--race left_out beside it", ""});
+  }
   if (is_alone && !options.race.only.empty()) {
     throw InputError({"the true effect runs alone", "command line", 0, "--only", options.race.only.front(),
                       "--race left_out beside it", ""});
   }
   const auto race = is_alone ? proof::OracleRace::kAlone : proof::OracleRace::kLeftOut;
   const std::vector<proof::Truth> truths = proof::open_truth(options.bank, options.seal);
-  const proof::Twins twins =
-      is_alone ? proof::Twins{} : proof::find_twins(truths, folder_or("", options.bank, "answers"));
-  return run_tasks(options, folder_or(options.out, options.bank, is_alone ? kAloneFolder : kLeftOutFolder),
+  proof::Twins twins = is_alone ? proof::Twins{} : proof::find_twins(truths, folder_or("", options.bank, "answers"));
+  if (!is_alone && options.confusable) proof::add_confusable(truths, twins);
+  const proof::Ranks ranks;
+  return run_tasks(ranks, options, folder_or(options.out, options.bank, is_alone ? kAloneFolder : kLeftOutFolder),
                    proof::plan_oracle(truths, race, options.race.only, twins));
 }
 
@@ -161,6 +192,21 @@ void add_run(CLI::App& blind, Action& action) {
   command->callback([options, &action] { action = [options] { return run_command(*options); }; });
 }
 
+void add_baselines(CLI::App& blind, Action& action) {
+  CLI::App* command = blind.add_subcommand(
+      "baselines",
+      "Answer the sets of a bank, its truth unopened, by the methods that the diagnosis has to beat, into "
+      "answers-<method> in the bank; goes on where it was interrupted; under mpirun shared");
+  auto options = add_run_options(*command);
+  std::set<std::string> ids;
+  for (const proof::BaselineMethod& method : proof::all_baselines()) ids.insert(method.id);
+  command->add_option("--methods", options->methods, "nearest, aic, bic, sparse, gp [all]")
+      ->delimiter(',')
+      ->check(CLI::IsMember(ids));
+  options->race.add_to(*command);
+  command->callback([options, &action] { action = [options] { return baselines_command(*options); }; });
+}
+
 void add_oracle(CLI::App& blind, Action& action) {
   CLI::App* command = blind.add_subcommand("oracle",
                                            "Open the seal and diagnose with the truth known: alone in the race, or "
@@ -168,6 +214,8 @@ void add_oracle(CLI::App& blind, Action& action) {
   auto options = add_run_options(*command);
   command->add_option("--race", options->kind, "alone or left_out [alone]")
       ->check(CLI::IsMember({"alone", "left_out"}));
+  command->add_flag("--confusable", options->confusable,
+                    "With left_out: without all that the catalogue calls confusable with the truth, too");
   command->add_option("--seal", options->seal, "SHA-256 of truth.json [what seal.sha256 says]");
   command->add_option("--out", options->out, "Folder of the answers [answers-alone or answers-left-out in the bank]");
   command->add_option("--only", options->race.only, "Effects in the race, the true ones left out: a,b")->delimiter(',');
@@ -181,6 +229,7 @@ void add_blind_command(CLI::App& app, Action& action) {
   blind->require_subcommand(1);
   add_make(*blind, action);
   add_run(*blind, action);
+  add_baselines(*blind, action);
   add_blind_score(*blind, action);
   add_oracle(*blind, action);
 }

@@ -4,8 +4,11 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/html_option.h"
+#include "proof/baselines/comparison.h"
 #include "proof/report.h"
 #include "proof/score.h"
+#include "report/score_page.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 
@@ -17,9 +20,9 @@ namespace {
 struct Options {
   proof::ScoreOrder order;
   proof::ScoreOptions how;
-  std::string baselines;
   std::string json;
   std::string markdown;
+  HtmlOption html;
   bool quiet = false;
 };
 
@@ -32,29 +35,23 @@ void fill_folders(Options& options) {
   if (order.oracle.empty() && fs::is_directory(in_bank(options, kAloneFolder))) {
     order.oracle = in_bank(options, kAloneFolder);
   }
-}
-
-/// rollrig-blind-baselines/1: under "best" a number for each id of a figure.
-void read_baselines(Options& options) {
-  if (options.baselines.empty()) return;
-  try {
-    const Json json = Json::parse(read_text_file(options.baselines));
-    for (const auto& [id, value] : json.at("best").items()) options.how.baselines[id] = value.get<double>();
-  } catch (const Json::exception& error) {
-    throw InputError({std::string("not figures of baselines: ") + error.what(), options.baselines, 0, "--baselines",
-                      options.baselines, "rollrig-blind-baselines/1", ""});
+  if (order.ceiling.empty() && fs::is_regular_file(in_bank(options, "ceiling.json"))) {
+    order.ceiling = in_bank(options, "ceiling.json");
   }
 }
 
 int score_command(Options options) {
   require_writable(options.json);
   require_writable(options.markdown);
+  options.html.require_writable(options.json);
   fill_folders(options);
-  read_baselines(options);
-  const proof::Score score = proof::score_cases(proof::read_cases(options.order), options.how);
+  proof::Score score = proof::score_cases(proof::read_cases(options.order), options.how);
+  proof::put_beside(proof::score_baselines(options.order, options.how), score);
   if (!options.json.empty()) write_output(options.json, proof::make_score_json(score).dump(1) + "\n");
   if (!options.markdown.empty()) write_output(options.markdown, proof::format_score_markdown(score));
-  if (!options.quiet && options.json != "-" && options.markdown != "-") std::cout << proof::format_score(score);
+  if (options.html.is_wanted()) options.html.write(report::make_score_page(score, options.order.bank));
+  const bool is_output_taken = options.json == "-" || options.markdown == "-" || options.html.is_standard_output();
+  if (!options.quiet && !is_output_taken) std::cout << proof::format_score(score);
   return kDone;
 }
 
@@ -70,11 +67,12 @@ void add_blind_score(CLI::App& blind, Action& action) {
   command->add_option("--oracle", order.oracle, "Answers of rollrig blind oracle, for the shrinkage [where they are]");
   command->add_flag("--left-out", order.truth_was_left_out,
                     "Score the answers of rollrig blind oracle --race left_out: no cause is right");
-  command->add_option("--ceiling", order.ceiling, "File with what an ideal observer makes of each set");
-  command->add_option("--baselines", options->baselines, "File with the best baseline's figures");
+  command->add_option("--ceiling", order.ceiling,
+                      "What an ideal observer makes of each set, by rollrig_blind ceiling [where it is]");
   command->add_option("--detectable-floors", options->how.detectable_floors,
                       "Signal from which an effect is to be found where no d' is known, in noise floors [1]");
   command->add_option("--json", options->json, "File for everything, - for standard output");
+  options->html.add_to(*command);
   command->add_option("--markdown", options->markdown, "File for the tables of a page, - for standard output");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &action] { action = [options] { return score_command(*options); }; });

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
 #include "diagnosis/diagnosis_json.h"
@@ -13,6 +14,7 @@
 #include "diagnosis/fleet.h"
 #include "diagnosis/plan_files.h"
 #include "diagnosis/summary.h"
+#include "report/diagnosis_page.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 
@@ -23,6 +25,7 @@ struct Options {
   std::string set;
   std::string explain;
   std::string json;
+  HtmlOption html;
   std::string plan;
   bool force = false;
   RaceOptions race;
@@ -56,17 +59,22 @@ auto with_progress(const Options& options, const Diagnose& diagnose) {
   return diagnose(how);
 }
 
-void give(const Options& options, const Json& json, const std::string& text) {
+/// `make_page` is called where a page is wanted.
+template <class MakePage>
+void give(const Options& options, const Json& json, const std::string& text, const MakePage& make_page) {
   if (!options.json.empty()) write_output(options.json, json.dump(2) + "\n");
-  if (!options.quiet && options.json != "-") std::cout << text;
+  if (options.html.is_wanted()) options.html.write(make_page());
+  if (!options.quiet && options.json != "-" && !options.html.is_standard_output()) std::cout << text;
 }
 
 /// A folder of sets.
 int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
   require_writable(options.json);
+  options.html.require_writable(options.json);
   const diagnosis::Fleet fleet = with_progress(
       options, [&sets](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose_fleet(sets, how); });
-  give(options, diagnosis::make_fleet_json(fleet), diagnosis::format_fleet(fleet));
+  give(options, diagnosis::make_fleet_json(fleet), diagnosis::format_fleet(fleet),
+       [&fleet] { return report::make_fleet_page(fleet); });
   const bool failed = std::any_of(fleet.members.begin(), fleet.members.end(),
                                   [](const diagnosis::FleetMember& member) { return !member.failure.empty(); });
   return failed ? kRunFailed : kDone;
@@ -97,15 +105,14 @@ int diagnose_command(const Options& options) {
   }
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   require_writable(options.json);
+  options.html.require_writable(options.json);
   std::optional<OutputFolder> plan;
-  if (!options.plan.empty()) {
-    diagnosis::require_plannable(set, options.plan);
-    plan.emplace(options.plan, options.force);
-  }
+  if (!options.plan.empty()) plan.emplace(options.plan, options.force);
   const auto result =
       with_progress(options, [&set](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose(set, how); });
   const std::string planned = plan.has_value() ? write_plan(set, result, *plan) : "";
-  give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result) + planned);
+  give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result) + planned,
+       [&set, &result] { return report::make_diagnosis_page(set, result); });
   return kDone;
 }
 
@@ -120,6 +127,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
                       "which test splits them; also none, unknown");
   command->add_option("--json", options->json, "File for the diagnosis, - for standard output");
+  options->html.add_to(*command);
   command->add_option("--plan", options->plan,
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");

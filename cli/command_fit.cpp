@@ -5,9 +5,11 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "identification/fit_tire.h"
+#include "report/fit_pages.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::cli {
@@ -17,6 +19,7 @@ struct Options {
   std::string set;
   std::string out;
   std::string json;
+  HtmlOption html;
   std::string name;
   bool load_map = false;
   bool free_H = false;
@@ -62,6 +65,7 @@ int fit_tire_command(const Options& options) {
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   require_writable(options.json);
+  options.html.require_writable(options.json);
   identification::FitOptions fit_options;
   fit_options.load_map = options.load_map;
   fit_options.threads = options.threads;
@@ -78,7 +82,8 @@ int fit_tire_command(const Options& options) {
     out->commit();
   }
   if (!options.json.empty()) write_output(options.json, json);
-  if (options.quiet || options.json == "-") return kDone;
+  if (options.html.is_wanted()) options.html.write(report::make_tire_fit_page(set, fit));
+  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
   std::cout << format_fit(set, fit);
   if (out.has_value()) std::cout << fmt::format("  written to {}/: {} fit.json\n", options.out, tire_file);
   return kDone;
@@ -97,6 +102,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   tire->add_option("--name", options->name, "Name of the fitted tire [<tire>_fit]");
   tire->add_option("--out", options->out, "Folder for the tire file and fit.json");
   tire->add_option("--json", options->json, "File for fit.json, - for standard output");
+  options->html.add_to(*tire);
   tire->add_flag("--load-map", options->load_map, "Fit A0, A1, B0, B1 at each load of the set");
   tire->add_flag("--free-h", options->free_H, "Fit H even where the gas temperature was not measured");
   tire->add_option("--threads", options->threads, "Threads [as many as the machine has]")->check(CLI::Range(1, 1024));

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/print.h"
 #include "identification/drum_coastdown.h"
+#include "report/fit_pages.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::cli {
@@ -23,6 +25,7 @@ struct Options {
   std::string data;
   std::string out;
   std::string json;
+  HtmlOption html;
   bool force = false;
   bool quiet = false;
 };
@@ -97,6 +100,7 @@ int fit_drum_coastdown_command(const Options& options) {
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   require_writable(options.json);
+  options.html.require_writable(options.json);
   const DrumCoastdownFit fit = identification::fit_drum_coastdown(set);
   const std::string json = identification::make_coastdown_json(set, fit).dump(2) + "\n";
   if (out.has_value()) {
@@ -106,7 +110,8 @@ int fit_drum_coastdown_command(const Options& options) {
     out->commit();
   }
   if (!options.json.empty()) write_output(options.json, json);
-  if (options.quiet || options.json == "-") return kDone;
+  if (options.html.is_wanted()) options.html.write(report::make_drum_coastdown_page(set, fit));
+  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
   std::cout << format_fit(set, fit);
   if (out.has_value()) {
     std::cout << fmt::format("  written to {}/: fit.json decelerations.csv residuals.csv\n", options.out);
@@ -124,6 +129,7 @@ void add_fit_drum_coastdown_command(CLI::App& fit, Action& action) {
   command->add_option("--data", options->data, "Folder of the set's CSV files [that of the set]");
   command->add_option("--out", options->out, "Folder for fit.json, decelerations.csv, residuals.csv");
   command->add_option("--json", options->json, "File for fit.json, - for standard output");
+  options->html.add_to(*command);
   command->add_flag("--force", options->force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &action] { action = [options] { return fit_drum_coastdown_command(*options); }; });

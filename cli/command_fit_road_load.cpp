@@ -9,8 +9,10 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/print.h"
 #include "identification/road_load_report.h"
+#include "report/fit_pages.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -30,6 +32,7 @@ struct Options {
   std::string csv;
   std::string out;
   std::string json;
+  HtmlOption html;
   std::string bounds;
   std::vector<std::string> sessions;
   std::optional<double> mass_kg;
@@ -252,6 +255,7 @@ int fit_road_load_command(const Options& options) {
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   require_writable(options.json);
+  options.html.require_writable(options.json);
   RoadLoadFit fit = fit_file(file, options, fit_options);
   if (file.rows_off > 0) fit.warnings.push_back(fmt::format("{} rows left out: use = Off", file.rows_off));
   const RoadLoadChecks checks = identification::check_road_load(file.data, fit);
@@ -262,7 +266,8 @@ int fit_road_load_command(const Options& options) {
     out->commit();
   }
   if (!options.json.empty()) write_output(options.json, json);
-  if (options.quiet || options.json == "-") return kDone;
+  if (options.html.is_wanted()) options.html.write(report::make_road_load_page(file, fit_options, fit, checks));
+  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
   std::cout << format_fit(options, file, fit, checks);
   if (out.has_value()) std::cout << fmt::format("  written to {}/: road_load.json residuals.csv\n", options.out);
   return kDone;
@@ -306,6 +311,7 @@ void add_fit_road_load(CLI::App& fit, Action& action) {
   add_method_options(*command, *options);
   command->add_option("--out", options->out, "Folder for road_load.json and residuals.csv");
   command->add_option("--json", options->json, "File for road_load.json, - for standard output");
+  options->html.add_to(*command);
   command->add_flag("--force", options->force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &action] { action = [options] { return fit_road_load_command(*options); }; });

@@ -7,8 +7,10 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/print.h"
 #include "cli/progress.h"
+#include "report/list_pages.h"
 #include "scenarios/assets.h"
 #include "scenarios/golden.h"
 #include "scenarios/run_spec.h"
@@ -23,6 +25,7 @@ namespace {
 struct Options {
   std::string folder;
   std::string json;
+  HtmlOption html;
   int threads = 0;
   bool update = false;
   bool quiet = false;
@@ -159,6 +162,7 @@ int regress_command(const Options& options) {
   const std::string folder =
       options.folder.empty() ? (fs::path(scenarios::find_assets_folder()) / "regression").string() : options.folder;
   std::vector<Case> cases = find_cases(folder);
+  options.html.require_writable(options.json);
   {
     ProgressLine progress("regress", options.quiet);
     std::atomic<std::size_t> done{0};
@@ -170,7 +174,8 @@ int regress_command(const Options& options) {
   add_orphans(folder, cases);
   const int status = settle_cases(cases, options.update);
   if (!options.json.empty()) write_output(options.json, cases_to_json(cases).dump(2) + "\n");
-  if (!options.quiet && options.json != "-") print_cases(cases);
+  if (options.html.is_wanted()) options.html.write(report::make_regress_page(cases_to_json(cases)));
+  if (!options.quiet && options.json != "-" && !options.html.is_standard_output()) print_cases(cases);
   return status;
 }
 
@@ -182,6 +187,7 @@ void add_regress_command(CLI::App& app, Action& action) {
   command->add_option("folder", options->folder, "Folder of run files [assets/regression]");
   command->add_flag("--update", options->update, "Write new goldens where results differ");
   command->add_option("--json", options->json, "File for the comparison, - for standard output");
+  options->html.add_to(*command);
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");

@@ -5,9 +5,11 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
+#include "report/run_page.h"
 #include "scenarios/measurement_set.h"
 #include "sim/core/file_io.h"
 
@@ -18,6 +20,7 @@ struct Options {
   RunOptions run;
   std::string out;
   std::string json;
+  HtmlOption html;
   std::string set_folder;
   bool force = false;
   bool quiet = false;
@@ -25,16 +28,17 @@ struct Options {
 
 int run_command(const Options& options) {
   const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
-  if (!options.set_folder.empty() && spec.scenario->has_vehicle) {
-    throw InputError(
-        {fmt::format("measurement sets are written from drum tests, and '{}' is none", spec.scenario->text.name),
-         "command line", 0, "--write-set", options.set_folder, "--out for result and recording", ""});
+  if (!options.set_folder.empty() && !spec.scenario->set_kind.has_value()) {
+    throw InputError({fmt::format("scenario '{}' writes no measurement set", spec.scenario->text.name), "command line",
+                      0, "--write-set", options.set_folder,
+                      "--out for result and recording; sets come from drum tests, wheel_program and drive", ""});
   }
   // Refused before the run, not after it, when the results could not be written.
   std::optional<OutputFolder> out;
   std::optional<OutputFolder> set;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   require_writable(options.json);
+  options.html.require_writable(options.json);
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.force);
   ProgressLine progress(spec.scenario->text.name, options.quiet);
   const scenarios::Outcome outcome = spec.scenario->run(spec, progress.callback());
@@ -52,7 +56,8 @@ int run_command(const Options& options) {
     set->commit();
   }
   if (!options.json.empty()) write_output(options.json, result);
-  if (options.quiet || options.json == "-") return kDone;
+  if (options.html.is_wanted()) options.html.write(report::make_run_page(spec, outcome));
+  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
   std::cout << format_outcome(spec, outcome);
   if (out.has_value())
     std::cout << fmt::format("  written to {}/: result.json recording.csv manifest.json\n", options.out);
@@ -69,6 +74,7 @@ void add_run_command(CLI::App& app, Action& action) {
   command->add_option("--out", options->out, "Folder for result.json, recording.csv, manifest.json");
   command->add_option("--write-set", options->set_folder, "Folder for the run as a measurement set");
   command->add_option("--json", options->json, "File for result.json, - for standard output");
+  options->html.add_to(*command);
   command->add_flag("--force", options->force, "Write into folders that hold files");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &action] { action = [options] { return run_command(*options); }; });

@@ -9,9 +9,11 @@
 #include <boost/algorithm/string/split.hpp>
 
 #include "cli/command.h"
+#include "cli/html_option.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
+#include "report/list_pages.h"
 #include "sim/core/csv.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
@@ -27,6 +29,7 @@ struct Options {
   int threads = 0;
   std::string out;
   std::string json;
+  HtmlOption html;
   bool force = false;
   bool quiet = false;
 };
@@ -156,6 +159,7 @@ int sweep_command(const Options& options) {
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   require_writable(options.json);
+  options.html.require_writable(options.json);
   std::vector<Json> results(specs.size());
   std::vector<std::string> manifests(specs.size());
   ProgressLine progress("sweep", options.quiet);
@@ -181,7 +185,11 @@ int sweep_command(const Options& options) {
     out->commit();
   }
   if (!options.json.empty()) write_output(options.json, json.dump(2) + "\n");
-  if (options.quiet || options.json == "-") return kDone;
+  if (options.html.is_wanted()) {
+    const std::string of = fmt::format("Tire {}, rig {}", specs.front().tire.name, specs.front().rig.name);
+    options.html.write(report::make_sweep_page(json, options.show, of));
+  }
+  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
   std::cout << format_table(make_table(axes, grid, results, shown));
   if (out.has_value()) std::cout << fmt::format("  written to {}/: sweep.csv sweep.json manifests/\n", options.out);
   return kDone;
@@ -202,6 +210,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->check(CLI::Range(1, 1024));
   command->add_option("--out", options->out, "Folder for sweep.csv, sweep.json, manifests/");
   command->add_option("--json", options->json, "File for the results, - for standard output");
+  options->html.add_to(*command);
   command->add_flag("--force", options->force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([options, &action] { action = [options] { return sweep_command(*options); }; });

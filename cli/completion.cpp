@@ -19,6 +19,7 @@ std::string words_after(const std::string& what) {
   std::vector<std::string> words;
   if (what == "--tire") words = scenarios::list_assets("tires");
   if (what == "--rig") words = scenarios::list_assets("rigs");
+  if (what == "--vehicle") words = scenarios::list_assets("vehicles");
   if (what == "--sensors") words = scenarios::list_assets("sensors");
   if (what == "--fidelity") words = {"multibody", "quasi_static"};
   if (what == "--baseline") words = {"combined", "constant_rrc"};
@@ -36,8 +37,21 @@ std::string words_after(const std::string& what) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-constexpr const char* kOptionsWithWords[] = {"--tire",     "--rig",     "--sensors", "--fidelity",
+constexpr const char* kOptionsWithWords[] = {"--tire",     "--rig",     "--vehicle", "--sensors", "--fidelity",
                                              "--baseline", "--explain", "--without", "--only"};
+
+/// What may follow a subcommand: words of its own, subcommands below it, options of all of them.
+std::string list_words(const CLI::App& app, const std::string& name) {
+  const CLI::App* command = find_subcommand(app, name);
+  std::string words = words_after(name);
+  const auto add = [&words](const std::vector<std::string>& more) {
+    if (!more.empty()) words += fmt::format("{}{}", words.empty() ? "" : " ", fmt::join(more, " "));
+  };
+  add(list_subcommands(*command));
+  add(list_options(*command));
+  for (const std::string& below : list_subcommands(*command)) add(list_options(*find_subcommand(*command, below)));
+  return words;
+}
 
 std::string make_bash(const CLI::App& app) {
   std::string script = "_rollrig() {\n  local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]}\n";
@@ -51,11 +65,26 @@ std::string make_bash(const CLI::App& app) {
                         fmt::join(list_subcommands(app), " "));
   script += "  case ${COMP_WORDS[1]} in\n";
   for (const std::string& name : list_subcommands(app)) {
-    const CLI::App* command = find_subcommand(app, name);
-    script += fmt::format("    {}) COMPREPLY=($(compgen -f -W \"{} {} {}\" -- \"$cur\"));;\n", name, words_after(name),
-                          fmt::join(list_subcommands(*command), " "), fmt::join(list_options(*command), " "));
+    script += fmt::format("    {}) COMPREPLY=($(compgen -f -W \"{}\" -- \"$cur\"));;\n", name, list_words(app, name));
   }
   return script + "  esac\n}\ncomplete -F _rollrig rollrig\n";
+}
+
+/// A file of a folder in $fpath, and as well for eval.
+std::string make_zsh(const CLI::App& app) {
+  std::string script = "#compdef rollrig\n_rollrig() {\n  case ${words[CURRENT-1]} in\n";
+  for (const char* option : kOptionsWithWords) {
+    script += fmt::format("    {}) compadd -- {}; _files; return;;\n", option, words_after(option));
+  }
+  script += "  esac\n  if (( CURRENT == 2 )); then\n";
+  script += fmt::format("    compadd -- {}; return\n  fi\n", fmt::join(list_subcommands(app), " "));
+  script += "  case ${words[2]} in\n";
+  for (const std::string& name : list_subcommands(app)) {
+    script += fmt::format("    {}) compadd -- {};;\n", name, list_words(app, name));
+  }
+  return script +
+         "  esac\n  _files\n}\n"
+         "if [[ ${funcstack[1]} == _rollrig ]]; then _rollrig \"$@\"; else compdef _rollrig rollrig; fi\n";
 }
 
 std::string make_fish(const CLI::App& app) {
@@ -79,7 +108,7 @@ int completion_command(const CLI::App& app, const std::string& shell) {
   if (shell == "bash") {
     std::cout << make_bash(app);
   } else if (shell == "zsh") {
-    std::cout << "autoload -U +X bashcompinit && bashcompinit\n" << make_bash(app);
+    std::cout << make_zsh(app);
   } else if (shell == "fish") {
     std::cout << make_fish(app);
   } else {

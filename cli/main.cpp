@@ -56,9 +56,11 @@ int parse_and_run(int argc, char** argv) {
   add_fit_command(app, action);
   add_diagnose_command(app, action);
   add_import_command(app, action);
+  add_export_command(app, action);
   add_blind_command(app, action);
   add_convert_command(app, action);
   add_completion_command(app, action);
+  add_man_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

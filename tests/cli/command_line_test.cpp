@@ -232,7 +232,7 @@ TEST_CASE("describe explains scenarios, effects and assets within 80 columns", "
 
 TEST_CASE("help stands everywhere and completion scripts parse", "[fast]") {
   for (const char* command : {"", "run", "sweep", "regress", "validate", "list", "describe", "fit", "fit tire",
-                              "fit road-load", "diagnose", "completion"}) {
+                              "fit road-load", "diagnose", "export", "completion", "man"}) {
     const auto run = run_program(std::string(command) + " --help");
     INFO(command);
     CHECK(run.status == 0);
@@ -266,7 +266,7 @@ TEST_CASE("an interrupted run stops cleanly and leaves nothing behind", "[fast]"
   const TemporaryFolder folder;
   // long enough to be met: a sweep of some hundred runs
   const auto run = run_program("sweep speed_sweep --tire a50 --vary load_N=4000:7000:5 --threads 1 --out results",
-                               folder.path(), "timeout -s INT --preserve-status 0.7");
+                               folder.path(), "timeout --foreground -s INT --preserve-status 0.7");
   CHECK(run.status == 130);
   CHECK_THAT(run.err, Contains("nothing was written"));
   CHECK(folder.entry_count() == 0);

@@ -176,3 +176,30 @@ TEST_CASE("a plan is run from anywhere, and what it writes is diagnosed", "[slow
   CHECK(again.status == 2);  // the folder holds the first plan
   CHECK_THAT(again.err, Contains("--force"));
 }
+
+TEST_CASE("a plan for a wheel or a vehicle is run, and what it writes is diagnosed", "[slow]") {
+  for (const std::string scenario : {"wheel_program", "drive"}) {
+    INFO(scenario);
+    const bool is_road = scenario == "drive";
+    const TemporaryFolder folder;
+    write_file(folder.file("run.toml"),
+               "format = \"rollrig-run/1\"\nscenario = \"" + scenario + "\"\ntire = \"a50\"\n[settings]\nprogram = \"" +
+                   ROLLRIG_SOURCE_DIR + "/assets/regression/" + scenario + "_a50.csv\"\n[sensors." +
+                   (is_road ? "traction_force_N" : "loss_force_N") +
+                   (is_road ? "]\noffset_sd = 10.0\ndrift_sd = 20.0\ndrift_time_s = 13.0\nnoise_sd = 14.0\n"
+                            : "]\noffset_sd = 2.0\ndrift_sd = 1.0\ndrift_time_s = 60.0\nnoise_sd = 2.0\n") +
+                   "resolution = 0.0\n");
+    const std::string race = " --quiet --only toe_camber_drag,torque_gain";
+    for (const std::string& command :
+         {std::string("run run.toml --write-set set --quiet --set effects.toe_camber_drag.force_N=10"),
+          "diagnose set --plan next" + race, std::string("validate next/run-1.toml"),
+          std::string("run next/run-1.toml --write-set paper --quiet"), std::string("validate paper"),
+          "diagnose paper --json why.json" + race}) {
+      const auto done = run_program(command, folder.path());
+      INFO(command << "\n" << done.err);
+      REQUIRE(done.status == 0);
+    }
+    CHECK(fs::exists(folder.file(is_road ? "next/vehicle.toml" : "next/rig.toml")));
+    CHECK(json::parse(read_file(folder.file("why.json")))["verdict"] == "no_gap");  // nothing was switched on
+  }
+}

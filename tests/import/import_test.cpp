@@ -211,7 +211,7 @@ TEST_CASE("an import writes a whole folder, and only where it may", "[slow]") {
 
 TEST_CASE("the example is imported", "[slow]") {
   const TemporaryFolder folder;
-  const fs::path example = fs::path(ROLLRIG_SOURCE_DIR) / "examples/import/import.toml";
+  const fs::path example = fs::path(ROLLRIG_SOURCE_DIR) / "assets/examples/logs/import.toml";
   const auto run = run_program("import " + example.string() + " --out joined", folder.path());
   INFO(run.err << run.out);
   CHECK(run.status == 0);

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/command.h"
+#include "export/hdf5_file.h"
+#include "export/mat_file.h"
+#include "export/source.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::cli {
+namespace {
+
+struct Options {
+  std::string source;
+  std::string mat;
+  std::string hdf5;
+  bool quiet = false;
+};
+
+/// Refuses what could not be written, before anything is.
+void check_places(const Options& options) {
+  if (options.mat.empty() && options.hdf5.empty()) {
+    throw InputError({"no file to write is given", "command line", 0, "", "", "--mat FILE, --hdf5 FILE, or both", ""});
+  }
+  if (options.mat == options.hdf5) {
+    throw InputError({"--mat and --hdf5 cannot both go to one place", "command line", 0, "--hdf5", options.hdf5,
+                      "another file", ""});
+  }
+  require_writable(options.mat);
+  require_writable(options.hdf5);
+}
+
+int export_command(const Options& options) {
+  check_places(options);
+  const exports::Group tree = exports::read_source(options.source);
+  // Both are made before one is written.
+  const std::string mat = options.mat.empty() ? "" : exports::make_mat(tree);
+  const std::string hdf5 = options.hdf5.empty() ? "" : exports::make_hdf5(tree);
+  if (!mat.empty()) write_output(options.mat, mat);
+  if (!hdf5.empty()) write_output(options.hdf5, hdf5);
+  if (options.quiet || options.mat == "-" || options.hdf5 == "-") return kDone;
+  for (const std::string& file : {options.mat, options.hdf5}) {
+    if (!file.empty()) std::cout << fmt::format("written to {}\n", file);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("export", "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option("source", options->source,
+                   "Folder that run --out or --write-set wrote, a measurement set, or a recording.csv")
+      ->required();
+  command->add_option("--mat", options->mat, "File for MATLAB, version 5; - for standard output");
+  command->add_option("--hdf5", options->hdf5, "File in HDF5; - for standard output");
+  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
+  command->callback([options, &action] { action = [options] { return export_command(*options); }; });
+}
+
+}  // namespace rollrig::cli
