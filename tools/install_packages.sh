@@ -1,11 +1,12 @@
 #!/bin/sh
-# Installs what is missing of tools/packages.txt, as root or through sudo. Messages go to standard error.
+# Installs what is missing of tools/packages.txt, as root or through sudo. A program of a package's name on the path,
+# from wherever it comes, stands for the package. Messages go to standard error.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 missing=
 while read -r package; do
   state=$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)
-  [ "$state" = "install ok installed" ] || missing="$missing $package"
+  [ "$state" = "install ok installed" ] || command -v "$package" >/dev/null 2>&1 || missing="$missing $package"
 done < "$here/packages.txt"
 [ -n "$missing" ] || exit 0
 echo "rollrig: installing Debian packages:$missing" >&2

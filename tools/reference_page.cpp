@@ -7,8 +7,7 @@
 
 #include "models/tire_file.h"
 #include "rigs/rig_file.h"
-#include "scenarios/drum_bench.h"
-#include "scenarios/scenario.h"
+#include "scenarios/measurement_set.h"
 
 namespace rollrig::tools {
 namespace {
@@ -129,7 +128,7 @@ std::string make_reference_page() {
   text += "\n## Effects\n\n" + anchor_list(effects);
   for (const models::Effect* effect : models::all_effects()) text += describe(effect->info);
   text += describe_tire_file() + describe_rig_file();
-  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(scenarios::measured_drum_channels()) +
+  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(scenarios::all_measured_channels()) +
           "\n(`[sensors.<channel>]`: `offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
           "channel's unit).\n";
   return text;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sim/core/file_io.h"
+#include "tools/physics_page.h"
 #include "tools/published_tables.h"
 #include "tools/reference_page.h"
 
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
   try {
     const std::string folder = argv[1];
     rollrig::write_output(folder + "/published.md", rollrig::tools::make_published_page());
+    rollrig::write_output(folder + "/physics.md", rollrig::tools::make_physics_page(ROLLRIG_SOURCE_DIR));
     rollrig::write_output(folder + "/reference.md", rollrig::tools::make_reference_page());
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

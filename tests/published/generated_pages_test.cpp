@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "sim/core/file_io.h"
+#include "tools/physics_page.h"
 #include "tools/published_tables.h"
 #include "tools/reference_page.h"
 
@@ -43,4 +44,8 @@ TEST_CASE("docs/published.md says what the program gives", "[published]") {
 TEST_CASE("docs/reference.md says what the code declares", "[fast]") {
   // Out of date? cmake --build build/release --target docs_pages
   CHECK(read_text_file(ROLLRIG_SOURCE_DIR "/docs/reference.md") == tools::make_reference_page());
+}
+
+TEST_CASE("docs/physics.md has the equations and assumptions that the code states", "[fast]") {
+  CHECK(read_text_file(ROLLRIG_SOURCE_DIR "/docs/physics.md") == tools::make_physics_page(ROLLRIG_SOURCE_DIR));
 }

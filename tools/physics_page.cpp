@@ -1,0 +1,156 @@
+#include "tools/physics_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/algorithm/string.hpp>
+#include <filesystem>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+#include "models/effect.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::tools {
+namespace {
+
+namespace fs = std::filesystem;
+namespace text = boost::algorithm;
+
+constexpr const char* kAssumed = "Assumed";
+
+/// Files of some folders with one of the extensions, by name.
+std::vector<std::string> list_files(const std::string& root, const std::vector<std::string>& folders,
+                                    const std::vector<std::string>& extensions) {
+  std::vector<std::string> files;
+  for (const std::string& folder : folders) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(root) / folder)) {
+      const std::string extension = entry.path().extension().string();
+      if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) continue;
+      files.push_back(fs::relative(entry.path(), root).generic_string());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> read_lines(const std::string& file) {
+  std::vector<std::string> lines;
+  std::istringstream in(read_text_file(file));
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+/// What a comment documents: the last word before "(" or "{" of the declaration that follows.
+std::string find_name(const std::vector<std::string>& lines, std::size_t line) {
+  static const std::regex name("([A-Za-z_0-9:]+)\\s*(\\(|\\{|;|=|:\\s)");
+  for (; line < lines.size(); ++line) {
+    if (text::starts_with(text::trim_copy(lines[line]), "template")) continue;
+    std::smatch found;
+    return std::regex_search(lines[line], found, name) ? found[1].str() : text::trim_copy(lines[line]);
+  }
+  return "";
+}
+
+/// Doc comments of a header that state an equation, each under the name of what it documents.
+std::string write_equations(const std::string& root, const std::string& file) {
+  const std::vector<std::string> lines = read_lines(root + "/" + file);
+  std::string page;
+  std::string comment;
+  bool has_equation = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string line = text::trim_copy(lines[i]);
+    if (text::starts_with(line, "///")) {
+      const std::string content = line.substr(3);
+      has_equation = has_equation || text::starts_with(text::trim_copy(content), "Equation");
+      comment += (content.empty() ? "" : content.substr(1)) + "\n";
+      continue;
+    }
+    if (has_equation) page += fmt::format("#### `{}`\n\n```text\n{}```\n\n", find_name(lines, i), comment);
+    comment.clear();
+    has_equation = false;
+  }
+  return page.empty() ? "" : fmt::format("### {}\n\n{}", file, page);
+}
+
+std::string write_effects() {
+  std::string page;
+  for (const models::Effect* effect : models::all_effects()) {
+    const models::EffectInfo& info = effect->info;
+    page += fmt::format("* [`{0}`](reference.md#{0}): {1}. {2}.\n\n  Source: {3}.\n\n", info.id, info.summary,
+                        info.equation, info.source);
+  }
+  return page;
+}
+
+std::string escape_cell(std::string cell) {
+  text::replace_all(cell, "|", "\\|");
+  return cell;
+}
+
+/// A line that says "Assumed", and what goes on of its comment: code before, words after.
+std::string write_assumed_row(const std::string& file, const std::vector<std::string>& lines, std::size_t line) {
+  const std::size_t at = lines[line].find(kAssumed);
+  std::string code = text::trim_copy(lines[line].substr(0, at));
+  text::trim_right_if(code, text::is_any_of("/#\" "));
+  std::string words =
+      text::trim_copy_if(lines[line].substr(at + std::string(kAssumed).size()), text::is_any_of(": \","));
+  static const std::regex continued("^\\s*(///?|#|\")\\s*(.*)$");
+  std::smatch more;
+  constexpr std::size_t kMost = 4;
+  for (std::size_t i = line + 1; i < std::min(lines.size(), line + kMost); ++i) {
+    const bool ends = text::ends_with(words, ".") || text::ends_with(words, ";") || text::ends_with(words, "}");
+    if (ends || !std::regex_match(lines[i], more, continued) || lines[i].find(kAssumed) != std::string::npos) break;
+    words += " " + text::trim_copy_if(more[2].str(), text::is_any_of(" \","));
+  }
+  const std::string shown = code.empty() ? "" : "`" + escape_cell(code) + "`";
+  return fmt::format("| {} | {} | {} |\n", file, shown, escape_cell(words));
+}
+
+bool is_in_words(const std::string& line) {
+  const auto before = line.substr(0, line.find(kAssumed));
+  return std::count(before.begin(), before.end(), '"') % 2 == 1;
+}
+
+std::string write_assumed(const std::string& root) {
+  std::string page = "| file | number | assumed |\n|---|---|---|\n";
+  for (const models::Effect* effect : models::all_effects()) {
+    const std::size_t at = effect->info.source.find("Assumed: ");
+    if (at == std::string::npos) continue;
+    page += fmt::format("| models/effects/{0}.cpp | `{0}` | {1} |\n", effect->info.id,
+                        escape_cell(effect->info.source.substr(at + 9)));
+  }
+  const std::vector<std::string> folders{"models", "rigs", "sim", "scenarios", "identification", "diagnosis", "import"};
+  std::vector<std::string> files = list_files(root, folders, {".h", ".cpp"});
+  const std::vector<std::string> assets = list_files(root, {"assets"}, {".toml"});
+  files.insert(files.end(), assets.begin(), assets.end());
+  for (const std::string& file : files) {
+    const bool is_effect = text::starts_with(file, "models/effects/");
+    const std::vector<std::string> lines = read_lines(root + "/" + file);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].find(kAssumed) == std::string::npos || (is_effect && is_in_words(lines[i]))) continue;
+      page += write_assumed_row(file, lines, i);
+    }
+  }
+  return page;
+}
+
+}  // namespace
+
+std::string make_physics_page(const std::string& root) {
+  std::string page =
+      "# Physics\n\nGenerated from the program's own comments and declarations (`ninja docs_pages`); a test holds the "
+      "page to them.\n\n[Equations](#equations), [effects](#effects), [what is assumed](#what-is-assumed)\n\n"
+      "## Equations\n\n";
+  for (const std::string& file :
+       list_files(root, {"models", "rigs", "sim", "scenarios", "identification", "diagnosis"}, {".h"})) {
+    page += write_equations(root, file);
+  }
+  page += "## Effects\n\nParameters, ranges and priors are in [reference.md](reference.md).\n\n" + write_effects();
+  page +=
+      "## What is assumed\n\nEvery number without a source, as it is marked where it stands.\n\n" + write_assumed(root);
+  return page;
+}
+
+}  // namespace rollrig::tools
