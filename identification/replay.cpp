@@ -1,8 +1,8 @@
 #include "identification/replay.h"
 
-#include "identification/replay_start.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/standstill_grid.h"
+#include "scenarios/replay_start.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
 
@@ -15,7 +15,7 @@ sim::Program make_drum_replay(const scenarios::MeasuredRun& run) {
 template <class S>
 sim::Recording<S> replay_drum_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
                                   const sim::Program& program, models::Corner<S>& corner, rigs::Detail detail) {
-  rigs::QuasiStaticDrum<S> drum(corner, make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa),
+  rigs::QuasiStaticDrum<S> drum(corner, scenarios::make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa),
                                 run.has("surface_temperature_degC"), detail);
   sim::FixedGridIntegrator<S> integrator(drum);
   sim::Recording<S> recording = sim::simulate<S>(drum, integrator, program);

@@ -93,6 +93,11 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     return tolerances;
   }
 
+  /// The axle of the wheel is at the carriage's height above that of the drum.
+  std::vector<sim::PoseCoordinate> poses() const override {
+    return {{"drum_angle_rad", 0}, {"axle_height_m", 1}, {"wheel_angle_rad", 2}};
+  }
+
   const models::Inflation<double>& inflation() const { return contact_->inflation(); }
 
   void initialize(const sim::Segment& first, double time_s, double* y) override {

@@ -14,6 +14,7 @@ std::vector<double> MultibodyRig::state_tolerances() const { return system_->sta
 const std::vector<sim::Integral>& MultibodyRig::integrals() const { return system_->integrals(); }
 const std::vector<sim::Store>& MultibodyRig::stores() const { return system_->stores(); }
 const std::vector<sim::Channel>& MultibodyRig::channels() const { return system_->channels(); }
+std::vector<sim::PoseCoordinate> MultibodyRig::poses() const { return system_->poses(); }
 void MultibodyRig::initialize(const sim::Segment& first, double time_s, double* state) {
   guarded([&] { system_->initialize(first, time_s, state); });
 }

@@ -22,6 +22,7 @@ class MultibodyRig : public sim::OdeSystem<double> {
   const std::vector<sim::Integral>& integrals() const override;
   const std::vector<sim::Store>& stores() const override;
   const std::vector<sim::Channel>& channels() const override;
+  std::vector<sim::PoseCoordinate> poses() const override;
 
   void initialize(const sim::Segment& first, double time_s, double* state) override;
   void begin_phase(const sim::Phase& phase, double time_s, double* state) override;

@@ -75,6 +75,23 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     return tolerances;
   }
 
+  /// Heights are relative: the body's to where it is under static load, an axle's to the body.
+  std::vector<sim::PoseCoordinate> poses() const override {
+    std::vector<sim::PoseCoordinate> poses;
+    const auto add = [&](const std::string& name, const SimTK::MobilizedBody& body) {
+      poses.push_back({name, static_cast<std::size_t>(body.getFirstQIndex(state_))});
+    };
+    if (bodies_.has_sled()) add("position_m", bodies_.sled);
+    add("body_heave_m", bodies_.heave);
+    if (is_flat() && bodies_.wheels.size() > 1) add("body_pitch_rad", bodies_.body);
+    for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
+      add(wheel_channel("axle_travel_m", layout_.wheels[i]), bodies_.wheels[i].upright);
+      add(wheel_channel("wheel_angle_rad", layout_.wheels[i]), bodies_.wheels[i].wheel);
+      if (!is_flat()) add(wheel_channel("roller_angle_rad", layout_.wheels[i]), bodies_.wheels[i].roller);
+    }
+    return poses;
+  }
+
   void initialize(const sim::Segment& first, double time_s, double* y) override {
     take_segment(first, time_s);
     drive_->set_driver(true);

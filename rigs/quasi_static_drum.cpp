@@ -75,7 +75,7 @@ void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   corner_.calc_losses(x, now_);
   const models::Context<S>& context = corner_.context();
   loaded_radius_m_ = calc_loaded_radius_m(context.tire, motion.load_N);
-  const S spin_mass_kg = context.tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m_ * loaded_radius_m_);
+  const S spin_mass_kg = calc_spin_mass_kg();
   const S resistance_N = now_.rolling_resistance_N + now_.parasitic_N;
   const S effective_mass_kg = calc_effective_mass_kg();
   motion.acceleration_m_s2 = motor_on_ ? now_.acting.acceleration_m_s2 : S(-resistance_N / effective_mass_kg);
@@ -98,7 +98,14 @@ S QuasiStaticDrum<S>::calc_effective_mass_kg() const {
   const models::Context<S>& context = corner_.context();
   const S& curvature_per_m = context.surface_curvature_per_m;
   return now_.contact.machine_inertia_factor * context.machine_inertia_kg_m2 * curvature_per_m * curvature_per_m +
-         context.tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m_ * loaded_radius_m_);
+         calc_spin_mass_kg();
+}
+
+/// Of the wheel, which turns with the drum as long as it touches it.
+template <class S>
+S QuasiStaticDrum<S>::calc_spin_mass_kg() const {
+  if (!(value_of(now_.motion.load_N) > 0.0)) return zero<S>();
+  return corner_.context().tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m_ * loaded_radius_m_);
 }
 
 /// Kinetic energy of drum and wheel and energy of the tire's spring, in the motion of now_.

@@ -10,7 +10,8 @@
 
 namespace rollrig::rigs {
 
-/// Equation  torque = R (F_rr + F_par + m_eff dv/dt + s I_spin/r_l^2 dv/dt), m_eff = J/R^2 + I_spin/r_l^2
+/// Equation  torque = R (F_rr + F_par + m_eff dv/dt + s I_spin/r_l^2 dv/dt), m_eff = J/R^2 + I_spin/r_l^2, of a lifted
+/// tire J/R^2
 ///           spindle force Fx = F_rr/(1 + r_l/R) + I_spin/r_l^2 dv/dt;  slip s = Fx/C, 0 in the baseline
 /// Symbols   R drum radius [m], J drum inertia, I_spin wheel inertia [kg m2], r_l loaded radius [m],
 ///           C slip stiffness [N]
@@ -47,6 +48,7 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   void find_motion(double time_s, const S* state);
   void fill_integrands(S* integrands) const;
   S calc_effective_mass_kg() const;
+  S calc_spin_mass_kg() const;
   S find_recorded_speed_m_s() const {
     return models::calc_recorded_speed_m_s(now_.motion.speed_m_s, now_.recorded, now_.acting);
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "rigs/toml_group.h"
 #include "sim/core/error.h"
 
 namespace rollrig::rigs {
@@ -64,27 +65,6 @@ RigFile read_rig(const ConfigTable& config) {
   file.finish();
   return rig;
 }
-
-namespace {
-
-template <class Group>
-std::string write_group(const char* name, const Group& group, const Group* uncertainties = nullptr) {
-  std::vector<double> sd;
-  if (uncertainties != nullptr) {
-    Group::visit(*uncertainties, [&sd](const Field&, const double& value) { sd.push_back(value); });
-  }
-  std::string text = fmt::format("\n[{}]\n", name);
-  std::size_t i = 0;
-  Group::visit(group, [&](const Field& field, const double& value) {
-    const Unit unit = unit_of_key(field.key);
-    text += fmt::format("{} = {:.10g}\n", field.key, unit.from_si(value));
-    if (i < sd.size() && sd[i] > 0.0) text += fmt::format("{}_sd = {:.10g}\n", field.key, sd[i] / unit.factor);
-    ++i;
-  });
-  return text;
-}
-
-}  // namespace
 
 std::string write_rig(const RigFile& rig) {
   std::string kind;

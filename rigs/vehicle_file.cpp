@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "rigs/toml_group.h"
 #include "sim/core/error.h"
 
 namespace rollrig::rigs {
@@ -63,6 +64,19 @@ VehicleFile read_vehicle(const ConfigTable& config) {
   read_road_load(file, vehicle);
   file.finish();
   return vehicle;
+}
+
+std::string write_vehicle(const VehicleFile& vehicle) {
+  std::string text = fmt::format("format = \"rollrig-vehicle/1\"\nname = \"{}\"\n", vehicle.name);
+  text += write_fields(vehicle.body, &vehicle.uncertainties);
+  text += fmt::format("tires = {}\n", vehicle.tires);
+  text += write_group("geometry", vehicle.geometry);
+  text += write_group("suspension", vehicle.suspension);
+  text += write_group("powertrain", vehicle.powertrain);
+  text += fmt::format("driven_axle = \"{}\"\n", name_of(vehicle.driven_axle));
+  text += write_group("brakes", vehicle.brakes);
+  if (vehicle.road_load.has_value()) text += write_group("road_load", *vehicle.road_load);
+  return text;
 }
 
 const char* name_of(DrivenAxle axle) {

@@ -92,6 +92,9 @@ struct VehicleFile {
 /// Reads a vehicle from parsed TOML. Throws InputError.
 VehicleFile read_vehicle(const ConfigTable& config);
 
+/// The file as TOML.
+std::string write_vehicle(const VehicleFile& vehicle);
+
 /// "front", "rear" or "all".
 const char* name_of(DrivenAxle axle);
 

@@ -1,5 +1,7 @@
 #include "scenarios/assets.h"
 
+#include <link.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -20,14 +22,40 @@ bool is_path(const std::string& folder, const std::string& name) {
   return name.find('/') != std::string::npos || fs::path(name).extension() == extension_of(folder);
 }
 
+/// The shared library of rollrig that this program has loaded; empty when there is none.
+fs::path find_library() {
+  fs::path library;
+  const auto visit = [](dl_phdr_info* info, std::size_t, void* found) {
+    const fs::path path = info->dlpi_name;
+    if (path.filename().string().rfind("librollrig_cvodes", 0) != 0) return 0;
+    *static_cast<fs::path*>(found) = path;
+    return 1;
+  };
+  ::dl_iterate_phdr(visit, &library);
+  return library;
+}
+
+/// The assets of the prefix under which a program or a library is installed; empty when there are none.
+std::string find_installed_assets(const fs::path& binary) {
+  constexpr int kDeepest = 2;  // lib/<architecture>/<library>
+  std::error_code code;
+  fs::path folder = fs::canonical(binary, code);
+  for (int i = 0; !code && i < kDeepest; ++i) {
+    folder = folder.parent_path();
+    const fs::path assets = folder.parent_path() / "share" / "rollrig" / "assets";
+    if (fs::is_directory(assets)) return assets.string();
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string find_assets_folder() {
   if (const char* set = std::getenv("ROLLRIG_ASSETS")) return set;
-  std::error_code code;
-  const fs::path program = fs::read_symlink("/proc/self/exe", code);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "rollrig" / "assets";
-  if (!code && fs::is_directory(installed)) return installed.string();
+  for (const fs::path& binary : {fs::path("/proc/self/exe"), find_library()}) {
+    std::string assets = find_installed_assets(binary);
+    if (!assets.empty()) return assets;
+  }
   return ROLLRIG_SOURCE_ASSETS;
 }
 

@@ -4,6 +4,7 @@
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
 #include "scenarios/fidelity.h"
+#include "scenarios/virtual_sensors.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -29,19 +30,7 @@ void fill_set_starts(const sim::Recording<double>& recording, std::vector<SetRun
   }
 }
 
-void apply_sensors(const RunSpec& spec, sim::Recording<double>& recording) {
-  for (const auto& [channel, sensor] : *spec.sensors) {
-    models::apply_sensor(sensor, channel, {spec.seed, "session", "run"}, recording.time_s, recording.channel(channel));
-  }
-}
-
 }  // namespace
-
-const std::vector<std::string>& measured_drum_channels() {
-  static const std::vector<std::string> channels{"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa",
-                                                 "gas_temperature_degC"};
-  return channels;
-}
 
 void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
                       const sim::Progress& progress, Outcome& outcome) {
@@ -59,7 +48,7 @@ void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, con
   outcome.set_runs = program.set_runs();
   fill_set_starts(outcome.recording, outcome.set_runs);
   rigs::apply_trace_effects(corner, outcome.recording);
-  if (spec.sensors.has_value()) apply_sensors(spec, outcome.recording);
+  apply_sensors(spec, outcome.recording);
 }
 
 }  // namespace rollrig::scenarios

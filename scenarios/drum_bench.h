@@ -6,9 +6,6 @@
 
 namespace rollrig::scenarios {
 
-/// Channels that a drum rig measures (formats.md), and the gas temperature, which some sensors have (3.16).
-const std::vector<std::string>& measured_drum_channels();
-
 /// Simulates `program` from a soaked tire, checks both audits, applies trace effects and sensors to the
 /// measured channels, and puts recording, set runs and statistics into `outcome`.
 void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
@@ -18,8 +15,11 @@ void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, con
 template <class Settings>
 Scenario make_drum_scenario(ScenarioText text, DrumProgram (*plan)(const Settings&, const RunSpec&),
                             void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
-  return make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum,
-                           [](const RunSpec& spec) { rigs::make_context(spec.tire, spec.rig, spec.baseline); });
+  Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum, [](const RunSpec& spec) {
+    rigs::make_context(spec.tire, spec.rig, spec.baseline);
+  });
+  scenario.set_kind = SetKind::kDrum;
+  return scenario;
 }
 
 }  // namespace rollrig::scenarios

@@ -132,18 +132,28 @@ std::vector<std::string> measured_channels(SetKind kind) {
   return names;
 }
 
+std::vector<std::string> all_measured_channels() {
+  std::vector<std::string> names;
+  for (const SetKind kind : {SetKind::kDrum, SetKind::kDyno, SetKind::kRoad}) {
+    for (const std::string& name : measured_channels(kind)) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
 SetKind kind_of(rigs::RigKind kind) {
   if (kind == rigs::RigKind::kDrum) return SetKind::kDrum;
   if (kind == rigs::RigKind::kDyno) return SetKind::kDyno;
   throw std::invalid_argument("a rig on which no sets are measured");
 }
 
-MeasuredRun read_drum_inputs(const std::string& file) {
+MeasuredRun read_run_inputs(const std::string& file, SetKind kind) {
   MeasuredRun run;
   run.id = fs::path(file).stem().string();
   run.file = file;
-  read_run_columns(columns_of(SetKind::kDrum), run);
-  for (const std::string& channel : measured_channels(SetKind::kDrum)) run.columns.erase(channel);
+  read_run_columns(columns_of(kind), run);
+  for (const std::string& channel : measured_channels(kind)) run.columns.erase(channel);
   return run;
 }
 
@@ -153,7 +163,8 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
     set.kind = SetKind::kRoad;
     const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
     set.vehicle = rigs::read_vehicle(read_config(path));
-    return read_text_file(path);
+    set.vehicle->content = read_text_file(path);
+    return set.vehicle->content;
   }
   const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));
   set.rig = rigs::read_rig(read_config(path));
@@ -268,86 +279,6 @@ sim::Program make_replay(const MeasuredRun& run) {
   program.sample_times_s = run.time_s;
   program.phases = {std::move(phase)};
   return program;
-}
-
-std::string write_sensors(const models::SensorSet& sensors) {
-  std::string text;
-  for (const auto& [channel, sensor] : sensors) {
-    const double factor = unit_of_key(channel).factor;
-    text += fmt::format(
-        "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
-        "resolution = {:.10g}\n",
-        channel, sensor.offset_sd / factor, sensor.drift_sd / factor, sensor.drift_time_s, sensor.noise_sd / factor,
-        sensor.resolution / factor);
-  }
-  return text;
-}
-
-namespace {
-
-bool is_measured(const std::string& column) {
-  const std::vector<std::string> measured = measured_channels(SetKind::kDrum);
-  return std::find(measured.begin(), measured.end(), column) != measured.end();
-}
-
-/// Rows of one run as CSV, times from its start. Where the run is cut out of a longer recording, a mean at
-/// its first or last row reaches beyond the cut: that field is left empty.
-std::string write_run_csv(const sim::Recording<double>& recording, const SetRun& run,
-                          const std::vector<std::string>& columns) {
-  std::vector<std::string> header{"time_s"};
-  header.insert(header.end(), columns.begin(), columns.end());
-  CsvWriter csv(header);
-  constexpr double kSlack_s = 1e-6;
-  for (std::size_t row = 0; row < recording.row_count(); ++row) {
-    const double time_s = recording.time_s[row];
-    if (time_s < run.start_s - kSlack_s || time_s > run.end_s + kSlack_s) continue;
-    const bool cut_before = std::abs(time_s - run.start_s) <= kSlack_s && row > 0;
-    const bool cut_after = std::abs(time_s - run.end_s) <= kSlack_s && row + 1 < recording.row_count();
-    csv.begin_row();
-    csv.add(time_s - run.start_s);
-    for (const std::string& column : columns) {
-      const bool beyond = (cut_before || cut_after) && is_measured(column);
-      csv.add(beyond ? std::nan("") : unit_of_key(column).from_si(recording.channel(column)[row]));
-    }
-    csv.end_row();
-  }
-  return csv.take();
-}
-
-}  // namespace
-
-std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
-                                                         const std::string& name) {
-  std::map<std::string, std::string> files;
-  const models::SensorSet sensors = spec.sensors.value_or(models::SensorSet{});
-  std::vector<std::string> columns;
-  for (const sim::Channel& channel : outcome.recording.channels) {
-    const SetColumns& all = columns_of(kind_of(spec.rig.kind));
-    const auto holds = [&channel](const std::vector<Field>& fields) {
-      return std::any_of(fields.begin(), fields.end(), [&](const Field& f) { return f.key == channel.name; });
-    };
-    const bool is_input = holds(all.given) || holds(all.optional_given);
-    if (is_input || (holds(all.measured) && sensors.count(channel.name) > 0)) columns.push_back(channel.name);
-  }
-  std::string set = fmt::format(
-      "format = \"rollrig-measurements/1\"\nname = \"{}\"\ntire = \"tire.toml\"\nrig = \"rig.toml\"\nbaseline = "
-      "\"{}\"\n",
-      name, spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
-  set += write_sensors(sensors);
-  for (const SetRun& run : outcome.set_runs) {
-    set += fmt::format(
-        "\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"session\"\n"
-        "initial_tire_temperature_degC = {1:.10g}\ncold_pressure_kPa = {2:.10g}\n",
-        run.id, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3);
-    if (run.rest_before_s.has_value()) set += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_s / 60.0);
-    if (run.started_warm) set += "tire_state = \"warm\"\n";
-    if (run.force_at_standstill) set += "force_at_standstill = true\n";
-    files[run.id + ".csv"] = write_run_csv(outcome.recording, run, columns);
-  }
-  files["set.toml"] = set;
-  files["tire.toml"] = models::write_tire(spec.tire);
-  files["rig.toml"] = rigs::write_rig(spec.rig);
-  return files;
 }
 
 }  // namespace rollrig::scenarios

@@ -12,8 +12,6 @@
 
 namespace rollrig::scenarios {
 
-enum class SetKind { kDrum, kDyno, kRoad };
-
 /// Columns of a kind of set.
 struct SetColumns {
   std::vector<Field> given;           // required in every row
@@ -23,6 +21,8 @@ struct SetColumns {
 const SetColumns& columns_of(SetKind kind);
 /// Names of the measured columns of a kind.
 std::vector<std::string> measured_channels(SetKind kind);
+/// Those of all kinds.
+std::vector<std::string> all_measured_channels();
 
 struct MeasuredRun {
   std::string id;
@@ -63,9 +63,9 @@ models::SensorSet default_sensors(SetKind kind);
 /// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
 MeasurementSet read_measurement_set(const std::string& folder);
 
-/// The inputs of a drum run from a run file of a set, or from one with the given columns alone; measured columns are
-/// not kept. Throws InputError.
-MeasuredRun read_drum_inputs(const std::string& file);
+/// The inputs of a run from a run file of a set, or from one with the given columns alone; measured columns are not
+/// kept. Throws InputError.
+MeasuredRun read_run_inputs(const std::string& file, SetKind kind);
 
 /// The kind of a rig's sets.
 SetKind kind_of(rigs::RigKind kind);
@@ -81,7 +81,8 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
 /// Tables [sensors.<channel>] of sets and run files.
 std::string write_sensors(const models::SensorSet& sensors);
 
-/// The files of a set with the runs that `outcome` marks: set.toml, tire.toml, rig.toml and one CSV a run.
+/// The files of a set with the runs that `outcome` marks: set.toml, tire.toml, rig.toml (of the road: vehicle.toml) and
+/// one CSV a run, its fields left empty where formats.md has no sample. For a scenario with a set_kind.
 std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
                                                          const std::string& name);
 

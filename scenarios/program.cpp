@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "scenarios/drum_bench.h"
+#include "scenarios/given_run.h"
 #include "scenarios/readings.h"
 #include "sim/core/file_io.h"
 
@@ -54,7 +55,7 @@ struct ProgramConditions : DrumConditions {
   const std::vector<double>& column(const char* name) const { return run.columns.at(name); }
 
   void complete(const RunSpec& spec) {
-    run = read_drum_inputs(program.path);
+    run = read_run_inputs(program.path, SetKind::kDrum);
     load_N = *std::max_element(column("load_N").begin(), column("load_N").end());
     check_tire_carries(spec, "program", *load_N);
     if (!pressure_Pa.has_value()) pressure_Pa = find_default_pressure_Pa(spec);
@@ -126,16 +127,6 @@ void add_stretches(const std::vector<Reading>& readings, double radius_m, Outcom
                           fmt::format("{:.1f}", reading.pressure_Pa / 1e3)});
   }
   if (!readings.empty()) outcome.tables.push_back(table);
-}
-
-/// Distance over the file's rows, straight lines between them.
-double calc_distance_m(const MeasuredRun& run) {
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
-  double distance_m = 0.0;
-  for (std::size_t i = 0; i + 1 < speed_m_s.size(); ++i) {
-    distance_m += 0.5 * (speed_m_s[i] + speed_m_s[i + 1]) * (run.time_s[i + 1] - run.time_s[i]);
-  }
-  return distance_m;
 }
 
 void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {

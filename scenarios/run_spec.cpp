@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scenarios/assets.h"
-#include "scenarios/drum_bench.h"
+#include "scenarios/measurement_set.h"
 #include "scenarios/sensor_file.h"
 #include "sim/core/file_io.h"
 
@@ -45,96 +45,17 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
   const ConfigTable* table = reader.source().find("sensors")->as_table();
   const std::string name = table != nullptr ? "" : reader.text("sensors");
   if (name == "none") return std::nullopt;
-  if (scenario.has_vehicle) {
+  if (!scenario.set_kind.has_value()) {
     throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", scenario.text.name),
                          "no sensors, or none");
   }
-  if (table != nullptr) return models::read_sensors(*reader.table("sensors"), measured_drum_channels());
-  return read_sensor_file(read_config(find_asset_of(reader, "sensors", base_folder, "sensors", name)));
-}
-
-template <class Parameters>
-Json parameters_to_json(const Parameters& parameters) {
-  Json json = Json::object();
-  Parameters::visit(parameters, [&json](const Field& field, const double& value) {
-    json[field.key] = unit_of_key(field.key).from_si(value);
-  });
-  return json;
-}
-
-Json tire_to_json(const models::TireFile& tire, const models::TireParameters<double>& on_rig) {
-  Json json = {{"name", tire.name}, {"file", tire.path}, {"sha256", calc_sha256(tire.content)}};
-  models::TireParameters<double>::visit_all(on_rig,
-                                            [&json](const char* table, const Field& field, const double& value) {
-                                              json[table][field.key] = unit_of_key(field.key).from_si(value);
-                                            });
-  json["load_map"] = Json::array();
-  for (const auto& entry : on_rig.load_map) json["load_map"].push_back(parameters_to_json(entry));
-  return json;
-}
-
-Json rig_to_json(const rigs::RigFile& rig) {
-  using rigs::RigKind;
-  Json json = {{"name", rig.name}, {"file", rig.path}, {"sha256", calc_sha256(rig.content)}};
-  if (rig.kind != RigKind::kFlat) {
-    json[rig.kind == RigKind::kDrum ? "drum" : "roller"] = parameters_to_json(rig.drum);
-    json["parasitic"] = parameters_to_json(rig.parasitic);
-    json["drive"] = parameters_to_json(rig.drive);
-  }
-  json["environment"] = parameters_to_json(rig.environment);
-  if (rig.kind == RigKind::kDrum) {
-    json["skim"] = parameters_to_json(rig.skim);
-    json["carriage"] = parameters_to_json(rig.carriage);
-  }
-  if (rig.kind == RigKind::kDyno) {
-    json["rollers_under"] = rigs::name_of_rolling_wheels(rig);
-    json["tie_down"] = parameters_to_json(rig.tie_down);
-  }
-  return json;
-}
-
-Json vehicle_to_json(const rigs::VehicleFile& vehicle) {
-  Json json = {{"name", vehicle.name},
-               {"file", vehicle.path},
-               {"sha256", calc_sha256(vehicle.content)},
-               {"body", parameters_to_json(vehicle.body)},
-               {"tires", vehicle.tires},
-               {"geometry", parameters_to_json(vehicle.geometry)},
-               {"suspension", parameters_to_json(vehicle.suspension)},
-               {"powertrain", parameters_to_json(vehicle.powertrain)},
-               {"brakes", parameters_to_json(vehicle.brakes)}};
-  json["powertrain"]["driven_axle"] = rigs::name_of(vehicle.driven_axle);
-  if (vehicle.road_load.has_value()) json["road_load"] = parameters_to_json(*vehicle.road_load);
-  return json;
-}
-
-Json effects_to_json(const std::vector<models::ActiveEffect>& effects) {
-  Json json = Json::object();
-  for (const models::ActiveEffect& active : effects) {
-    Json& own = json[active.effect->info.id] = Json::object();
-    const auto& declared = active.effect->info.parameters;
-    for (std::size_t i = 0; i < declared.size(); ++i) {
-      own[declared[i].key] = unit_of_key(declared[i].key).from_si(active.parameters[i]);
-    }
-  }
-  return json;
-}
-
-Json sensors_to_json(const std::optional<models::SensorSet>& sensors) {
-  if (!sensors.has_value()) return nullptr;
-  Json json = Json::object();
-  for (const auto& [channel, sensor] : *sensors) {
-    const double factor = unit_of_key(channel).factor;
-    json[channel] = {{"offset_sd", sensor.offset_sd / factor},
-                     {"drift_sd", sensor.drift_sd / factor},
-                     {"drift_time_s", sensor.drift_time_s},
-                     {"noise_sd", sensor.noise_sd / factor},
-                     {"resolution", sensor.resolution / factor}};
-  }
-  return json;
+  const std::vector<std::string> channels = measured_channels(*scenario.set_kind);
+  if (table != nullptr) return models::read_sensors(*reader.table("sensors"), channels);
+  return read_sensor_file(read_config(find_asset_of(reader, "sensors", base_folder, "sensors", name)), channels);
 }
 
 void check_rig_kind(const RunSpec& spec) {
+  if (!spec.scenario->has_rig()) return;
   std::vector<std::string> kinds;
   for (const rigs::RigKind kind : spec.scenario->rig_kinds) {
     if (spec.rig.kind == kind) return;
@@ -145,14 +66,43 @@ void check_rig_kind(const RunSpec& spec) {
                     spec.rig.path, 0, "kind", "", fmt::format("a rig of kind {}", fmt::join(kinds, " or ")), ""});
 }
 
+/// Throws InputError where a run names what its scenario has not.
+void refuse_machine(const TableReader& reader, const TableReader& overrides, const char* machine,
+                    const Scenario& scenario) {
+  for (const TableReader* from : {&reader, &overrides}) {
+    if (!from->has(machine)) continue;
+    throw from->problem(machine, fmt::format("scenario '{}' has no {}", scenario.text.name, machine),
+                        fmt::format("no {}, or another scenario", machine));
+  }
+}
+
+/// The road: standard air over the plane (formats.md names no rig for a vehicle on the road).
+rigs::RigFile make_road() {
+  rigs::RigFile road;
+  road.name = "road";
+  road.kind = rigs::RigKind::kFlat;
+  road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
+  return road;
+}
+
+/// The rig of a scenario that has one.
+void read_run_rig(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
+  if (!spec.scenario->has_rig()) {
+    refuse_machine(reader, overrides, "rig", *spec.scenario);
+    spec.rig = make_road();
+    return;
+  }
+  const std::string path =
+      find_asset_of(reader, "rig", base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
+  const std::string content = read_text_file(path);
+  spec.rig = rigs::read_rig(read_with_overrides(path, content, find_override(overrides, "rig")));
+  spec.rig.content = content;
+}
+
 /// The vehicle of a scenario that has one.
 void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
   if (!spec.scenario->has_vehicle) {
-    for (TableReader* from : {&reader, &overrides}) {
-      if (!from->has("vehicle")) continue;
-      throw from->problem("vehicle", fmt::format("scenario '{}' has no vehicle", spec.scenario->text.name),
-                          "no vehicle, or another scenario");
-    }
+    refuse_machine(reader, overrides, "vehicle", *spec.scenario);
     return;
   }
   const std::string path =
@@ -160,6 +110,18 @@ void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::st
   const std::string content = read_text_file(path);
   spec.vehicle = rigs::read_vehicle(read_with_overrides(path, content, find_override(overrides, "vehicle")));
   spec.vehicle->content = content;
+}
+
+Fidelity read_fidelity(TableReader& reader, const Scenario& scenario) {
+  const std::string name =
+      reader.text_or("fidelity", name_of(scenario.fidelities.front()), {"multibody", "quasi_static"});
+  std::vector<std::string> allowed;
+  for (const Fidelity fidelity : scenario.fidelities) {
+    if (name == name_of(fidelity)) return fidelity;
+    allowed.emplace_back(name_of(fidelity));
+  }
+  throw reader.problem("fidelity", fmt::format("scenario '{}' is not simulated {}", scenario.text.name, name),
+                       fmt::format("{}", fmt::join(allowed, " or ")));
 }
 
 }  // namespace
@@ -209,16 +171,10 @@ RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folde
   const std::string tire_content = read_text_file(tire_path);
   spec.tire = models::read_tire(read_with_overrides(tire_path, tire_content, find_override(overrides, "tire")));
   spec.tire.content = tire_content;
-  const std::string rig_path =
-      find_asset_of(reader, "rig", base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
-  const std::string rig_content = read_text_file(rig_path);
-  spec.rig = rigs::read_rig(read_with_overrides(rig_path, rig_content, find_override(overrides, "rig")));
-  spec.rig.content = rig_content;
+  read_run_rig(reader, overrides, base_folder, spec);
   read_run_vehicle(reader, overrides, base_folder, spec);
   overrides.finish();
-  const std::vector<std::string> fidelities{"multibody", "quasi_static"};
-  spec.fidelity = reader.text_or("fidelity", "multibody", fidelities) == "multibody" ? Fidelity::kMultibody
-                                                                                     : Fidelity::kQuasiStatic;
+  spec.fidelity = read_fidelity(reader, *spec.scenario);
   const std::vector<std::string> baselines{"combined", "constant_rrc"};
   spec.baseline = reader.text_or("baseline", "combined", baselines) == "combined" ? models::Baseline::kCombined
                                                                                   : models::Baseline::kConstantRrc;
@@ -231,53 +187,6 @@ RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folde
   reader.finish();
   check_rig_kind(spec);
   return spec;
-}
-
-Json make_manifest(const RunSpec& spec, const Outcome& outcome) {
-  Json manifest;
-  manifest["format"] = "rollrig-manifest/1";
-  manifest["rollrig"] = {{"version", ROLLRIG_VERSION},
-                         {"compiler", ROLLRIG_COMPILER},
-                         {"simbody", ROLLRIG_SIMBODY_VERSION},
-                         {"sundials", ROLLRIG_SUNDIALS_VERSION}};
-  manifest["scenario"] = spec.scenario->text.name;
-  manifest["fidelity"] = name_of(spec.fidelity);
-  manifest["baseline"] = name_of(spec.baseline);
-  manifest["seed"] = spec.seed;
-  manifest["sample_interval_s"] = spec.sample_interval_s;
-  manifest["tolerance_factor"] = spec.tolerance_factor;
-  manifest["settings"] = outcome.settings;
-  manifest["tire"] = tire_to_json(spec.tire, spec.tire.parameters_on(spec.rig.name, spec.baseline));
-  manifest["rig"] = rig_to_json(spec.rig);
-  if (spec.vehicle.has_value()) manifest["vehicle"] = vehicle_to_json(*spec.vehicle);
-  manifest["effects"] = effects_to_json(spec.effects);
-  manifest["sensors"] = sensors_to_json(spec.sensors);
-  manifest["integrator"] = outcome.statistics;
-  return manifest;
-}
-
-Json make_result_json(const RunSpec& spec, const Outcome& outcome) {
-  using Ledger = sim::EnergyTerm::Ledger;
-  Json json;
-  json["format"] = "rollrig-result/1";
-  json["scenario"] = spec.scenario->text.name;
-  json["tire"] = spec.tire.name;
-  json["rig"] = spec.rig.name;
-  if (spec.vehicle.has_value()) json["vehicle"] = spec.vehicle->name;
-  json["fidelity"] = name_of(spec.fidelity);
-  json["result"] = outcome.result;
-  json["phases"] = Json::array();
-  for (const sim::PhaseSpan& phase : outcome.recording.phases) {
-    json["phases"].push_back({{"name", phase.name}, {"start_s", phase.start_s}, {"end_s", phase.end_s}});
-  }
-  const sim::EnergyAudit& audit = outcome.recording.audit;
-  Json terms = Json::object();
-  for (const sim::EnergyTerm& term : audit.terms) terms[term.name] = term.in_J;
-  json["energy"] = {{"mechanical_closure", audit.calc_closure(Ledger::kMechanical)},
-                    {"thermal_closure", audit.calc_closure(Ledger::kThermal)},
-                    {"terms_J", terms}};
-  if (!outcome.warnings.empty()) json["warnings"] = outcome.warnings;
-  return json;
 }
 
 }  // namespace rollrig::scenarios

@@ -20,6 +20,9 @@ namespace rollrig::scenarios {
 
 enum class Fidelity { kMultibody, kQuasiStatic };
 
+/// Kinds of measurement sets: on a drum, of one wheel on its roller, of a vehicle on the road (formats.md).
+enum class SetKind { kDrum, kDyno, kRoad };
+
 struct Scenario;
 
 /// Everything that a run is made from, read and checked.
@@ -100,13 +103,17 @@ struct ScenarioText {
 struct Scenario {
   ScenarioText text;
   std::vector<rigs::RigKind> rig_kinds{rigs::RigKind::kDrum};  // on which it can be carried out
-  std::string default_rig = "drum_2m";
+  std::string default_rig = "drum_2m";                         // empty: the road, which has no rig
   bool has_vehicle = false;
+  std::vector<Fidelity> fidelities{Fidelity::kMultibody, Fidelity::kQuasiStatic};  // the first unless asked otherwise
+  std::optional<SetKind> set_kind;  // of the measurement sets that it writes; none: it records without sensors
   std::vector<SettingInfo> settings;
   /// Reads spec.settings and plans, without running. Throws InputError.
   std::function<void(const RunSpec& spec)> check;
   /// Reads spec.settings, runs, evaluates. Throws InputError, RunFailure, Interrupted.
   std::function<Outcome(const RunSpec& spec, const sim::Progress& progress)> run;
+
+  bool has_rig() const { return !default_rig.empty(); }
 };
 
 /// All scenarios, in the order of scenarios.def.

@@ -34,6 +34,12 @@ struct Channel {
   bool is_mean() const { return integral != kInstant; }
 };
 
+/// A coordinate of a body, for a replay: a state under its name with unit.
+struct PoseCoordinate {
+  std::string name;
+  std::size_t state = 0;  // its index
+};
+
 template <class S>
 class OdeSystem {
  public:
@@ -45,6 +51,8 @@ class OdeSystem {
   virtual const std::vector<Integral>& integrals() const = 0;
   virtual const std::vector<Store>& stores() const = 0;
   virtual const std::vector<Channel>& channels() const = 0;
+  /// Where the bodies are; none for a system without bodies.
+  virtual std::vector<PoseCoordinate> poses() const { return {}; }
 
   /// Sets the state at the start of the run, for the inputs of its first segment.
   virtual void initialize(const Segment& first, double time_s, S* state) = 0;

@@ -25,8 +25,10 @@ struct Recording {
   std::vector<PhaseSpan> phases;
   std::vector<std::vector<S>> phase_integrals;  // of each phase: what its time added to every integral
   std::vector<double> time_s;
-  std::vector<std::size_t> phase;      // index into phases, one a row
-  std::vector<std::vector<S>> values;  // one column a channel, SI units
+  std::vector<std::size_t> phase;           // index into phases, one a row
+  std::vector<std::vector<S>> values;       // one column a channel, SI units
+  std::vector<PoseCoordinate> poses;        // of the bodies, where the system has some
+  std::vector<std::vector<S>> pose_values;  // one column a pose, SI units, at the rows' times
   std::vector<S> final_state;
   std::vector<S> final_integrals;
   EnergyAudit audit;

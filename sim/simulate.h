@@ -36,6 +36,8 @@ class Sampler {
         interval_s_(program.sample_interval_s) {
     out_.channels = system.channels();
     out_.values.resize(out_.channels.size());
+    out_.poses = system.poses();
+    out_.pose_values.resize(out_.poses.size());
     mean_start_.resize(system.integrals().size());
     mean_end_.resize(mean_start_.size());
     state_.resize(system.state_count());
@@ -95,7 +97,7 @@ class Sampler {
     row_open_ = true;
     row_written_ = is_written(next_);
     if (!row_written_) return;
-    if (instant_count_ > 0) integrator.interpolate_state(row_s, state_.data());
+    if (instant_count_ > 0 || !out_.poses.empty()) integrator.interpolate_state(row_s, state_.data());
     write_instants(row_s);
   }
 
@@ -117,6 +119,7 @@ class Sampler {
     for (std::size_t i = 0; i < out_.channels.size(); ++i) {
       out_.values[i].push_back(out_.channels[i].is_mean() ? zero<S>() : instant_[next_instant++]);
     }
+    for (std::size_t i = 0; i < out_.poses.size(); ++i) out_.pose_values[i].push_back(state_[out_.poses[i].state]);
   }
 
   void write_means(double upper_s) {

@@ -5,6 +5,7 @@
 
 #include "scenarios/scenario.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
 
@@ -67,6 +68,7 @@ void compare(const std::string& scenario, const std::string& tire, const std::ve
 TEST_CASE("the two fidelities agree on every drum scenario", "[fast]") {
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
     if (scenario->has_vehicle) continue;  // those: vehicle_fidelities_test.cpp
+    if (scenario->fidelities.size() < 2) continue;
     const bool needs_file = scenario->text.name == "program";
     const std::string file = std::string(ROLLRIG_SOURCE_DIR) + "/assets/regression/program_a50.csv";
     compare(scenario->text.name, "a50",
@@ -80,4 +82,12 @@ TEST_CASE("they agree for the other tires and with all effects on", "[fast]") {
   compare("transient_skim", "a50",
           {"effects.bearing_warmup.fall_per_K=0.02", "effects.load_exponent.exponent=1.1",
            "effects.tire_loss_in_skim.force_N=2"});
+}
+
+TEST_CASE("they agree where the drum changes its speed below a lifted tire, whose wheel it does not turn", "[fast]") {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("lifted.csv"),
+                    "time_s,speed_km_h,load_N,ambient_degC\n0,80,5400,25\n120,80,0,25\n180,80,0,25\n300,30,0,25\n"
+                    "360,30,0,25\n480,100,0,25\n600,100,0,25\n");
+  compare("program", "a50", {"program=" + folder.file("lifted.csv")});
 }

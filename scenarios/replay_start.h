@@ -5,11 +5,11 @@
 #include "rigs/trace_effects.h"
 #include "scenarios/measurement_set.h"
 
-namespace rollrig::identification {
+namespace rollrig::scenarios {
 
 /// Temperature, pressure and history that a run states of its beginning.
 template <class S>
-rigs::DrumStart<S> make_replay_start(const scenarios::MeasuredRun& run, double ambient_pressure_Pa) {
+rigs::DrumStart<S> make_replay_start(const MeasuredRun& run, double ambient_pressure_Pa) {
   rigs::DrumStart<S> start;
   start.tire_temperature_K = S(run.initial_tire_temperature_K);
   start.cold_pressure_Pa = S(run.cold_pressure_Pa);
@@ -22,8 +22,7 @@ rigs::DrumStart<S> make_replay_start(const scenarios::MeasuredRun& run, double a
 
 /// Effects of the port "trace", beside the recorded inputs that they may read.
 template <class S>
-void apply_trace_beside_given(const scenarios::MeasuredRun& run, const models::Corner<S>& corner,
-                              sim::Recording<S>& recording) {
+void apply_trace_beside_given(const MeasuredRun& run, const models::Corner<S>& corner, sim::Recording<S>& recording) {
   if (!rigs::has_trace_effects(corner)) return;
   for (const char* name : {"load_N", "ambient_degC"}) {
     if (!run.has(name)) continue;
@@ -34,4 +33,4 @@ void apply_trace_beside_given(const scenarios::MeasuredRun& run, const models::C
   rigs::apply_trace_effects(corner, recording);
 }
 
-}  // namespace rollrig::identification
+}  // namespace rollrig::scenarios

@@ -2,31 +2,22 @@
 /// A measured run of a vehicle's wheel simulated again from its recorded inputs: on the roller of a dynamometer, or on
 /// the road, where each of the vehicle's tires does the same.
 
-#include <vector>
-
 #include "models/corner.h"
-#include "scenarios/measurement_set.h"
-#include "sim/recording.h"
+#include "scenarios/wheel_intervals.h"
 
-namespace rollrig::identification {
+namespace rollrig::scenarios {
 
-/// Recorded inputs in the middle of a part of the time between two rows. The load of the part's first row holds.
-struct WheelInterval {
-  double duration_s = 0.0;
-  double speed_m_s = 0.0;
-  double acceleration_m_s2 = 0.0;
-  double load_N = 0.0;  // not read on the road, where the vehicle's mass decides
-  double ambient_K = 0.0;
-  double surface_K = 0.0;  // used where the run recorded it
-  double slope = 0.0;
-  double longitudinal_force_N = 0.0;  // root mean square over the part, with the sign of its middle
-  std::size_t row = 0;                // the row before
-  double share_of_row = 0.0;          // of the part, what belongs to the mean of the row before; the rest to the next
+/// Told of a replay beside what its sensors would have shown.
+template <class S>
+class ReplayObserver {
+ public:
+  virtual ~ReplayObserver() = default;
+  /// States of the corner before the first interval and after the last.
+  virtual void begin(const S* states) = 0;
+  virtual void end(const S* states) = 0;
+  /// An interval, at its middle; `force_N` is what the kind's force channel is the mean of.
+  virtual void add(const WheelInterval& part, const models::Instant<S>& now, const S& force_N) = 0;
 };
-
-/// The parts of a run, none longer than 2.5 s (Assumed: a tenth of the gas's time constant).
-/// On the road the slope is the rise of `elevation_m` over the way between two rows; 0 below 1 m/s.
-std::vector<WheelInterval> make_wheel_intervals(const scenarios::MeasuredRun& run);
 
 /// What the sensors of a dynamometer would have shown of one wheel: "loss_force_N", "liner_temperature_degC",
 /// "cavity_pressure_kPa", "gas_temperature_degC", and the rim's temperature where an effect has a rim.
@@ -38,10 +29,11 @@ std::vector<WheelInterval> make_wheel_intervals(const scenarios::MeasuredRun& ru
 ///           j factor on the roller's inertia J (1 in the baseline), R its radius, a acceleration
 /// Validity  h well below every time constant; order 2 in h. The recorded force is that of the contact
 /// Source    explicit midpoint rule with a lagged predictor. baseline.md, "Rig"
-/// Checked   tests/identification/wheel_replay_test.cpp
+/// Checked   tests/scenarios/wheel_replay_test.cpp
 template <class S>
-sim::Recording<S> replay_dyno_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
-                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner);
+sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& run,
+                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner,
+                                  ReplayObserver<S>* observer = nullptr);
 
 /// "traction_force_N" of a vehicle on the road, its mass, rotating mass and drag area from the corner's context.
 ///
@@ -52,9 +44,18 @@ sim::Recording<S> replay_dyno_run(const scenarios::MeasurementSet& set, const sc
 /// Validity  as above; load transfer between tires does not change their sum. A run that started right after another
 ///           (tire_state = "warm") begins at the temperature of steady driving at 80 km/h (Assumed)
 /// Source    (3.20); rigs/quasi_static_vehicle.h. Friction brakes: models/vehicle.h, blend_brakes
-/// Checked   tests/identification/wheel_replay_test.cpp
+/// Checked   tests/scenarios/wheel_replay_test.cpp
 template <class S>
-sim::Recording<S> replay_road_run(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
-                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner);
+sim::Recording<S> replay_road_run(const MeasurementSet& set, const MeasuredRun& run,
+                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner,
+                                  ReplayObserver<S>* observer = nullptr);
 
-}  // namespace rollrig::identification
+/// What the equations take of a vehicle on the road and its tires, all of them alike. Against the constant coefficient
+/// a tire file may lack all but that: values of its class then stand in. Throws InputError where the vehicle is given
+/// by its road load, or the tire lacks a table.
+models::Context<double> make_road_context(const MeasurementSet& set);
+
+/// Load of one of the vehicle's tires, its share of the weight.
+double find_tire_load_N(const rigs::VehicleFile& vehicle);
+
+}  // namespace rollrig::scenarios

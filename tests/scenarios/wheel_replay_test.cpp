@@ -6,16 +6,16 @@
 #include <cmath>
 #include <random>
 
-#include "identification/wheel_replay.h"
 #include "models/vehicle.h"
+#include "scenarios/wheel_replay.h"
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/vehicle_fixture.h"
 
 using namespace rollrig;
-using identification::make_wheel_intervals;
 using models::ActiveEffect;
+using scenarios::make_wheel_intervals;
 using scenarios::MeasuredRun;
 using scenarios::MeasurementSet;
 
@@ -25,7 +25,7 @@ sim::Recording<double> replay(const MeasurementSet& set, const MeasuredRun& run,
                               const std::vector<ActiveEffect>& effects) {
   models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
   models::Corner<double> corner(context, effects);
-  return identification::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
+  return scenarios::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
 }
 
 /// The quarter vehicle of the simulator on its roller or on the road, and what it recorded as a run.
@@ -177,12 +177,12 @@ TEST_CASE("derivatives of a run agree with differences", "[fast]") {
   models::Context<Jet> moved = models::convert_context<Jet>(context);
   moved.tire.thermal.z_W_per_K = Jet(context.tire.thermal.z_W_per_K, 0);
   models::Corner<Jet> corner(moved, {});
-  const auto derived = identification::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
+  const auto derived = scenarios::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
   const auto at = [&](double z_W_per_K) {
     models::Context<double> other = context;
     other.tire.thermal.z_W_per_K = z_W_per_K;
     models::Corner<double> at_other(other, {});
-    return identification::replay_dyno_run(set, run, make_wheel_intervals(run), at_other).channel("loss_force_N");
+    return scenarios::replay_dyno_run(set, run, make_wheel_intervals(run), at_other).channel("loss_force_N");
   };
   const double step = 0.01;
   const std::size_t row = run.time_s.size() - 10;
@@ -219,7 +219,7 @@ double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::
   context.vehicle = set.vehicle->body;
   context.tire = set.tire.parameters_with_class_values(5000.0, 250e3);
   models::Corner<double> corner(context, effects);
-  return identification::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N")[row];
+  return scenarios::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N")[row];
 }
 
 }  // namespace
@@ -278,7 +278,7 @@ TEST_CASE("on the road the simulator's vehicle pulls as much", "[fast]") {
   context.vehicle = fixture.vehicle.body;
   models::Corner<double> corner(context, {});
   const auto replayed =
-      identification::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N");
+      scenarios::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N");
   const std::vector<double>& quarter = simulated.channel("traction_force_N");
   const double density_ratio = 98.21e3 / kStandardAtmosphere_Pa;  // of the rig's air, at the same temperature
   for (const std::size_t row : {300, 600, 900}) {

@@ -1,117 +1,19 @@
-#include "identification/wheel_replay.h"
+#include "scenarios/wheel_replay.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "identification/replay_start.h"
 #include "models/drum_curvature.h"
 #include "models/reference_conditions.h"
 #include "models/rolling_resistance.h"
 #include "models/vehicle.h"
 #include "rigs/drum_channels.h"
+#include "scenarios/replay_start.h"
 
-namespace rollrig::identification {
+namespace rollrig::scenarios {
 namespace {
 
 using models::Node;
-using scenarios::MeasuredRun;
-using scenarios::MeasurementSet;
-
-constexpr double kLongest_s = 2.5;
-
-/// Inputs at a share of the way from one row to the next.
-class RowPair {
- public:
-  RowPair(const MeasuredRun& run, std::size_t row) : run_(run), row_(row) {}
-
-  double at(const char* column, double share) const {
-    const std::vector<double>& values = run_.columns.at(column);
-    return values[row_] + share * (values[row_ + 1] - values[row_]);
-  }
-  double change(const char* column) const { return at(column, 1.0) - at(column, 0.0); }
-
- private:
-  const MeasuredRun& run_;
-  std::size_t row_;
-};
-
-double find_slope(const RowPair& rows, double duration_s) {
-  constexpr double kSlowest_m_s = 1.0;  // Assumed: below it the way is too short to tell
-  const double speed_m_s = rows.at("speed_km_h", 0.5);
-  return speed_m_s < kSlowest_m_s ? 0.0 : rows.change("elevation_m") / (speed_m_s * duration_s);
-}
-
-/// Root mean square of a force that runs linearly by `change` about `middle`, with the sign of its middle.
-double calc_rms_with_sign(double middle, double change) {
-  return std::copysign(std::sqrt(middle * middle + change * change / 12.0), middle);
-}
-
-}  // namespace
-
-std::vector<WheelInterval> make_wheel_intervals(const MeasuredRun& run) {
-  std::vector<WheelInterval> intervals;
-  for (std::size_t row = 0; row + 1 < run.time_s.size(); ++row) {
-    const RowPair rows(run, row);
-    const double between_s = run.time_s[row + 1] - run.time_s[row];
-    auto parts = static_cast<int>(std::ceil(between_s / kLongest_s - 1e-9));
-    if (parts > 1) parts += parts % 2;  // so that none lies across the middle
-    WheelInterval part;
-    part.duration_s = between_s / parts;
-    part.acceleration_m_s2 = rows.change("speed_km_h") / between_s;
-    part.row = row;
-    if (run.has("load_N")) part.load_N = run.columns.at("load_N")[row];
-    if (run.has("elevation_m")) part.slope = find_slope(rows, between_s);
-    for (int i = 0; i < parts; ++i) {
-      const double share = (i + 0.5) / parts;
-      part.speed_m_s = rows.at("speed_km_h", share);
-      part.ambient_K = rows.at("ambient_degC", share);
-      part.surface_K =
-          run.has("surface_temperature_degC") ? rows.at("surface_temperature_degC", share) : part.ambient_K;
-      if (run.has("longitudinal_force_N")) {
-        part.longitudinal_force_N =
-            calc_rms_with_sign(rows.at("longitudinal_force_N", share), rows.change("longitudinal_force_N") / parts);
-      }
-      part.share_of_row = parts == 1 ? 0.5 : (share < 0.5 ? 1.0 : 0.0);
-      intervals.push_back(part);
-    }
-  }
-  return intervals;
-}
-
-namespace {
-
-/// Means of channels over what belongs to each row.
-template <class S>
-class RowMeans {
- public:
-  RowMeans(const MeasuredRun& run, std::vector<std::string> names) : weights_(run.time_s.size(), 0.0) {
-    recording_.time_s = run.time_s;
-    for (std::string& name : names) {
-      recording_.channels.push_back({std::move(name)});
-      recording_.values.emplace_back(run.time_s.size(), S(0.0));
-    }
-  }
-
-  void add(const WheelInterval& part, const std::vector<S>& values) {
-    for (const std::size_t next : {0, 1}) {
-      const double weight = part.duration_s * (next == 0 ? part.share_of_row : 1.0 - part.share_of_row);
-      if (weight == 0.0) continue;
-      weights_[part.row + next] += weight;
-      for (std::size_t c = 0; c < values.size(); ++c) recording_.values[c][part.row + next] += weight * values[c];
-    }
-  }
-
-  sim::Recording<S> finish() {
-    for (std::vector<S>& column : recording_.values) {
-      for (std::size_t row = 0; row < column.size(); ++row) column[row] = column[row] * (1.0 / weights_[row]);
-    }
-    return std::move(recording_);
-  }
-
- private:
-  sim::Recording<S> recording_;
-  std::vector<double> weights_;
-};
 
 template <class S>
 models::InputPort<S> read_inputs(const WheelInterval& part, bool surface_recorded) {
@@ -127,16 +29,19 @@ models::InputPort<S> read_inputs(const WheelInterval& part, bool surface_recorde
   return inputs;
 }
 
-/// Moves a corner's states through the intervals; `evaluate(part, x, now)` fills `now` up to what the rates need.
+/// Moves a corner's states through the intervals; `evaluate(part, x, now)` fills `now` up to what the rates need,
+/// `record(part, now)` returns the force that was recorded.
 template <class S, class Evaluate, class Record>
 void march(const models::Corner<S>& corner, const rigs::DrumStart<S>& start, const S& tire_temperature_K,
-           const S& load_N, const std::vector<WheelInterval>& intervals, Evaluate&& evaluate, Record&& record) {
+           const S& load_N, const std::vector<WheelInterval>& intervals, ReplayObserver<S>* observer,
+           Evaluate&& evaluate, Record&& record) {
   std::vector<S> x(corner.state_count());
   std::vector<S> middle(x.size());
   std::vector<S> rates(x.size());
   models::Instant<S> now;
   now.inflation = start.inflation();
   corner.initialize(tire_temperature_K, start.history_under(load_N), x.data());
+  if (observer != nullptr) observer->begin(x.data());
   evaluate(intervals.front(), x.data(), now);
   corner.calc_rates(x.data(), now, rates.data());
   for (const WheelInterval& part : intervals) {
@@ -144,8 +49,10 @@ void march(const models::Corner<S>& corner, const rigs::DrumStart<S>& start, con
     evaluate(part, middle.data(), now);
     corner.calc_rates(middle.data(), now, rates.data());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += part.duration_s * rates[i];
-    record(part, now);
+    const S& force_N = record(part, now);
+    if (observer != nullptr) observer->add(part, now, force_N);
   }
+  if (observer != nullptr) observer->end(x.data());
 }
 
 /// Slip and what it costs, from a force at the contact against the wheel's motion.
@@ -176,7 +83,8 @@ void find_losses(const models::Corner<S>& corner, const S* x, models::Instant<S>
 
 template <class S>
 sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& run,
-                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner) {
+                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner,
+                                  ReplayObserver<S>* observer) {
   const bool has_rim = corner.nodes()[models::index_of(Node::kRim)];
   std::vector<std::string> names{"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa",
                                  "gas_temperature_degC"};
@@ -197,7 +105,7 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
              (now.contact.machine_inertia_factor - S(1.0)) * roller_kg * now.motion.acceleration_m_s2;
   };
   std::vector<S> values(names.size());
-  const auto record = [&](const WheelInterval& part, const models::Instant<S>& now) {
+  const auto record = [&](const WheelInterval& part, const models::Instant<S>& now) -> const S& {
     const auto& temperature_K = now.thermal.temperature_K;
     values[0] = loss_N;
     values[1] = temperature_K[models::index_of(Node::kRubber)];
@@ -205,9 +113,10 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
     values[3] = temperature_K[models::index_of(Node::kGas)];
     if (has_rim) values[4] = temperature_K[models::index_of(Node::kRim)];
     means.add(part, values);
+    return loss_N;
   };
   const rigs::DrumStart<S> start = make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa);
-  march(corner, start, start.tire_temperature_K, S(intervals.front().load_N), intervals, evaluate, record);
+  march(corner, start, start.tire_temperature_K, S(intervals.front().load_N), intervals, observer, evaluate, record);
   sim::Recording<S> recording = means.finish();
   apply_trace_beside_given(run, corner, recording);
   return recording;
@@ -236,7 +145,8 @@ S calc_warm_temperature_K(const models::Corner<S>& corner, const S& load_N, cons
 
 template <class S>
 sim::Recording<S> replay_road_run(const MeasurementSet& set, const MeasuredRun& run,
-                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner) {
+                                  const std::vector<WheelInterval>& intervals, models::Corner<S>& corner,
+                                  ReplayObserver<S>* observer) {
   const models::VehicleBody<S>& body = corner.context().vehicle;
   const double tires = set.vehicle->tires;
   const S load_N = body.mass_kg * S(kStandardGravity_m_s2 / tires);
@@ -261,26 +171,52 @@ sim::Recording<S> replay_road_run(const MeasurementSet& set, const MeasuredRun& 
     find_slip(S(-now.acting.longitudinal_force_N), now);
   };
   std::vector<S> values(1);
-  const auto record = [&](const WheelInterval& part, const models::Instant<S>&) {
+  const auto record = [&](const WheelInterval& part, const models::Instant<S>&) -> const S& {
     values[0] = traction_N;
     means.add(part, values);
+    return traction_N;
   };
   const rigs::DrumStart<S> start = make_replay_start<S>(run, kStandardAtmosphere_Pa);
   const bool begins_warm = run.started_warm && set.baseline == models::Baseline::kCombined;  // else no loss sees it
   const S tire_temperature_K = begins_warm ? calc_warm_temperature_K(corner, load_N, start) : start.tire_temperature_K;
-  march(corner, start, tire_temperature_K, load_N, intervals, evaluate, record);
+  march(corner, start, tire_temperature_K, load_N, intervals, observer, evaluate, record);
   sim::Recording<S> recording = means.finish();
   apply_trace_beside_given(run, corner, recording);
   return recording;
 }
 
-template sim::Recording<double> replay_dyno_run(const MeasurementSet&, const MeasuredRun&,
-                                                const std::vector<WheelInterval>&, models::Corner<double>&);
-template sim::Recording<Jet> replay_dyno_run(const MeasurementSet&, const MeasuredRun&,
-                                             const std::vector<WheelInterval>&, models::Corner<Jet>&);
-template sim::Recording<double> replay_road_run(const MeasurementSet&, const MeasuredRun&,
-                                                const std::vector<WheelInterval>&, models::Corner<double>&);
-template sim::Recording<Jet> replay_road_run(const MeasurementSet&, const MeasuredRun&,
-                                             const std::vector<WheelInterval>&, models::Corner<Jet>&);
+double find_tire_load_N(const rigs::VehicleFile& vehicle) {
+  return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
+}
 
-}  // namespace rollrig::identification
+models::Context<double> make_road_context(const MeasurementSet& set) {
+  const rigs::VehicleFile& vehicle = *set.vehicle;
+  if (vehicle.road_load.has_value()) {
+    throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
+                      "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
+  }
+  models::Context<double> context;
+  context.rig_kind = models::RigKind::kFlat;
+  context.baseline = set.baseline;
+  context.vehicle = vehicle.body;
+  context.tire =
+      set.baseline == models::Baseline::kConstantRrc
+          ? set.tire.parameters_with_class_values(find_tire_load_N(vehicle), set.runs.front().cold_pressure_Pa)
+          : set.tire.parameters_on("", set.baseline);
+  return context;
+}
+
+template sim::Recording<double> replay_dyno_run(const MeasurementSet&, const MeasuredRun&,
+                                                const std::vector<WheelInterval>&, models::Corner<double>&,
+                                                ReplayObserver<double>*);
+template sim::Recording<Jet> replay_dyno_run(const MeasurementSet&, const MeasuredRun&,
+                                             const std::vector<WheelInterval>&, models::Corner<Jet>&,
+                                             ReplayObserver<Jet>*);
+template sim::Recording<double> replay_road_run(const MeasurementSet&, const MeasuredRun&,
+                                                const std::vector<WheelInterval>&, models::Corner<double>&,
+                                                ReplayObserver<double>*);
+template sim::Recording<Jet> replay_road_run(const MeasurementSet&, const MeasuredRun&,
+                                             const std::vector<WheelInterval>&, models::Corner<Jet>&,
+                                             ReplayObserver<Jet>*);
+
+}  // namespace rollrig::scenarios
