@@ -5,50 +5,63 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "diagnosis/set_checks.h"
 #include "identification/coast_set.h"
 #include "scenarios/measurement_set.h"
 #include "scenarios/run_spec.h"
 #include "scenarios/sensor_file.h"
 #include "sim/core/csv.h"
+#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
 namespace rollrig::cli {
 namespace {
 
-std::string validate_set(const std::string& path) {
+struct Finding {
+  std::string what;
+  std::vector<std::string> warnings = {};
+  bool is_good = true;
+};
+
+/// A set is held against the simulation as well: exchanged columns and wrong units are in no single number.
+Finding validate_set(const std::string& path) {
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(path);
   std::size_t rows = 0;
   for (const scenarios::MeasuredRun& run : set.runs) rows += run.time_s.size();
-  return fmt::format("measurement set '{}': {} runs, {} rows", set.name, set.runs.size(), rows);
+  const diagnosis::SetChecks checks = diagnosis::check_set(set);
+  return {fmt::format("measurement set '{}': {} run{}, {} rows", set.name, set.runs.size(),
+                      set.runs.size() == 1 ? "" : "s", rows),
+          checks.warnings, !checks.is_implausible()};
 }
 
-std::string validate_cycle(const std::string& path) {
+Finding validate_cycle(const std::string& path) {
   const CsvTable csv = CsvTable::read(path);
   csv.require_known({"time_s", "speed_km_h"});
   csv.increasing_times("time_s");
   csv.numbers({"speed_km_h", between(0.0, 400.0), "speed"});
-  return fmt::format("cycle: {} rows", csv.row_count());
+  return {fmt::format("cycle: {} rows", csv.row_count())};
 }
 
-std::string validate_toml(const std::string& path) {
+Finding validate_toml(const std::string& path) {
   const ConfigTable config = read_config(path);
   TableReader reader(config, "");
   const std::string format = reader.text("format");
   const std::string kind = format.substr(0, format.find('/'));
-  if (kind == "rollrig-tire") return fmt::format("tire '{}'", models::read_tire(config).name);
-  if (kind == "rollrig-rig") return fmt::format("rig '{}'", rigs::read_rig(config).name);
-  if (kind == "rollrig-sensors") return fmt::format("sensors: {} channels", scenarios::read_sensor_file(config).size());
+  if (kind == "rollrig-tire") return {fmt::format("tire '{}'", models::read_tire(config).name)};
+  if (kind == "rollrig-rig") return {fmt::format("rig '{}'", rigs::read_rig(config).name)};
+  if (kind == "rollrig-sensors")
+    return {fmt::format("sensors: {} channels", scenarios::read_sensor_file(config).size())};
   if (kind == "rollrig-measurements") return validate_set(path);
-  if (kind == "rollrig-vehicle") return fmt::format("vehicle '{}'", rigs::read_vehicle(config).name);
+  if (kind == "rollrig-vehicle") return {fmt::format("vehicle '{}'", rigs::read_vehicle(config).name)};
   if (kind == "rollrig-drum-coastdown") {
     const identification::CoastSet set = identification::read_coast_set(path);
-    return fmt::format("set of drum coast-downs '{}': {} runs", set.name, set.runs.size());
+    return {fmt::format("set of drum coast-downs '{}': {} runs", set.name, set.runs.size())};
   }
   if (kind == "rollrig-run") {
     const scenarios::RunSpec spec = scenarios::read_run_spec(config, fs::path(path).parent_path().string());
     spec.scenario->check(spec);
-    return fmt::format("run of scenario '{}'", spec.scenario->text.name);
+    return {fmt::format("run of scenario '{}'", spec.scenario->text.name)};
   }
   InputProblem problem = unknown_name("format", kind,
                                       {"rollrig-tire", "rollrig-rig", "rollrig-run", "rollrig-sensors",
@@ -61,10 +74,11 @@ std::string validate_toml(const std::string& path) {
 int validate_command(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     const bool is_csv = fs::path(path).extension() == ".csv";
-    const std::string found = fs::is_directory(path) ? validate_set(path)
-                              : is_csv               ? validate_cycle(path)
-                                                     : validate_toml(path);
-    std::cout << fmt::format("{}: good {}\n", path, found);
+    const Finding found = fs::is_directory(path) ? validate_set(path)
+                          : is_csv               ? validate_cycle(path)
+                                                 : validate_toml(path);
+    std::cout << fmt::format("{}: {} {}\n", path, found.is_good ? "good" : "doubtful", found.what);
+    for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
   }
   return kDone;
 }
@@ -72,7 +86,8 @@ int validate_command(const std::vector<std::string>& paths) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("validate", "Check files without running anything");
+  CLI::App* command =
+      app.add_subcommand("validate", "Check files; of a measurement set also whether columns and units can be right");
   auto paths = std::make_shared<std::vector<std::string>>();
   command->add_option("file", *paths, "Tire, rig, run, sensors, vehicle or set.toml, a set's folder, or a cycle's CSV")
       ->required();

@@ -79,7 +79,8 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   diagnosis.probability = find_probabilities(race, settings.effects);
   diagnosis.causes = find_causes(set, base, remainder, race);
   diagnosis.warnings = checks.warnings;
-  if (checks.implausible) forbid_causes(diagnosis);
+  diagnosis.doubt = checks.doubt;
+  if (checks.is_implausible()) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   const bool is_named = diagnosis.verdict != Verdict::kNoGap;
   diagnosis.not_excluded =
@@ -88,7 +89,7 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   diagnosis.where = find_locations(set, remainder, race.null);
   diagnosis.balance = find_balance(set, base, remainder, race.null, options.threads);
   report(0.8, "next test");
-  if (!checks.implausible) {
+  if (!checks.is_implausible()) {
     const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, remainder, race, options.threads);
     diagnosis.next_test = propose_tests(set, base, open, options.threads);
     diagnosis.next_sensor = propose_sensors(set, base, open);

@@ -122,6 +122,7 @@ struct Diagnosis {
   std::vector<NextSensor> next_sensor;
   std::vector<std::string> not_excluded;  // effects that this set would not show
   std::vector<std::string> warnings;      // about the data, a sentence each
+  std::string doubt;                      // of the warnings, the one for which no cause may be named; else empty
   std::optional<LoneRun> without_run;     // of an unexplained set of three runs or more
 };
 

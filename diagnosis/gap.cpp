@@ -191,6 +191,8 @@ Gap find_gap(const PreparedSet& set, const std::vector<identification::FreeParam
   for (std::size_t run = 0; run < runs; ++run) {
     const bool lost = before[run].simulated.size() == 0 || (cause != nullptr && after[run].simulated.size() == 0);
     if (lost) continue;  // no fit without it
+    const auto of_run = [run](const Series& series) { return series.run == run; };
+    if (std::none_of(set.series().begin(), set.series().end(), of_run)) continue;  // it measured nothing
     const Eigen::VectorXd difference = find_difference(set, before[run].simulated);
     const Eigen::VectorXd with_cause = cause != nullptr ? find_difference(set, after[run].simulated) : difference;
     add_run(set, run, difference, measured_before);

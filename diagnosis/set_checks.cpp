@@ -51,34 +51,6 @@ void check_assumed(const MeasurementSet& set, SetChecks& checks) {
   }
 }
 
-/// Warns of channels without samples. Throws where there are none at all.
-void check_samples(const MeasurementSet& set, SetChecks& checks) {
-  std::vector<std::string> measured;
-  for (const std::string& channel : scenarios::measured_channels(set.kind)) {
-    std::vector<std::size_t> without;
-    bool anywhere = false;
-    for (std::size_t r = 0; r < set.runs.size(); ++r) {
-      if (has_samples(set.runs[r], channel)) {
-        anywhere = true;
-      } else if (set.runs[r].has(channel)) {
-        without.push_back(r);
-      }
-    }
-    if (anywhere) measured.push_back(channel);
-    if (!without.empty()) {
-      checks.warnings.push_back(fmt::format("{} has no sample in {}", channel, name_runs(set, without)));
-    }
-    if (!anywhere && without.empty() && channel != "gas_temperature_degC") {
-      checks.warnings.push_back(
-          fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel));
-    }
-  }
-  if (!measured.empty()) return;
-  const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
-  throw InputError({"nothing was measured: no run has a sample of any measured channel", set.path, 0, "[[run]]", "",
-                    "samples of one of " + join(channels), ""});
-}
-
 /// A force that never settles cannot be compared.
 void check_force(const MeasurementSet& set, SetChecks& checks) {
   const ForceChannel force = kind_of(set).force_channel(set);
@@ -159,9 +131,9 @@ void require_simulated(const MeasurementSet& set, const std::vector<RunMisfit>& 
 }
 
 void report_repair(const MeasurementSet& set, const Repair& repair, SetChecks& checks) {
-  checks.implausible = true;
-  checks.warnings.push_back(fmt::format("in {} it looks as if {}: no cause is named until that is mended",
-                                        name_runs(set, repair.runs), repair.text));
+  checks.doubt = fmt::format("in {} it looks as if {}: no cause is named until that is mended",
+                             name_runs(set, repair.runs), repair.text);
+  checks.warnings.push_back(checks.doubt);
 }
 
 /// Whether no sensor of these runs stands still once the mistake is undone.
@@ -218,11 +190,11 @@ void check_plausibility(const MeasurementSet& kept, const Replays& replays, int 
   }
   const std::string outside = describe_misfit(kept, odd, misfits);
   if (outside.empty()) return;
-  checks.implausible = true;
-  checks.warnings.push_back(fmt::format(
+  checks.doubt = fmt::format(
       "further from the simulation than any effect of the catalogue: {}. Check tire, rig, columns and units; no "
       "cause is named",
-      outside));
+      outside);
+  checks.warnings.push_back(checks.doubt);
 }
 
 }  // namespace
@@ -232,12 +204,12 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   require_noise(set);
   SetChecks checks;
   check_assumed(set, checks);
-  check_samples(set, checks);
+  for (std::string& missing : find_missing_samples(set)) checks.warnings.push_back(std::move(missing));
   check_force(set, checks);
   check_runs(set, checks);
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);
-  if (checks.implausible) return checks;
+  if (checks.is_implausible()) return checks;
   const MeasurementSet kept = leave_out(set, checks.doubtful);
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
     const bool simulated = replays.misfits[r].failure.empty();
@@ -245,10 +217,46 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   }
   require_rest(kept, checks);
   check_plausibility(kept, replays, threads, checks);
-  if (checks.implausible) return checks;
+  if (checks.is_implausible()) return checks;
   const std::vector<std::string> of_tire = check_tire(kept, replays, threads);
   checks.warnings.insert(checks.warnings.end(), of_tire.begin(), of_tire.end());
   return checks;
+}
+
+std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
+  const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
+  std::vector<std::string> sentences;
+  std::vector<std::size_t> empty;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    const auto is_measured = [&](const std::string& channel) { return has_samples(set.runs[r], channel); };
+    if (std::none_of(channels.begin(), channels.end(), is_measured)) empty.push_back(r);
+  }
+  if (empty.size() == set.runs.size()) {
+    throw InputError({"nothing was measured: no run has a sample of any measured channel", set.path, 0, "[[run]]", "",
+                      "samples of one of " + join(channels), ""});
+  }
+  if (!empty.empty()) {
+    sentences.push_back(fmt::format("{} measured nothing, and tells nothing: no sample of {}", name_runs(set, empty),
+                                    fmt::join(channels, ", ")));
+  }
+  for (const std::string& channel : channels) {
+    std::vector<std::size_t> without;
+    bool anywhere = false;
+    for (std::size_t r = 0; r < set.runs.size(); ++r) {
+      if (has_samples(set.runs[r], channel)) {
+        anywhere = true;
+      } else if (set.runs[r].has(channel) && std::find(empty.begin(), empty.end(), r) == empty.end()) {
+        without.push_back(r);
+      }
+    }
+    if (!without.empty()) {
+      sentences.push_back(fmt::format("{} has no sample in {}", channel, name_runs(set, without)));
+    }
+    if (!anywhere && without.empty() && channel != "gas_temperature_degC") {
+      sentences.push_back(fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel));
+    }
+  }
+  return sentences;
 }
 
 MeasurementSet leave_out(MeasurementSet set, const std::vector<DoubtfulRows>& rows) {

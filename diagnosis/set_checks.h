@@ -13,13 +13,16 @@ namespace rollrig::diagnosis {
 struct SetChecks {
   std::vector<std::string> warnings;   // a sentence each
   std::vector<DoubtfulRows> doubtful;  // to be left out
-  bool implausible = false;            // columns, units or files cannot be what they are said to be: name no cause
+  std::string doubt;  // why columns, units or files cannot be what they are said to be; one of the warnings, or empty
+
+  /// Whether no cause is to be named.
+  bool is_implausible() const { return !doubt.empty(); }
 };
 
 /// Looks at a set before it is diagnosed.
 ///
-/// Warns of runs and channels without samples, one run alone, the same samples in two runs, and what
-/// tire_checks.h says. Marks rows of stuck sensors (stuck_sensors.h). Marks a set implausible when one mistake
+/// Warns of runs and channels without samples (find_missing_samples), one run alone, the same samples in two runs, and
+/// what tire_checks.h says. Marks rows of stuck sensors (stuck_sensors.h). Marks a set implausible when one mistake
 /// with columns or units, undone, takes nine tenths of what is odd in it (repairs.h), or when a channel of a run
 /// lies far outside what uncertain parameters and effects of the catalogue can make (plausibility.h).
 /// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
@@ -27,6 +30,10 @@ struct SetChecks {
 ///           a run that cannot be simulated
 /// Checked   tests/diagnosis/set_checks_test.cpp
 SetChecks check_set(const scenarios::MeasurementSet& set, int threads = 0);
+
+/// What was not measured, a sentence each: runs without any sample, channels without one in a run, channels that the
+/// set lacks. Errors  InputError: nothing was measured at all
+std::vector<std::string> find_missing_samples(const scenarios::MeasurementSet& set);
 
 /// The set without the samples of those rows.
 scenarios::MeasurementSet leave_out(scenarios::MeasurementSet set, const std::vector<DoubtfulRows>& rows);

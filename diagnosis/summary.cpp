@@ -82,6 +82,7 @@ std::string verdict_line(const Diagnosis& diagnosis) {
       return line("Verdict", fmt::format("explained, probability {} (none {}, unknown {})",
                                          named ? percent(diagnosis.causes.front().probability) : "0 %", none, unknown));
     case Verdict::kUnexplained:
+      if (!diagnosis.doubt.empty()) return line("Verdict", "unexplained: the files are in doubt, before any physics");
       if (named && !diagnosis.causes.front().adequate) {
         return line("Verdict", "unexplained: looks like this cause, but something else is missing");
       }
@@ -139,6 +140,11 @@ std::string meaning_of(const std::string& id) {
     if (effect->info.id == id) return effect->info.summary;
   }
   return id;
+}
+
+/// Why the files cannot be right, in full.
+std::string doubt_lines(const Diagnosis& diagnosis) {
+  return line("Cause", "none is named until this is mended:") + note("", diagnosis.doubt);
 }
 
 /// What acts beside the first effect; else what may act in its place; else what it is.
@@ -239,8 +245,10 @@ std::string describe_rest(const LoneRun& lone) {
 }  // namespace
 
 std::string format_summary(const Diagnosis& diagnosis) {
-  std::string text = verdict_line(diagnosis) + cause_line(diagnosis) + second_line(diagnosis) + where_line(diagnosis) +
-                     equation_line(diagnosis) + gap_lines(diagnosis) + shrinkage_line(diagnosis);
+  const bool in_doubt = !diagnosis.doubt.empty();
+  std::string text =
+      verdict_line(diagnosis) + (in_doubt ? doubt_lines(diagnosis) : cause_line(diagnosis) + second_line(diagnosis)) +
+      where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) + shrinkage_line(diagnosis);
   text +=
       line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                           : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
@@ -261,7 +269,9 @@ std::string format_summary(const Diagnosis& diagnosis) {
     text += note("Sensor", fmt::format("{} ({:.1g} bits more on an ordinary run, {:.2g} h to fit)", next.sensor,
                                        next.expected_bits, next.hours));
   }
-  for (const std::string& warning : diagnosis.warnings) text += note("Warning", warning);
+  for (const std::string& warning : diagnosis.warnings) {
+    if (warning != diagnosis.doubt) text += note("Warning", warning);
+  }
   return text;
 }
 

@@ -139,6 +139,7 @@ std::string describe_verdict(const Diagnosis& diagnosis) {
         "(probability {}).",
         show_probability(probability_of(diagnosis, "none")));
   }
+  if (!diagnosis.doubt.empty()) return "Unexplained: the files are in doubt, before any physics.";
   if (diagnosis.verdict == Verdict::kUnexplained || !has_cause) {
     const std::string like = has_cause ? fmt::format("; it looks most like {}, but that does not explain it",
                                                      fmt::join(diagnosis.causes.front().effects, " with "))
@@ -155,7 +156,7 @@ std::string describe_verdict(const Diagnosis& diagnosis) {
 Section make_verdict(const Diagnosis& diagnosis) {
   Section section{"Verdict"};
   const char* tone = diagnosis.verdict == Verdict::kUnexplained ? "bad" : "good";
-  std::string more;
+  std::string more = diagnosis.doubt;
   if (diagnosis.verdict == Verdict::kExplained && !diagnosis.causes.empty()) {
     const Cause& cause = diagnosis.causes.front();
     std::string meaning = summary_of(cause.effects.front());

@@ -125,13 +125,13 @@ TEST_CASE("columns and units of a dynamometer's set that cannot be are named", "
   SECTION("speed in m/s") {
     for (double& speed : set.runs[0].columns.at("speed_km_h")) speed /= 3.6;
     const auto checks = diagnosis::check_set(set);
-    CHECK(checks.implausible);
+    CHECK(checks.is_implausible());
     CHECK_THAT(checks.warnings.back(), Catch::Contains("speed_km_h holds m/s"));
   }
   SECTION("loss of the other sign") {
     for (double& loss : set.runs[0].columns.at("loss_force_N")) loss = -loss;
     const auto checks = diagnosis::check_set(set);
-    CHECK(checks.implausible);
+    CHECK(checks.is_implausible());
     CHECK_THAT(checks.warnings.back(), Catch::Contains("loss_force_N has the other sign"));
   }
 }

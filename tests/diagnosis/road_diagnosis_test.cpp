@@ -104,7 +104,7 @@ TEST_CASE("units of a road set that cannot be are named", "[fast]") {
     for (double& traction : run.columns.at("traction_force_N")) traction /= 1e3;
   }
   const auto checks = diagnosis::check_set(set);
-  CHECK(checks.implausible);
+  CHECK(checks.is_implausible());
   CHECK_THAT(checks.warnings.back(), Catch::Contains("traction_force_N holds kN"));
 }
 

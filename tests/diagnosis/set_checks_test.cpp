@@ -70,7 +70,7 @@ struct Answer {
 Answer answer_to(const MeasurementSet& set) {
   try {
     const SetChecks checks = check_set(set);
-    return {checks.implausible, join(checks.warnings)};
+    return {checks.is_implausible(), join(checks.warnings)};
   } catch (const InputError& error) {
     return {true, error.what()};
   }
@@ -99,7 +99,7 @@ TEST_CASE("a set as the simulator makes it is let through without a word", "[fas
   INFO(join(checks.warnings));
   CHECK(checks.warnings.empty());
   CHECK(checks.doubtful.empty());
-  CHECK_FALSE(checks.implausible);
+  CHECK_FALSE(checks.is_implausible());
 }
 
 TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]") {
@@ -119,7 +119,7 @@ TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]"
       CHECK_THAT(join(checks.warnings), !Contains("looks as if"));
       CHECK(checks.doubtful.empty());
       ++sets;
-      stopped += checks.implausible ? 1 : 0;
+      stopped += checks.is_implausible() ? 1 : 0;
     }
   }
   // the far tail of a prior may be outside: parasitic losses many times those of the file
@@ -191,7 +191,7 @@ TEST_CASE("a wrong unit is found beside the uncertainty of the tire file and an 
 
 TEST_CASE("a level that no mistake of the list explains is outside, and said with its ratio", "[fast]") {
   const SetChecks checks = check_set(rescale(short_set(), "drum_torque_Nm", 10.0));
-  CHECK(checks.implausible);
+  CHECK(checks.is_implausible());
   CHECK_THAT(join(checks.warnings), Contains("drum_torque_Nm of all runs (10 of the simulated"));
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
       std::fill(values.begin() + static_cast<std::ptrdiff_t>(from), values.end(), values[200]);
       const SetChecks checks = check_set(set);
       INFO(channel << " from " << from << ": " << join(checks.warnings));
-      CHECK_FALSE(checks.implausible);
+      CHECK_FALSE(checks.is_implausible());
       REQUIRE(checks.doubtful.size() == 1);
       CHECK(checks.doubtful[0].run == 1);
       CHECK(checks.doubtful[0].channel == channel);
@@ -259,6 +259,16 @@ TEST_CASE("nothing measured is an error; a channel without samples a warning", "
   CHECK_THROWS_WITH(check_set(set), Contains("nothing was measured") && Contains(set.path));
 }
 
+TEST_CASE("a run that measured nothing is warned of, once", "[fast]") {
+  MeasurementSet set = short_set();
+  MeasuredRun& empty = set.runs[1];
+  for (const char* channel : kChannels) empty.columns.erase(channel);
+  const std::vector<std::string> missing = diagnosis::find_missing_samples(set);
+  REQUIRE(missing.size() == 1);
+  CHECK_THAT(missing[0], Contains("run " + empty.id) && Contains("measured nothing"));
+  CHECK(join(check_set(set).warnings) == join(missing));
+}
+
 TEST_CASE("torque that never settles is said not to count", "[fast]") {
   MeasurementSet set = short_set();
   for (double& speed_m_s : set.runs[0].columns.at("speed_km_h")) speed_m_s = 10.0 / 3.6;
@@ -269,7 +279,7 @@ TEST_CASE("one run works, and says what it cannot show", "[fast]") {
   MeasurementSet set = short_set();
   set.runs.resize(1);
   const SetChecks checks = check_set(set);
-  CHECK_FALSE(checks.implausible);
+  CHECK_FALSE(checks.is_implausible());
   REQUIRE(checks.warnings.size() == 1);
   CHECK_THAT(checks.warnings[0], Contains("one run only"));
 }

@@ -123,6 +123,20 @@ TEST_CASE("an unknown cause is said to be one", "[fast]") {
   CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalogue"));
 }
 
+TEST_CASE("files in doubt are told of before any physics, once", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.verdict = diagnosis::Verdict::kUnexplained;
+  made.causes.clear();
+  made.doubt = "in run 2 it looks as if cavity_pressure_kPa were in bar: no cause is named until that is mended";
+  made.warnings = {"there is one run only", made.doubt};
+  const std::vector<std::string> lines = lines_of(format_summary(made));
+  CHECK_THAT(lines.at(0), Contains("Verdict") && Contains("files are in doubt"));
+  CHECK_THAT(lines.at(2), Contains("looks as if cavity_pressure_kPa were in bar"));
+  const std::string text = format_summary(made);
+  CHECK(text.find("were in bar") == text.rfind("were in bar"));
+  CHECK_THAT(text, Contains("there is one run only"));
+}
+
 TEST_CASE("warnings follow in full, and long names stay within 80 columns", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.set = std::string(120, 'x');
