@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "sim/core/error.h"
+#include "sim/core/file_io.h"
 
 namespace fs = std::filesystem;
 
@@ -94,8 +95,12 @@ std::string find_asset_of(const TableReader& reader, const std::string& key, con
     throw InputError(at_key);
   }
   if (!fs::exists(path)) {
-    throw reader.problem(key, fmt::format("no such file '{}'", path),
-                         fmt::format("a name under assets/{}, or a path relative to this file", folder));
+    InputProblem missing = reader
+                               .problem(key, fmt::format("no such file '{}'", path),
+                                        fmt::format("a name under assets/{}, or a path relative to this file", folder))
+                               .problem();
+    missing.nearest = nearest_file(path);
+    throw InputError(missing);
   }
   return path;
 }

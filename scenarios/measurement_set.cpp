@@ -33,9 +33,14 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) 
   MeasuredRun run;
   run.id = reader.text("id");
   if (run.id.empty()) throw reader.problem("id", "a run needs a name", "a text that is not empty");
-  run.file = (fs::path(folder) / reader.text("file")).string();
+  const std::string file = reader.text("file");
+  if (file.empty()) throw reader.problem("file", "a run needs a file", "a path relative to this file");
+  run.file = (fs::path(folder) / file).string();
   if (!fs::exists(run.file)) {
-    throw reader.problem("file", fmt::format("no such file '{}'", run.file), "a path relative to this file");
+    InputProblem missing =
+        reader.problem("file", fmt::format("no such file '{}'", run.file), "a path relative to this file").problem();
+    missing.nearest = nearest_file(run.file);
+    throw InputError(missing);
   }
   run.session = reader.text("session");
   run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", kTemperatureRange, ""});
@@ -67,11 +72,12 @@ void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
   }
 }
 
-void check_runs(const TableReader& reader, const MeasurementSet& set) {
+void check_runs(const MeasurementSet& set) {
   std::set<std::string> ids;
   for (const MeasuredRun& run : set.runs) {
     if (!ids.insert(run.id).second) {
-      throw reader.problem("run", fmt::format("two runs have the id '{}'", run.id), "a different id for every run");
+      throw InputError({fmt::format("two runs have the id '{}'", run.id), set.path, 0, "[[run]] id", run.id,
+                        "a different id for every run", ""});
     }
     for (const std::string& channel : measured_channels(set.kind)) {
       if (!run.has(channel) || set.sensors.count(channel) > 0) continue;
@@ -225,11 +231,11 @@ MeasurementSet read_measurement_set(const std::string& folder) {
     set.sensors = models::read_sensors(*sensors, measured_channels(set.kind));
   }
   for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base));
-  if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
   reader.finish();
+  if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
   for (MeasuredRun& run : set.runs) read_run_columns(columns_of(set.kind), run);
   assume_sensors(set);
-  check_runs(reader, set);
+  check_runs(set);
   return set;
 }
 

@@ -17,6 +17,8 @@ namespace rollrig {
 namespace {
 
 std::string text_of(const toml::node& node) {
+  if (node.is_floating_point())
+    return fmt::format("{}", node.as_floating_point()->get());  // 2.8, not 2.7999999999999998
   std::ostringstream out;
   node.visit([&out](const auto& n) { out << n; });
   return out.str();

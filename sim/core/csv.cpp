@@ -80,6 +80,20 @@ class CsvScanner {
   int line_ = 1;
 };
 
+/// Refuses a header that only looks like one column because its fields are separated by something else.
+void require_separated(const std::vector<std::string>& header, const std::string& path, const CsvForm& form) {
+  if (header.size() != 1) return;
+  for (const char other : {';', '\t', ','}) {
+    if (other == form.separator || header[0].find(other) == std::string::npos) continue;
+    const std::string name = other == ';' ? "semicolons" : other == '\t' ? "tabs" : "commas";
+    throw InputError({"the fields are separated by " + name, path, form.header_line, "", header[0].substr(0, 60),
+                      form.separator == ',' ? "commas between fields and a point in numbers, as formats.md has it; "
+                                              "rollrig import reads logs of other forms and writes this one"
+                                            : "the separator that the mapping file names",
+                      ""});
+  }
+}
+
 }  // namespace
 
 CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
@@ -91,6 +105,7 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
   CsvScanner scanner(text, path, form.separator);
   scanner.go_to_line(form.header_line);
   table.columns_ = scanner.next_record();
+  require_separated(table.columns_, path, form);
   for (std::size_t i = 0; i < table.columns_.size(); ++i) {
     const std::string& name = table.columns_[i];
     const auto end = table.columns_.begin() + static_cast<std::ptrdiff_t>(i);

@@ -4,6 +4,7 @@
 #include <sha256.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -88,10 +89,24 @@ bool holds_files(const fs::path& path) { return fs::exists(path) && !fs::is_empt
 
 }  // namespace
 
+std::string nearest_file(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  std::vector<std::string> names;
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, code)) {
+    names.push_back(entry.path().filename().string());
+  }
+  std::sort(names.begin(), names.end());
+  const std::string nearest = nearest_name(fs::path(path).filename().string(), names);
+  return nearest.empty() ? "" : (folder / nearest).string();
+}
+
 std::string read_text_file(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
-  if (status.type() == fs::file_type::not_found) throw file_problem(fmt::format("no such file '{}'", path), path);
+  if (status.type() == fs::file_type::not_found) {
+    throw InputError({fmt::format("no such file '{}'", path), path, 0, "", "", "", nearest_file(path)});
+  }
   if (status.type() == fs::file_type::directory) {
     throw file_problem(fmt::format("'{}' is a directory, not a file", path), path);
   }

@@ -11,6 +11,9 @@ namespace rollrig {
 /// not UTF-8 text.
 std::string read_text_file(const std::string& path);
 
+/// The path of the same folder whose name is nearest to that of `path`, which is not there; empty when none is near.
+std::string nearest_file(const std::string& path);
+
 /// SHA-256 of a string, in hexadecimal.
 std::string calc_sha256(const std::string& content);
 

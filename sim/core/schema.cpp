@@ -16,7 +16,8 @@ const char* kind_of(const ConfigValue& value) {
   return kKinds[value.data.index()];
 }
 
-std::string shown(const ConfigValue& value) { return value.text.empty() ? kind_of(value) : value.text; }
+/// As it stands in the file; nothing of tables and arrays, which no line can show.
+std::string shown(const ConfigValue& value) { return value.text; }
 
 std::string allowed_number(const Field& field) {
   const Unit unit = unit_of_key(field.key);
