@@ -93,7 +93,7 @@ Ceiling find_ceiling(const SetOrder& order) {
   return ceiling;
 }
 
-void write_ceiling(const CeilingOrder& order, const std::function<void(std::size_t, std::size_t)>& progress) {
+CeilingWritten write_ceiling(const CeilingOrder& order, const std::function<void(std::size_t, std::size_t)>& progress) {
   const OpenedTruth truth = open_truth(order.bank);
   const std::string out = order.out.empty() ? (fs::path(order.bank) / "ceiling.json").string() : order.out;
   check_place(out, order.bank);
@@ -108,6 +108,7 @@ void write_ceiling(const CeilingOrder& order, const std::function<void(std::size
   Json json = {{"format", "rollrig-blind-ceiling/1"}, {"truth_sha256", truth.sha256}, {"sets", Json::object()}};
   for (std::size_t i = 0; i < orders.size(); ++i) json["sets"][orders[i].first] = std::move(described[i]);
   write_file(out, json.dump(1) + "\n", "--out");
+  return {out, orders.size()};
 }
 
 }  // namespace blind

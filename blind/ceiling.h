@@ -34,8 +34,13 @@ struct CeilingOrder {
   std::size_t threads = 0;        // 0: as many as there are cores
 };
 
+struct CeilingWritten {
+  std::string file;
+  std::size_t sets = 0;
+};
+
 /// Opens the seal and writes rollrig-blind-ceiling/1. `progress` is told the number of sets done and in all.
 /// Errors  InputError: as open_truth() and require_same_files(); no such set
-void write_ceiling(const CeilingOrder& order, const std::function<void(std::size_t, std::size_t)>& progress);
+CeilingWritten write_ceiling(const CeilingOrder& order, const std::function<void(std::size_t, std::size_t)>& progress);
 
 }  // namespace blind

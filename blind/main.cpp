@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <memory>
 
 #include "blind/bank.h"
 #include "blind/ceiling.h"
@@ -115,10 +116,11 @@ int bank_command(const BankOptions& options) {
 int ceiling_command(const CeilingOrder& order) {
   constexpr auto kQuiet = std::chrono::seconds(2);
   const auto start = std::chrono::steady_clock::now();
-  write_ceiling(order, [&](std::size_t done, std::size_t of) {
+  const CeilingWritten written = write_ceiling(order, [&](std::size_t done, std::size_t of) {
     if (::isatty(STDERR_FILENO) == 0 || std::chrono::steady_clock::now() - start < kQuiet) return;
     std::cerr << fmt::format("\r{} of {} sets{}", done, of, done == of ? "\n" : "");
   });
+  std::cout << fmt::format("ceiling of {} sets with effects written to {}\n", written.sets, written.file);
   return kDone;
 }
 
@@ -198,8 +200,18 @@ CLI::App* add_ceiling(CLI::App& app, CeilingOrder& order) {
   return ceiling;
 }
 
+/// Help within 80 columns: each description on a line of its own.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return fmt::format("  {}{}\n      {}\n", make_option_name(option, is_positional), make_option_opts(option),
+                       make_option_desc(option));
+  }
+};
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"rollrig_blind: measurement sets with a known hidden cause, for judging a diagnosis"};
+  app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
   MakeOptions make;
   BankOptions bank;

@@ -19,6 +19,7 @@
 #include "proof/ranks.h"
 #include "proof/run_bank.h"
 #include "sim/core/error.h"
+#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -100,8 +101,11 @@ int run_tasks(const proof::Ranks& ranks, const RunOptions& options, const std::s
     progress.show(fmt::format("{} of {} sets{}", done, of, order.ranks > 1 ? " of the first process" : ""));
   };
   const proof::RunTally own = proof::run_bank(order);
-  const auto sums = ranks.sum({own.kept, own.made, own.failed, own.interrupted ? 1U : 0U});
+  const auto sums = ranks.sum({own.kept, own.made, own.failures.size(), own.interrupted ? 1U : 0U});
   const bool is_stopped = sums[3] > 0;
+  if (!options.quiet) {
+    for (const auto& [set, why] : own.failures) std::cerr << wrap(fmt::format("set {}: {}", set, why), 2);
+  }
   if (ranks.is_first() && (is_stopped || !options.quiet)) {
     std::string text =
         fmt::format("{} of {} sets answered in {}/: {} now, {} before", sums[0] + sums[1], all, out, sums[1], sums[0]);

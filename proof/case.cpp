@@ -63,6 +63,12 @@ bool Case::is_exact() const {
                      [this](const TrueEffect& effect) { return holds(cause().effects, effect.id); });
 }
 
+bool Case::names_one_of_two() const {
+  if (!is_pair() || !has_cause() || cause().effects.size() != 1) return false;
+  return std::any_of(truth.effects.begin(), truth.effects.end(),
+                     [this](const TrueEffect& effect) { return effect.id == cause().effects.front(); });
+}
+
 bool Case::is_wrong_above(double probability) const {
   return has_cause() && cause().probability > probability && !names_truth();
 }

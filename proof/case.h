@@ -37,6 +37,8 @@ struct Case {
   /// Likewise, and the verdict is that the gap is explained.
   bool is_named() const { return is(diagnosis::Verdict::kExplained) && names_truth(); }
   bool is_exact() const;
+  /// Whether the first cause is one effect, which is one of the two true ones.
+  bool names_one_of_two() const;
   bool is_wrong_above(double probability) const;
   bool is_right_above(double probability) const;
   /// How many effects are as likely as the true one or likelier.

@@ -81,14 +81,45 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   figures.push_back(make_share(
       "pairs", "pairs, both named", only(cases, [](const Case& one) { return one.is_pair(); }),
       [](const Case& one) { return one.is_named(); }, 0.90));
+  // Only a computed ceiling tells that the second effect can be seen beside the first.
+  figures.push_back(make_share(
+      "pairs_identifiable", "  of those that can be told",
+      only(cases,
+           [&](const Case& one) {
+             return one.is_pair() && one.d_prime.has_value() && is_detectable(one, options) &&
+                    one.identifiable.value_or(false);
+           }),
+      [](const Case& one) { return one.is_named(); }, 0.90));
 }
 
-void add_confidence(const Cases& cases, std::vector<Figure>& figures) {
+/// A part of the row above it, for which section 5 has no target.
+Figure make_part(const char* id, const char* label, const Cases& of, const Is& counts) {
+  Figure figure = make_share(id, label, of, counts, 0.0, false);
+  figure.target.reset();
+  return figure;
+}
+
+std::vector<Stated> list_stated(const Cases& cases) {
+  std::vector<Stated> stated;
+  for (const Case& one : cases) {
+    if (one.answer.failure.empty()) stated.push_back(one.stated());
+  }
+  return stated;
+}
+
+std::optional<double> calc_ece_of(const Cases& cases) {
+  const std::vector<Stated> stated = list_stated(cases);
+  return stated.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(stated)));
+}
+
+void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
   const Cases inside = only(cases, [](const Case& one) { return one.is_single() || one.is_pair(); });
   const Cases outside = only(cases, [](const Case& one) { return one.truth.outside; });
   const auto wrong = [](const Case& one) { return one.is_wrong_above(kConfident); };
   figures.push_back(make_share("wrong_above_inside", "wrong above 0.9, in the catalogue", inside, wrong, 0.01, false));
   figures.back().floor = 0.02;
+  figures.push_back(make_part("wrong_above_half", "  with one of two named, alone", inside,
+                              [&](const Case& one) { return wrong(one) && one.names_one_of_two(); }));
   figures.push_back(make_share(
       "wrong_above_of_calls", "  of what is stated above 0.9",
       only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); }), wrong, 0.01, false));
@@ -97,14 +128,12 @@ void add_confidence(const Cases& cases, std::vector<Figure>& figures) {
   figures.push_back(make_share(
       "abstention", "abstention, outside of it", outside,
       [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kExplained); }, 0.90));
-  std::vector<Stated> stated;
-  for (const Case& one : cases) {
-    if (one.answer.failure.empty()) stated.push_back(one.stated());
-  }
+  const std::vector<Stated> stated = list_stated(cases);
   const bool any = !stated.empty();
-  figures.push_back(make_number("ece", "calibration, ECE",
-                                any ? std::optional<double>(calc_ece(find_reliability(stated))) : std::nullopt,
-                                stated.size(), Unit::kNumber, 0.02));
+  figures.push_back(make_number("ece", "calibration, ECE", calc_ece_of(cases), stated.size(), Unit::kNumber, 0.02));
+  const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
+  figures.push_back(make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(),
+                                Unit::kNumber, std::nullopt));
   figures.push_back(make_number("brier", "calibration, Brier score",
                                 any ? std::optional<double>(calc_brier(stated)) : std::nullopt, stated.size(),
                                 Unit::kNumber, 0.08));
@@ -145,7 +174,7 @@ void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
   figures.push_back(make_number("shrinkage_tenth", "  10th percentile", quantile(ratios, kTenth), ratios.size(),
                                 Unit::kNumber, 0.8, true));
   if (ratios.empty()) {
-    figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig blind oracle";
+    figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig blind oracle <bank> answers it";
   }
 }
 
@@ -174,7 +203,7 @@ void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
   std::vector<Figure> figures;
   add_names(cases, options, figures);
-  add_confidence(cases, figures);
+  add_confidence(cases, options, figures);
   add_sizes(cases, figures);
   add_shrinkage(cases, figures);
   add_the_rest(cases, figures);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <mutex>
 
 #include "proof/bank.h"
 #include "scenarios/measurement_set.h"
@@ -61,7 +62,7 @@ class BankRun {
     } catch (const Interrupted&) {
       interrupted_ = true;
     }
-    return {kept_, made_, failed_, interrupted_};
+    return {kept_, made_, failures_, interrupted_};
   }
 
  private:
@@ -75,14 +76,20 @@ class BankRun {
     const std::optional<Answer> before = find_answer(order_.out, task.set);
     if (before && before->set_sha256 == answer.set_sha256 && before->settings == answer.settings) {
       ++kept_;
-      failed_ += before->failure.empty() ? 0 : 1;
+      note_failure(*before);
     } else {
       diagnose(folder, order_.answer_by, answer);
       write_answer(order_.out, answer);
       ++made_;
-      failed_ += answer.failure.empty() ? 0 : 1;
+      note_failure(answer);
     }
     if (order_.progress) order_.progress(kept_ + made_, own_.size());
+  }
+
+  void note_failure(const Answer& answer) {
+    if (answer.failure.empty()) return;
+    const std::lock_guard<std::mutex> lock(failures_mutex_);
+    failures_[answer.set] = answer.failure;
   }
 
   const RunOrder& order_;
@@ -90,7 +97,8 @@ class BankRun {
   std::vector<Task> own_;
   std::atomic<std::size_t> kept_{0};
   std::atomic<std::size_t> made_{0};
-  std::atomic<std::size_t> failed_{0};
+  std::map<std::string, std::string> failures_;
+  std::mutex failures_mutex_;
   bool interrupted_ = false;
 };
 

@@ -35,9 +35,9 @@ struct RunOrder {
 };
 
 struct RunTally {
-  std::size_t kept = 0;    // answered before, by this program, of these files
-  std::size_t made = 0;    // answered now
-  std::size_t failed = 0;  // of the tasks of this process: the answer is that the diagnosis failed
+  std::size_t kept = 0;                         // answered before, by this program, of these files
+  std::size_t made = 0;                         // answered now
+  std::map<std::string, std::string> failures;  // of the tasks of this process, why a set could not be diagnosed
   bool interrupted = false;
 };
 

@@ -202,7 +202,7 @@ TEST_CASE("a baseline's folder is scored where it is there, and the process by i
     run.answer_by = [&method](const auto& set, const auto& settings) {
       return proof::diagnose_by(method, set, settings);
     };
-    CHECK(proof::run_bank(run).failed == 3);  // the sets are no sets
+    CHECK(proof::run_bank(run).failures.size() == 3);  // the sets are no sets
   }
   const auto scores = proof::score_baselines(order, {});
   REQUIRE(scores.size() == 2);

@@ -76,6 +76,22 @@ TEST_CASE("the figures of a bank are those counted by hand", "[fast]") {
   CHECK(score.missed.size() == 7);  // all but 0001, 0002 (by its set), 0007, 0009 and 0011
 }
 
+TEST_CASE("one of two causes, named alone, is told from another cause", "[fast]") {
+  const Case pair = make_case("0001", {"windage", "rim_heat"});
+  Case seen = say_cause(pair, {"rim_heat"}, 0.95);
+  Case told = say_cause(pair, {"rim_heat", "windage"}, 0.95);
+  const Case other = say_cause(pair, {"slow_leak"}, 0.95);
+  const Case single = say_cause(make_case("0004", {"rim_heat"}), {"windage"}, 0.95);
+  const proof::Score score = proof::score_cases({seen, told, other, single}, {});
+  check_share(score, "wrong_above_inside", 3, 4);
+  check_share(score, "wrong_above_half", 1, 4);
+  CHECK_FALSE(figure_of(score, "pairs_identifiable").value.has_value());  // no ceiling was computed
+  seen.d_prime = told.d_prime = 20.0;
+  seen.identifiable = false;  // the second effect cannot be seen beside the first
+  told.identifiable = true;
+  check_share(proof::score_cases({seen, told, other, single}, {}), "pairs_identifiable", 1, 1);
+}
+
 TEST_CASE("top-3 counts who is as likely as the truth against it", "[fast]") {
   Case one = say_cause(make_case("0001", {"rim_heat"}), {"windage"}, 0.5);
   auto& probability = one.answer.diagnosis.probability;
