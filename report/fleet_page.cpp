@@ -77,7 +77,10 @@ Block make_gaps(const Fleet& fleet) {
 }  // namespace
 
 Page make_fleet_page(const Fleet& fleet) {
-  Page page{"diagnose", fmt::format("Diagnosis of {} sets", fleet.members.size()), "", {}, false, {}};
+  Page page{
+      "diagnose", fmt::format("Diagnosis of {} set{}", fleet.members.size(), fleet.members.size() == 1 ? "" : "s"),
+      "",         {},
+      false,      {}};
   page.add({"Sets", "", {make_members(fleet), make_gaps(fleet)}});
   Section back{"What comes back"};
   back.blocks.push_back(

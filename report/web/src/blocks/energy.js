@@ -42,17 +42,25 @@ function makeFlow(block, unit) {
   return { nodes: [...nodes.values()], links };
 }
 
+/// Columns of the flow: nodes on its longest way.
+function countColumns(links) {
+  const reach = (name) => 1 + Math.max(0, ...links.filter((l) => l.source === name).map((l) => reach(l.target)));
+  return Math.max(1, ...links.map((l) => reach(l.source)));
+}
+
 function makeOption(block, unit, width) {
   const { nodes, links } = makeFlow(block, unit);
+  const right = width < 600 ? 84 : 170;
+  const label = Math.min(right, (width - right) / Math.max(1, countColumns(links) - 1)) - 18; // px from one column to the next
   const carried = (name) => Math.max(links.filter((l) => l.source === name).reduce((s, l) => s + l.value, 0),
     links.filter((l) => l.target === name).reduce((s, l) => s + l.value, 0));
   return {
     ...baseOption(),
     tooltip: { ...baseOption().tooltip, formatter: (p) => (p.dataType === 'edge' ? `${p.data.source} to ${p.data.target}: <b>${number(p.data.value)} ${unit.symbol}</b>` : `${p.name}: <b>${number(p.value)} ${unit.symbol}</b>`) },
     series: [{
-      type: 'sankey', left: 4, right: width < 600 ? 84 : 170, top: 12, bottom: 12, nodeWidth: 10, nodeGap: 28, draggable: false, nodeAlign: 'left',
+      type: 'sankey', left: 4, right, top: 12, bottom: 12, nodeWidth: 10, nodeGap: 28, draggable: false, nodeAlign: 'left',
       data: nodes, links, layoutIterations: 64, emphasis: { disabled: true },
-      label: { color: colour('ink'), fontSize: width < 600 ? 10.5 : 12, formatter: (p) => `${p.name}\n${number(carried(p.name))} ${unit.symbol}`, lineHeight: 15 },
+      label: { color: colour('ink'), fontSize: width < 600 ? 10.5 : 12, formatter: (p) => `${p.name}\n${number(carried(p.name))} ${unit.symbol}`, lineHeight: 15, width: label, overflow: 'break' },
       lineStyle: { color: colour('flow'), opacity: 0.32, curveness: 0.5 },
     }],
   };

@@ -144,7 +144,7 @@ function makeOption(block, span, unit, width) {
       const narrow = isNarrow(width);
       legends.push({ data: panel.series.map((s) => ({ name: uniqueName(panel, s), itemStyle: { opacity: s.points ? 1 : 0 } })), formatter: (name) => name.split('|').at(-1), type: 'scroll', top: top - (narrow ? 20 : 24), pageIconSize: 10, pageTextStyle: { color: colour('soft') },
         ...(narrow ? { left: kLeft - 8, right: kRight } : { right: kRight, width: width - 230 }), itemWidth: 26, itemHeight: 8, itemGap: 12, padding: 0,
-        textStyle: { fontSize: 11, color: colour('soft') }, inactiveColor: colour('grid') });
+        textStyle: { fontSize: 11, lineHeight: 16, color: colour('soft') }, inactiveColor: colour('grid') });
     }
     panel.series.forEach((one, k) => series.push(makeSeries(panel, one, i, k, unit, block.phases || [])));
   });
