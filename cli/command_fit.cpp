@@ -31,11 +31,12 @@ struct Options {
 std::string short_name(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
 
 scenarios::ResultTable make_table(const identification::TireFit& fit) {
-  scenarios::ResultTable table{
-      "Fitted, with standard uncertainty and 95 % interval", {"parameter", "value", "sd", "from", "to"}, {}};
+  scenarios::ResultTable table{"Fitted, with standard uncertainty and 95 % interval (* beside a prior)",
+                               {"parameter", "value", "sd", "from", "to"},
+                               {}};
   for (const identification::Estimate& estimate : fit.estimates) {
     const auto number = [](double value) { return fmt::format("{:.5g}", value); };
-    table.rows.push_back({short_name(estimate.key) + (estimate.nuisance ? " (prior)" : ""), number(estimate.value),
+    table.rows.push_back({short_name(estimate.key) + (estimate.nuisance ? " *" : ""), number(estimate.value),
                           number(estimate.sd), number(estimate.lower_95()), number(estimate.upper_95())});
   }
   return table;

@@ -5,7 +5,9 @@
 
 #include <exception>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
@@ -30,6 +32,27 @@ constexpr const char* kFooter =
     "  rollrig diagnose --explain bearing_warmup\n"
     "Exit status: 0 done, 1 a regression differs, 2 input or usage, 3 the run failed.\n";
 
+/// A command's own examples, below its help.
+void add_examples(const CLI::App& app) {
+  static const std::map<std::string, std::string> kExamples{
+      {"run",
+       "  rollrig run iso_28580 --tire a50\n"
+       "  rollrig run warm_up --tire a60 --set speed_km_h=120 --out warm\n"},
+      {"sweep", "  rollrig sweep iso_28580 --tire a50 --vary pressure_kPa=210:310:20\n"},
+      {"regress", "  rollrig regress runs\n"},
+      {"validate", "  rollrig validate campaign\n"},
+      {"describe",
+       "  rollrig describe iso_28580\n"
+       "  rollrig describe a50\n"},
+      {"diagnose",
+       "  rollrig diagnose campaign --json why.json --html why.html\n"
+       "  rollrig diagnose campaign --plan next\n"
+       "  rollrig diagnose --explain bearing_warmup\n"},
+      {"import", "  rollrig import logs/import.toml --out campaign\n"},
+      {"export", "  rollrig export warm --mat warm.mat\n"}};
+  for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
+}
+
 int report(const char* what, const std::string& text, int status) {
   std::cout << std::flush;
   std::cerr << what << ": " << text << '\n';
@@ -38,7 +61,6 @@ int report(const char* what, const std::string& text, int status) {
 
 int parse_and_run(int argc, char** argv) {
   CLI::App app{kDescription, "rollrig"};
-  app.footer(kFooter);
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
   app.fallthrough();
@@ -61,6 +83,8 @@ int parse_and_run(int argc, char** argv) {
   add_convert_command(app, action);
   add_completion_command(app, action);
   add_man_command(app, action);
+  app.footer(kFooter);  // subcommands made after it would repeat it
+  add_examples(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
