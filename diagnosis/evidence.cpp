@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/thresholds.h"
+
 namespace rollrig::diagnosis {
 double log_sum_exp(const std::vector<double>& logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
@@ -22,6 +24,20 @@ AmplitudePrior near_amplitude(double middle) {
     sum += prior.weights.back();
   }
   for (double& weight : prior.weights) weight /= sum;
+  return prior;
+}
+
+AmplitudePrior law_amplitude(double least, double middle) {
+  AmplitudePrior prior = near_amplitude(middle);
+  constexpr double kStep = 4.0;
+  std::vector<double> below;
+  for (double amplitude = prior.amplitudes.front() / kStep; amplitude >= least; amplitude /= kStep) {
+    below.push_back(amplitude);
+  }
+  if (below.empty()) return prior;
+  for (double& weight : prior.weights) weight *= 1.0 - thresholds::kExactLaw;
+  prior.amplitudes.insert(prior.amplitudes.end(), below.begin(), below.end());
+  prior.weights.resize(prior.amplitudes.size(), thresholds::kExactLaw / static_cast<double>(below.size()));
   return prior;
 }
 

@@ -16,6 +16,10 @@ struct AmplitudePrior {
 /// Log-normal around a middle, on a grid of factors of two.
 AmplitudePrior near_amplitude(double middle);
 
+/// Likewise, and with `kExactLaw` of the weight below it, in factors of four down to `least`: a law may be as wrong as
+/// `middle`, yet of a huge effect that would be much more than a good law leaves.
+AmplitudePrior law_amplitude(double least, double middle);
+
 /// Evidence of a hypothesis linear about an expansion point.
 /// Equation  Z = sum over amplitudes of w |Sigma|^-1/2 |M|^-1/2 exp(-chi2/2),
 ///           M = 1 + J^T Sigma^-1 J, g = u + J^T Sigma^-1 r, chi2 = r^T Sigma^-1 r + u^T u - g^T M^-1 g

@@ -40,23 +40,24 @@ Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& diff
   return sums;
 }
 
-/// Of what a hypothesis changes in a channel, as far as the loosest of its laws goes.
-double find_law_share(const ModelError& error, const Hypothesis& hypothesis) {
-  double share = error.law_share;
+/// The shares of model error as far as the loosest of a hypothesis' laws goes.
+ModelError loosen(ModelError error, const Hypothesis& hypothesis) {
   for (const LooseLaw& loose : thresholds::kLooseLaws) {
     for (const ActingEffect& on : hypothesis.effects) {
-      if (on.effect->info.id == loose.effect) share = std::max(share, loose.law_share);
+      if (on.effect->info.id != loose.effect) continue;
+      error.law_share = std::max(error.law_share, loose.law_share);
+      error.whole_share = std::max(error.whole_share, loose.whole_share);
     }
   }
-  return share;
+  return error;
 }
 
-Amplitudes expect_model_error(const ModelError& error, const Contender& contender) {
-  const double law_share = find_law_share(error, contender.fit.hypothesis);
+Amplitudes expect_model_error(const ModelError& usual, const Contender& contender) {
+  const ModelError error = loosen(usual, contender.fit.hypothesis);
   Amplitudes expected;
   for (std::size_t c = 0; c < contender.signature.size(); ++c) {
-    expected.push_back(
-        std::hypot(error.baseline_floors, law_share * contender.signature[c], error.whole_share * contender.whole[c]));
+    expected.push_back(std::hypot(error.baseline_floors, error.law_share * contender.signature[c],
+                                  error.whole_share * contender.whole[c]));
   }
   return expected;
 }
@@ -116,13 +117,17 @@ void Referee::weigh(Contender& contender) const {
   std::vector<AmplitudePrior> small;
   std::vector<AmplitudePrior> free;
   for (const double amplitude : expected) {
-    small.push_back(near_amplitude(amplitude));
+    small.push_back(law_amplitude(error.baseline_floors, amplitude));
     free.push_back(free_amplitude(amplitude));
   }
   const Evidence::Sum sum = evidence.integrate(small);
   contender.log_evidence = sum.log_value;
   contender.amplitudes = sum.mean;
   const Evidence repeated(of_conditions_, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+  // What the law of an effect leaves out comes back in like conditions, or does not: as likely one as the other.
+  if (!contender.fit.hypothesis.effects.empty()) {
+    contender.log_evidence = log_sum_exp({sum.log_value, repeated.integrate(small).log_value}) - std::log(2.0);
+  }
   // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other. On top of an
   // effect it is as likely a distortion of what that effect does.
   std::vector<double> logs{evidence.integrate(free).log_value, repeated.integrate(free).log_value};

@@ -28,16 +28,19 @@ struct ModelError {
   double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
 };
 
-/// Effects whose law leaves out more than `law_share`, and how much.
+/// Effects whose law leaves out more than `law_share` and `whole_share`, and how much.
 struct LooseLaw {
   const char* effect;
   double law_share;
+  double whole_share;
 };
 
 namespace thresholds {
 
 constexpr LooseLaw kLooseLaws[] = {
-    {"wind_and_grade", 0.3}};  // Assumed: gusts and turns of the road, a third of a mean wind
+    {"wind_and_grade", 0.3, 0.09}};  // Assumed: gusts and turns of the road, a third of a mean wind
+
+constexpr double kExactLaw = 0.3;  // Assumed: that a law is better than the shares of model error say
 
 // Screening and refits.
 constexpr double kScreened_nats = 6.0;        // design: all effects within so much of the best are refitted,

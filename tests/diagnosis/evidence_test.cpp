@@ -219,6 +219,22 @@ TEST_CASE("amplitudes near a middle are as likely half as twice it", "[fast]") {
   CHECK(std::exp(mean_log) == Approx(0.4));
 }
 
+TEST_CASE("a law may be better than the share of a huge effect", "[fast]") {
+  const auto weight_below = [](const AmplitudePrior& prior, double amplitude) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < prior.weights.size(); ++i)
+      sum += prior.amplitudes[i] < amplitude ? prior.weights[i] : 0;
+    return sum;
+  };
+  const AmplitudePrior huge = diagnosis::law_amplitude(0.1, 8.0);
+  CHECK(weight_below(huge, 1e9) == Approx(1.0));
+  CHECK(weight_below(huge, 1.0) == Approx(0.3));
+  CHECK(weight_below(huge, 0.1) == 0.0);
+  CHECK(weight_below(diagnosis::near_amplitude(8.0), 1.0) == 0.0);
+  // Of a small effect the middle is next to the least already.
+  CHECK(diagnosis::law_amplitude(0.1, 0.3).amplitudes == diagnosis::near_amplitude(0.3).amplitudes);
+}
+
 TEST_CASE("log sum exp holds where exp does not", "[fast]") {
   using diagnosis::log_sum_exp;
   constexpr double kNever = -std::numeric_limits<double>::infinity();
