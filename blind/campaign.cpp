@@ -1,5 +1,6 @@
 #include "blind/campaign.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace blind {
@@ -23,6 +24,11 @@ Air draw_air(Draws& draws, double mean_degC) {
   air.phase = draws.uniform(0.0, 2.0 * kPi);
   air.slope_K_per_s = draws.uniform(-0.7, 0.7) / 3600.0;
   return air;
+}
+
+bool RunPlan::is_read(double time_s) const {
+  return std::none_of(unread_s.begin(), unread_s.end(),
+                      [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
 }
 
 Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs) {

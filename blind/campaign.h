@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "blind/specimen.h"
@@ -52,8 +53,13 @@ struct RunPlan {
   bool started_warm = false;              // right after another run
   Air air;
   std::vector<Leg> legs;
+  std::optional<double> surface_degC;               // at which drum or roller is held, and recorded; none: as it goes
+  bool reads_zero = false;                          // the force is logged while the surface stands
+  std::vector<std::pair<double, double>> unread_s;  // from, to: nothing is logged
 
   std::size_t index = 0;  // in the campaign
+
+  bool is_read(double time_s) const;
 
   double end_s() const { return legs.back().end_s(); }
 };

@@ -89,7 +89,10 @@ Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, c
     drop_samples(seed, run.id, channel, columns[i]);
   }
   for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-    if (record.speed_km_h[row] < kLeastForceSpeed_km_h) columns[0][row] = std::nan("");
+    const bool reads_zero = run.reads_zero && record.speed_km_h[row] == 0.0;
+    if (record.speed_km_h[row] < kLeastForceSpeed_km_h && !reads_zero) columns[0][row] = std::nan("");
+    if (run.is_read(record.time_s[row])) continue;
+    for (std::vector<double>& column : columns) column[row] = std::nan("");
   }
   return columns;
 }

@@ -34,7 +34,8 @@ std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& camp
 
 Columns columns_of(const RunRecord& record);
 
-/// What the loggers write of a run: with the errors of the sensors unless `noise_free`, the force empty at low speed.
+/// What the loggers write of a run: with the errors of the sensors unless `noise_free`, the force empty at low speed
+/// (unless its zero is read at standstill), all empty where the plan of the run says so.
 Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, const RunRecord& record,
                 bool noise_free);
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
 #include <memory>
 
@@ -12,6 +13,7 @@
 #include "blind/ceiling.h"
 #include "blind/effect.h"
 #include "blind/effect_options.h"
+#include "blind/follow_up.h"
 #include "blind/kind_options.h"
 #include "blind/measurement_set.h"
 #include "blind/output.h"
@@ -19,6 +21,8 @@
 
 namespace blind {
 namespace {
+
+constexpr int kMostThreads = 1024;
 
 enum ExitStatus { kDone = 0, kInputError = 2, kRunFailed = 3 };
 
@@ -113,14 +117,24 @@ int bank_command(const BankOptions& options) {
   return kDone;
 }
 
-int ceiling_command(const CeilingOrder& order) {
-  constexpr auto kQuiet = std::chrono::seconds(2);
-  const auto start = std::chrono::steady_clock::now();
-  const CeilingWritten written = write_ceiling(order, [&](std::size_t done, std::size_t of) {
+/// Counts on a terminal what takes more than two seconds.
+std::function<void(std::size_t, std::size_t)> make_progress() {
+  static constexpr auto kQuiet = std::chrono::seconds(2);
+  return [start = std::chrono::steady_clock::now()](std::size_t done, std::size_t of) {
     if (::isatty(STDERR_FILENO) == 0 || std::chrono::steady_clock::now() - start < kQuiet) return;
     std::cerr << fmt::format("\r{} of {} sets{}", done, of, done == of ? "\n" : "");
-  });
+  };
+}
+
+int ceiling_command(const CeilingOrder& order) {
+  const CeilingWritten written = write_ceiling(order, make_progress());
   std::cout << fmt::format("ceiling of {} sets with effects written to {}\n", written.sets, written.file);
+  return kDone;
+}
+
+int follow_up_command(const FollowUpOrder& order) {
+  const std::size_t sets = write_follow_up(order, make_progress());
+  std::cout << fmt::format("{} sets with their next test in {}/sets\n", sets, follow_up_folder(order));
   return kDone;
 }
 
@@ -189,7 +203,6 @@ CLI::App* add_bank(CLI::App& app, BankOptions& options) {
 }
 
 CLI::App* add_ceiling(CLI::App& app, CeilingOrder& order) {
-  constexpr int kMostThreads = 1024;
   CLI::App* ceiling =
       app.add_subcommand("ceiling", "Open the seal of a bank: what an ideal observer makes of its sets");
   ceiling->add_option("bank", order.bank, "Folder made by bank")->required();
@@ -209,6 +222,16 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
+CLI::App* add_follow_up(CLI::App& app, FollowUpOrder& order) {
+  CLI::App* command = app.add_subcommand(
+      "followup", "Open the seal of a bank: its sets again, with the tests that rollrig blind plan wrote");
+  command->add_option("bank", order.bank, "Folder made by bank")->required();
+  command->add_flag("--drawn", order.drawn, "The tests drawn from the menu, not those proposed");
+  command->add_option("--threads", order.threads, "Sets at a time [as many as there are cores]")
+      ->check(CLI::Range(1, kMostThreads));
+  return command;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"rollrig_blind: measurement sets with a known hidden cause, for judging a diagnosis"};
   app.formatter(std::make_shared<HelpFormatter>());
@@ -219,6 +242,8 @@ int parse_and_run(int argc, char** argv) {
   const CLI::App* make_app = add_make(app, make);
   const CLI::App* bank_app = add_bank(app, bank);
   const CLI::App* ceiling_app = add_ceiling(app, ceiling);
+  FollowUpOrder follow_up;
+  const CLI::App* follow_up_app = add_follow_up(app, follow_up);
   app.add_subcommand("list", "Effects, their sizes and laws");
   try {
     app.parse(argc, argv);
@@ -226,7 +251,7 @@ int parse_and_run(int argc, char** argv) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
     throw InputError({error.what(), "command line", "",
-                      "make, bank, ceiling or list; see rollrig_blind <command> --help",
+                      "make, bank, ceiling, followup or list; see rollrig_blind <command> --help",
                       find_nearest_option(app, argc, argv)});
   }
   int status = kDone;
@@ -236,6 +261,8 @@ int parse_and_run(int argc, char** argv) {
     status = bank_command(bank);
   } else if (ceiling_app->parsed()) {
     status = ceiling_command(ceiling);
+  } else if (follow_up_app->parsed()) {
+    status = follow_up_command(follow_up);
   } else {
     status = list_command();
   }

@@ -27,12 +27,13 @@ std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
                         run.cold_pressure_kPa);
     if (run.rest_before_min.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_min);
     if (run.started_warm) text += "tire_state = \"warm\"\n";
+    if (run.reads_zero) text += "force_at_standstill = true\n";
   }
   return text;
 }
 
 /// What the rig or the vehicle was told, or reports, at a row.
-void write_given(const RunRecord& record, std::size_t row, std::string& text) {
+void write_given(const RunPlan& run, const RunRecord& record, std::size_t row, std::string& text) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "{:.0f},{:.9g},", record.time_s[row], record.speed_km_h[row]);
   if (record.specimen->kind == Kind::kRoad) {
@@ -42,20 +43,22 @@ void write_given(const RunRecord& record, std::size_t row, std::string& text) {
   fmt::format_to(out, "{:.10g},", record.load_N[row]);
   if (record.specimen->kind == Kind::kDyno) fmt::format_to(out, "{:.9g},", record.longitudinal_N[row]);
   fmt::format_to(out, "{:.2f}", record.ambient_degC[row]);
+  if (run.surface_degC.has_value()) fmt::format_to(out, ",{:.10g}", *run.surface_degC);
 }
 
-std::string write_header(Kind kind) {
+std::string write_header(Kind kind, const RunPlan& run) {
   std::string text = "time_s,speed_km_h,load_N,ambient_degC";
   if (kind == Kind::kDyno) text = "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC";
   if (kind == Kind::kRoad) text = "time_s,speed_km_h,elevation_m,ambient_degC";
+  if (run.surface_degC.has_value()) text += ",surface_temperature_degC";
   for (const Channel& channel : channels_of(kind)) text += fmt::format(",{}", channel.name);
   return text + "\n";
 }
 
-std::string write_run_file(const RunRecord& record, const Columns& measured, bool noise_free) {
-  std::string text = write_header(record.specimen->kind);
+std::string write_run_file(const RunPlan& run, const RunRecord& record, const Columns& measured, bool noise_free) {
+  std::string text = write_header(record.specimen->kind, run);
   for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-    write_given(record, row, text);
+    write_given(run, record, row, text);
     for (const std::vector<double>& column : measured) {
       if (std::isnan(column[row])) {
         text += ",";
@@ -83,7 +86,7 @@ Files write_files(const SetOrder& order, const Laboratory& lab, const std::vecto
   for (std::size_t r = 0; r < records.size(); ++r) {
     const RunPlan& run = lab.campaign.runs[r];
     const Columns columns = measure(order.seed, lab, run, records[r], noise_free);
-    files[run.id + ".csv"] = write_run_file(records[r], columns, noise_free);
+    files[run.id + ".csv"] = write_run_file(run, records[r], columns, noise_free);
   }
   return files;
 }
@@ -133,6 +136,17 @@ Json describe(const SetOrder& order, const Laboratory& lab) {
 }
 
 }  // namespace
+
+Files follow_up(const SetOrder& order, std::vector<RunPlan> further) {
+  Laboratory lab = draw_laboratory(order);
+  Json ignored = Json::array();
+  const Effects effects = draw_effects(order, lab.specimen, ignored);
+  for (RunPlan& run : further) {
+    run.index = lab.campaign.runs.size();
+    lab.campaign.runs.push_back(std::move(run));
+  }
+  return write_files(order, lab, record_all(lab.specimen, lab.campaign, effects), order.noise_free);
+}
 
 Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, bool drawn) {
   Grounds grounds = grounds_of(kind);

@@ -43,4 +43,8 @@ Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, 
 /// Makes a set. Its files are a function of the order and nothing else.
 MadeSet make_set(const SetOrder& order, bool with_counterfactual);
 
+/// The files of the same set with further runs after its own: same specimen, effects, sensors. Streams of random
+/// numbers go by session and run, so that its own runs are the same to the bit.
+Files follow_up(const SetOrder& order, std::vector<RunPlan> further);
+
 }  // namespace blind

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "blind/effect.h"
@@ -17,17 +16,6 @@ namespace blind {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string read_whole(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) {
-    throw InputError({fmt::format("cannot read '{}'", path.string()), "bank", path.parent_path().string(),
-                      "a folder made by rollrig_blind bank", ""});
-  }
-  return text.str();
-}
 
 InputError no_truth(const std::string& what) {
   return InputError({"not the truth of a bank: " + what, "bank", "", "a folder made by this rollrig_blind bank", ""});
@@ -55,8 +43,8 @@ void read_effect(const Json& effect, SetOrder& order) {
 }  // namespace
 
 OpenedTruth open_truth(const std::string& bank) {
-  const std::string text = read_whole(fs::path(bank) / "truth.json");
-  std::istringstream seal(read_whole(fs::path(bank) / "seal.sha256"));
+  const std::string text = read_whole((fs::path(bank) / "truth.json").string());
+  std::istringstream seal(read_whole((fs::path(bank) / "seal.sha256").string()));
   OpenedTruth opened;
   opened.sha256 = calc_sha256(text);
   std::string sealed;
@@ -90,7 +78,7 @@ SetOrder read_order(const Json& truth) {
 
 void require_same_files(const std::string& folder, const SetOrder& order) {
   for (const auto& [name, content] : make_set(order, false).files) {
-    if (read_whole(fs::path(folder) / name) == content) continue;
+    if (read_whole((fs::path(folder) / name).string()) == content) continue;
     throw InputError({fmt::format("'{}/{}' is not what this program makes of its truth", folder, name), "bank", folder,
                       "a bank made by this version of rollrig_blind", ""});
   }

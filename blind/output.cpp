@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "blind/problem.h"
 
@@ -96,6 +97,17 @@ bool lies_within(const std::string& path, const std::string& folder) {
   const fs::path relative = fs::weakly_canonical(absolute_without_end_slash(path))
                                 .lexically_relative(fs::weakly_canonical(absolute_without_end_slash(folder)));
   return !relative.empty() && *relative.begin() != "..";
+}
+
+std::string read_whole(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) {
+    throw InputError({fmt::format("cannot read '{}'", path), "bank", fs::path(path).parent_path().string(),
+                      "a folder made by rollrig_blind bank", ""});
+  }
+  return text.str();
 }
 
 std::string calc_sha256(const std::string& content) {

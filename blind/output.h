@@ -35,6 +35,9 @@ void write_file(const std::string& path, const std::string& content, const std::
 /// Whether `path` lies in `folder`.
 bool lies_within(const std::string& path, const std::string& folder);
 
+/// All of a bank's file. Throws InputError.
+std::string read_whole(const std::string& path);
+
 std::string calc_sha256(const std::string& content);
 
 }  // namespace blind

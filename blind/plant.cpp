@@ -70,7 +70,8 @@ double Plant::load_at(double time_s) const {
   const double root = std::sqrt(1.0 - specimen_.load_damping * specimen_.load_damping);
   const double angle = root * specimen_.load_frequency_rad_s * std::max(0.0, since_s);
   const double left = decay * (std::cos(angle) + specimen_.load_damping / root * std::sin(angle));
-  return leg_.load_N + (load_before_N_ - leg_.load_N) * left;
+  const double load_N = leg_.load_N + (load_before_N_ - leg_.load_N) * left;
+  return leg_.load_N > 0.0 ? load_N : std::max(0.0, load_N);  // a lifted tire does not pull
 }
 
 double Plant::recorded_speed_at(double time_s) const {
@@ -87,8 +88,10 @@ double Plant::moving_mass_kg(double load_N) const {
   if (specimen_.kind == Kind::kDyno) return 0.0;  // the rig compensates it
   if (specimen_.kind == Kind::kRoad) return specimen_.truth(Base::kMass) + specimen_.truth(Base::kRotatingMass);
   const double drum_m = 0.5 * specimen_.drum_diameter_m;
+  const double drum_kg = specimen_.drum_inertia_kg_m2 / (drum_m * drum_m);
+  if (leg_.load_N <= 0.0) return drum_kg;  // the wheel is off the drum
   const double wheel_m = 0.5 * specimen_.outer_diameter_m - load_N / specimen_.vertical_N_per_m;
-  return specimen_.drum_inertia_kg_m2 / (drum_m * drum_m) + specimen_.spin_inertia_kg_m2 / (wheel_m * wheel_m);
+  return drum_kg + specimen_.spin_inertia_kg_m2 / (wheel_m * wheel_m);
 }
 
 Instant Plant::find_instant(double time_s, const double* state) const {
@@ -114,6 +117,7 @@ Instant Plant::find_instant(double time_s, const double* state) const {
       specimen_.kind == Kind::kRoad ? vehicle_friction_N(time_s) / specimen_.tires : std::max(0.0, -now.longitudinal_N);
   now.distance_m = leg_.start_distance_m + 0.5 * (leg_.start_m_s + now.speed_m_s) * (time_s - leg_.start_s);
   for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->enter(state + effect_state_[i], now);
+  if (leg_.load_N <= 0.0) now.load_N = load_at(time_s);  // whatever a record or a strap says, a lifted tire is off
   now.pressure_kPa = 1e-3 * (gas_J / (kFreedoms * cavity_m3_ * now.volume_factor) - kAir_Pa);
   return now;
 }
@@ -147,6 +151,7 @@ double Plant::calc_vehicle_N(const Instant& now) const {
 /// Each layer loses by its own temperature; the mean of all is the rolling resistance.
 void Plant::find_losses(const double* state, Instant& now, std::vector<double>& layer_loss_N) const {
   for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->act(state + effect_state_[i], now);
+  if (run_.surface_degC.has_value()) now.surface_rise_dK = *run_.surface_degC - now.ambient_degC;
   const double v = now.speed_m_s;
   const double fade = v / std::sqrt(v * v + kWalkingPace_m_s * kWalkingPace_m_s);
   const double cold_N = specimen_.truth(Base::kA0) + specimen_.truth(Base::kA1) * v;

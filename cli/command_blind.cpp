@@ -10,6 +10,7 @@
 #include <set>
 
 #include "cli/command.h"
+#include "cli/command_blind_plan.h"
 #include "cli/command_blind_score.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
@@ -235,6 +236,7 @@ void add_blind_command(CLI::App& app, Action& action) {
   add_run(*blind, action);
   add_baselines(*blind, action);
   add_blind_score(*blind, action);
+  add_blind_plan(*blind, action);
   add_oracle(*blind, action);
 }
 

@@ -38,6 +38,12 @@ void fill_folders(Options& options) {
   if (order.ceiling.empty() && fs::is_regular_file(in_bank(options, "ceiling.json"))) {
     order.ceiling = in_bank(options, "ceiling.json");
   }
+  if (order.truth_was_left_out) return;
+  for (const proof::Choice choice : {proof::Choice::kProposed, proof::Choice::kDrawn}) {
+    std::string& folder = choice == proof::Choice::kDrawn ? order.drawn_tests : order.next_tests;
+    const bool is_there = fs::is_regular_file(in_bank(options, proof::folder_of(choice)) + "/plans.json");
+    if (is_there && order.answers == in_bank(options, "answers")) folder = in_bank(options, proof::folder_of(choice));
+  }
 }
 
 int score_command(Options options) {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "diagnosis/diagnosis_json.h"
+#include "proof/bank.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 
@@ -56,6 +57,10 @@ diagnosis::Diagnosis read_diagnosis(const Json& json) {
   read.gap.as_calibrated = read_view("as_calibrated");
   read.gap.recalibrated = read_view("recalibrated");
   if (gap.at("shrink_percent").is_number()) read.gap.shrink_percent = gap.at("shrink_percent").get<double>();
+  for (const Json& of : json.at("next_test")) {
+    read.next_test.push_back({of.at("test").get<std::string>(), of.at("splits").get<std::vector<std::string>>(),
+                              read_number(of.at("expected_bits_per_hour")), read_number(of.at("hours"))});
+  }
   return read;
 }
 
@@ -124,6 +129,12 @@ std::optional<Answer> find_answer(const std::string& folder, const std::string& 
   } catch (const InputError&) {
   }
   return std::nullopt;
+}
+
+std::optional<Answer> find_answer_to(const std::string& bank, const std::string& folder, const std::string& set) {
+  std::optional<Answer> answer = find_answer(folder, set);
+  if (answer.has_value() && answer->set_sha256 != hash_set(set_folder(bank, set))) return std::nullopt;
+  return answer;
 }
 
 }  // namespace rollrig::proof

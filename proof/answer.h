@@ -25,7 +25,7 @@ struct Answer {
   std::string set;
   std::string set_sha256;
   Settings settings;
-  diagnosis::Diagnosis diagnosis;  // read back: verdict, probability, causes, gap
+  diagnosis::Diagnosis diagnosis;  // read back: verdict, probability, causes, gap, next tests without their runs
   std::string failure;             // why there is no diagnosis
   double seconds = 0.0;            // on one thread
   double cpu_seconds = 0.0;
@@ -41,5 +41,7 @@ std::string answer_file(const std::string& folder, const std::string& set);
 void write_answer(const std::string& folder, const Answer& answer);
 /// None where there is no file, or one that is no answer.
 std::optional<Answer> find_answer(const std::string& folder, const std::string& set);
+/// Likewise, and none where the answer is to other files than those that the set of the bank has now.
+std::optional<Answer> find_answer_to(const std::string& bank, const std::string& folder, const std::string& set);
 
 }  // namespace rollrig::proof

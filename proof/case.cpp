@@ -43,10 +43,15 @@ double probability_of(const diagnosis::Diagnosis& diagnosis, const std::string& 
 }
 
 std::vector<std::string> Case::named_set() const {
-  if (!has_cause()) return {};
-  std::vector<std::string> all = cause().effects;
-  all.insert(all.end(), cause().indistinguishable_from.begin(), cause().indistinguishable_from.end());
-  return all;
+  return has_cause() ? list_named(answer.diagnosis) : std::vector<std::string>{};
+}
+
+bool Case::is_split_by(const FollowUp& test) const {
+  if (!test.answer.has_value()) return false;
+  Case after;
+  after.truth = truth;
+  after.answer = *test.answer;
+  return after.is_named() && after.named_set().size() < test.plan.named.size();
 }
 
 bool Case::names_truth() const {

@@ -7,6 +7,7 @@
 
 #include "proof/answer.h"
 #include "proof/bank.h"
+#include "proof/follow_up.h"
 #include "proof/statistics.h"
 
 namespace rollrig::proof {
@@ -26,6 +27,8 @@ struct Case {
   std::optional<double> oracle_shrink_percent;  // with the true effect alone in the race
   std::optional<double> d_prime;                // of the ideal observer
   std::optional<bool> identifiable;             // likewise: whether its data tell the effect from all others
+  std::optional<FollowUp> next_test;            // that the answer proposes; none where it leaves nothing open
+  std::optional<FollowUp> drawn_test;           // drawn from the menu instead
 
   bool is(diagnosis::Verdict verdict) const { return answer.failure.empty() && answer.diagnosis.verdict == verdict; }
   bool has_cause() const { return answer.failure.empty() && !answer.diagnosis.causes.empty(); }
@@ -53,6 +56,9 @@ struct Case {
   bool is_single() const { return truth.effects.size() == 1 && !truth.outside; }
   bool is_pair() const { return truth.effects.size() == 2 && !truth.outside; }
   std::optional<SizeCheck> check_size() const;
+  /// Whether a test that was done has split the named set: with its runs the verdict is explained, the new named set
+  /// holds the truth and at most three effects, and fewer than before.
+  bool is_split_by(const FollowUp& test) const;
 };
 
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the race.

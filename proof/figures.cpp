@@ -178,6 +178,23 @@ void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
   }
 }
 
+/// Of the sets with an effect of the catalogue whose next test was done: in how many it splits what was named.
+void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
+  const auto add = [&](const char* id, const char* label, std::optional<FollowUp> Case::*test, const char* how) {
+    const Cases done = only(cases, [test](const Case& one) {
+      return (one.is_single() || one.is_pair()) && (one.*test).has_value() && (one.*test)->answer.has_value();
+    });
+    figures.push_back(make_share(
+        id, label, done, [test](const Case& one) { return one.is_split_by(*(one.*test)); }, 0.90));
+    const bool any =
+        std::any_of(cases.begin(), cases.end(), [test](const Case& one) { return (one.*test).has_value(); });
+    if (!any) figures.back().note = how;
+  };
+  add("next_test", "next test splits the set", &Case::next_test, "not measured: rollrig blind plan");
+  add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig blind plan --drawn");
+  figures.back().target.reset();  // what there is to beat
+}
+
 void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
   Tally all;
   std::vector<double> seconds;
@@ -186,8 +203,7 @@ void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
     seconds.push_back(one.answer.cpu_seconds);
   }
   const std::size_t explained = all.named + all.named_wrong;
-  figures.push_back(make_number("next_test", "next test splits the set", std::nullopt, 0, Unit::kPercent, 0.90, true));
-  figures.back().note = "not measured";
+  add_next_tests(cases, figures);
   figures.push_back(make_number("named_set", "mean size of the named set",
                                 explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained,
                                 Unit::kNumber, 1.3));

@@ -173,7 +173,8 @@ std::string format_score(const Score& score) {
       "named: the truth is the first cause, in a set of at most three; other: another cause stands there; > 0.9: how "
       "many causes stated above 0.9 are right, and how many wrong; set: mean size of the named set.",
       0);
-  return text + format_confusion(score.confusion) + format_reliability(score.reliability) + format_missed(score.missed);
+  return text + format_confusion(score.confusion) + format_reliability(score.reliability) + format_follow_ups(score) +
+         format_missed(score.missed);
 }
 
 }  // namespace rollrig::proof

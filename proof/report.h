@@ -21,5 +21,11 @@ std::optional<double> find_value(const BaselineScore& baseline, const Figure& fi
 /// What a case's data and answer are, in one sentence each.
 std::string describe_truth(const Case& one);
 std::string describe_answer(const Case& one);
+/// A set whose causes could not be told apart, its next test, and what came of it.
+std::string describe_follow_up(const Case& one, const FollowUp& test);
+/// All of these: for a terminal, as Markdown, as JSON.
+std::string format_follow_ups(const Score& score);
+std::string write_follow_ups(const Score& score);
+Json make_follow_ups_json(const Score& score);
 
 }  // namespace rollrig::proof

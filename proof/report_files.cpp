@@ -184,7 +184,7 @@ std::string format_score_markdown(const Score& score) {
   for (const std::string& warning : score.warnings) text += "\n* " + warning;
   text += (score.warnings.empty() ? "" : "\n") + write_tallies("effect", score.by_effect);
   text += write_tallies("campaign", score.by_campaign) + write_tallies("size", score.by_size_class);
-  text += write_confusion(score.confusion) + write_reliability(score.reliability);
+  text += write_confusion(score.confusion) + write_reliability(score.reliability) + write_follow_ups(score);
   text += "\n| missed set | answer |\n|---|---|\n";
   for (const Case& one : score.missed) {
     text += fmt::format("| {} | {} |\n", cell(describe_truth(one)), cell(describe_answer(one)));
@@ -214,6 +214,7 @@ Json make_score_json(const Score& score) {
           {"all_effects", make_tallies({{"all", score.all_effects}}).at("all")},
           {"confusion", confusion},
           {"reliability", reliability},
+          {"next_tests", make_follow_ups_json(score)},
           {"missed", missed},
           {"warnings", score.warnings}};
 }

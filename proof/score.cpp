@@ -41,10 +41,6 @@ void read_ceiling(const std::string& bank, const std::string& file, std::vector<
   }
 }
 
-bool is_of_these_files(const std::string& bank, const Answer& answer) {
-  return answer.set_sha256 == hash_set(set_folder(bank, answer.set));
-}
-
 std::string how_to_answer(const ScoreOrder& order) {
   if (order.by_baseline) return fmt::format("rollrig blind baselines {}", order.bank);
   const bool is_oracle = order.truth_was_left_out;
@@ -98,6 +94,7 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
     ++score.confusion[one.truth.name()][one.said()];
     if (one.answer.failure.empty()) stated.push_back(one.stated());
     if (!one.is_right()) score.missed.push_back(one);
+    if (one.next_test.has_value() || one.drawn_test.has_value()) score.followed_up.push_back(one);
     programs.insert(one.answer.settings.program_sha256);
   }
   score.reliability = find_reliability(stated);
@@ -121,13 +118,15 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
   for (Truth& truth : open_truth(order.bank, order.seal)) {
     if (order.truth_was_left_out && truth.effects.empty()) continue;
     ++all;
-    std::optional<Answer> answer = find_answer(order.answers, truth.set);
-    if (!answer.has_value() || !is_of_these_files(order.bank, *answer)) {
+    std::optional<Answer> answer = find_answer_to(order.bank, order.answers, truth.set);
+    if (!answer.has_value()) {
       ++lacking;
       continue;
     }
     truth.outside = truth.outside || order.truth_was_left_out;
-    Case one{std::move(truth), *std::move(answer), {}, {}, {}};
+    Case one;
+    one.truth = std::move(truth);
+    one.answer = *std::move(answer);
     const auto oracle = order.oracle.empty() ? std::nullopt : find_answer(order.oracle, one.truth.set);
     if (oracle && oracle->set_sha256 == one.answer.set_sha256) {
       one.oracle_shrink_percent = oracle->diagnosis.gap.shrink_percent;
@@ -136,6 +135,8 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
   }
   require_all(order, lacking, all);
   read_ceiling(order.bank, order.ceiling, cases);
+  read_follow_ups(order.bank, Choice::kProposed, order.next_tests, cases);
+  read_follow_ups(order.bank, Choice::kDrawn, order.drawn_tests, cases);
   return cases;
 }
 

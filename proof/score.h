@@ -64,6 +64,7 @@ struct Score {
   Confusion confusion;
   Reliability reliability{};
   std::vector<Case> missed;
+  std::vector<Case> followed_up;  // whose next test was planned
   std::size_t sets = 0;
   std::vector<std::string> warnings;
 };
@@ -77,6 +78,8 @@ struct ScoreOrder {
   std::string answers;              // folder
   std::string oracle;               // folder of answers with the true effect alone in the race; empty: none
   std::string ceiling;              // file with d' of the sets; empty: none
+  std::string next_tests;           // folder of rollrig blind plan with the proposed tests, done; empty: none
+  std::string drawn_tests;          // likewise with tests drawn from the menu
   bool truth_was_left_out = false;  // the true effects were not in the race: none is in the catalogue
   bool by_baseline = false;         // the answers are of rollrig blind baselines
 };

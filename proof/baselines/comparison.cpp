@@ -14,6 +14,8 @@ std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreO
     ScoreOrder of_method = order;
     of_method.by_baseline = true;
     of_method.answers = baseline_folder(order.bank, method);
+    of_method.next_tests.clear();  // they were proposed by the diagnosis
+    of_method.drawn_tests.clear();
     if (!std::filesystem::is_directory(of_method.answers)) continue;
     BaselineScore score{method.id, method.label, {}};
     for (const Figure& figure : find_figures(read_cases(of_method), options)) {
