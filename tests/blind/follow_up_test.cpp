@@ -32,6 +32,7 @@ struct Planned {
   TemporaryFolder folder;
   std::string bank = folder.file("bank");
   std::string plan_folder = bank + "/followup/plans/0001";
+  Json truth;  // of the set
   Json plan;
 
   explicit Planned(const std::string& order, const std::string& kind = "drum") {
@@ -40,10 +41,10 @@ struct Planned {
         fmt::format("make --kind {} {} --out {}/sets/0001 --truth {}", kind, order, bank, folder.file("one.json")));
     INFO(made.err);
     REQUIRE(made.status == 0);
-    const Json truth{{"format", "rollrig-blind-bank/1"},
-                     {"sets", {{"0001", Json::parse(read_file(folder.file("one.json")))}}}};
-    write_file(bank + "/truth.json", truth.dump());
-    write_file(bank + "/seal.sha256", calc_sha256(truth.dump()) + "  truth.json\n");
+    truth = Json::parse(read_file(folder.file("one.json")));
+    const Json sealed{{"format", "rollrig-blind-bank/1"}, {"sets", {{"0001", truth}}}};
+    write_file(bank + "/truth.json", sealed.dump());
+    write_file(bank + "/seal.sha256", calc_sha256(sealed.dump()) + "  truth.json\n");
     std::string all;
     for (const auto& [name, content] : read_folder(bank + "/sets/0001")) {
       all += fmt::format("{}  {}\n", calc_sha256(content), name);
@@ -141,7 +142,7 @@ TEST_CASE("the same truth and plan give the same bytes, with any number of threa
 TEST_CASE("the test shows the effect of the truth, with its size", "[fast]") {
   const std::string stands = std::string(kDrumHeader) + "0,0,0,24\n1800,0,0,24\n";
   const auto read_zero = [&](const std::string& effect) {
-    Planned made("--effect " + effect + " --seed 7 --runs 1 --noise-free --nominal-base");
+    Planned made("--effect " + effect + " --seed 7 --runs 1 --noise-free");
     made.add(stands, Json::array(), true);
     const scenarios::MeasurementSet set = made.follow();
     CHECK(set.runs[1].force_at_standstill);
@@ -160,14 +161,14 @@ TEST_CASE("a lifted tire takes nothing: what turns is the drum alone, whatever p
   const std::string ramp = std::string(kDrumHeader) + "0,40,0,24\n60,40,0,24\n140,120,0,24\n200,120,0,24\n";
   for (const char* effect : {"none", "load_record --size 10"}) {
     INFO(effect);
-    Planned made(fmt::format("--effect {} --seed 8 --runs 1 --noise-free --nominal-base", effect));
+    Planned made(fmt::format("--effect {} --seed 8 --runs 1 --noise-free", effect));
     made.add(ramp);
     const scenarios::MeasurementSet set = made.follow();
     const std::vector<double>& torque_Nm = set.runs[1].columns.at("drum_torque_Nm");
     const double radius_m = 0.5 * set.rig->drum.diameter_m;
+    const auto is = [&](const char* key) { return made.truth.at("base").at(key).at("true").get<double>(); };
     const auto parasitic_N = [&](double speed_m_s) {
-      const auto& own = set.rig->parasitic;
-      return own.c0_N + own.c1_N_s_per_m * speed_m_s + own.c2_N_s2_per_m2 * speed_m_s * speed_m_s;
+      return is("c0_N") + is("c1_N_s_per_m") * speed_m_s + is("c2_N_s2_per_m2") * speed_m_s * speed_m_s;
     };
     CHECK(torque_Nm[30] == Approx(radius_m * parasitic_N(40.0 / 3.6)).epsilon(1e-4));
     const double inertia_Nm = set.rig->drum.inertia_kg_m2 / radius_m / 3.6;  // 1 km/h a second
@@ -177,7 +178,7 @@ TEST_CASE("a lifted tire takes nothing: what turns is the drum alone, whatever p
 
 TEST_CASE("a heated drum is recorded, and warms the tire", "[fast]") {
   const std::string header = "time_s,speed_km_h,load_N,ambient_degC,surface_temperature_degC\n";
-  Planned made("--effect none --seed 9 --runs 1 --noise-free --nominal-base");
+  Planned made("--effect none --seed 9 --runs 1 --noise-free");
   made.add(kSteady);
   made.add(header + "0,80,5000,24,64\n600,80,5000,24,64\n");
   const scenarios::MeasurementSet set = made.follow();

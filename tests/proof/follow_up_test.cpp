@@ -192,9 +192,13 @@ TEST_CASE("a test splits where fewer are named with its runs, and the truth amon
   CHECK(figure.interval->low == Approx(proof::calc_wilson_95(2, 5).low));
   CHECK(find_figure(score, "drawn_test").note == "not measured: rollrig blind plan --drawn");
   CHECK(score.followed_up.size() == 7);
-  const std::string text = proof::format_follow_ups(score);
-  CHECK_THAT(text, Contains("7 sets whose cause") && Contains("6 followed up, 2 split"));
-  CHECK_THAT(text, Contains("not smaller") && Contains("the truth lost") && Contains("not made, weights"));
+  CHECK_THAT(proof::format_follow_ups(score), Contains("7 sets whose cause") && Contains("6 followed up"));
+  const auto says = [&](std::size_t i) { return proof::describe_follow_up(cases[i], *cases[i].next_test); };
+  CHECK_THAT(says(1), Contains("torque_gain, windage: split"));
+  CHECK_THAT(says(2), Contains("not smaller"));
+  CHECK_THAT(says(3), Contains("windage: the truth lost"));
+  CHECK_THAT(says(5), Contains("not made, weights"));
+  CHECK_THAT(says(6), Contains(": unexplained"));
   CHECK(proof::make_score_json(score)["next_tests"][3]["next_test"]["outcome"] == "the truth lost");
   CHECK_THAT(proof::format_score_markdown(score), Contains("| 1 full_drum | torque_gain |"));
 }
