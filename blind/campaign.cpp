@@ -31,6 +31,14 @@ bool RunPlan::is_read(double time_s) const {
                       [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
 }
 
+double RunPlan::hung_at(double time_s) const {
+  double torque_Nm = 0.0;
+  for (const auto& [from_s, torque_then_Nm] : hung_Nm) {
+    if (time_s >= from_s) torque_Nm = torque_then_Nm;
+  }
+  return torque_Nm;
+}
+
 Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs) {
   if (specimen.kind == Kind::kDyno) return draw_dyno_campaign(seed, specimen, runs, dyno_runs);
   if (specimen.kind == Kind::kRoad) return draw_road_campaign(seed, specimen, runs);

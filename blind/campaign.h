@@ -54,12 +54,15 @@ struct RunPlan {
   Air air;
   std::vector<Leg> legs;
   std::optional<double> surface_degC;               // at which drum or roller is held, and recorded; none: as it goes
+  bool reversed = false;                            // turned the other way round
+  std::vector<std::pair<double, double>> hung_Nm;   // from, torque: on the force sensor from then on, besides
   bool reads_zero = false;                          // the force is logged while the surface stands
   std::vector<std::pair<double, double>> unread_s;  // from, to: nothing is logged
 
   std::size_t index = 0;  // in the campaign
 
   bool is_read(double time_s) const;
+  double hung_at(double time_s) const;
 
   double end_s() const { return legs.back().end_s(); }
 };

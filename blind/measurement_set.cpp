@@ -27,6 +27,7 @@ std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
                         run.cold_pressure_kPa);
     if (run.rest_before_min.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_min);
     if (run.started_warm) text += "tire_state = \"warm\"\n";
+    if (run.reversed) text += "reversed = true\n";
     if (run.reads_zero) text += "force_at_standstill = true\n";
   }
   return text;
@@ -44,6 +45,7 @@ void write_given(const RunPlan& run, const RunRecord& record, std::size_t row, s
   if (record.specimen->kind == Kind::kDyno) fmt::format_to(out, "{:.9g},", record.longitudinal_N[row]);
   fmt::format_to(out, "{:.2f}", record.ambient_degC[row]);
   if (run.surface_degC.has_value()) fmt::format_to(out, ",{:.10g}", *run.surface_degC);
+  if (!run.hung_Nm.empty()) fmt::format_to(out, ",{:.10g}", run.hung_at(record.time_s[row]));
 }
 
 std::string write_header(Kind kind, const RunPlan& run) {
@@ -51,6 +53,7 @@ std::string write_header(Kind kind, const RunPlan& run) {
   if (kind == Kind::kDyno) text = "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC";
   if (kind == Kind::kRoad) text = "time_s,speed_km_h,elevation_m,ambient_degC";
   if (run.surface_degC.has_value()) text += ",surface_temperature_degC";
+  if (!run.hung_Nm.empty()) text += ",hung_torque_Nm";
   for (const Channel& channel : channels_of(kind)) text += fmt::format(",{}", channel.name);
   return text + "\n";
 }

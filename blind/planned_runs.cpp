@@ -137,12 +137,17 @@ RunPlan read_run(const fs::path& folder, const Json& json, const SetOrder& order
   run.id = json.at("id").get<std::string>();
   run.session = json.at("session").get<std::string>();
   run.cold_pressure_kPa = json.at("cold_pressure_kPa").get<double>();
+  run.reversed = json.value("reversed", false);
   run.reads_zero = json.at("force_at_standstill").get<bool>();
   for (const Json& span : json.at("not_read_s")) {
     run.unread_s.emplace_back(span.at(0).get<double>(), span.at(1).get<double>());
   }
   if (table.count("surface_temperature_degC") > 0)
     run.surface_degC = read_held(table, "surface_temperature_degC", file);
+  const auto hung = table.find("hung_torque_Nm");
+  for (std::size_t i = 0; hung != table.end() && i < hung->second.size(); ++i) {
+    run.hung_Nm.emplace_back(table.at("time_s")[i], hung->second[i]);
+  }
   Draws own(order.seed, "run/" + run.id);
   run.air = draw_air(own, read_held(table, "ambient_degC", file));
   run.initial_degC = std::round(10.0 * run.air.at(0.0)) / 10.0;

@@ -174,6 +174,10 @@ Collector simulate(const Specimen& specimen, const std::vector<std::unique_ptr<E
   return collector;
 }
 
+void turn_over(std::vector<double>& force) {
+  for (double& value : force) value = -value;
+}
+
 /// Given columns: instantaneous, as the rig reports them.
 void fill_given(const RunPlan& run, RunRecord& record) {
   const auto rows = static_cast<std::size_t>(std::lround(run.end_s())) + 1;
@@ -239,7 +243,11 @@ RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr
     record.liner_degC.push_back(record.sample(record.liner, row));
     record.pressure_kPa.push_back(record.sample(record.pressure, row));
   }
+  for (std::size_t row = 0; row < record.time_s.size(); ++row) record.force[row] += run.hung_at(record.time_s[row]);
+  // Torque counts positive when it drives, so in reversed rotation the sensor has the other sign; its zero does not.
+  if (run.reversed) turn_over(record.force);
   for (const auto& effect : effects) effect->trace(record);
+  if (run.reversed) turn_over(record.force);
   return record;
 }
 

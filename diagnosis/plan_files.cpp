@@ -187,8 +187,9 @@ std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
     text += fmt::format(
         "\n  [[run]]\n  id = \"{0}\"\n  file = \"{0}_measured.csv\"  # what the rig recorded; {0}.csv is the program\n "
         " session = \"{1}\"\n  initial_tire_temperature_degC = "
-        "{2:.10g}  # as it was\n  cold_pressure_kPa = {3:.10g}  # as it was\n{4}",
-        run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero);
+        "{2:.10g}  # as it was\n  cold_pressure_kPa = {3:.10g}  # as it was\n{4}{5}",
+        run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero,
+        run.has(scenarios::kReversed) ? "  reversed = true\n" : "");
   }
   return text;
 }

@@ -29,9 +29,8 @@ const std::vector<RigSensor>& all_rig_sensors();
 /// Throws std::invalid_argument where there is none of that channel.
 const RigSensor& find_rig_sensor(const std::string& channel);
 
-/// Columns that a run on paper may have beside those of a set.
-constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
-constexpr const char* kReversed = "reversed";          // turned the other way round; holds nothing
+using scenarios::kHungTorque;
+using scenarios::kReversed;
 
 /// A channel of a run as a sensor would read it, a value a row.
 /// Equation  with torque hung on it  y + (trace(1) - trace(0)) hung;  in reversed rotation  y - 2 trace(0)

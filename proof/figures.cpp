@@ -191,6 +191,15 @@ void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
     if (!any) figures.back().note = how;
   };
   add("next_test", "next test splits the set", &Case::next_test, "not measured: rollrig blind plan");
+  const Cases promised = only(cases, [](const Case& one) {
+    return (one.is_single() || one.is_pair()) && one.next_test.has_value() && one.next_test->answer.has_value() &&
+           one.next_test->is_promised(one.answer);
+  });
+  figures.push_back(make_share(
+      "promised_test", "  where it is said to", promised,
+      [](const Case& one) { return one.is_split_by(*one.next_test); }, 0.90));
+  figures.back().target.reset();
+  if (promised.empty()) figures.back().note = figures.end()[-2].value ? "no such set" : figures.end()[-2].note;
   add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig blind plan --drawn");
   figures.back().target.reset();  // what there is to beat
 }

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "diagnosis/plan_files.h"
-#include "diagnosis/rig_sensors.h"
 #include "diagnosis/test_menu.h"
 #include "proof/bank.h"
 #include "proof/case.h"
@@ -37,10 +36,6 @@ const char* name_of(scenarios::SetKind kind) {
 
 /// Why no measurement set can hold what a test reads; empty where it can.
 std::string find_obstacle(const PlannedTest& test) {
-  for (const MeasuredRun& run : test.runs) {
-    if (run.has(diagnosis::kReversed)) return "reversed rotation: a set does not say which way round a run turned";
-    if (run.has(diagnosis::kHungTorque)) return "weights: a set does not hold what hung on the drum";
-  }
   if (!test.extra.sensors.empty()) return "a further sensor: a set has no column for it";
   if (test.clock_pulse) return "a common pulse: a set does not hold when it came";
   return "";
@@ -76,6 +71,7 @@ Json make_plan_json(const FollowUpPlan& plan, const MeasurementSet& set, const P
                     {"cold_pressure_kPa", run.cold_pressure_Pa / 1e3},
                     {"initial_tire_temperature_degC", run.initial_tire_temperature_K - kZeroCelsius_K},
                     {"force_at_standstill", test.extra.force_at_standstill},
+                    {"reversed", run.has(scenarios::kReversed)},
                     {"not_read_s", list_unread_s(run, set.kind)}});
   }
   return {{"format", kPlanFormat},
@@ -228,6 +224,15 @@ bool leaves_open(const Answer& answer) {
   const diagnosis::Diagnosis& said = answer.diagnosis;
   return answer.failure.empty() && said.verdict == diagnosis::Verdict::kExplained && !said.causes.empty() &&
          !said.causes.front().indistinguishable_from.empty();
+}
+
+bool FollowUp::is_promised(const Answer& before) const {
+  if (before.diagnosis.next_test.empty()) return false;
+  const std::vector<std::string>& splits = before.diagnosis.next_test.front().splits;
+  const auto said = std::count_if(plan.named.begin(), plan.named.end(), [&](const std::string& id) {
+    return std::find(splits.begin(), splits.end(), id) != splits.end();
+  });
+  return said >= 2;
 }
 
 std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) { return Planning(order).run(); }

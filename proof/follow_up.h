@@ -36,6 +36,10 @@ struct FollowUpPlan {
 struct FollowUp {
   FollowUpPlan plan;
   std::optional<Answer> answer;  // to the set with the test's runs
+
+  /// Whether the answer that proposes it says that it tells two of the named effects apart, not just that it tells
+  /// most.
+  bool is_promised(const Answer& before) const;
 };
 
 struct PlanOrder {
@@ -50,7 +54,7 @@ struct PlanOrder {
 /// and for each of these whose test the generator can make plans/<set>/ with plan.json (rollrig-blind-plan/1) and the
 /// files of diagnosis::write_plan. The runs are those of the menu's test of that description: an answer does not hold
 /// them, and the menu is a function of the set. A test is not made where a measurement set has no place for what it
-/// reads (reversed rotation, weights, a pulse, a further sensor). Drawn: each test that can be made is as likely.
+/// reads (a common pulse, a further sensor). Drawn: each test that can be made is as likely.
 /// Opens sets and answers alone.
 /// Errors   InputError: sets without an answer to their files; a test that the menu does not have; plans are there
 /// Checked  tests/proof/follow_up_test.cpp

@@ -28,7 +28,7 @@ std::string set_file_of(const std::string& folder) {
 
 std::string folder_of(const std::string& file) { return fs::path(file).parent_path().string(); }
 
-MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) {
+MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, SetKind kind) {
   TableReader reader(table, "[[run]]");
   MeasuredRun run;
   run.id = reader.text("id");
@@ -48,6 +48,10 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder) 
   run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
   run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
   run.force_at_standstill = reader.flag_or("force_at_standstill", false);
+  if (reader.flag_or("reversed", false)) {
+    if (kind != SetKind::kDrum) throw reader.problem("reversed", "only a drum is turned the other way round", "false");
+    run.columns[kReversed] = {};
+  }
   reader.finish();
   return run;
 }
@@ -108,7 +112,8 @@ const SetColumns& columns_of(SetKind kind) {
   static const SetColumns drum{{{"speed_km_h", kSpeedRange, "surface speed"},
                                 {"load_N", between(0.0, 200000.0), "load as the rig reports it"},
                                 {"ambient_degC", kTemperatureRange, "air at the tire"}},
-                               {{"surface_temperature_degC", kTemperatureRange, "drum surface"}},
+                               {{"surface_temperature_degC", kTemperatureRange, "drum surface"},
+                                {kHungTorque, any_number(), "known torque on the sensor, by weights on a lever"}},
                                with({"drum_torque_Nm", any_number(), "motor torque at the drum axle"})};
   static const SetColumns dyno{{{"speed_km_h", kSpeedRange, "surface speed"},
                                 {"load_N", between(0.0, 200000.0), "load as the rig reports it"},
@@ -230,7 +235,7 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   if (const ConfigTable* sensors = reader.table("sensors")) {
     set.sensors = models::read_sensors(*sensors, measured_channels(set.kind));
   }
-  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base));
+  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base, set.kind));
   reader.finish();
   if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
   for (MeasuredRun& run : set.runs) read_run_columns(columns_of(set.kind), run);

@@ -24,6 +24,10 @@ std::vector<std::string> measured_channels(SetKind kind);
 /// Those of all kinds.
 std::vector<std::string> all_measured_channels();
 
+/// Columns of a drum run in which more was done than it was told by speed and load.
+constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
+constexpr const char* kReversed = "reversed";          // turned the other way round; holds nothing
+
 struct MeasuredRun {
   std::string id;
   std::string file;  // path

@@ -157,6 +157,34 @@ TEST_CASE("the test shows the effect of the truth, with its size", "[fast]") {
   CHECK(read_zero("torque_zero_drift --size 0.6 --form amplifier").back() == Approx(1.8).margin(0.4));
 }
 
+TEST_CASE("in reversed rotation a zero keeps its sign, all else turns over", "[fast]") {
+  Planned made("--effect load_cross_talk --form fixed --size 5 --seed 14 --runs 1 --noise-free");
+  made.add(kSteady);
+  made.plan["runs"][0]["reversed"] = true;
+  made.add(kSteady);
+  const scenarios::MeasurementSet set = made.follow();
+  CHECK(set.runs[1].has(scenarios::kReversed));
+  CHECK_FALSE(set.runs[2].has(scenarios::kReversed));
+  const double reversed_Nm = set.runs[1].columns.at("drum_torque_Nm")[100];
+  const double forwards_Nm = set.runs[2].columns.at("drum_torque_Nm")[100];
+  // Twice the load's part; the air of the two runs differs by a degree or so, which is worth some hundredths.
+  const double twice_Nm = 2.0 * 0.5 * set.rig->drum.diameter_m * 5000.0 * std::sin(5e-3);
+  CHECK(forwards_Nm - reversed_Nm == Approx(twice_Nm).epsilon(0.05));
+}
+
+TEST_CASE("weights on the lever are read with the gain of the sensor", "[fast]") {
+  Planned made("--effect torque_gain --form with_air --size 4 --seed 15 --runs 1 --noise-free");
+  made.add(
+      "time_s,speed_km_h,load_N,ambient_degC,hung_torque_Nm\n0,0,0,25,0\n60,0,0,25,0\n70,0,0,25,50\n130,0,0,25,50\n",
+      Json::array(), true);
+  const scenarios::MeasurementSet set = made.follow();
+  const scenarios::MeasuredRun& run = set.runs[1];
+  CHECK(run.columns.at("drum_torque_Nm")[50] == 0.0);
+  CHECK(run.columns.at("drum_torque_Nm")[100] == Approx(52.0).margin(0.05));
+  CHECK(run.columns.at(scenarios::kHungTorque)[100] == 50.0);
+  CHECK_FALSE(set.runs[0].has(scenarios::kHungTorque));
+}
+
 TEST_CASE("a lifted tire takes nothing: what turns is the drum alone, whatever presses the tire down", "[fast]") {
   const std::string ramp = std::string(kDrumHeader) + "0,40,0,24\n60,40,0,24\n140,120,0,24\n200,120,0,24\n";
   for (const char* effect : {"none", "load_record --size 10"}) {

@@ -19,6 +19,7 @@ using namespace rollrig::tests;
 namespace {
 
 constexpr const char* kStandstill = "torque at standstill, tire lifted, for 5 min before and after 40 min at 80 km/h";
+constexpr const char* kPulse = "speed steps 80, 120, 40, 120 km/h with a common electrical pulse on both loggers";
 constexpr const char* kReversedSteps =
     "the same load steps forwards and in reversed rotation, 80 km/h, on the warm tire";
 
@@ -82,14 +83,14 @@ proof::Case follow(proof::Case one, const std::vector<std::string>& named) {
 TEST_CASE("plans are made of the proposed tests, the truth unopened", "[fast]") {
   const OpenBank made(3);
   made.hide_truth();
-  made.answer("0001", {kStandstill, kReversedSteps});
-  made.answer("0002", {kReversedSteps});
+  made.answer("0001", {kStandstill, kPulse});
+  made.answer("0002", {kPulse});
   made.answer("0003", {});
   const auto plans = proof::plan_follow_ups(made.order());
   REQUIRE(plans.size() == 3);
   CHECK(plans[0].not_made.empty());
   CHECK(plans[0].named == std::vector<std::string>{"torque_zero_drift", "windage"});
-  CHECK_THAT(plans[1].not_made, Contains("reversed rotation"));
+  CHECK_THAT(plans[1].not_made, Contains("a common pulse"));
   CHECK_THAT(plans[2].not_made, Contains("no test is proposed"));
   CHECK_FALSE(fs::exists(made.plan_file("0002")));
   const Json plan = Json::parse(read_file(made.plan_file("0001")));
@@ -102,6 +103,17 @@ TEST_CASE("plans are made of the proposed tests, the truth unopened", "[fast]") 
   CHECK(run["not_read_s"] == Json({{300.0, 2780.0}}));
   CHECK_THAT(read_file(made.bank + "/followup/plans/0001/" + run["file"].get<std::string>()),
              Contains("time_s,speed_km_h,load_N,ambient_degC\n0,0,0,"));
+}
+
+TEST_CASE("a plan says which run is reversed", "[fast]") {
+  const OpenBank made(1);
+  made.answer("0001", {kReversedSteps});
+  REQUIRE(proof::plan_follow_ups(made.order()).front().not_made.empty());
+  const Json plan = Json::parse(read_file(made.plan_file("0001")));
+  REQUIRE(plan["runs"].size() == 2);
+  CHECK(plan["runs"][0]["reversed"] == false);
+  CHECK(plan["runs"][1]["reversed"] == true);
+  CHECK(plan["runs"][0]["not_read_s"] == Json({{0.0, 1800.0}}));
 }
 
 TEST_CASE("an answer that leaves nothing open has no plan", "[fast]") {
@@ -148,7 +160,7 @@ TEST_CASE("planned, done and answered tests come to the cases; what lacks is sai
   const OpenBank made(2);
   const std::string folder = made.bank + "/followup";
   std::vector<proof::Case> cases{case_of("0001", made.answer("0001", {kStandstill})),
-                                 case_of("0002", made.answer("0002", {kReversedSteps}))};
+                                 case_of("0002", made.answer("0002", {kPulse}))};
   proof::plan_follow_ups(made.order());
   const auto read = [&] { proof::read_follow_ups(made.bank, proof::Choice::kProposed, folder, cases); };
   CHECK_THROWS_WITH(read(), Contains("1 sets have no answer") && Contains("rollrig_blind followup"));
@@ -166,7 +178,7 @@ TEST_CASE("planned, done and answered tests come to the cases; what lacks is sai
   CHECK(cases[0].is_split_by(*cases[0].next_test));
   REQUIRE(cases[1].next_test.has_value());
   CHECK_FALSE(cases[1].next_test->answer.has_value());
-  CHECK_THAT(proof::describe_follow_up(cases[1], *cases[1].next_test), Contains("not made, reversed rotation"));
+  CHECK_THAT(proof::describe_follow_up(cases[1], *cases[1].next_test), Contains("not made, a common pulse"));
   cases[0].answer.diagnosis.causes.front().indistinguishable_from = {"torque_gain"};  // another answer by now
   CHECK_THROWS_WITH(read(), Contains("no plans for the answer to set 0001") && Contains("rollrig blind plan"));
 }
@@ -185,11 +197,16 @@ TEST_CASE("a test splits where fewer are named with its runs, and the truth amon
   cases[5].next_test = proof::FollowUp{{"6", "", cases[5].named_set(), "a test", "weights"}, {}};
   cases.push_back(follow(before("7", {"torque_gain"}), {"torque_gain"}));
   cases.back().next_test->answer = say_unexplained(cases.back()).answer;  // by now unexplained
+  for (proof::Case& one : cases) one.answer.diagnosis.next_test = {{"a test", {"torque_gain"}, 0.5, 2.0}};
+  cases[2].answer.diagnosis.next_test = {{"a test", {"windage", "torque_gain"}, 0.5, 2.0}};
   const proof::Score score = proof::score_cases(cases, {});
   const proof::Figure& figure = find_figure(score, "next_test");
   CHECK(figure.n == 5);
   CHECK(figure.k == 2);
   CHECK(figure.interval->low == Approx(proof::calc_wilson_95(2, 5).low));
+  const proof::Figure& promised = find_figure(score, "promised_test");  // of the one that says so
+  CHECK(promised.n == 1);
+  CHECK(promised.k == 0);
   CHECK(find_figure(score, "drawn_test").note == "not measured: rollrig blind plan --drawn");
   CHECK(score.followed_up.size() == 7);
   CHECK_THAT(proof::format_follow_ups(score), Contains("7 sets whose cause") && Contains("6 followed up"));

@@ -121,6 +121,31 @@ cold_pressure_kPa = 280.0
   CHECK(set.sensors.count("liner_temperature_degC") == 0);  // not measured
 }
 
+TEST_CASE("a drum run may be reversed and have weights on its sensor; no other may", "[fast]") {
+  const auto read = [](const std::string& rig, const std::string& further) {
+    const tests::TemporaryFolder folder;
+    tests::write_file(folder.file("set.toml"), R"(format = "rollrig-measurements/1"
+name = "set"
+tire = "a50"
+rig = ")" + rig + R"("
+[[run]]
+id = "a"
+file = "a.csv"
+session = "day, reversed"
+initial_tire_temperature_degC = 25.0
+cold_pressure_kPa = 280.0
+reversed = true
+)");
+    tests::write_file(folder.file("a.csv"),
+                      "time_s,speed_km_h,load_N,ambient_degC" + further + "\n0,80,5400,25,0\n1,80,5400,25,50\n");
+    return scenarios::read_measurement_set(folder.path());
+  };
+  const scenarios::MeasurementSet set = read("drum_2m", ",hung_torque_Nm");
+  CHECK(set.runs[0].has(scenarios::kReversed));
+  CHECK(set.runs[0].columns.at(scenarios::kHungTorque) == std::vector<double>{0.0, 50.0});
+  CHECK_THROWS_WITH(read("dyno_1m2", ",longitudinal_force_N"), Catch::Contains("reversed"));
+}
+
 TEST_CASE("a file that a set names and that is not there is refused where it is named", "[fast]") {
   for (const auto& [file, key] : {std::pair{"rig.toml", "rig"}, std::pair{"tire.toml", "tire"}}) {
     const WrittenSet written("warm_up", {});
