@@ -15,14 +15,24 @@ Case answered_after(const Case& one, const FollowUp& test) {
   return after;
 }
 
+/// Whether the truth is among what is named, however much that is.
+bool holds_truth(const std::vector<std::string>& named, const Case& one) {
+  const std::vector<std::string> truth = one.truth.ids();
+  return !truth.empty() && std::all_of(truth.begin(), truth.end(), [&named](const std::string& id) {
+    return std::find(named.begin(), named.end(), id) != named.end();
+  });
+}
+
 /// What became of a named set, in a few words.
 std::string judge(const Case& one, const FollowUp& test) {
   if (!test.answer.has_value()) return "not made, " + test.plan.not_made;
   if (one.is_split_by(test)) return "split";
   const Case after = answered_after(one, test);
   if (!after.is(diagnosis::Verdict::kExplained)) return after.said();
-  if (!one.names_truth() && !after.names_truth()) return "the truth in neither";
-  return after.names_truth() ? "not smaller" : "the truth lost";
+  if (!holds_truth(after.named_set(), one)) {
+    return holds_truth(test.plan.named, one) ? "the truth lost" : "the truth in neither";
+  }
+  return after.named_set().size() < test.plan.named.size() ? "more than three left" : "not smaller";
 }
 
 struct Counts {
