@@ -56,6 +56,7 @@ void check_force(const MeasurementSet& set, SetChecks& checks) {
   const ForceChannel force = kind_of(set).force_channel(set);
   std::vector<std::size_t> without;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    if (set.runs[r].force_at_standstill) continue;  // its zero is
     const bool measured = has_samples(set.runs[r], force.name);
     if (measured && find_compared_rows(set, set.runs[r], force.name).empty()) without.push_back(r);
   }
