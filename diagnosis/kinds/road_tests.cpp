@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/test_plan.h"
 
@@ -40,6 +42,24 @@ PlannedTest rests(const TestConditions& at) {
   return make_test("rests", "80 km/h after a night, after 20 min and after 1 h at rest", 1, {run.finish()});
 }
 
+/// The same on several days: wind and what else one day has drown what a single run shows.
+PlannedTest repeat(const PlannedTest& once) {
+  constexpr int kDays = 5;  // Assumed: a working week
+  PlannedTest test = once;
+  test.id += "_repeated";
+  test.description += ", on five days";
+  test.hours = kDays * once.hours;
+  test.runs.clear();
+  for (int day = 1; day <= kDays; ++day) {
+    for (scenarios::MeasuredRun run : once.runs) {
+      run.session = fmt::format("next-{}", day);
+      run.id = fmt::format("{}-{}", test.id, test.runs.size() + 1);
+      test.runs.push_back(std::move(run));
+    }
+  }
+  return test;
+}
+
 }  // namespace
 
 std::vector<PlannedTest> make_road_tests(const PreparedSet& set) {
@@ -47,6 +67,8 @@ std::vector<PlannedTest> make_road_tests(const PreparedSet& set) {
   at.held = {{"elevation_m", 0.0}};
   std::vector<PlannedTest> menu;
   for (const auto make : {steady_from_cold, cold_air, warm_steps, ramps, rests}) menu.push_back(make(at));
+  const std::size_t count = menu.size();
+  for (std::size_t i = 0; i < count; ++i) menu.push_back(repeat(menu[i]));
   return menu;
 }
 

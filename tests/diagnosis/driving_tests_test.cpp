@@ -1,7 +1,9 @@
 // Tests that could come next on a dynamometer and on the road.
 #include <catch2/catch.hpp>
 #include <map>
+#include <set>
 
+#include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/next_test.h"
 #include "tests/diagnosis/driving_sets.h"
@@ -54,4 +56,21 @@ TEST_CASE("every test of the road can be simulated, and a cold start shows the t
   const auto bits = judge(set, "", "tire_temperature");
   CHECK(bits.size() >= 5);
   CHECK(bits.at("steady_from_cold") > 0.3);
+}
+
+TEST_CASE("a test of the road on five days tells more than on one, and takes five times as long", "[fast]") {
+  const scenarios::MeasurementSet set = tests::make_road_set({}, 1);
+  const auto bits = judge(set, "", "tire_temperature");
+  std::map<std::string, diagnosis::PlannedTest> menu;
+  for (const auto& test : diagnosis::make_road_tests(diagnosis::PreparedSet(set))) menu.emplace(test.id, test);
+  for (const char* id : {"steady_from_cold", "cold_air", "warm_steps", "ramps", "rests"}) {
+    INFO(id);
+    const std::string repeated = std::string(id) + "_repeated";
+    CHECK(bits.at(repeated) > bits.at(id));
+    CHECK(menu.at(repeated).hours == Approx(5.0 * menu.at(id).hours));
+    std::set<std::string> ids, sessions;
+    for (const auto& run : menu.at(repeated).runs) ids.insert(run.id), sessions.insert(run.session);
+    CHECK(ids.size() == 5 * menu.at(id).runs.size());
+    CHECK(sessions.size() == 5);
+  }
 }
