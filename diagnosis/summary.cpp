@@ -78,9 +78,12 @@ std::string verdict_line(const Diagnosis& diagnosis) {
   switch (diagnosis.verdict) {
     case Verdict::kNoGap:
       return line("Verdict", "no gap beyond the noise, probability " + none);
-    case Verdict::kExplained:
-      return line("Verdict", fmt::format("explained, probability {} (none {}, unknown {})",
-                                         named ? percent(diagnosis.causes.front().probability) : "0 %", none, unknown));
+    case Verdict::kExplained: {
+      const std::string own = named ? percent(diagnosis.causes.front().probability) : "0 %";
+      const std::string text = fmt::format("explained, probability {} (none {}, unknown {})", own, none, unknown);
+      if (count_characters(text) <= kTextColumns) return line("Verdict", text);
+      return line("Verdict", fmt::format("explained, probability {} (unknown {})", own, unknown));
+    }
     case Verdict::kUnexplained:
       if (!diagnosis.doubt.empty()) return line("Verdict", "unexplained: the files are in doubt, before any physics");
       if (named && !diagnosis.causes.front().adequate) {

@@ -51,6 +51,9 @@ Section make_runs(const diagnosis::PreparedSet& set, const std::vector<Simulated
                   "Measurement and simulation. Base parameters stand as the files give them, and sensor offsets are "
                   "not taken off, so a gap that a recalibration takes is seen here as well."};
   for (std::size_t run = 0; run < set.runs().size(); ++run) {
+    const auto of_run = [run](const diagnosis::Series& series) { return series.run == run; };
+    if (std::none_of(set.series().begin(), set.series().end(), of_run))
+      continue;  // it measured nothing: a warning says so
     section.blocks.push_back(make_comparison(set, run, simulated));
   }
   return section;

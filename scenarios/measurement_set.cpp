@@ -220,6 +220,12 @@ void assume_sensors(MeasurementSet& set) {
 MeasurementSet read_measurement_set(const std::string& folder) {
   MeasurementSet set;
   set.path = set_file_of(folder);
+  if (fs::is_directory(folder) && !fs::exists(set.path)) {
+    throw InputError({fmt::format("there is no set.toml in '{}'", folder), folder, 0, "", "",
+                      "a folder with set.toml (tire, rig, sensors, a [[run]] for each CSV; docs/formats.md); "
+                      "assets/examples/hidden_effect is one to copy, rollrig import makes one from logs",
+                      ""});
+  }
   const ConfigTable config = read_config(set.path);
   const std::string base = folder_of(set.path);
   TableReader reader(config, "");

@@ -95,6 +95,24 @@ TEST_CASE("pages of a diagnosis, of a fitted tire and of several diagnoses", "[s
   check_command(folder, "diagnose sets --only bearing_warmup,load_exponent", "--charts 1");
 }
 
+TEST_CASE("page of a set with a run that measured nothing", "[slow]") {
+  const TemporaryFolder folder;
+  write_set(folder);
+  const std::string run = folder.file("set/speed-80.csv");
+  const CsvTable csv = CsvTable::read(run);
+  const std::vector<std::string> kept{"time_s", "speed_km_h", "load_N", "ambient_degC"};
+  CsvWriter given(kept);
+  std::vector<std::vector<std::string>> columns;
+  for (const std::string& name : kept) columns.push_back(csv.text(name));
+  for (std::size_t row = 0; row < csv.row_count(); ++row) {
+    given.begin_row();
+    for (const auto& column : columns) given.add(column[row]);
+    given.end_row();
+  }
+  write_file(run, given.take());
+  check_command(folder, "diagnose set --only bearing_warmup,load_exponent", "--charts 2");
+}
+
 TEST_CASE("page of a fitted road load", "[slow]") {
   const TemporaryFolder folder;
   CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
