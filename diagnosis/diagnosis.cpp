@@ -138,6 +138,11 @@ std::optional<LoneRun> diagnose_without_run(scenarios::MeasurementSet set, const
 
 }  // namespace
 
+double probability_of(const Diagnosis& diagnosis, const std::string& name) {
+  const auto at = diagnosis.probability.find(name);
+  return at == diagnosis.probability.end() ? 0.0 : at->second;
+}
+
 Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options) {
   Diagnosis diagnosis = diagnose_all_runs(set, options);
   diagnosis.without_run = diagnose_without_run(set, diagnosis, options);

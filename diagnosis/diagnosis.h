@@ -126,6 +126,9 @@ struct Diagnosis {
   std::optional<LoneRun> without_run;     // of an unexplained set of three runs or more
 };
 
+/// Probability of "none", "unknown" or an effect; 0 where it was not in the race.
+double probability_of(const Diagnosis& diagnosis, const std::string& name);
+
 struct DiagnosisOptions {
   std::vector<std::string> without;  // effects left out of the race
   std::vector<std::string> only;     // where not empty, the effects in the race

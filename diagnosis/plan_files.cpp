@@ -189,7 +189,7 @@ std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
         " session = \"{1}\"\n  initial_tire_temperature_degC = "
         "{2:.10g}  # as it was\n  cold_pressure_kPa = {3:.10g}  # as it was\n{4}{5}",
         run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero,
-        run.has(scenarios::kReversed) ? "  reversed = true\n" : "");
+        run.reversed ? "  reversed = true\n" : "");
   }
   return text;
 }

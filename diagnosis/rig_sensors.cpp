@@ -85,13 +85,12 @@ template <class S>
 std::vector<S> read_force(const scenarios::MeasuredRun& run, const models::Corner<S>& corner, std::vector<S> values,
                           const std::string& channel) {
   const bool hangs = run.has(kHungTorque);
-  const bool is_reversed = run.has(kReversed);
-  if (!hangs && !is_reversed) return values;
+  if (!hangs && !run.reversed) return values;
   const std::vector<S> of_zero = trace_of(run, corner, channel, 0.0);
   const std::vector<S> of_one = trace_of(run, corner, channel, 1.0);
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (hangs) values[row] += (of_one[row] - of_zero[row]) * S(run.columns.at(kHungTorque)[row]);
-    if (is_reversed) values[row] -= S(2.0) * of_zero[row];
+    if (run.reversed) values[row] -= S(2.0) * of_zero[row];
   }
   return values;
 }

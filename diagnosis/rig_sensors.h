@@ -30,7 +30,6 @@ const std::vector<RigSensor>& all_rig_sensors();
 const RigSensor& find_rig_sensor(const std::string& channel);
 
 using scenarios::kHungTorque;
-using scenarios::kReversed;
 
 /// A channel of a run as a sensor would read it, a value a row.
 /// Equation  with torque hung on it  y + (trace(1) - trace(0)) hung;  in reversed rotation  y - 2 trace(0)

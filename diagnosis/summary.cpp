@@ -40,13 +40,6 @@ std::string join_to_fit(const std::vector<std::string>& items, const char* separ
   return text;
 }
 
-/// "drum torque" of "drum_torque_Nm".
-std::string plain_name(const std::string& key) {
-  std::string name = name_without_unit(key);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 /// A channel in one word: the last of its name, or what has the temperature.
 std::string short_name(const std::string& channel) {
   if (channel == "liner_temperature_degC") return "liner";
@@ -59,27 +52,15 @@ std::string with_unit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
 
-/// A probability as percent; neither 0 nor 100 while some doubt is left.
-std::string percent(double probability) {
-  if (probability > 0.99 && probability < 1.0) return "over 99 %";
-  if (probability < 0.01 && probability > 0.0) return "under 1 %";
-  return fmt::format("{:.0f} %", 100.0 * probability);
-}
-
-double probability_of(const Diagnosis& diagnosis, const char* name) {
-  const auto at = diagnosis.probability.find(name);
-  return at == diagnosis.probability.end() ? 0.0 : at->second;
-}
-
 std::string verdict_line(const Diagnosis& diagnosis) {
-  const std::string none = percent(probability_of(diagnosis, "none"));
-  const std::string unknown = percent(probability_of(diagnosis, "unknown"));
+  const std::string none = show_probability(probability_of(diagnosis, "none"));
+  const std::string unknown = show_probability(probability_of(diagnosis, "unknown"));
   const bool named = !diagnosis.causes.empty();
   switch (diagnosis.verdict) {
     case Verdict::kNoGap:
       return line("Verdict", "no gap beyond the noise, probability " + none);
     case Verdict::kExplained: {
-      const std::string own = named ? percent(diagnosis.causes.front().probability) : "0 %";
+      const std::string own = named ? show_probability(diagnosis.causes.front().probability) : "0 %";
       const std::string text = fmt::format("explained, probability {} (none {}, unknown {})", own, none, unknown);
       if (count_characters(text) <= kTextColumns) return line("Verdict", text);
       return line("Verdict", fmt::format("explained, probability {} (unknown {})", own, unknown));
@@ -238,7 +219,7 @@ std::string next_line(const Diagnosis& diagnosis) {
 }
 
 std::string describe_rest(const LoneRun& lone) {
-  const std::string probability = ", probability " + percent(lone.probability);
+  const std::string probability = ", probability " + show_probability(lone.probability);
   if (lone.verdict == Verdict::kNoGap) return "no gap beyond the noise" + probability;
   const std::string verdict = lone.verdict == Verdict::kExplained ? "explained by " : "unexplained, looks like ";
   if (lone.effects.empty()) return "unexplained as well";
@@ -246,6 +227,12 @@ std::string describe_rest(const LoneRun& lone) {
 }
 
 }  // namespace
+
+std::string show_probability(double probability) {
+  if (probability > 0.99 && probability < 1.0) return "over 99 %";
+  if (probability < 0.01 && probability > 0.0) return "under 1 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
 
 std::string format_summary(const Diagnosis& diagnosis) {
   const bool in_doubt = !diagnosis.doubt.empty();

@@ -14,4 +14,7 @@ namespace rollrig::diagnosis {
 /// Checked tests/diagnosis/summary_test.cpp
 std::string format_summary(const Diagnosis& diagnosis);
 
+/// "94 %"; neither 0 nor 100 while some doubt is left.
+std::string show_probability(double probability);
+
 }  // namespace rollrig::diagnosis

@@ -1,5 +1,7 @@
 #include "proof/answer.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -135,6 +137,12 @@ std::optional<Answer> find_answer_to(const std::string& bank, const std::string&
   std::optional<Answer> answer = find_answer(folder, set);
   if (answer.has_value() && answer->set_sha256 != hash_set(set_folder(bank, set))) return std::nullopt;
   return answer;
+}
+
+void require_answers(std::size_t lacking, std::size_t all, const std::string& folder, const std::string& how) {
+  if (lacking == 0) return;
+  throw InputError({fmt::format("{} of {} sets have no answer to their files as they are now", lacking, all), folder, 0,
+                    "", "", "first: " + how, ""});
 }
 
 }  // namespace rollrig::proof

@@ -44,4 +44,7 @@ std::optional<Answer> find_answer(const std::string& folder, const std::string& 
 /// Likewise, and none where the answer is to other files than those that the set of the bank has now.
 std::optional<Answer> find_answer_to(const std::string& bank, const std::string& folder, const std::string& set);
 
+/// Throws InputError where sets lack an answer; `how` is the command that answers them.
+void require_answers(std::size_t lacking, std::size_t all, const std::string& folder, const std::string& how);
+
 }  // namespace rollrig::proof

@@ -37,11 +37,6 @@ bool holds(const std::vector<std::string>& all, const std::string& one) {
 
 }  // namespace
 
-double probability_of(const diagnosis::Diagnosis& diagnosis, const std::string& name) {
-  const auto at = diagnosis.probability.find(name);
-  return at == diagnosis.probability.end() ? 0.0 : at->second;
-}
-
 std::vector<std::string> Case::named_set() const {
   return has_cause() ? list_named(answer.diagnosis) : std::vector<std::string>{};
 }

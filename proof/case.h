@@ -61,7 +61,4 @@ struct Case {
   bool is_split_by(const FollowUp& test) const;
 };
 
-/// Probability of "none", "unknown" or an effect; 0 where it was not in the race.
-double probability_of(const diagnosis::Diagnosis& diagnosis, const std::string& name);
-
 }  // namespace rollrig::proof

@@ -29,11 +29,6 @@ constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
 
 const char* flag_of(Choice choice) { return choice == Choice::kDrawn ? " --drawn" : ""; }
 
-const char* name_of(scenarios::SetKind kind) {
-  if (kind == scenarios::SetKind::kDrum) return "drum";
-  return kind == scenarios::SetKind::kDyno ? "dyno" : "road";
-}
-
 /// Why no measurement set can hold what a test reads; empty where it can.
 std::string find_obstacle(const PlannedTest& test) {
   if (!test.extra.sensors.empty()) return "a further sensor: a set has no column for it";
@@ -71,13 +66,13 @@ Json make_plan_json(const FollowUpPlan& plan, const MeasurementSet& set, const P
                     {"cold_pressure_kPa", run.cold_pressure_Pa / 1e3},
                     {"initial_tire_temperature_degC", run.initial_tire_temperature_K - kZeroCelsius_K},
                     {"force_at_standstill", test.extra.force_at_standstill},
-                    {"reversed", run.has(scenarios::kReversed)},
+                    {"reversed", run.reversed},
                     {"not_read_s", list_unread_s(run, set.kind)}});
   }
   return {{"format", kPlanFormat},
           {"set", plan.set},
           {"set_sha256", plan.set_sha256},
-          {"kind", name_of(set.kind)},
+          {"kind", scenarios::name_of(set.kind)},
           {"test", test.description},
           {"soaked", test.soaked},
           {"soak_h", test.soaked ? diagnosis::kSoak_h : 0.0},
@@ -138,10 +133,8 @@ class Planning {
       std::optional<Answer> answer = find_answer_to(order_.bank, order_.answers, set);
       if (answer.has_value()) answers.push_back(*std::move(answer));
     }
-    if (answers.size() == sets.size()) return answers;
-    throw InputError({fmt::format("{} of {} sets have no answer to their files as they are now",
-                                  sets.size() - answers.size(), sets.size()),
-                      order_.answers, 0, "", "", "first: rollrig blind run " + order_.bank, ""});
+    require_answers(sets.size() - answers.size(), sets.size(), order_.answers, "rollrig blind run " + order_.bank);
+    return answers;
   }
 
   void plan(const Answer& answer) {

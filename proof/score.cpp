@@ -48,12 +48,6 @@ std::string how_to_answer(const ScoreOrder& order) {
                      is_oracle ? " --race left_out" : "", order.answers);
 }
 
-void require_all(const ScoreOrder& order, std::size_t lacking, std::size_t all) {
-  if (lacking == 0) return;
-  throw InputError({fmt::format("{} of {} sets have no answer to their files as they are now", lacking, all),
-                    order.answers, 0, "", "", "first: " + how_to_answer(order), ""});
-}
-
 }  // namespace
 
 bool Figure::meets(const std::optional<double>& bar) const {
@@ -133,7 +127,7 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
     }
     cases.push_back(std::move(one));
   }
-  require_all(order, lacking, all);
+  require_answers(lacking, all, order.answers, how_to_answer(order));
   read_ceiling(order.bank, order.ceiling, cases);
   read_follow_ups(order.bank, Choice::kProposed, order.next_tests, cases);
   read_follow_ups(order.bank, Choice::kDrawn, order.drawn_tests, cases);

@@ -65,12 +65,6 @@ Section make_inputs(const Json& groups) {
   return {"Inputs", "", {{{"type", "inputs"}, {"groups", groups}}}, "All inputs, defaults included"};
 }
 
-std::string plain_name(const std::string& key) {
-  std::string name = name_without_unit(key);
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
 std::string pretty_unit(std::string symbol) {
   const std::size_t at = symbol.find("degC");
   if (at != std::string::npos) symbol.replace(at, 4, "°C");

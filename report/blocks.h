@@ -29,8 +29,6 @@ Block make_lead(const std::string& tone, const std::string& text, const std::str
 /// All inputs, from a manifest or the like.
 Section make_inputs(const Json& groups);
 
-/// "drum torque" of "drum_torque_Nm".
-std::string plain_name(const std::string& key);
 /// The unit of a key as a person reads it: "°C" of "ambient_degC".
 std::string shown_unit(const std::string& key);
 /// "degC" in a unit's symbol as "°C".

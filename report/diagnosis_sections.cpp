@@ -5,24 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/summary.h"
 #include "models/effect.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
 
 using diagnosis::Cause;
 using diagnosis::Diagnosis;
+using diagnosis::show_probability;
 using diagnosis::Verdict;
 
 constexpr double kListed = 0.005;  // probability from which an effect has a bar
-
-double probability_of(const Diagnosis& diagnosis, const std::string& name) {
-  const auto at = diagnosis.probability.find(name);
-  return at == diagnosis.probability.end() ? 0.0 : at->second;
-}
 
 std::string summary_of(const std::string& id) {
   if (id == "none") return "no effect is needed";
@@ -124,12 +122,6 @@ Block make_explanation(const models::EffectInfo& info) {
 }
 
 }  // namespace
-
-std::string show_probability(double probability) {
-  if (probability > 0.99 && probability < 1.0) return "over 99 %";
-  if (probability < 0.01 && probability > 0.0) return "under 1 %";
-  return fmt::format("{:.0f} %", 100.0 * probability);
-}
 
 std::string describe_verdict(const Diagnosis& diagnosis) {
   const bool has_cause = !diagnosis.causes.empty();

@@ -14,7 +14,4 @@ Section make_next(const diagnosis::Diagnosis& diagnosis);
 /// Equation, source, priors of what is named and of what cannot be told from it.
 Section make_explanations(const diagnosis::Diagnosis& diagnosis);
 
-/// "94 %"; neither 0 nor 100 while some doubt is left.
-std::string show_probability(double probability);
-
 }  // namespace rollrig::report

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "diagnosis/diagnosis_json.h"
+#include "diagnosis/summary.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_sections.h"
@@ -12,6 +13,7 @@ using diagnosis::Fleet;
 using diagnosis::FleetMember;
 using diagnosis::Recurrence;
 using diagnosis::Shared;
+using diagnosis::show_probability;
 
 Block make_members(const Fleet& fleet) {
   scenarios::ResultTable table{

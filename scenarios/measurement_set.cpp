@@ -50,7 +50,7 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, 
   run.force_at_standstill = reader.flag_or("force_at_standstill", false);
   if (reader.flag_or("reversed", false)) {
     if (kind != SetKind::kDrum) throw reader.problem("reversed", "only a drum is turned the other way round", "false");
-    run.columns[kReversed] = {};
+    run.reversed = true;
   }
   reader.finish();
   return run;
@@ -153,6 +153,11 @@ std::vector<std::string> all_measured_channels() {
   return names;
 }
 
+const char* name_of(SetKind kind) {
+  if (kind == SetKind::kRoad) return "road";
+  return kind == SetKind::kDrum ? "drum" : "dyno";
+}
+
 SetKind kind_of(rigs::RigKind kind) {
   if (kind == rigs::RigKind::kDrum) return SetKind::kDrum;
   if (kind == rigs::RigKind::kDyno) return SetKind::kDyno;
@@ -185,7 +190,7 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
                          "a rig of kind \"drum\" or \"dyno\", or vehicle = ... with kind = \"road\"");
   }
   set.kind = kind_of(set.rig->kind);
-  if (!kind.empty() && kind != (set.kind == SetKind::kDrum ? "drum" : "dyno")) {
+  if (!kind.empty() && kind != name_of(set.kind)) {
     throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),
                          "the rig's kind");
   }

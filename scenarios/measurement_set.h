@@ -26,7 +26,6 @@ std::vector<std::string> all_measured_channels();
 
 /// Columns of a drum run in which more was done than it was told by speed and load.
 constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
-constexpr const char* kReversed = "reversed";          // turned the other way round; holds nothing
 
 struct MeasuredRun {
   std::string id;
@@ -36,6 +35,7 @@ struct MeasuredRun {
   double cold_pressure_Pa = 0.0;
   std::optional<double> rest_before_s;
   bool started_warm = false;
+  bool reversed = false;  // a drum, turned the other way round
   bool force_at_standstill =
       false;  // the force read while the surface stands, nothing holding it, is the sensor's zero
   std::vector<double> time_s;
@@ -70,6 +70,9 @@ MeasurementSet read_measurement_set(const std::string& folder);
 /// The inputs of a run from a run file of a set, or from one with the given columns alone; measured columns are not
 /// kept. Throws InputError.
 MeasuredRun read_run_inputs(const std::string& file, SetKind kind);
+
+/// The word for a kind in files.
+const char* name_of(SetKind kind);
 
 /// The kind of a rig's sets.
 SetKind kind_of(rigs::RigKind kind);

@@ -7,17 +7,13 @@
 namespace blind {
 namespace {
 
-class DrivelineWarming : public Effect {
+/// What both oils have in common: how soon and how far they warm, and that a rest cools them.
+class WarmingOil : public Effect {
  public:
-  DrivelineWarming(double force_N, Draws& draws) : force_N_(force_N) {
+  WarmingOil(double force_N, Draws& draws) : force_N_(force_N) {
     time_s_ = 60.0 * draws.from(log_normal(15.0, 60.0, 11.0, 80.0));
     rise_dK_ = draws.uniform(20.0, 50.0);
-    viscous_power_ = draws.uniform(0.4, 0.7);
-    air_share_ = draws.uniform(0.0, 0.4);
-    shape = {{"time_constant_min", time_s_ / 60.0},
-             {"rise_dK", rise_dK_},
-             {"power_of_viscosity", viscous_power_},
-             {"share_of_ambient", air_share_}};
+    shape = {{"time_constant_min", time_s_ / 60.0}, {"rise_dK", rise_dK_}};
   }
 
   std::size_t state_count() const override { return 1; }
@@ -27,12 +23,29 @@ class DrivelineWarming : public Effect {
     rise_dK[0] = 0.7 * rise_dK_ * std::exp(-60.0 * *start.rest_before_min / time_s_);
   }
 
+ protected:
+  static constexpr double kHeating = 1.6;  // Assumed: of the steady rise, with oil as cold as soaked
+
+  double force_N_;
+  double time_s_ = 1.0;
+  double rise_dK_ = 0.0;
+};
+
+class VogelOil : public WarmingOil {
+ public:
+  VogelOil(double force_N, Draws& draws) : WarmingOil(force_N, draws) {
+    viscous_power_ = draws.uniform(0.4, 0.7);
+    air_share_ = draws.uniform(0.0, 0.4);
+    shape.push_back({"power_of_viscosity", viscous_power_});
+    shape.push_back({"share_of_ambient", air_share_});
+  }
+
   void act(const double* rise_dK, Instant& now) const override { now.rig_force_N += force_N_ * friction(rise_dK, now); }
 
   void rates(const double* rise_dK, const Instant& now, double* rates) const override {
     const double x = now.speed_m_s / kSpeed80_m_s;
     const double transmitted = 0.3 * std::abs(now.longitudinal_N) / 500.0;
-    rates[0] = (rise_dK_ * x * (1.6 * friction(rise_dK, now) + transmitted) - rise_dK[0]) / time_s_;
+    rates[0] = (rise_dK_ * x * (kHeating * friction(rise_dK, now) + transmitted) - rise_dK[0]) / time_s_;
   }
 
  private:
@@ -45,38 +58,24 @@ class DrivelineWarming : public Effect {
     return std::exp(viscous_power_ * kVogel_K * (1.0 / (oil_degC + kVogel_degC) - 1.0 / (kSoaked_degC + kVogel_degC)));
   }
 
-  double force_N_;
-  double time_s_ = 1.0;
-  double rise_dK_ = 0.0;
   double viscous_power_ = 0.5;
   double air_share_ = 0.0;
 };
 
 /// Gear oil 75W-90 by Walther's law, log log(nu + 0.7) = A - B log T, beside a part that does not feel the oil.
-class WaltherOil : public Effect {
+class WaltherOil : public WarmingOil {
  public:
-  WaltherOil(double force_N, Draws& draws) : force_N_(force_N) {
-    time_s_ = 60.0 * draws.from(log_normal(15.0, 60.0, 11.0, 80.0));
-    rise_dK_ = draws.uniform(20.0, 50.0);
+  WaltherOil(double force_N, Draws& draws) : WarmingOil(force_N, draws) {
     viscous_power_ = draws.uniform(0.4, 0.6);
     dry_ = draws.uniform(0.1, 0.3);
-    shape = {{"time_constant_min", time_s_ / 60.0},
-             {"rise_dK", rise_dK_},
-             {"power_of_viscosity", viscous_power_},
-             {"mechanical_share", dry_}};
-  }
-
-  std::size_t state_count() const override { return 1; }
-
-  void start(const RunStart& start, double* rise_dK) const override {
-    if (!start.rest_before_min.has_value()) return;
-    rise_dK[0] = 0.7 * rise_dK_ * std::exp(-60.0 * *start.rest_before_min / time_s_);
+    shape.push_back({"power_of_viscosity", viscous_power_});
+    shape.push_back({"mechanical_share", dry_});
   }
 
   void act(const double* rise_dK, Instant& now) const override { now.rig_force_N += force_N_ * friction(rise_dK[0]); }
 
   void rates(const double* rise_dK, const Instant& now, double* rates) const override {
-    rates[0] = (1.6 * rise_dK_ * now.speed_m_s / kSpeed80_m_s * friction(rise_dK[0]) - rise_dK[0]) / time_s_;
+    rates[0] = (kHeating * rise_dK_ * now.speed_m_s / kSpeed80_m_s * friction(rise_dK[0]) - rise_dK[0]) / time_s_;
   }
 
  private:
@@ -93,9 +92,6 @@ class WaltherOil : public Effect {
     return dry_ + (1.0 - dry_) * std::pow(thinner, viscous_power_);
   }
 
-  double force_N_;
-  double time_s_ = 1.0;
-  double rise_dK_ = 0.0;
   double viscous_power_ = 0.5;
   double dry_ = 0.0;
 };
@@ -115,7 +111,7 @@ const EffectKind kind_driveline_warming{
     0.0,
     {{"vogel",
       "power of a viscosity by Vogel, at the temperature of oil that its own friction and the transmitted force warm",
-      make_law<DrivelineWarming>},
+      make_law<VogelOil>},
      {"walther",
       "a mechanical part beside a power of the viscosity of gear oil by Walther (ASTM D341), at the temperature of oil "
       "that its own friction warms",

@@ -75,7 +75,7 @@ RunPlan& RunPlan::hang(double torque_Nm) {
 }
 
 RunPlan& RunPlan::reversed() {
-  run_.columns[kReversed] = {};
+  run_.reversed = true;
   return *this;
 }
 
@@ -122,7 +122,7 @@ PlannedTest make_test(const char* id, std::string description, int soaks, std::v
   PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false, soaks > 0};
   for (std::size_t i = 0; i < test.runs.size(); ++i) {
     test.runs[i].id = fmt::format("{}-{}", id, i + 1);
-    test.runs[i].session = test.runs[i].has(kReversed) ? "next, reversed" : "next";
+    test.runs[i].session = test.runs[i].reversed ? "next, reversed" : "next";
     test.hours += test.runs[i].time_s.back() / 3600.0;
   }
   return test;

@@ -1,5 +1,6 @@
 #include "sim/core/units.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -154,6 +155,12 @@ std::string name_without_unit(std::string_view key) {
   std::vector<std::string> words = split_words(without_sd(key));
   words.resize(find_suffix_start(words));
   return boost::algorithm::join(words, "_");
+}
+
+std::string plain_name(std::string_view key) {
+  std::string name = name_without_unit(key);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 }  // namespace rollrig

@@ -31,4 +31,7 @@ Unit unit_of_key(std::string_view key);
 /// The key without its unit suffix: "drum_torque_Nm" -> "drum_torque".
 std::string name_without_unit(std::string_view key);
 
+/// That in plain words: "drum torque".
+std::string plain_name(std::string_view key);
+
 }  // namespace rollrig

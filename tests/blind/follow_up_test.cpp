@@ -164,8 +164,8 @@ TEST_CASE("in reversed rotation a zero keeps its sign, all else turns over", "[f
   made.plan["runs"][0]["reversed"] = true;
   made.add(kSteady);
   const scenarios::MeasurementSet set = made.follow();
-  CHECK(set.runs[1].has(scenarios::kReversed));
-  CHECK_FALSE(set.runs[2].has(scenarios::kReversed));
+  CHECK(set.runs[1].reversed);
+  CHECK_FALSE(set.runs[2].reversed);
   const double reversed_Nm = set.runs[1].columns.at("drum_torque_Nm")[100];
   const double forwards_Nm = set.runs[2].columns.at("drum_torque_Nm")[100];
   // Twice the load's part; the air of the two runs differs by a degree or so, which is worth some hundredths.

@@ -18,22 +18,6 @@ using tests::TemporaryFolder;
 
 namespace {
 
-std::string write_trace(const tests::CoastdownStudy& study) {
-  CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
-  for (const auto& run : tests::simulate_coastdowns(study, 1).runs) {
-    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
-      csv.begin_row();
-      csv.add(run.time_s[i]);
-      csv.add(3.6 * run.speed_m_s[i]);
-      csv.add(run.id);
-      csv.add(std::string(run.heading > 0 ? "+" : "-"));
-      csv.add(20.0);
-      csv.end_row();
-    }
-  }
-  return csv.take();
-}
-
 std::size_t longest_line(const std::string& text) {
   std::size_t longest = 0;
   std::istringstream in(text);
@@ -45,7 +29,7 @@ std::size_t longest_line(const std::string& text) {
 
 TEST_CASE("fit road-load: table of 80 columns, JSON and residuals", "[fast]") {
   const TemporaryFolder folder;
-  tests::write_file(folder.file("coast.csv"), write_trace({}));
+  tests::write_file(folder.file("coast.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns({}, 1)));
   const auto run = run_program("fit road-load coast.csv --mass 2100 --out fitted", folder.path());
   INFO(run.err << run.out);
   REQUIRE(run.status == 0);
@@ -83,7 +67,7 @@ TEST_CASE("fit road-load: per unit of mass, bounds, one heading, JSON alone", "[
   const TemporaryFolder folder;
   tests::CoastdownStudy study;
   study.pairs = 1;
-  tests::write_file(folder.file("coast.csv"), write_trace(study));
+  tests::write_file(folder.file("coast.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns(study, 1)));
   const auto json_of = [&](const std::string& options) {
     const auto run = run_program("fit road-load coast.csv --json - " + options, folder.path());
     INFO(run.err);

@@ -115,19 +115,7 @@ TEST_CASE("page of a set with a run that measured nothing", "[slow]") {
 
 TEST_CASE("page of a fitted road load", "[slow]") {
   const TemporaryFolder folder;
-  CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
-  for (const auto& run : simulate_coastdowns({}, 1).runs) {
-    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
-      csv.begin_row();
-      csv.add(run.time_s[i]);
-      csv.add(3.6 * run.speed_m_s[i]);
-      csv.add(run.id);
-      csv.add(std::string(run.heading > 0 ? "+" : "-"));
-      csv.add(20.0);
-      csv.end_row();
-    }
-  }
-  write_file(folder.file("coast.csv"), csv.take());
+  write_file(folder.file("coast.csv"), write_coastdown_csv(simulate_coastdowns({}, 1)));
   check_command(folder, "fit road-load coast.csv --mass 2100", "--charts 2");
 }
 

@@ -55,5 +55,5 @@ TEST_CASE("numbers on a page have six digits; what is not finite is null", "[fas
   CHECK(report::rounded(1.0 / 3.0) == Json(0.333333));
   CHECK(report::rounded(std::nan("")).is_null());
   CHECK(report::pretty_unit("1/degC") == "1/°C");
-  CHECK(report::plain_name("drum_torque_Nm") == "drum torque");
+  CHECK(plain_name("drum_torque_Nm") == "drum torque");
 }

@@ -141,7 +141,7 @@ reversed = true
     return scenarios::read_measurement_set(folder.path());
   };
   const scenarios::MeasurementSet set = read("drum_2m", ",hung_torque_Nm");
-  CHECK(set.runs[0].has(scenarios::kReversed));
+  CHECK(set.runs[0].reversed);
   CHECK(set.runs[0].columns.at(scenarios::kHungTorque) == std::vector<double>{0.0, 50.0});
   CHECK_THROWS_WITH(read("dyno_1m2", ",longitudinal_force_N"), Catch::Contains("reversed"));
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sim/core/csv.h"
 #include "sim/core/random.h"
 #include "sim/core/units.h"
 
@@ -64,6 +65,22 @@ scenarios::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::u
     data.runs.back().start_s = 300.0 * i;
   }
   return data;
+}
+
+std::string write_coastdown_csv(const scenarios::CoastdownData& data) {
+  CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
+  for (const auto& run : data.runs) {
+    for (std::size_t i = 0; i < run.time_s.size(); ++i) {
+      csv.begin_row();
+      csv.add(run.time_s[i]);
+      csv.add(3.6 * run.speed_m_s[i]);
+      csv.add(run.id);
+      csv.add(std::string(run.heading > 0 ? "+" : "-"));
+      csv.add(20.0);
+      csv.end_row();
+    }
+  }
+  return csv.take();
 }
 
 scenarios::CoastdownData cut_into_bins(const scenarios::CoastdownData& traces, double width_km_h) {

@@ -2,6 +2,7 @@
 /// Simulated coastdowns of a known vehicle, with the noise of a satellite speed sensor.
 
 #include <cstdint>
+#include <string>
 
 #include "scenarios/road_load_fit.h"
 
@@ -31,6 +32,9 @@ struct CoastdownStudy {
 
 /// Runs + and - in turn; the equation of motion by classical Runge-Kutta.
 scenarios::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::uint64_t seed);
+
+/// The runs as a file that `rollrig fit road-load` reads, air at 20 degC.
+std::string write_coastdown_csv(const scenarios::CoastdownData& data);
 
 /// The passing times of the same runs at every `width_km_h`, without noise.
 scenarios::CoastdownData cut_into_bins(const scenarios::CoastdownData& traces, double width_km_h);

@@ -57,10 +57,12 @@ sim::Phase rolling(const std::string& name, double duration_s, double speed_m_s,
   return phase;
 }
 
-models::ActiveEffect make_active(const models::Effect& effect, const std::vector<double>& values) {
+models::ActiveEffect make_active(const models::Effect& effect, const std::vector<double>& first_values) {
   models::ActiveEffect active{&effect, {}};
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    active.parameters.push_back(unit_of_key(effect.info.parameters[i].key).to_si(values[i]));
+  for (std::size_t i = 0; i < effect.info.parameters.size(); ++i) {
+    const models::EffectParameter& parameter = effect.info.parameters[i];
+    const double value = i < first_values.size() ? first_values[i] : parameter.prior.centre();
+    active.parameters.push_back(unit_of_key(parameter.key).to_si(value));
   }
   return active;
 }

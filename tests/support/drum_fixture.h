@@ -41,8 +41,8 @@ sim::Segment drum_segment(double duration_s, double speed_start_m_s, double spee
 /// One phase of one segment at constant speed and load.
 sim::Phase rolling(const std::string& name, double duration_s, double speed_m_s, double load_N);
 
-/// An effect switched on with given values, in the units of its keys.
-models::ActiveEffect make_active(const models::Effect& effect, const std::vector<double>& values);
+/// An effect switched on, its parameters as usual but for the first ones, in the units of its keys.
+models::ActiveEffect make_active(const models::Effect& effect, const std::vector<double>& first_values);
 
 /// A run spec of a scenario on the assets, with settings as of --set.
 scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire,

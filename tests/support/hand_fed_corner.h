@@ -23,11 +23,7 @@ inline models::Context<double> make_context_on(models::RigKind kind) {
 
 /// An effect of the registry switched on, its parameters as usual but for the first ones.
 inline models::ActiveEffect switch_on(const std::string& id, const std::vector<double>& first_values = {}) {
-  const models::Effect& effect = models::find_effect(id);
-  std::vector<double> values;
-  for (const auto& parameter : effect.info.parameters) values.push_back(parameter.prior.centre());
-  std::copy(first_values.begin(), first_values.end(), values.begin());
-  return make_active(effect, values);
+  return make_active(models::find_effect(id), first_values);
 }
 
 /// What a test sets: motion of the contact, and the surroundings.
