@@ -42,12 +42,10 @@ Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& diff
 
 /// The shares of model error as far as the loosest of a hypothesis' laws goes.
 ModelError loosen(ModelError error, const Hypothesis& hypothesis) {
-  for (const LooseLaw& loose : thresholds::kLooseLaws) {
-    for (const ActingEffect& on : hypothesis.effects) {
-      if (on.effect->info.id != loose.effect) continue;
-      error.law_share = std::max(error.law_share, loose.law_share);
-      error.whole_share = std::max(error.whole_share, loose.whole_share);
-    }
+  for (const ActingEffect& on : hypothesis.effects) {
+    const models::LawError& own = on.effect->info.law_error;
+    error.law_share = std::max(error.law_share, own.here_and_there);
+    error.whole_share = std::max(error.whole_share, own.everywhere);
   }
   return error;
 }

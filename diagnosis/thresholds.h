@@ -23,22 +23,13 @@ struct RacePriors {
 struct ModelError {
   double baseline_floors = 0.1;   // Assumed: of the baseline's equations, per channel
   double law_share = 0.05;        // Assumed: of what an effect changes in a channel that nothing else can change
-  double whole_share = 0.015;     // Assumed: of all that it changes there, base parameters held
+  double whole_share = 0.015;     // Assumed: of all that it changes there, base parameters held; an effect whose
+                                  // law is rougher says so (EffectInfo::law_error)
   double size_share = 0.1;        // Assumed: of an effect's size, by which its law may be wrong everywhere alike
   double look_alike_share = 0.3;  // Assumed: by which an unknown effect differs from the one that it looks like
 };
 
-/// Effects whose law leaves out more than `law_share` and `whole_share`, and how much.
-struct LooseLaw {
-  const char* effect;
-  double law_share;
-  double whole_share;
-};
-
 namespace thresholds {
-
-constexpr LooseLaw kLooseLaws[] = {
-    {"wind_and_grade", 0.3, 0.09}};  // Assumed: gusts and turns of the road, a third of a mean wind
 
 constexpr double kExactLaw = 0.3;  // Assumed: that a law is better than the shares of model error say
 

@@ -40,6 +40,12 @@ struct EffectState {
   const char* doc;
 };
 
+/// How far an effect's law may be from the truth, where that is more than usual: shares of what it changes.
+struct LawError {
+  double here_and_there = 0.0;  // of what nothing else can change
+  double everywhere = 0.0;      // of all that it changes, base parameters held
+};
+
 /// Everything about an effect that is not an equation in code.
 struct EffectInfo {
   std::string id;
@@ -56,6 +62,7 @@ struct EffectInfo {
   std::vector<std::string> clean_in;         // measured channels, of any rig kind, that it leaves bit-identical
   std::vector<std::string> confused_with;    // ids
   std::vector<std::string> splitting_tests;  // tests that tell it from those
+  LawError law_error{};                      // where it exceeds the diagnosis' usual shares
 };
 
 /// The word for a rig kind in files and on pages.

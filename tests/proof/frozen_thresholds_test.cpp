@@ -13,10 +13,12 @@ namespace {
 
 constexpr const char* kFrozen = ROLLRIG_SOURCE_DIR "/docs/blind_proof/frozen.sha256";
 
-/// Priors of all effects, a line each.
+/// Priors of all effects and the errors of their laws, a line each.
 std::string write_priors() {
   std::string text;
   for (const models::Effect* effect : models::all_effects()) {
+    const models::LawError& error = effect->info.law_error;
+    text += fmt::format("{} {:.17g} {:.17g}\n", effect->info.id, error.here_and_there, error.everywhere);
     for (const models::EffectParameter& parameter : effect->info.parameters) {
       const models::Prior& prior = parameter.prior;
       text += fmt::format("{}.{} {:.17g} {:.17g} {} {} {:.17g} {:.17g}\n", effect->info.id, parameter.key, prior.low,
