@@ -6,7 +6,7 @@ namespace rollrig::models {
 namespace {
 
 struct DrivelineWarming {
-  enum Parameter { kForce, kTimeConstant, kFall, kAmbientShare };
+  enum Parameter { kForce, kTimeConstant, kFall, kAmbientShare, kDryShare };
   enum State { kRise };
 
   static EffectInfo info() {
@@ -14,17 +14,20 @@ struct DrivelineWarming {
     info.id = "driveline_warming";
     info.summary = "Cold oil and bearings of the vehicle cost a force that falls as they warm; force of one wheel";
     info.equation =
-        "F_par <- F_par + F_c exp(-k (w + a (T_amb - T_0)/D)), tau dw/dt = (v/v_ref) exp(k (1 - w)) - w; w rise of the "
-        "oil, relative to that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
+        "F_par <- F_par + F_c (g + (1 - g) exp(-k (w + a (T_amb - T_0)/D))), tau dw/dt = (v/v_ref) exp(k (1 - w)) - w; "
+        "w rise of the oil, relative to that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
     info.source =
         "viscosity of oil falls exponentially with temperature (Reynolds); 3 to 25 N, 15 to 60 min: effects.md. "
-        "Assumed: k; heating by the friction itself, whose exponent levels off at 3 there; D; a, between 0 (warmed to a "
-        "temperature that the air does not matter to) and 1. Not soaked: warm before the rest";
+        "Assumed: k; heating by the friction itself, whose exponent levels off at 3 there; D; a, between 0 (warmed to "
+        "a temperature that the air does not matter to) and 1; g, of seals and gears, up to a quarter. Not soaked: "
+        "warm "
+        "before the rest";
     info.parameters = {
         {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold at 25 degC", 0.0},
         {"time_constant_min", between(0.5, 600.0), {15.0, 60.0, Prior::Scale::kLog}, "tau, of the oil's warm-up"},
         {"fall", between(0.0, 10.0), {0.7, 2.5, Prior::Scale::kLog}, "k, exponent of the fall by w = 1"},
-        {"ambient_share", between(-1.0, 3.0), {0.0, 0.2}, "a, of the air's temperature that the oil takes on"}};
+        {"ambient_share", between(-1.0, 3.0), {0.0, 0.2}, "a, of the air's temperature that the oil takes on"},
+        {"dry_share", between(-0.5, 0.9), {0.0, 0.2}, "g, of the cold force, that does not feel the oil"}};
     info.states = {{"oil_rise", 1.0, "w, rise of the oil's temperature over ambient, relative"}};
     info.acts_on = {RigKind::kDyno, RigKind::kFlat};
     info.visible_in = {"loss_force_N", "traction_force_N"};
@@ -46,7 +49,8 @@ struct DrivelineWarming {
     const S warmer_dK = now.recorded.ambient_K - get_reference_temperature_K<S>();
     const S usual_dK = quantity<S>(30.0, dimension::kTemperature);
     const S relative = self.state(kRise) + self.parameter(kAmbientShare) * warmer_dK / usual_dK;
-    port.extra_force_N += self.parameter(kForce) * exp(-self.parameter(kFall) * relative);
+    const S& dry = self.parameter(kDryShare);
+    port.extra_force_N += self.parameter(kForce) * (dry + (S(1.0) - dry) * exp(-self.parameter(kFall) * relative));
   }
 
   template <class S>

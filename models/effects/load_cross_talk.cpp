@@ -5,23 +5,26 @@ namespace rollrig::models {
 namespace {
 
 struct LoadCrossTalk {
-  enum Parameter { kAngle };
+  enum Parameter { kAngle, kBending };
 
   static EffectInfo info() {
     EffectInfo info;
     info.id = "load_cross_talk";
     info.summary =
         "Part of the load stands in the direction in which force is measured, at every speed and temperature alike";
-    info.equation = "torque <- torque + R Fz sin d, loss force <- loss force + Fz sin d; Fz as recorded";
+    info.equation =
+        "torque <- torque + R Fz sin e, loss force <- loss force + Fz sin e, e = d (1 - b + b Fz/Fz_ref); Fz as "
+        "recorded";
     info.source =
         "misaligned load, as ISO 28580 corrects by turning both ways; Fz sin(d), 0 to 0.5 mrad: effects.md. Means over "
         "the sample, with a row's load held until the next. Assumed: either sign; the recorded load, whose own error "
-        "would change a small force by a small share";
+        "would change a small force by a small share; b, a frame that bends under the load";
     info.parameters = {{"angle_mrad",
                         between(-20.0, 20.0),
                         {0.05, 0.5, Prior::Scale::kLog, true},
-                        "d, between the load and the normal to the direction of the force",
-                        0.0}};
+                        "d, between the load and the normal to the direction of the force, at the reference load",
+                        0.0},
+                       {"bending_share", between(-1.0, 1.0), {0.0, 0.3}, "b, of the angle, in proportion to load"}};
     info.acts_on = {RigKind::kDrum, RigKind::kDyno};
     info.visible_in = {"drum_torque_Nm", "loss_force_N"};
     info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
@@ -48,10 +51,12 @@ struct LoadCrossTalk {
     const std::vector<S>* load_N = port.find("load_N");
     if (load_N == nullptr) return;
     const std::vector<S> mean_N = calc_means(port.time_s, *load_N);
-    const S share = sin(self.parameter(kAngle));
+    const S& reference_N = port.context->tire.rolling_resistance.reference_load_N;
+    const S& bending = self.parameter(kBending);
     std::vector<S>* torque_Nm = port.find("drum_torque_Nm");
     std::vector<S>* loss_N = port.find("loss_force_N");
     for (std::size_t i = 0; i < mean_N.size(); ++i) {
+      const S share = sin(S(self.parameter(kAngle) * (S(1.0) - bending + bending * mean_N[i] / reference_N)));
       if (torque_Nm != nullptr) (*torque_Nm)[i] += mean_N[i] * share / port.context->surface_curvature_per_m;
       if (loss_N != nullptr) (*loss_N)[i] += mean_N[i] * share;
     }

@@ -1,4 +1,4 @@
-/// The recorded speed is off by a scale.
+/// The recorded speed is off by a scale, a part of which may grow with speed or be a fixed speed.
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
@@ -6,30 +6,31 @@ namespace rollrig::models {
 namespace {
 
 struct SpeedRecord {
-  enum Parameter { kError, kGrowingShare };
+  enum Parameter { kError, kGrowingShare, kFixedShare };
 
   static EffectInfo info() {
     EffectInfo info;
     info.id = "speed_record";
     info.summary =
-        "What really turns is faster or slower than recorded, by a share, fixed or growing with speed: loss, heat, "
-        "drag and inertia go with "
-        "the "
-        "true speed, while the record keeps its own";
+        "What really turns is faster or slower than recorded, by a share, fixed or other at other speeds: loss, heat, "
+        "drag and inertia go with the true speed, while the record keeps its own";
     info.equation =
-        "v <- v (1 + s (1 - g + g v/v_ref)), dv/dt <- (1 + s (1 - g + 2 g v/v_ref)) dv/dt, on entry as recorded; "
-        "v_ref = 80 km/h";
+        "x <- x + s ((1 - g - o) x + g x^2 + o x/sqrt(x^2 + e^2)), x = v/v_ref, v_ref = 80 km/h, e = 0.05; dv/dt by "
+        "the "
+        "derivative; on entry as recorded";
     info.source =
         "scale, 1 to 10 %: effects.md. The record is given and the truth follows from it; torque and force are "
-        "measured "
-        "by themselves, so that their channels have no error of their own from it. A slope is taken as it is recorded. "
-        "Assumed: either sign; g, a diameter or a belt that grows with speed";
+        "measured by themselves, so that their channels have no error of their own from it. A slope is taken as it is "
+        "recorded. Assumed: either sign; g, a diameter or a belt that grows with speed; o, a fixed speed, which is "
+        "gone "
+        "at rest, within e";
     info.parameters = {{"error_percent",
                         between(-50.0, 50.0),
                         {1.0, 10.0, Prior::Scale::kLog, true},
                         "s, true over recorded at 80 km/h, less one",
                         0.0},
-                       {"growing_share", between(-1.0, 1.0), {-0.3, 0.3}, "g, of the error, in proportion to speed"}};
+                       {"growing_share", between(-1.0, 1.0), {-0.3, 0.3}, "g, of the error, in proportion to speed"},
+                       {"fixed_share", between(-1.0, 1.0), {-0.2, 0.2}, "o, of the error, that is a fixed speed"}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
                        "cavity_pressure_kPa"};
     info.confused_with = {"inertia_error"};
@@ -41,11 +42,17 @@ struct SpeedRecord {
   template <class S>
   static void input(const EffectView<S>& self, const Instant<S>&, InputPort<S>& port) {
     using std::abs;
+    using std::sqrt;
+    constexpr double kAtRest = 0.05;
     const S& error = self.parameter(kError);
-    const S growing = self.parameter(kGrowingShare) * abs(port.speed_m_s) / get_reference_speed_m_s<S>();
-    const S constant = S(1.0) - self.parameter(kGrowingShare);
-    port.speed_m_s *= S(1.0) + error * (constant + growing);
-    port.acceleration_m_s2 *= S(1.0) + error * (constant + S(2.0) * growing);
+    const S& growing = self.parameter(kGrowingShare);
+    const S& fixed = self.parameter(kFixedShare);
+    const S x = abs(port.speed_m_s) / get_reference_speed_m_s<S>();
+    const S smoothed = sqrt(S(x * x + S(kAtRest * kAtRest)));
+    const S constant = S(1.0) - growing - fixed;
+    const S at_rest = S(kAtRest) / smoothed;
+    port.speed_m_s *= S(1.0) + error * (constant + growing * x + fixed / smoothed);
+    port.acceleration_m_s2 *= S(1.0) + error * (constant + S(2.0) * growing * x + fixed * at_rest * at_rest / smoothed);
   }
 };
 

@@ -5,16 +5,22 @@ namespace rollrig::models {
 namespace {
 
 struct TieDownLoad {
-  enum Parameter { kLoad };
+  enum Parameter { kLoad, kRelaxing };
+  enum State { kRelaxed };
 
   static EffectInfo info() {
     EffectInfo info;
     info.id = "tie_down_load";
     info.summary = "The tie-downs press every wheel onto its roller with more than the recorded load";
-    info.equation = "Fz <- Fz + dF, where Fz > 0";
-    info.source = "source §3.4.2 (vehicle held by tie-downs); 50 to 400 N a wheel: effects.md";
+    info.equation = "Fz <- Fz + dF (1 - r w), where Fz > 0; tau dw/dt = 1 - w, w = 0 at the start, tau = 15 min";
+    info.source =
+        "source §3.4.2 (vehicle held by tie-downs); 50 to 400 N a wheel: effects.md. Assumed: straps that creep, r, "
+        "tau; "
+        "tied down anew before a run, but for one right after another";
     info.parameters = {
-        {"added_load_N", between(-1000.0, 3000.0), {50.0, 400.0, Prior::Scale::kLog}, "dF, of one wheel", 0.0}};
+        {"added_load_N", between(-1000.0, 3000.0), {50.0, 400.0, Prior::Scale::kLog}, "dF, of one wheel", 0.0},
+        {"relaxing_share", between(-0.5, 0.8), {0.0, 0.2}, "r, of it, that straps lose as they creep"}};
+    info.states = {{"relaxed_share", 1.0, "w, of what the straps will lose, that they have lost"}};
     info.acts_on = {RigKind::kDyno};
     info.visible_in = {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
     info.confused_with = {"curvature_exponent", "load_record"};
@@ -23,9 +29,19 @@ struct TieDownLoad {
   }
 
   template <class S>
+  static void initial(const EffectView<S>&, const InitialPort<S>& port, S* states) {
+    states[kRelaxed] = S(port.started_warm ? 1.0 : 0.0);
+  }
+
+  template <class S>
   static void input(const EffectView<S>& self, const Instant<S>&, InputPort<S>& port) {
     if (value_of(port.load_N) <= 0.0) return;  // the rollers alone: no vehicle stands on them
-    port.load_N += self.parameter(kLoad);
+    port.load_N += self.parameter(kLoad) * (S(1.0) - self.parameter(kRelaxing) * self.state(kRelaxed));
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>& self, const Instant<S>&, S* rates) {
+    rates[kRelaxed] = (S(1.0) - self.state(kRelaxed)) / quantity<S>(900.0, dimension::kTime);
   }
 };
 

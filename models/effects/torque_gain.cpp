@@ -1,11 +1,11 @@
-/// The scale of the torque measurement is off.
+/// The scale of the torque measurement is off, or bent.
 #include "models/effect.h"
 
 namespace rollrig::models {
 namespace {
 
 struct TorqueGain {
-  enum Parameter { kGain };
+  enum Parameter { kGain, kPower };
 
   static EffectInfo info() {
     EffectInfo info;
@@ -13,11 +13,17 @@ struct TorqueGain {
     info.summary =
         "The force measurement shows a fixed share too much or too little: drum torque, loss force or traction force; "
         "the level of the loss takes it up where that is uncertain, but temperatures do not follow it";
-    info.equation = "torque <- torque (1 + s), loss force <- loss force (1 + s), traction force <- the same";
+    info.equation =
+        "F <- F (1 + s q), q = (((F/F_ref)^2 + e^2)/(1 + e^2))^(n/2), F_ref = 60 N, e = 0.05; F: torque over the "
+        "drum's radius, loss force, traction force";
     info.source =
         "2 %, of all torque: effects.md. On a dynamometer one scale of hub and roller, so that the loss between them "
-        "has it too; Assumed: two scales that differ would leak the drive force into it, which is not in the catalogue";
-    info.parameters = {{"gain_percent", between(-50.0, 50.0), {-2.0, 2.0}, "s, shown over true, less one", 0.0}};
+        "has it too; Assumed: two scales that differ would leak the drive force into it, which is not in the "
+        "catalogue; n "
+        "about 0, below it for a bridge that reads less at high force; F_ref, about the rolling resistance of a car's "
+        "tire";
+    info.parameters = {{"gain_percent", between(-50.0, 50.0), {-2.0, 2.0}, "s, shown over true at 60 N, less one", 0.0},
+                       {"power", between(-0.9, 1.0), {-0.2, 0.2}, "n, of the force, by which the share grows"}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N"};
     info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
     info.confused_with = {"load_record"};
@@ -27,11 +33,23 @@ struct TorqueGain {
 
   template <class S>
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
-    const S factor = S(1.0) + self.parameter(kGain);
-    for (const char* name : {"drum_torque_Nm", "loss_force_N", "traction_force_N"}) {
-      std::vector<S>* values = port.find(name);
-      if (values == nullptr) continue;
-      for (S& value : *values) value *= factor;
+    const S reference_N = quantity<S>(60.0, dimension::kForce);
+    scale(self, port.find("drum_torque_Nm"), reference_N / port.context->surface_curvature_per_m);
+    scale(self, port.find("loss_force_N"), reference_N);
+    scale(self, port.find("traction_force_N"), reference_N);
+  }
+
+ private:
+  template <class S>
+  static void scale(const EffectView<S>& self, std::vector<S>* values, const S& reference) {
+    using std::pow;
+    constexpr double kAtRest = 0.05;
+    if (values == nullptr) return;
+    for (S& value : *values) {
+      const S x = value / reference;
+      const S share =
+          pow(S((x * x + S(kAtRest * kAtRest)) / S(1.0 + kAtRest * kAtRest)), S(0.5 * self.parameter(kPower)));
+      value *= S(1.0) + self.parameter(kGain) * share;
     }
   }
 };

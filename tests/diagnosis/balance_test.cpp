@@ -94,7 +94,7 @@ TEST_CASE("a loss of the tire that is missing pushes the tire's loss", "[fast]")
 }
 
 TEST_CASE("a surface that warms pushes the boundary, or heat as its twin", "[fast]") {
-  const auto effect = tests::make_active(models::find_effect("surface_warming"), {10.0, 20.0, 0.7});
+  const auto effect = tests::make_active(models::find_effect("surface_warming"), {10.0, 20.0, 0.7, 0.0});
   const Shares shares(tests::make_gap_set({effect}, 6));  // of three runs, recalibrated cooling takes it all
   CHECK(shares.of("boundary") + shares.of("tire heat") > 95.0);
   CHECK(shares.of("boundary") > 30.0);

@@ -94,6 +94,20 @@ TEST_CASE("tie-downs press the wheel onto its roller, and only there", "[fast]")
         Approx(find_loss_N(RigKind::kDyno, {}, 20.0, 5700.0)));
 }
 
+TEST_CASE("straps creep from what they were tied down with, and have crept right after a run", "[fast]") {
+  const auto effect = switch_on("tie_down_load", {300.0, 0.2});
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {effect});
+  CHECK(at.evaluate().acting.load_N == 5700.0);
+  at.advance(900.0);
+  CHECK(at.now.acting.load_N < 5700.0);
+  at.advance(10.0 * 3600.0, 4000);
+  CHECK(at.now.acting.load_N == Approx(5400.0 + 0.8 * 300.0));
+  models::InitialPort<double> warm;
+  warm.started_warm = true;
+  CHECK(HandFedCorner<double>(make_context_on(RigKind::kDyno), {effect}, warm).evaluate().acting.load_N ==
+        Approx(5400.0 + 0.8 * 300.0));
+}
+
 TEST_CASE("an error of inertia is on the machine and on the vehicle alike", "[fast]") {
   HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("inertia_error", {-2.5})});
   CHECK(at.evaluate().contact.machine_inertia_factor == Approx(0.975));

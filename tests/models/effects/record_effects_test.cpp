@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "tests/support/trace_port.h"
 
@@ -29,7 +30,7 @@ double find_acting_N(const models::ActiveEffect& effect, double recorded_N, RigK
 
 TEST_CASE("a wrong speed record turns the tire faster than it says, and the record stays", "[fast]") {
   for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
-    HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0, 0.0})});
+    HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0, 0.0, 0.0})});
     HandFedCorner<double> right(make_context_on(kind), {});
     wrong.inputs.speed_m_s = 20.0;
     wrong.inputs.acceleration_m_s2 = 0.4;
@@ -45,29 +46,46 @@ TEST_CASE("a wrong speed record turns the tire faster than it says, and the reco
   }
 }
 
-TEST_CASE("an error of the speed that grows with it is its size at 80 km/h, and the acceleration is the speed's own",
+TEST_CASE("an error of the speed is its size at 80 km/h, grows or falls with speed, and the acceleration is its own",
           "[fast]") {
-  const auto at_speed = [](double speed_m_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, 0.4})});
-    at.inputs.speed_m_s = speed_m_s;
-    at.inputs.acceleration_m_s2 = 0.5;
-    at.evaluate();
-    return std::pair{at.now.acting.speed_m_s, at.now.acting.acceleration_m_s2};
-  };
   const double v_m_s = 80.0 / 3.6;
-  CHECK(at_speed(v_m_s).first == Approx(1.05 * v_m_s));
-  CHECK(at_speed(0.5 * v_m_s).first == Approx((1.0 + 0.05 * 0.8) * 0.5 * v_m_s));
-  const double h_s = 1e-4;
-  const double later_m_s = at_speed(v_m_s + 0.5 * h_s).first;
-  const double sooner_m_s = at_speed(v_m_s - 0.5 * h_s).first;
-  CHECK(at_speed(v_m_s).second == Approx((later_m_s - sooner_m_s) / (2.0 * h_s)).epsilon(1e-6));
+  for (const auto& [growing, fixed, rises] : {std::tuple{0.4, 0.0, 1.0}, std::tuple{0.0, 0.4, -1.0}}) {
+    const auto at_speed = [growing = growing, fixed = fixed](double speed_m_s) {
+      HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, growing, fixed})});
+      at.inputs.speed_m_s = speed_m_s;
+      at.inputs.acceleration_m_s2 = 0.5;
+      at.evaluate();
+      return std::pair{at.now.acting.speed_m_s, at.now.acting.acceleration_m_s2};
+    };
+    const auto error = [&](double speed_m_s) { return at_speed(speed_m_s).first / speed_m_s - 1.0; };
+    CHECK(error(v_m_s) == Approx(0.05).epsilon(1e-3));
+    CHECK((error(1.4 * v_m_s) - error(0.5 * v_m_s)) * rises > 0.0);
+    for (const double share : {0.02, 0.3, 1.0, 1.6}) {
+      const double h_s = 1e-4;
+      const double later_m_s = at_speed(share * v_m_s + 0.5 * h_s).first;
+      const double sooner_m_s = at_speed(share * v_m_s - 0.5 * h_s).first;
+      CHECK(at_speed(share * v_m_s).second == Approx((later_m_s - sooner_m_s) / (2.0 * h_s)).epsilon(1e-6));
+    }
+    CHECK(at_speed(0.0).first == 0.0);
+  }
+}
+
+TEST_CASE("a fixed speed beside the scale is as many km/h at every speed but at rest", "[fast]") {
+  const auto off_m_s = [](double speed_m_s) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, 0.0, 1.0})});
+    at.inputs.speed_m_s = speed_m_s;
+    return at.evaluate().acting.speed_m_s - speed_m_s;
+  };
+  CHECK(off_m_s(30.0) == Approx(4.0 / 3.6).epsilon(2e-3));
+  CHECK(off_m_s(10.0) == Approx(4.0 / 3.6).epsilon(2e-2));
+  CHECK(off_m_s(0.1) < 0.2);
 }
 
 TEST_CASE("a wrong load record is a scale, an offset, or some of both, and the error at the reference load is the size",
           "[fast]") {
   for (const double offset_share : {0.0, 0.3, 1.0}) {
     for (const double percent : {4.0, -4.0}) {
-      const auto effect = switch_on("load_record", {percent, offset_share});
+      const auto effect = switch_on("load_record", {percent, offset_share, 1.0});
       CHECK(find_acting_N(effect, 5400.0) == Approx(5400.0 * (1.0 + 0.01 * percent)));
       // a straight line in the recorded load
       const double slope = (find_acting_N(effect, 4000.0) - find_acting_N(effect, 2000.0)) / 2000.0;
@@ -76,6 +94,17 @@ TEST_CASE("a wrong load record is a scale, an offset, or some of both, and the e
   }
   CHECK(find_acting_N(switch_on("load_record", {4.0, 1.0}), 200.0) == Approx(416.0));
   CHECK(find_acting_N(switch_on("load_record", {4.0, 0.0}), 200.0) == Approx(208.0));
+}
+
+TEST_CASE("a load cell that bends is off by its size at the reference load, and by another share elsewhere", "[fast]") {
+  const auto share = [](double power, double recorded_N) {
+    return find_acting_N(switch_on("load_record", {4.0, 0.0, power}), recorded_N) / recorded_N - 1.0;
+  };
+  for (const double power : {0.6, 1.8}) CHECK(share(power, 5400.0) == Approx(0.04));
+  CHECK(share(1.8, 2700.0) < 0.04);
+  CHECK(share(1.8, 6500.0) > 0.04);
+  CHECK(share(0.6, 2700.0) > 0.04);
+  CHECK(share(2.0, 2700.0) == Approx(0.02));
 }
 
 TEST_CASE("an error of the load record neither pulls at a tire nor puts down one that is lifted", "[fast]") {
@@ -134,7 +163,7 @@ TEST_CASE("a wrong pressure sensor does not change the pressure that the tire ro
 }
 
 TEST_CASE("a scale of torque is on torque, loss force and traction force, in both directions of power", "[fast]") {
-  const auto effect = switch_on("torque_gain", {2.5});
+  const auto effect = switch_on("torque_gain", {2.5, 0.0});
   const std::vector<double> values{40.0, -20.0, 0.0};
   const std::vector<double> time_s{0.0, 1.0, 2.0};
   for (const auto& [name, kind] : std::vector<std::pair<std::string, RigKind>>{{"drum_torque_Nm", RigKind::kDrum},
@@ -148,8 +177,22 @@ TEST_CASE("a scale of torque is on torque, loss force and traction force, in bot
   CHECK(apply_trace(effect, time_s, {"liner_temperature_degC", values}) == values);
 }
 
+TEST_CASE("a torque meter that bends is off by its size at a force of 60 N, either way, and less at high force",
+          "[fast]") {
+  const auto effect = switch_on("torque_gain", {2.5, -0.3});
+  const auto share = [&](const std::string& channel, double value, RigKind kind) {
+    return apply_trace(effect, {0.0, 1.0}, {channel, {value, -value}}, kind)[1] / -value - 1.0;
+  };
+  const double radius_m = 1.0 / make_context_on(RigKind::kDrum).surface_curvature_per_m;
+  CHECK(share("drum_torque_Nm", 60.0 * radius_m, RigKind::kDrum) == Approx(0.025));
+  CHECK(share("loss_force_N", 60.0, RigKind::kDyno) == Approx(0.025));
+  CHECK(share("traction_force_N", -60.0, RigKind::kFlat) == Approx(0.025));
+  CHECK(share("loss_force_N", 600.0, RigKind::kDyno) < 0.015);
+  CHECK(share("loss_force_N", 6.0, RigKind::kDyno) > 0.04);
+}
+
 TEST_CASE("load leaks into the torque by its angle, by the drum's radius, whatever the torque is", "[fast]") {
-  const auto effect = switch_on("load_cross_talk", {0.4});
+  const auto effect = switch_on("load_cross_talk", {0.4, 0.0});
   const std::vector<double> time_s{0.0, 1.0, 2.0};
   const NamedChannel load{"load_N", {5000.0, 5000.0, 5000.0}};
   for (const double torque_Nm : {0.0, 60.0}) {
@@ -159,13 +202,25 @@ TEST_CASE("load leaks into the torque by its angle, by the drum's radius, whatev
   }
   const std::vector<double> zeros(3, 0.0);
   CHECK(apply_trace(effect, time_s, {"loss_force_N", zeros}, RigKind::kDyno, {load})[1] == Approx(2.0));
-  CHECK(apply_trace(switch_on("load_cross_talk", {-0.4}), time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum,
+  CHECK(apply_trace(switch_on("load_cross_talk", {-0.4, 0.0}), time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum,
                     {load})[1] == Approx(-2.0));
   CHECK(apply_trace(effect, time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum) == zeros);  // no load, no leak
 }
 
+TEST_CASE("an angle that grows as the frame bends is its size at the reference load, and less below it", "[fast]") {
+  const auto share = [](double load_N) {
+    const NamedChannel load{"load_N", {load_N, load_N}};
+    return apply_trace(switch_on("load_cross_talk", {0.4, 0.5}), {0.0, 1.0}, {"loss_force_N", {0.0, 0.0}},
+                       RigKind::kDyno, {load})[1] /
+           load_N;
+  };
+  CHECK(share(5400.0) == Approx(0.4e-3));
+  CHECK(share(2700.0) == Approx(0.3e-3));
+  CHECK(share(50.0) > 0.2e-3);
+}
+
 TEST_CASE("beside a step of the load a sample has the mean of what held before and after", "[fast]") {
-  const auto effect = switch_on("load_cross_talk", {1.0});
+  const auto effect = switch_on("load_cross_talk", {1.0, 0.0});
   const std::vector<double> time_s{0.0, 1.0, 4.0, 5.0};
   const NamedChannel load{"load_N", {1000.0, 1000.0, 3000.0, 3000.0}};  // steps at 4 s
   const auto shown =

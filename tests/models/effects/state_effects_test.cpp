@@ -113,7 +113,8 @@ TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, and the thick
   CHECK(rise_after_30_min(0.0) == Approx(1.0 - std::exp(-1.0)).epsilon(1e-6));  // first order
   CHECK(rise_after_30_min(1.5) > rise_after_30_min(0.7));
   CHECK(rise_after_30_min(0.7) > rise_after_30_min(0.0));
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("driveline_warming", {12.0, 30.0, 1.5})});
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+                           {switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.1, 0.0})});
   HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
   const double baseline_N = plain.evaluate().parasitic_N;
   CHECK(at.evaluate().parasitic_N - baseline_N == Approx(12.0));
@@ -123,6 +124,15 @@ TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, and the thick
   at.inputs.speed_m_s = 0.0;
   at.advance(1800.0);
   CHECK(at.state("driveline_warming.oil_rise") == Approx(std::exp(-1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("of cold oil's force seals and gears keep their share", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+                           {switch_on("driveline_warming", {12.0, 30.0, 8.0, 0.1, 0.25})});
+  HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+  CHECK(at.evaluate().parasitic_N - plain.evaluate().parasitic_N == Approx(12.0));
+  at.advance(30.0 * 3600.0, 4000);
+  CHECK(at.now.parasitic_N - plain.now.parasitic_N == Approx(3.0).epsilon(0.01));
 }
 
 TEST_CASE("bearings in steady running at 80 km/h come to their rise, the sooner the harder they turn, and cool at rest",
@@ -145,6 +155,16 @@ TEST_CASE("bearings in steady running at 80 km/h come to their rise, the sooner 
   CHECK(left < 1.0);
 }
 
+TEST_CASE("grease that is thin leaves the drum its air drag, or a share of it", "[fast]") {
+  for (const double quadratic_share : {0.0, 0.5, 1.0}) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum),
+                             {switch_on("bearing_warmup", {0.2, 30.0, 0.1, 1.0, quadratic_share})});
+    at.inputs.ambient_K = 298.15 + 200.0;
+    const double air_drag_N = 0.004 * k80_m_s * k80_m_s;  // assets/rigs/drum_2m.toml
+    CHECK(at.evaluate().parasitic_N == Approx((1.0 - quadratic_share) * air_drag_N).margin(1e-9));
+  }
+}
+
 TEST_CASE("bearings are cold after a soak, warm right after a run, and between them after a rest", "[fast]") {
   const auto effect = switch_on("bearing_warmup", {0.02, 30.0, 15.0});
   const auto rise_dK = [&](const models::InitialPort<double>& initial) {
@@ -164,17 +184,17 @@ TEST_CASE("bearings in the cold turn as hard as by as many degrees less of their
     at.inputs.ambient_K = plain.inputs.ambient_K = ambient_K;
     return std::pair{at.evaluate().parasitic_N, plain.evaluate().parasitic_N};
   };
-  const auto bearing = switch_on("bearing_warmup", {0.02, 30.0, 15.0, 1.0});
+  const auto bearing = switch_on("bearing_warmup", {0.02, 30.0, 15.0, 1.0, 1.0});
   CHECK(find_N(bearing, 298.15 + 15.0).first == Approx(find_N(bearing, 298.15).second));
   CHECK(find_N(bearing, 298.15 - 20.0).first / find_N(bearing, 298.15).first == Approx(std::exp(0.4)));
-  const auto oil = switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.5});
+  const auto oil = switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.5, 0.0});
   const auto of_oil_N = [&](double ambient_K) {
     const auto [with_N, without_N] = find_N(oil, ambient_K);
     return with_N - without_N;
   };
   CHECK(of_oil_N(298.15) == Approx(12.0));
   CHECK(of_oil_N(298.15 - 20.0) / 12.0 == Approx(std::exp(1.5 * 0.5 * 20.0 / 30.0)));
-  CHECK(find_N(switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.0}), 270.0).first ==
+  CHECK(find_N(switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.0, 0.0}), 270.0).first ==
         Approx(find_N(oil, 298.15).first));
 }
 
@@ -215,6 +235,18 @@ TEST_CASE("a surface warms more under more load and speed, and cools at rest", "
   CHECK(settled(30.0, 5400.0) > 8.0);
   CHECK(settled(k80_m_s, 200.0) < 2.0);
   CHECK(settled(0.0, 5400.0) == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("the skin of a surface warms before its body, to the same rise", "[fast]") {
+  const auto warmed_dK = [](double skin_share, double duration_s) {
+    HandFedCorner<double> at(make_context_on(RigKind::kDrum),
+                             {switch_on("surface_warming", {8.0, 20.0, 0.7, skin_share})});
+    at.advance(duration_s, 4000);
+    return at.now.boundary.surface_K - 298.15;
+  };
+  CHECK(warmed_dK(0.3, 240.0) > 1.5 * warmed_dK(0.0, 240.0));
+  CHECK(warmed_dK(0.3, 20.0 * 3600.0) == Approx(8.0));
+  CHECK(warmed_dK(1.0, 240.0) == Approx(8.0 * (1.0 - std::exp(-1.0))).epsilon(1e-6));
 }
 
 TEST_CASE("a recorded surface and the road do not warm", "[fast]") {
