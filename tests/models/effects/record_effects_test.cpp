@@ -186,7 +186,7 @@ TEST_CASE("a torque meter that bends is off by its size at a force of 60 N, eith
   const double radius_m = 1.0 / make_context_on(RigKind::kDrum).surface_curvature_per_m;
   CHECK(share("drum_torque_Nm", 60.0 * radius_m, RigKind::kDrum) == Approx(0.025));
   CHECK(share("loss_force_N", 60.0, RigKind::kDyno) == Approx(0.025));
-  CHECK(share("traction_force_N", -60.0, RigKind::kFlat) == Approx(0.025));
+  CHECK(share("traction_force_N", -600.0, RigKind::kFlat) == Approx(0.025));  // a motor's force, not a bridge's
   CHECK(share("loss_force_N", 600.0, RigKind::kDyno) < 0.015);
   CHECK(share("loss_force_N", 6.0, RigKind::kDyno) > 0.04);
 }
