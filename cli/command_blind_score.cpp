@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "proof/baselines/comparison.h"
 #include "proof/report.h"
 #include "proof/score.h"
@@ -47,12 +48,11 @@ void fill_folders(Options& options) {
 }
 
 int score_command(Options options) {
-  require_writable(options.json);
-  require_writable(options.markdown);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--markdown", options.markdown}, {"--html", options.html.path}});
   fill_folders(options);
   proof::Score score = proof::score_cases(proof::read_cases(options.order), options.how);
   proof::put_beside(proof::score_baselines(options.order, options.how), score);
+  files.require_no_input();
   if (!options.json.empty()) write_output(options.json, proof::make_score_json(score).dump(1) + "\n");
   if (!options.markdown.empty()) write_output(options.markdown, proof::format_score_markdown(score));
   if (options.html.is_wanted()) options.html.write(report::make_score_page(score, options.order.bank));

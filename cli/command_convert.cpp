@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "models/tire_file.h"
 #include "scenarios/assets.h"
@@ -176,7 +177,7 @@ int convert_command(Options options, bool exponent_given) {
   check(options);
   scenarios::LossConditions from = make_conditions(options.from, "--from-drum");
   scenarios::LossConditions to = make_conditions(options.to, "--to-drum");
-  require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}});
   const scenarios::LossConversion conversion = scenarios::convert_loss(from, to, options.exponents);
   const auto [given, result] = apply_conversion(options, conversion.force_factor);
   if (!options.json.empty()) write_output(options.json, make_json(conversion, given, result).dump(2) + "\n");

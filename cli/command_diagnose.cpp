@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
 #include "diagnosis/diagnosis_json.h"
@@ -71,10 +72,10 @@ void give(const Options& options, const Json& json, const std::string& text, con
 
 /// A folder of sets.
 int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   const diagnosis::Fleet fleet = with_progress(
       options, [&sets](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose_fleet(sets, how); });
+  files.require_no_input();
   give(options, diagnosis::make_fleet_json(fleet), diagnosis::format_fleet(fleet),
        [&fleet] { return report::make_fleet_page(fleet); });
   const bool failed = std::any_of(fleet.members.begin(), fleet.members.end(),
@@ -106,12 +107,12 @@ int diagnose_command(const Options& options) {
     return diagnose_all(options, sets);
   }
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   std::optional<OutputFolder> plan;
   if (!options.plan.empty()) plan.emplace(options.plan, options.force);
   const auto result =
       with_progress(options, [&set](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose(set, how); });
+  files.require_no_input();
   const std::string planned = plan.has_value() ? write_plan(set, result, *plan) : "";
   give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result) + planned,
        [&set, &result] { return report::make_diagnosis_page(set, result); });

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/output_files.h"
 #include "export/hdf5_file.h"
 #include "export/mat_file.h"
 #include "export/source.h"
@@ -21,24 +22,20 @@ struct Options {
 };
 
 /// Refuses what could not be written, before anything is.
-void check_places(const Options& options) {
+OutputFiles check_places(const Options& options) {
   if (options.mat.empty() && options.hdf5.empty()) {
     throw InputError({"no file to write is given", "command line", 0, "", "", "--mat FILE, --hdf5 FILE, or both", ""});
   }
-  if (options.mat == options.hdf5) {
-    throw InputError({"--mat and --hdf5 cannot both go to one place", "command line", 0, "--hdf5", options.hdf5,
-                      "another file", ""});
-  }
-  require_writable(options.mat);
-  require_writable(options.hdf5);
+  return OutputFiles({{"--mat", options.mat}, {"--hdf5", options.hdf5}});
 }
 
 int export_command(const Options& options) {
-  check_places(options);
+  const OutputFiles files = check_places(options);
   const exports::Group tree = exports::read_source(options.source);
   // Both are made before one is written.
   const std::string mat = options.mat.empty() ? "" : exports::make_mat(tree);
   const std::string hdf5 = options.hdf5.empty() ? "" : exports::make_hdf5(tree);
+  files.require_no_input();
   if (!mat.empty()) write_output(options.mat, mat);
   if (!hdf5.empty()) write_output(options.hdf5, hdf5);
   if (options.quiet || options.mat == "-" || options.hdf5 == "-") return kDone;

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "identification/fit_tire.h"
@@ -65,8 +66,7 @@ int fit_tire_command(const Options& options) {
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   identification::FitOptions fit_options;
   fit_options.load_map = options.load_map;
   fit_options.threads = options.threads;
@@ -77,6 +77,7 @@ int fit_tire_command(const Options& options) {
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
   const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";
   const std::string tire_file = fit.tire.name + ".toml";
+  files.require_no_input();
   if (out.has_value()) {
     out->add(tire_file, models::write_tire(fit.tire, fit.notes));
     out->add("fit.json", json);

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "identification/drum_coastdown.h"
 #include "report/fit_pages.h"
@@ -99,10 +100,10 @@ int fit_drum_coastdown_command(const Options& options) {
   const CoastSet set = identification::read_coast_set(options.set, options.data);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   const DrumCoastdownFit fit = identification::fit_drum_coastdown(set);
   const std::string json = identification::make_coastdown_json(set, fit).dump(2) + "\n";
+  files.require_no_input();
   if (out.has_value()) {
     out->add("fit.json", json);
     out->add("decelerations.csv", identification::make_deceleration_csv(set, fit));

@@ -10,6 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "identification/road_load_report.h"
 #include "report/fit_pages.h"
@@ -254,12 +255,12 @@ int fit_road_load_command(const Options& options) {
   select_sessions(options.sessions, file);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   RoadLoadFit fit = fit_file(file, options, fit_options);
   if (file.rows_off > 0) fit.warnings.push_back(fmt::format("{} rows left out: use = Off", file.rows_off));
   const RoadLoadChecks checks = identification::check_road_load(file.data, fit);
   const std::string json = identification::make_road_load_json(file, fit_options, fit, checks).dump(2) + "\n";
+  files.require_no_input();
   if (out.has_value()) {
     out->add("road_load.json", json);
     out->add("residuals.csv", identification::write_road_load_residuals(file, fit));

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "import/import.h"
 #include "sim/core/file_io.h"
@@ -65,8 +66,9 @@ std::string format_import(const logs::Mapping& mapping, const logs::Import& impo
 int import_command(const Options& options) {
   const logs::Mapping mapping = logs::read_mapping(options.mapping, options.data);
   OutputFolder out(options.out, options.force);
-  require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}});
   const logs::Import imported = logs::import_logs(mapping);
+  files.require_no_input();
   for (auto& [name, content] : logs::make_set_files(mapping, imported)) out.add(name, content);
   out.commit();
   if (!options.json.empty()) write_output(options.json, logs::make_import_json(mapping, imported).dump(2) + "\n");

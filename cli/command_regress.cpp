@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "report/list_pages.h"
@@ -162,7 +163,7 @@ int regress_command(const Options& options) {
   const std::string folder =
       options.folder.empty() ? (fs::path(scenarios::find_assets_folder()) / "regression").string() : options.folder;
   std::vector<Case> cases = find_cases(folder);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   {
     ProgressLine progress("regress", options.quiet);
     std::atomic<std::size_t> done{0};
@@ -172,6 +173,7 @@ int regress_command(const Options& options) {
     });
   }
   add_orphans(folder, cases);
+  files.require_no_input();
   const int status = settle_cases(cases, options.update);
   if (!options.json.empty()) write_output(options.json, cases_to_json(cases).dump(2) + "\n");
   if (options.html.is_wanted()) options.html.write(report::make_regress_page(cases_to_json(cases)));

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
@@ -37,12 +38,12 @@ int run_command(const Options& options) {
   std::optional<OutputFolder> out;
   std::optional<OutputFolder> set;
   if (!options.out.empty()) out.emplace(options.out, options.force);
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.force);
   ProgressLine progress(spec.scenario->text.name, options.quiet);
   const scenarios::Outcome outcome = spec.scenario->run(spec, progress.callback());
   const std::string result = scenarios::make_result_json(spec, outcome).dump(2) + "\n";
+  files.require_no_input();
   if (out.has_value()) {
     out->add("result.json", result);
     out->add("recording.csv", scenarios::make_recording_csv(outcome.recording));

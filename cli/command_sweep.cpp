@@ -10,6 +10,7 @@
 
 #include "cli/command.h"
 #include "cli/html_option.h"
+#include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
@@ -158,8 +159,7 @@ int sweep_command(const Options& options) {
   }
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
-  require_writable(options.json);
-  options.html.require_writable(options.json);
+  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   std::vector<Json> results(specs.size());
   std::vector<std::string> manifests(specs.size());
   ProgressLine progress("sweep", options.quiet);
@@ -178,6 +178,7 @@ int sweep_command(const Options& options) {
     json["points"].push_back({{"set", varied}, {"result", results[i]}});
   }
   const std::vector<std::string> shown = choose_shown(options, *specs.front().scenario, results.front(), axes);
+  files.require_no_input();
   if (out.has_value()) {
     out->add("sweep.csv", make_csv(axes, grid, results));
     out->add("sweep.json", json.dump(2) + "\n");

@@ -13,9 +13,6 @@ struct HtmlOption {
   std::string path;  // empty: none wanted
 
   void add_to(CLI::App& command);
-  /// To be called before the work. Throws InputError where the page could not be written, or where `json` goes to the
-  /// same file or to standard output too.
-  void require_writable(const std::string& json) const;
   bool is_wanted() const { return !path.empty(); }
   bool is_standard_output() const { return path == "-"; }
   void write(const report::Page& page) const;

@@ -11,6 +11,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <mutex>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -85,6 +87,25 @@ fs::path find_existing_ancestor(const fs::path& path) {
   return ancestor;
 }
 
+/// What read_text_file() has read, from whichever thread.
+struct FilesRead {
+  std::mutex mutex;
+  std::set<fs::path> paths;  // without links
+};
+
+FilesRead& files_read() {
+  static FilesRead files;
+  return files;
+}
+
+void note_as_read(const std::string& path) {
+  std::error_code code;
+  const fs::path canonical = fs::canonical(path, code);
+  if (code) return;
+  const std::lock_guard<std::mutex> lock(files_read().mutex);
+  files_read().paths.insert(canonical);
+}
+
 bool holds_files(const fs::path& path) { return fs::exists(path) && !fs::is_empty(path); }
 
 }  // namespace
@@ -116,6 +137,7 @@ std::string read_text_file(const std::string& path) {
   spdlog::debug("reads {}", path);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(errno)), path);
+  note_as_read(path);
   std::ostringstream content;
   content << in.rdbuf();
   std::string text = content.str();
@@ -124,6 +146,14 @@ std::string read_text_file(const std::string& path) {
     throw file_problem(fmt::format("'{}' is not a text file", path), path, "UTF-8 text");
   }
   return text;
+}
+
+bool was_read(const std::string& path) {
+  const std::lock_guard<std::mutex> lock(files_read().mutex);
+  return std::any_of(files_read().paths.begin(), files_read().paths.end(), [&path](const fs::path& read) {
+    std::error_code code;
+    return fs::equivalent(read, path, code);
+  });
 }
 
 std::string calc_sha256(const std::string& content) {

@@ -11,6 +11,9 @@ namespace rollrig {
 /// not UTF-8 text.
 std::string read_text_file(const std::string& path);
 
+/// Whether read_text_file() has read this very file, by whatever name, since the program started.
+bool was_read(const std::string& path);
+
 /// The path of the same folder whose name is nearest to that of `path`, which is not there; empty when none is near.
 std::string nearest_file(const std::string& path);
 

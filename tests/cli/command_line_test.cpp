@@ -92,6 +92,47 @@ TEST_CASE("a folder that holds files is refused without --force, and nothing in 
   CHECK(fs::exists(folder.file("results/result.json")));
 }
 
+TEST_CASE("no file that a command reads is written over, and then nothing is written", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string source = ROLLRIG_SOURCE_DIR;
+  fs::copy(source + "/tests/bad_input/coastdown_good.csv", folder.file("coast.csv"));
+  fs::copy(source + "/assets/tires/a50.toml", folder.file("mine.toml"));
+  fs::copy(source + "/assets/regression/drive_a50.csv", folder.file("drive.csv"));
+  fs::create_directory(folder.file("runs"));
+  fs::copy(source + "/assets/regression/skim_a40.toml", folder.file("runs/skim_a40.toml"));
+  fs::create_symlink("mine.toml", folder.file("link.toml"));
+  struct Case {
+    std::string arguments, file;
+  };
+  const std::vector<Case> cases{
+      {"fit road-load coast.csv --per-mass --out out --html", "coast.csv"},
+      {"run skim --tire ./mine.toml --out out --json", "mine.toml"},
+      {"run skim --tire ./mine.toml --out out --html", "link.toml"},
+      {"sweep skim --tire ./mine.toml --vary load_N=4000,5000 --out out --json", "mine.toml"},
+      {"run drive --tire a50 --fidelity quasi_static --set program=drive.csv --out out --json", "drive.csv"},
+      {"regress runs --update --json", "runs/skim_a40.toml"},  // read once the work has begun
+      {"convert --force 32 --from-drum 2 --to-drum 1.7 --tire ./mine.toml --json", "mine.toml"},
+      {"export drive.csv --mat", "drive.csv"},
+  };
+  for (const Case& each : cases) {
+    const std::string before = read_file(folder.file(each.file));
+    const std::size_t entries = folder.entry_count();
+    const auto run = run_program(each.arguments + " " + each.file, folder.path());
+    INFO(each.arguments << "\n" << run.out << run.err);
+    CHECK(run.status == 2);
+    CHECK_THAT(run.err, Contains("is read by this command") && Contains(each.file) && Contains("command line"));
+    CHECK(read_file(folder.file(each.file)) == before);
+    CHECK(folder.entry_count() == entries);
+  }
+}
+
+TEST_CASE("a file of an earlier call is replaced", "[fast]") {
+  const TemporaryFolder folder;
+  write_file(folder.file("skim.json"), "an earlier result");
+  REQUIRE(run_program("run skim --tire a50 --quiet --json skim.json", folder.path()).status == 0);
+  CHECK(json::parse(read_file(folder.file("skim.json")))["scenario"] == "skim");
+}
+
 TEST_CASE("with --json - a run prints JSON and nothing else", "[fast]") {
   const auto run = run_program("run iso_28580 --tire a50 --fidelity quasi_static --json -");
   CHECK(run.status == 0);
