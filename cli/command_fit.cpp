@@ -9,8 +9,10 @@
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
+#include "diagnosis/set_checks.h"
 #include "identification/fit_tire.h"
 #include "report/fit_pages.h"
+#include "sim/core/error.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::cli {
@@ -62,6 +64,19 @@ std::string format_fit(const scenarios::MeasurementSet& set, const identificatio
   return text;
 }
 
+/// A fit follows whatever the columns say, so a suspicion that they say another thing is told beside its numbers.
+identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const identification::FitOptions& options) {
+  const std::string suspicion = diagnosis::check_set(set, options.threads).suspicion;
+  try {
+    identification::TireFit fit = identification::fit_tire(set, options);
+    if (!suspicion.empty()) fit.warnings.push_back(suspicion + ". Then the fitted numbers are wrong");
+    return fit;
+  } catch (const RunFailure& failure) {
+    if (suspicion.empty()) throw;
+    throw RunFailure(fmt::format("{}; {}", failure.what(), suspicion));
+  }
+}
+
 int fit_tire_command(const Options& options) {
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   std::optional<OutputFolder> out;
@@ -73,7 +88,7 @@ int fit_tire_command(const Options& options) {
   if (options.free_H) fit_options.free_H = true;
   ProgressLine progress("fit tire", options.quiet);
   fit_options.progress = [&progress](int iteration) { progress.show(fmt::format("iteration {}", iteration)); };
-  identification::TireFit fit = identification::fit_tire(set, fit_options);
+  identification::TireFit fit = fit_checked(set, fit_options);
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
   const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";
   const std::string tire_file = fit.tire.name + ".toml";

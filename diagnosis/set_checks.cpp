@@ -132,8 +132,8 @@ void require_simulated(const MeasurementSet& set, const std::vector<RunMisfit>& 
 }
 
 void report_repair(const MeasurementSet& set, const Repair& repair, SetChecks& checks) {
-  checks.doubt = fmt::format("in {} it looks as if {}: no cause is named until that is mended",
-                             name_runs(set, repair.runs), repair.text);
+  checks.suspicion = fmt::format("in {} it looks as if {}", name_runs(set, repair.runs), repair.text);
+  checks.doubt = checks.suspicion + ": no cause is named until that is mended";
   checks.warnings.push_back(checks.doubt);
 }
 
@@ -191,10 +191,9 @@ void check_plausibility(const MeasurementSet& kept, const Replays& replays, int 
   }
   const std::string outside = describe_misfit(kept, odd, misfits);
   if (outside.empty()) return;
-  checks.doubt = fmt::format(
-      "further from the simulation than any effect of the catalogue: {}. Check tire, rig, columns and units; no "
-      "cause is named",
-      outside);
+  checks.suspicion = fmt::format(
+      "further from the simulation than any effect of the catalogue: {}. Check tire, rig, columns and units", outside);
+  checks.doubt = checks.suspicion + "; no cause is named";
   checks.warnings.push_back(checks.doubt);
 }
 

@@ -229,6 +229,41 @@ TEST_CASE("a set is written, validated and fitted", "[fast]") {
   CHECK(run_program("run iso_28580 --tire fitted/mine.toml", folder.path()).status == 0);
 }
 
+namespace {
+/// A set of two runs in "set", its pressures in bar under a kPa heading where wanted.
+void write_small_set(const TemporaryFolder& folder, bool in_bar) {
+  REQUIRE(run_program("run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80, 120]' "
+                      "--set measurement_cycles=1 --write-set set --quiet",
+                      folder.path())
+              .status == 0);
+  if (!in_bar) return;
+  for (const char* run : {"set/speed-80.csv", "set/speed-120.csv"}) {
+    std::istringstream in(read_file(folder.file(run)));
+    std::string line;
+    std::getline(in, line);
+    REQUIRE(line.substr(line.rfind(',') + 1) == "cavity_pressure_kPa");
+    std::string out = line + "\n";
+    while (std::getline(in, line)) {
+      const std::size_t last = line.rfind(',') + 1;
+      if (last < line.size()) line.replace(last, std::string::npos, std::to_string(std::stod(line.substr(last)) / 100));
+      out += line + "\n";
+    }
+    write_file(folder.file(run), out);
+  }
+}
+}  // namespace
+
+TEST_CASE("a fit says that a column looks as if it were in another unit", "[fast]") {
+  const TemporaryFolder good;
+  write_small_set(good, false);
+  CHECK_THAT(run_program("fit tire set", good.path()).out, !Contains("looks as if"));
+  const TemporaryFolder bad;
+  write_small_set(bad, true);
+  const auto fit = run_program("fit tire set --json fit.json", bad.path());
+  CHECK_THAT(fit.out + fit.err, Contains("cavity_pressure_kPa holds bar"));
+  if (fit.status == 0) CHECK_THAT(read_file(bad.file("fit.json")), Contains("cavity_pressure_kPa holds bar"));
+}
+
 TEST_CASE("every asset is valid", "[fast]") {
   for (const char* kind : {"tires", "rigs", "sensors", "regression"}) {
     for (const auto& entry : fs::directory_iterator(fs::path(ROLLRIG_SOURCE_DIR) / "assets" / kind)) {
