@@ -248,6 +248,7 @@ std::string format_summary(const Diagnosis& diagnosis) {
     if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
       text += note("Or as well", describe_alternatives(first));
     }
+    if (const std::string open = describe_unconfirmed(diagnosis); !open.empty()) text += note("But", open);
     for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
   }
   if (const auto& lone = diagnosis.without_run) {
@@ -263,6 +264,13 @@ std::string format_summary(const Diagnosis& diagnosis) {
     if (warning != diagnosis.doubt) text += note("Warning", warning);
   }
   return text;
+}
+
+std::string describe_unconfirmed(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  const bool is_judged = gap.shrink_percent.has_value() && !gap.held_out.empty();
+  if (diagnosis.verdict != Verdict::kExplained || !is_judged || gap.shrink_ci95_percent[0] > 0.0) return {};
+  return "the runs left out do not confirm it: the interval holds 0 %";
 }
 
 }  // namespace rollrig::diagnosis

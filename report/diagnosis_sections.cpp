@@ -158,6 +158,8 @@ Section make_verdict(const Diagnosis& diagnosis) {
           show_estimate(cause.parameters.front()));
     }
     more = meaning + "." + describe_shrinkage(diagnosis.gap);
+    const std::string open = diagnosis::describe_unconfirmed(diagnosis);
+    if (!open.empty()) more += " But " + open + ".";
   }
   section.blocks.push_back(make_lead(tone, describe_verdict(diagnosis), more));
   if (!diagnosis.warnings.empty()) section.blocks.push_back(make_warnings(diagnosis.warnings));

@@ -123,6 +123,17 @@ TEST_CASE("an unknown cause is said to be one", "[fast]") {
   CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalogue"));
 }
 
+TEST_CASE("a cause that the runs left out do not confirm is said to be such, in one line", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  const auto is_told = [&made] { return !line_of(format_summary(made), "But").empty(); };
+  CHECK_FALSE(is_told());
+  made.gap.shrink_ci95_percent = {-12.0, 60.0};
+  check_layout(format_summary(made), 11);
+  CHECK_THAT(line_of(format_summary(made), "But"), Contains("do not confirm"));
+  made.gap.held_out.clear();  // judged on what was fitted
+  CHECK_FALSE(is_told());
+}
+
 TEST_CASE("files in doubt are told of before any physics, once", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.verdict = diagnosis::Verdict::kUnexplained;
