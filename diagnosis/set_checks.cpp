@@ -67,6 +67,24 @@ void check_force(const MeasurementSet& set, SetChecks& checks) {
       force.word, name_runs(set, without), identification::kTrustedSpeed_m_s * 3.6, identification::kSettling_s));
 }
 
+/// A run of next to no samples shows no gap, whatever acts.
+void check_amount(const MeasurementSet& set, SetChecks& checks) {
+  const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
+  std::vector<std::size_t> few;
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    std::size_t most = 0;
+    for (const std::string& channel : channels) {
+      most = std::max(most, find_compared_rows(set, set.runs[r], channel).size());
+    }
+    if (most > 0 && most < kFewSamples) few.push_back(r);
+  }
+  if (few.empty()) return;
+  checks.warnings.push_back(
+      fmt::format("hardly any data in {}: no channel has {} samples that are compared. That no gap "
+                  "is seen there says next to nothing",
+                  name_runs(set, few), kFewSamples));
+}
+
 /// Whether two columns hold the same numbers, which are not all one number.
 bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
   std::set<double> numbers;
@@ -206,6 +224,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   check_assumed(set, checks);
   for (std::string& missing : find_missing_samples(set)) checks.warnings.push_back(std::move(missing));
   check_force(set, checks);
+  check_amount(set, checks);
   check_runs(set, checks);
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);

@@ -2,6 +2,7 @@
 /// Checks of a measurement set before and beside the race: what cannot be diagnosed, what is doubtful, what
 /// cannot be true.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,14 +21,18 @@ struct SetChecks {
   bool is_implausible() const { return !doubt.empty(); }
 };
 
+/// Samples of its best measured channel below which a run is warned of: only an effect far beyond its usual size would
+/// show in fewer.
+constexpr std::size_t kFewSamples = 30;  // Assumed: half a minute at 1 Hz; any phase of a test has more
+
 /// Looks at a set before it is diagnosed.
 ///
-/// Warns of runs and channels without samples (find_missing_samples), one run alone, the same samples in two runs, and
-/// what tire_checks.h says. Marks rows of stuck sensors (stuck_sensors.h). Marks a set implausible when one mistake
-/// with columns or units, undone, takes nine tenths of what is odd in it (repairs.h), or when a channel of a run
-/// lies far outside what uncertain parameters and effects of the catalogue can make (plausibility.h).
-/// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
-/// Errors    InputError: nothing measured; a sensor without any noise; every sensor stuck;
+/// Warns of runs and channels without samples (find_missing_samples), runs of fewer than kFewSamples, one run alone,
+/// the same samples in two runs, and what tire_checks.h says. Marks rows of stuck sensors (stuck_sensors.h). Marks a
+/// set implausible when one mistake with columns or units, undone, takes nine tenths of what is odd in it (repairs.h),
+/// or when a channel of a run lies far outside what uncertain parameters and effects of the catalogue can make
+/// (plausibility.h). Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect
+/// can make Errors    InputError: nothing measured; a sensor without any noise; every sensor stuck;
 ///           a run that cannot be simulated
 /// Checked   tests/diagnosis/set_checks_test.cpp
 SetChecks check_set(const scenarios::MeasurementSet& set, int threads = 0);

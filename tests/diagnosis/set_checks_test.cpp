@@ -102,6 +102,20 @@ TEST_CASE("a set as the simulator makes it is let through without a word", "[fas
   CHECK_FALSE(checks.is_implausible());
 }
 
+TEST_CASE("runs of next to no samples are warned of", "[fast]") {
+  const auto cut = [](std::size_t rows) {
+    MeasurementSet set = short_set();
+    for (MeasuredRun& run : set.runs) {
+      run.time_s.resize(rows);
+      for (auto& [name, values] : run.columns) values.resize(rows);
+    }
+    return join(check_set(set).warnings);
+  };
+  CHECK_THAT(cut(19), Contains("hardly any data in all runs"));
+  CHECK_THAT(cut(diagnosis::kFewSamples - 1), Contains("hardly any data"));
+  CHECK_THAT(cut(diagnosis::kFewSamples + 5), !Contains("hardly any data"));  // where the load jumps a row has none
+}
+
 TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]") {
   constexpr int kDraws = 20;
   int sets = 0;
