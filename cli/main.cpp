@@ -30,7 +30,8 @@ constexpr const char* kFooter =
     "  rollrig describe iso_28580\n"
     "  rollrig diagnose campaign --json why.json\n"
     "  rollrig diagnose --explain bearing_warmup\n"
-    "Exit status: 0 done, 1 a regression differs, 2 input or usage, 3 the run failed.\n";
+    "Exit status: 0 done, 1 a regression differs or a set is doubtful,\n"
+    "2 input or usage, 3 the run failed.\n";
 
 /// A command's own examples, below its help.
 void add_examples(const CLI::App& app) {

@@ -264,6 +264,43 @@ TEST_CASE("a fit says that a column looks as if it were in another unit", "[fast
   if (fit.status == 0) CHECK_THAT(read_file(bad.file("fit.json")), Contains("cavity_pressure_kPa holds bar"));
 }
 
+TEST_CASE("validate: 0 for a good set, 1 for one whose columns cannot be right, 2 for one that cannot be read",
+          "[fast]") {
+  const TemporaryFolder good;
+  write_small_set(good, false);
+  const auto passed = run_program("validate set", good.path());
+  CHECK(passed.status == 0);
+  CHECK_THAT(passed.out, Contains("good measurement set") && !Contains("measured nothing"));
+  const TemporaryFolder bad;
+  write_small_set(bad, true);
+  const auto doubtful = run_program("validate set '" ROLLRIG_SOURCE_DIR "/assets/tires/a50.toml'", bad.path());
+  CHECK(doubtful.status == 1);
+  CHECK_THAT(doubtful.out, Contains("doubtful measurement set") && Contains("good tire"));  // the rest is looked at too
+  fs::remove(bad.file("set/speed-80.csv"));
+  CHECK(run_program("validate set", bad.path()).status == 2);
+}
+
+TEST_CASE("validate says how many rows are of runs that measured nothing", "[fast]") {
+  const TemporaryFolder folder;
+  write_small_set(folder, false);
+  std::istringstream in(read_file(folder.file("set/speed-80.csv")));
+  std::string line;
+  std::getline(in, line);
+  const auto columns = std::count(line.begin(), line.end(), ',') + 1;
+  std::string out = line + "\n";
+  std::size_t rows = 0;
+  for (; std::getline(in, line); ++rows) {
+    std::size_t last = line.size();
+    for (int i = 0; i < 3; ++i) last = line.rfind(',', last - 1);  // torque, temperature, pressure
+    out += line.substr(0, last) + ",,,\n";
+  }
+  REQUIRE(columns >= 7);
+  write_file(folder.file("set/speed-80.csv"), out);
+  const auto run = run_program("validate set", folder.path());
+  INFO(run.out << run.err);
+  CHECK_THAT(run.out, Contains(std::to_string(rows) + " of them in runs that measured nothing"));
+}
+
 TEST_CASE("every asset is valid", "[fast]") {
   for (const char* kind : {"tires", "rigs", "sensors", "regression"}) {
     for (const auto& entry : fs::directory_iterator(fs::path(ROLLRIG_SOURCE_DIR) / "assets" / kind)) {
