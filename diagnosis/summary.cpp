@@ -191,6 +191,17 @@ std::string gap_lines(const Diagnosis& diagnosis) {
   return line("Gap", floors) + line("  in units", units);
 }
 
+/// Whether the lines above say a torque in N.
+bool tells_torque_as_force(const Diagnosis& diagnosis) {
+  const auto is_told = [](const std::string& channel, const std::string& unit) {
+    return short_name(channel) == "torque" && unit == "N";
+  };
+  const std::vector<ChannelGap>& channels = diagnosis.gap.channels;
+  return (!diagnosis.where.empty() && is_told(diagnosis.where.front().channel, diagnosis.where.front().unit)) ||
+         std::any_of(channels.begin(), channels.end(),
+                     [&is_told](const ChannelGap& at) { return is_told(at.channel, at.unit); });
+}
+
 std::string shrinkage_line(const Diagnosis& diagnosis) {
   const Gap& gap = diagnosis.gap;
   std::vector<std::string> parts;
@@ -243,6 +254,7 @@ std::string format_summary(const Diagnosis& diagnosis) {
       line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                           : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
   text += next_line(diagnosis);
+  if (tells_torque_as_force(diagnosis)) text += note("Torque", "in N, as force at the drum's surface");
   if (!diagnosis.causes.empty()) {
     const Cause& first = diagnosis.causes.front();
     if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {

@@ -41,9 +41,10 @@ std::string line_of(const std::string& text, const std::string& label) {
 
 }  // namespace
 
-TEST_CASE("an explained gap is told in ten lines", "[fast]") {
+TEST_CASE("an explained gap is told in ten lines, and below them what N of a torque are", "[fast]") {
   const std::string text = format_summary(tests::make_explained());
-  check_layout(text, 10);
+  check_layout(text, 11);
+  CHECK_THAT(lines_of(text).back(), Catch::StartsWith("Torque") && Contains("in N, as force at the drum's surface"));
   CHECK_THAT(line_of(text, "Verdict"), Contains("explained") && Contains("94 %") && Contains("3 %"));
   CHECK_THAT(line_of(text, "Cause"),
              Contains("bearing_warmup") && Contains("0.0192 1/K") && Contains("0.0153 to 0.0231"));
@@ -79,7 +80,7 @@ TEST_CASE("what cannot be told apart stands beside the cause", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.causes[0].indistinguishable_from = {"tire_loss_in_skim", "torque_zero_drift"};
   const std::string text = format_summary(made);
-  check_layout(text, 10);
+  check_layout(text, 11);
   CHECK_THAT(line_of(text, "or as well"), Contains("tire_loss_in_skim, torque_zero_drift") && Contains("cannot tell"));
 }
 
@@ -90,7 +91,7 @@ TEST_CASE("two effects together both show their size", "[fast]") {
                                {"slow_leak.rate_kPa_per_h", 1.0, 0.1, 0.8, 1.2, "kPa/h"}};
   CHECK_THAT(line_of(format_summary(made), "Cause"), Contains("bearing_warmup: fall 0.02 1/K (95 %: 0.01 to 0.03)"));
   CHECK_THAT(line_of(format_summary(made), "  with"), Contains("slow_leak: rate 1 kPa/h (95 %: 0.8 to 1.2)"));
-  check_layout(format_summary(made), 10);
+  check_layout(format_summary(made), 11);
 }
 
 TEST_CASE("what cannot be told from two effects stands below", "[fast]") {
@@ -98,7 +99,7 @@ TEST_CASE("what cannot be told from two effects stands below", "[fast]") {
   made.causes[0].effects = {"bearing_warmup", "slow_leak"};
   made.causes[0].indistinguishable_from = {"rim_heat"};
   CHECK_THAT(line_of(format_summary(made), "Or as well"), Contains("rim_heat (this set cannot tell)"));
-  check_layout(format_summary(made), 11);
+  check_layout(format_summary(made), 12);
 }
 
 TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {
@@ -107,7 +108,7 @@ TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {
   made.causes[0].adequate = false;
   made.causes[0].objections = {"the size differs from run to run: 0.01 to 0.04 1/K"};
   const std::string text = format_summary(made);
-  check_layout(text, 11);
+  check_layout(text, 12);
   CHECK_THAT(line_of(text, "Verdict"), Contains("looks like this cause, but something else is missing"));
   CHECK_THAT(line_of(text, "But"), Contains("differs from run to run"));
 }
@@ -118,7 +119,7 @@ TEST_CASE("an unknown cause is said to be one", "[fast]") {
   made.probability["unknown"] = 0.9;
   made.causes.clear();
   const std::string text = format_summary(made);
-  check_layout(text, 10);
+  check_layout(text, 11);
   CHECK_THAT(line_of(text, "Verdict"), Contains("outside the catalogue") && Contains("90 %"));
   CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalogue"));
 }
@@ -128,7 +129,7 @@ TEST_CASE("a cause that the runs left out do not confirm is said to be such, in 
   const auto is_told = [&made] { return !line_of(format_summary(made), "But").empty(); };
   CHECK_FALSE(is_told());
   made.gap.shrink_ci95_percent = {-12.0, 60.0};
-  check_layout(format_summary(made), 11);
+  check_layout(format_summary(made), 12);
   CHECK_THAT(line_of(format_summary(made), "But"), Contains("do not confirm"));
   made.gap.held_out.clear();  // judged on what was fitted
   CHECK_FALSE(is_told());
