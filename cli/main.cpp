@@ -11,6 +11,7 @@
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
+#include "cli/print.h"
 #include "cli/typo.h"
 #include "sim/core/error.h"
 #include "sim/core/interrupt.h"
@@ -56,7 +57,7 @@ void add_examples(const CLI::App& app) {
 
 int report(const char* what, const std::string& text, int status) {
   std::cout << std::flush;
-  std::cerr << what << ": " << text << '\n';
+  std::cerr << format_error(std::string(what) + ": ", text);
   return status;
 }
 

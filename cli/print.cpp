@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 #include "scenarios/run_spec.h"
 
@@ -68,6 +69,26 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
                       audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));
   for (const std::string& warning : outcome.warnings) text += wrap("warning: " + warning, 2);
   return text;
+}
+
+std::string format_error(const std::string& start, const std::string& text) {
+  constexpr std::size_t kColumns = 80;
+  constexpr std::size_t kLabelColumns = 11;  // of InputError: two spaces, the label, a space
+  std::istringstream in(start + text);
+  std::string out;
+  for (std::string line; std::getline(in, line);) {
+    const std::string label = line.substr(0, kLabelColumns);
+    const bool is_copied = label == "  where    " || label == "  value    ";
+    if (is_copied || count_characters(line) <= kColumns) {
+      out += line + "\n";
+      continue;
+    }
+    const bool is_labelled = line.rfind("  ", 0) == 0 && line.size() > kLabelColumns;
+    const std::size_t indent = is_labelled ? kLabelColumns : 2;
+    const std::string first = is_labelled ? label : line.substr(0, indent);
+    out += first + wrap(line.substr(first.size()), indent).substr(indent);
+  }
+  return out;
 }
 
 }  // namespace rollrig::cli

@@ -18,4 +18,7 @@ std::string format_table(const scenarios::ResultTable& table);
 /// Header, lines, tables and warnings of a run.
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
 
+/// An error's text (sim/core/error.h) within 80 columns, `start` before it. Paths and values stay whole, to be copied.
+std::string format_error(const std::string& start, const std::string& text);
+
 }  // namespace rollrig::cli

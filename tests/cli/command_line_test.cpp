@@ -375,6 +375,18 @@ TEST_CASE("usage errors name the nearest word and exit with 2", "[fast]") {
   CHECK(run_program("run iso_28580").status == 2);
 }
 
+TEST_CASE("errors stay within 80 columns, with all that is allowed and paths whole", "[fast]") {
+  for (const char* arguments : {"run nope --tire a50", "diagnose --explain nope", "describe nope",
+                                "run iso_28580 --tire a50 --set effects.nope.x=1", "export . --mat x"}) {
+    const auto run = run_program(arguments);
+    INFO(run.err);
+    CHECK(run.status == 2);
+    CHECK(longest_line(run.err) <= 80);
+  }
+  const std::string path = "no_such_folder_of_a_rather_long_name/and another one below it/and at last a tire file.toml";
+  CHECK_THAT(run_program("validate '" + path + "'").err, Contains("  where    " + path + "\n"));
+}
+
 TEST_CASE("an interrupted run stops cleanly and leaves nothing behind", "[fast]") {
   const TemporaryFolder folder;
   // long enough to be met: a sweep of some hundred runs
