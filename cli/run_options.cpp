@@ -1,5 +1,6 @@
 #include "cli/run_options.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace fs = std::filesystem;
@@ -14,6 +15,16 @@ bool is_file_name(const std::string& text) {
 /// A path given on the command line is relative to the working folder, whatever the run file's folder.
 std::string absolute_if_path(const std::string& name) {
   return is_file_name(name) ? fs::absolute(name).string() : name;
+}
+
+void require_scenario(const std::string& name) {
+  const std::vector<std::string> known = scenarios::scenario_names();
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  InputProblem problem = unknown_name("scenario", name, known);
+  problem.file = "command line";
+  problem.key = "scenario";
+  problem.allowed += "; or a run file (.toml)";
+  throw InputError(problem);
 }
 
 void set_text(ConfigTable& document, const std::string& key, const std::string& value) {
@@ -40,6 +51,7 @@ void RunOptions::add_to(CLI::App& command) {
 }
 
 ConfigTable RunOptions::make_document() const {
+  if (!is_file_name(scenario_or_file)) require_scenario(scenario_or_file);  // before what such a run would need
   ConfigTable document =
       is_file_name(scenario_or_file) ? read_config(scenario_or_file) : scenarios::make_run_document(scenario_or_file);
   set_text(document, "tire", absolute_if_path(tire));

@@ -110,7 +110,11 @@ std::string explain_effect(const std::string& name) {
   for (const models::Effect* effect : models::all_effects()) {
     if (effect->info.id == name) return describe(effect->info);
   }
-  throw InputError(unknown_name("effect", name, explainable_names()));
+  InputProblem problem = unknown_name("effect", name, explainable_names());
+  if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
+  problem.file = "command line";
+  problem.key = "--explain";
+  throw InputError(problem);
 }
 
 }  // namespace rollrig::diagnosis

@@ -130,6 +130,7 @@ TEST_CASE("effects are explained", "[fast]") {
   CHECK_THAT(run.out, Contains("Equation") && Contains("fall_per_K") && Contains("1/K") && Contains("drum_torque_Nm") &&
                           Contains("tire_loss_in_skim") && Contains("torque at standstill"));
   CHECK(run_program("diagnose --explain unknown").status == 0);
+  CHECK_THAT(run_program("diagnose --explain nope").err, !Contains("nearest  none"));  // near to any short word
 }
 
 TEST_CASE("effects complete after --explain, --only and --without", "[fast]") {
