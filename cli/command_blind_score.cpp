@@ -57,7 +57,7 @@ int score_command(Options options) {
   if (!options.markdown.empty()) write_output(options.markdown, proof::format_score_markdown(score));
   if (options.html.is_wanted()) options.html.write(report::make_score_page(score, options.order.bank));
   const bool is_output_taken = options.json == "-" || options.markdown == "-" || options.html.is_standard_output();
-  if (!options.quiet && !is_output_taken) std::cout << proof::format_score(score);
+  if (!options.quiet && !is_output_taken) std::cout << proof::format_score(score) << options.html.note();
   return kDone;
 }
 

@@ -66,8 +66,7 @@ void give(const Options& options, const Json& json, const std::string& text, con
   if (!options.json.empty()) write_output(options.json, json.dump(2) + "\n");
   if (options.html.is_wanted()) options.html.write(make_page());
   if (options.quiet || options.json == "-" || options.html.is_standard_output()) return;
-  std::cout << text;
-  if (options.html.is_wanted()) std::cout << fmt::format("page written to {}\n", options.html.path);
+  std::cout << text << options.html.note();
 }
 
 /// A folder of sets.

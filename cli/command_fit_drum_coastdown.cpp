@@ -113,7 +113,7 @@ int fit_drum_coastdown_command(const Options& options) {
   if (!options.json.empty()) write_output(options.json, json);
   if (options.html.is_wanted()) options.html.write(report::make_drum_coastdown_page(set, fit));
   if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
-  std::cout << format_fit(set, fit);
+  std::cout << format_fit(set, fit) << options.html.note();
   if (out.has_value()) {
     std::cout << fmt::format("  written to {}/: fit.json decelerations.csv residuals.csv\n", options.out);
   }

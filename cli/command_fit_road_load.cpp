@@ -269,7 +269,7 @@ int fit_road_load_command(const Options& options) {
   if (!options.json.empty()) write_output(options.json, json);
   if (options.html.is_wanted()) options.html.write(report::make_road_load_page(file, fit_options, fit, checks));
   if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
-  std::cout << format_fit(options, file, fit, checks);
+  std::cout << format_fit(options, file, fit, checks) << options.html.note();
   if (out.has_value()) std::cout << fmt::format("  written to {}/: road_load.json residuals.csv\n", options.out);
   return kDone;
 }

@@ -177,7 +177,10 @@ int regress_command(const Options& options) {
   const int status = settle_cases(cases, options.update);
   if (!options.json.empty()) write_output(options.json, cases_to_json(cases).dump(2) + "\n");
   if (options.html.is_wanted()) options.html.write(report::make_regress_page(cases_to_json(cases)));
-  if (!options.quiet && options.json != "-" && !options.html.is_standard_output()) print_cases(cases);
+  if (!options.quiet && options.json != "-" && !options.html.is_standard_output()) {
+    print_cases(cases);
+    std::cout << options.html.note();
+  }
   return status;
 }
 

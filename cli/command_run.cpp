@@ -59,7 +59,7 @@ int run_command(const Options& options) {
   if (!options.json.empty()) write_output(options.json, result);
   if (options.html.is_wanted()) options.html.write(report::make_run_page(spec, outcome));
   if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
-  std::cout << format_outcome(spec, outcome);
+  std::cout << format_outcome(spec, outcome) << options.html.note();
   if (out.has_value())
     std::cout << fmt::format("  written to {}/: result.json recording.csv manifest.json\n", options.out);
   if (set.has_value()) std::cout << fmt::format("  measurement set written to {}/\n", options.set_folder);

@@ -191,7 +191,7 @@ int sweep_command(const Options& options) {
     options.html.write(report::make_sweep_page(json, options.show, of));
   }
   if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
-  std::cout << format_table(make_table(axes, grid, results, shown));
+  std::cout << format_table(make_table(axes, grid, results, shown)) << options.html.note();
   if (out.has_value()) std::cout << fmt::format("  written to {}/: sweep.csv sweep.json manifests/\n", options.out);
   return kDone;
 }

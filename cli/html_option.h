@@ -16,6 +16,8 @@ struct HtmlOption {
   bool is_wanted() const { return !path.empty(); }
   bool is_standard_output() const { return path == "-"; }
   void write(const report::Page& page) const;
+  /// A line that says where the page is; empty where there is none, or where it went to standard output.
+  std::string note() const;
 };
 
 }  // namespace rollrig::cli

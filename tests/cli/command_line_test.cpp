@@ -387,6 +387,22 @@ TEST_CASE("errors stay within 80 columns, with all that is allowed and paths who
   CHECK_THAT(run_program("validate '" + path + "'").err, Contains("  where    " + path + "\n"));
 }
 
+TEST_CASE("every command that writes a page says where", "[fast]") {
+  const TemporaryFolder folder;
+  fs::create_directory(folder.file("runs"));
+  for (const char* file : {"skim_a40.toml", "skim_a40.golden.csv"}) {
+    fs::copy(std::string(ROLLRIG_SOURCE_DIR) + "/assets/regression/" + file, folder.file(std::string("runs/") + file));
+  }
+  for (const char* command : {"run skim --tire a50", "sweep skim --tire a50 --vary load_N=4000,5000", "regress runs",
+                              "fit road-load '" ROLLRIG_SOURCE_DIR "/tests/bad_input/coastdown_good.csv' --per-mass"}) {
+    const auto run = run_program(std::string(command) + " --html page.html", folder.path());
+    INFO(command << "\n" << run.err);
+    CHECK(run.status == 0);
+    CHECK_THAT(run.out, Contains("page written to page.html\n"));
+    CHECK(run_program(std::string(command) + " --html page.html --quiet", folder.path()).out.empty());
+  }
+}
+
 TEST_CASE("an interrupted run stops cleanly and leaves nothing behind", "[fast]") {
   const TemporaryFolder folder;
   // long enough to be met: a sweep of some hundred runs
