@@ -35,7 +35,7 @@ std::string summarise(const std::vector<proof::FollowUpPlan>& plans, const std::
     }
   }
   std::string text =
-      wrap(fmt::format("{} sets have causes that they cannot tell apart; tests for {} of them in {}/plans",
+      wrap(fmt::format("sets with causes that they cannot tell apart: {}; tests for {} of them in {}/plans",
                        plans.size(), planned, folder),
            0);
   for (const auto& [reason, count] : reasons) text += wrap(fmt::format("{} not: {}", count, reason), 2);

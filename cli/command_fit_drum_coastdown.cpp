@@ -11,6 +11,7 @@
 #include "identification/drum_coastdown.h"
 #include "report/fit_pages.h"
 #include "sim/core/file_io.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -84,8 +85,8 @@ std::string format_fit(const CoastSet& set, const DrumCoastdownFit& fit) {
     doubled += analysis.coast.doubled;
     other += analysis.coast.other;
   }
-  std::string text =
-      fmt::format("fit drum-coastdown   set {}   {} runs   {} rows of coast\n", set.name, set.runs.size(), rows);
+  std::string text = fmt::format("fit drum-coastdown   set {}   {}   {} of coast\n", set.name,
+                                 format_count(set.runs.size(), "run"), format_count(rows, "row"));
   text += fmt::format("  pulses rejected: {} missed, {} double, {} other\n", missed, doubled, other);
   text += fmt::format("  reference: {:.1f} kPa, {:.1f} km/h\n", fit.reference_pressure_Pa / 1e3,
                       3.6 * set.reference_speed_m_s);

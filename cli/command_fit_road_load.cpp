@@ -202,10 +202,10 @@ std::string format_checks(const RoadLoadChecks& checks) {
 
 std::string format_fit(const Options& options, const CoastdownFile& file, const RoadLoadFit& fit,
                        const RoadLoadChecks& checks) {
-  std::string text =
-      wrap(fmt::format("fit road-load   {} ({})   {} runs, {} speed bins", options.csv,
-                       file.is_trace ? "speed trace" : "times through bins", file.data.runs.size(), fit.points.size()),
-           0);
+  std::string text = wrap(
+      fmt::format("fit road-load   {} ({})   {}, {}", options.csv, file.is_trace ? "speed trace" : "times through bins",
+                  format_count(file.data.runs.size(), "run"), format_count(fit.points.size(), "speed bin")),
+      0);
   if (!fit.per_mass) {
     text += fmt::format("  effective mass {:.6g} kg{}\n", fit.effective_mass_kg,
                         options.rotating_mass_kg.has_value() || options.effective_mass_kg.has_value()
@@ -257,7 +257,7 @@ int fit_road_load_command(const Options& options) {
   if (!options.out.empty()) out.emplace(options.out, options.force);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   RoadLoadFit fit = fit_file(file, options, fit_options);
-  if (file.rows_off > 0) fit.warnings.push_back(fmt::format("{} rows left out: use = Off", file.rows_off));
+  if (file.rows_off > 0) fit.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
   const RoadLoadChecks checks = identification::check_road_load(file.data, fit);
   const std::string json = identification::make_road_load_json(file, fit_options, fit, checks).dump(2) + "\n";
   files.require_no_input();

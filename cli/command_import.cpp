@@ -8,6 +8,7 @@
 #include "cli/print.h"
 #include "import/import.h"
 #include "sim/core/file_io.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -38,12 +39,12 @@ std::string format_clock(const logs::ClockEstimate& clock) {
 
 std::string format_run(const logs::ImportedRun& run) {
   constexpr std::size_t kMost = 8;  // import.json has all
-  std::string text = fmt::format("  run {}: {} rows\n", run.plan.id, run.rows.time_s.size());
+  std::string text = fmt::format("  run {}: {}\n", run.plan.id, format_count(run.rows.time_s.size(), "row"));
   for (std::size_t i = 0; i < std::min(kMost, run.rows.empty.size()); ++i) {
     const logs::EmptyRange& range = run.rows.empty[i];
-    text += wrap(fmt::format("{} {} from {:.6g} to {:.6g} s ({} rows): {}", range.column,
+    text += wrap(fmt::format("{} {} from {:.6g} to {:.6g} s ({}): {}", range.column,
                              range.rows_left_out ? "missing, rows left out" : "empty", range.from_s, range.to_s,
-                             range.rows, range.reason),
+                             format_count(range.rows, "row"), range.reason),
                  4);
   }
   if (run.rows.empty.size() > kMost) text += fmt::format("    and {} more\n", run.rows.empty.size() - kMost);
@@ -51,7 +52,7 @@ std::string format_run(const logs::ImportedRun& run) {
 }
 
 std::string format_import(const logs::Mapping& mapping, const logs::Import& imported) {
-  std::string text = fmt::format("import   set {}   {} runs\n", mapping.set.name, imported.runs.size());
+  std::string text = fmt::format("import   set {}   {}\n", mapping.set.name, format_count(imported.runs.size(), "run"));
   for (const logs::ClockEstimate& clock : imported.clocks) text += format_clock(clock);
   for (const logs::ImportedRun& run : imported.runs) text += format_run(run);
   for (const logs::Log& log : imported.logs) {

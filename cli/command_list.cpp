@@ -10,6 +10,7 @@
 #include "scenarios/run_spec.h"
 #include "scenarios/speed_trace.h"
 #include "sim/core/file_io.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -102,10 +103,9 @@ void describe_cycle(const std::string& path) {
   }
   const double fastest_m_s = *std::max_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
   std::cout << path << "\n\n"
-            << fmt::format(
-                   "{}: drive cycle, {} rows, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill\n",
-                   trace.name, trace.time_s.size(), trace.duration_s(), distance_m / 1e3, 3.6 * fastest_m_s,
-                   standing_s);
+            << fmt::format("{}: drive cycle, {}, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill\n",
+                           trace.name, format_count(trace.time_s.size(), "row"), trace.duration_s(), distance_m / 1e3,
+                           3.6 * fastest_m_s, standing_s);
 }
 
 int describe_command(const std::string& name) {

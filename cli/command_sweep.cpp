@@ -133,7 +133,7 @@ std::vector<std::string> choose_shown(const Options& options, const scenarios::S
 
 scenarios::ResultTable make_table(const std::vector<Axis>& axes, const std::vector<std::vector<std::string>>& grid,
                                   const std::vector<Json>& results, const std::vector<std::string>& shown) {
-  scenarios::ResultTable table{fmt::format("{} runs", grid.size()), {}, {}};
+  scenarios::ResultTable table{format_count(grid.size(), "run"), {}, {}};
   for (const Axis& axis : axes) table.columns.push_back(axis.key);
   table.columns.insert(table.columns.end(), shown.begin(), shown.end());
   for (std::size_t i = 0; i < grid.size(); ++i) {

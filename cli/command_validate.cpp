@@ -46,8 +46,8 @@ Finding validate_set(const std::string& path) {
   }
   const diagnosis::SetChecks checks = diagnosis::check_set(set);
   const std::string empty = without == 0 ? "" : fmt::format(", {} of them in runs that measured nothing", without);
-  return {fmt::format("measurement set '{}': {} run{}, {} rows{}", set.name, set.runs.size(),
-                      set.runs.size() == 1 ? "" : "s", rows, empty),
+  return {fmt::format("measurement set '{}': {}, {}{}", set.name, format_count(set.runs.size(), "run"),
+                      format_count(rows, "row"), empty),
           checks.warnings, !checks.is_implausible()};
 }
 
@@ -56,7 +56,7 @@ Finding validate_cycle(const std::string& path) {
   csv.require_known({"time_s", "speed_km_h"});
   csv.increasing_times("time_s");
   csv.numbers({"speed_km_h", between(0.0, 400.0), "speed"});
-  return {fmt::format("cycle: {} rows", csv.row_count())};
+  return {"cycle: " + format_count(csv.row_count(), "row")};
 }
 
 Finding validate_toml(const std::string& path) {
@@ -67,12 +67,12 @@ Finding validate_toml(const std::string& path) {
   if (kind == "rollrig-tire") return {fmt::format("tire '{}'", models::read_tire(config).name)};
   if (kind == "rollrig-rig") return {fmt::format("rig '{}'", rigs::read_rig(config).name)};
   if (kind == "rollrig-sensors")
-    return {fmt::format("sensors: {} channels", scenarios::read_sensor_file(config).size())};
+    return {"sensors: " + format_count(scenarios::read_sensor_file(config).size(), "channel")};
   if (kind == "rollrig-measurements") return validate_set(path);
   if (kind == "rollrig-vehicle") return {fmt::format("vehicle '{}'", rigs::read_vehicle(config).name)};
   if (kind == "rollrig-drum-coastdown") {
     const identification::CoastSet set = identification::read_coast_set(path);
-    return {fmt::format("set of drum coast-downs '{}': {} runs", set.name, set.runs.size())};
+    return {fmt::format("set of drum coast-downs '{}': {}", set.name, format_count(set.runs.size(), "run"))};
   }
   if (kind == "rollrig-run") {
     const scenarios::RunSpec spec = scenarios::read_run_spec(config, fs::path(path).parent_path().string());

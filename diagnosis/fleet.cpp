@@ -136,8 +136,9 @@ const char* word_of(Shared shared) {
 }
 
 std::string describe(const Recurrence& one) {
-  std::string text = fmt::format("{}: the {}'s ({}), probability {:.0f} % over {} sets, named in {}", one.effect,
-                                 word_of(one.shared), one.name, 100.0 * one.probability, one.sets, one.named_in);
+  std::string text =
+      fmt::format("{}: the {}'s ({}), probability {:.0f} % over {}, named in {}", one.effect, word_of(one.shared),
+                  one.name, 100.0 * one.probability, format_count(one.sets, "set"), one.named_in);
   if (one.mean_size) {
     text += fmt::format("; mean size {:.3g} +- {:.1g}{}{}", *one.mean_size, one.mean_size_sd,
                         one.unit.empty() ? "" : " ", one.unit);

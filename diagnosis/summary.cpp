@@ -207,7 +207,7 @@ std::string shrinkage_line(const Diagnosis& diagnosis) {
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
     const std::size_t runs = gap.held_out.size();
-    const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held-out run{}", runs, runs == 1 ? "" : "s");
+    const std::string on = runs == 0 ? "the fitted data" : format_count(runs, "held-out run");
     parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
                                 whole(gap.shrink_ci95_percent[1]), on));
   } else if (diagnosis.verdict == Verdict::kUnexplained && diagnosis.causes.empty()) {

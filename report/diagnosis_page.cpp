@@ -9,6 +9,7 @@
 #include "report/blocks.h"
 #include "report/diagnosis_sections.h"
 #include "report/set_comparison.h"
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -63,7 +64,7 @@ std::string describe_set(const scenarios::MeasurementSet& set) {
   const std::string machine = set.rig.has_value()       ? "rig " + set.rig->name
                               : set.vehicle.has_value() ? "vehicle " + set.vehicle->name
                                                         : "";
-  return fmt::format("Tire {}, {}, {} runs", set.tire.name, machine, set.runs.size());
+  return fmt::format("Tire {}, {}, {}", set.tire.name, machine, format_count(set.runs.size(), "run"));
 }
 
 }  // namespace

@@ -186,8 +186,8 @@ Section make_gap(const Diagnosis& diagnosis) {
   const diagnosis::Gap& gap = diagnosis.gap;
   const bool is_held_out = !gap.held_out.empty();
   Section section{"Before and after", is_held_out
-                                          ? fmt::format("Judged on {} runs, each left out of the fit in turn: {}.",
-                                                        gap.held_out.size(), join(gap.held_out))
+                                          ? fmt::format("Judged on {}, each left out of the fit in turn: {}.",
+                                                        format_count(gap.held_out.size(), "run"), join(gap.held_out))
                                           : "There is one run, so nothing can be left out: judged on the fitted data."};
   section.blocks.push_back(
       {{"type", "bars"},

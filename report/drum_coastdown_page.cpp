@@ -5,6 +5,7 @@
 
 #include "report/blocks.h"
 #include "report/fit_pages.h"
+#include "sim/core/text.h"
 
 namespace rollrig::report {
 namespace {
@@ -129,8 +130,8 @@ Block make_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
 Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) {
   Page page{"fit drum-coastdown",
             fmt::format("Rolling resistance from coast-downs: {}", set.name),
-            fmt::format("{} runs; reference {:.1f} kPa, {:.1f} km/h", set.runs.size(), fit.reference_pressure_Pa / 1e3,
-                        kKmhPerMs * set.reference_speed_m_s),
+            fmt::format("{}; reference {:.1f} kPa, {:.1f} km/h", format_count(set.runs.size(), "run"),
+                        fit.reference_pressure_Pa / 1e3, kKmhPerMs * set.reference_speed_m_s),
             {},
             false,
             {}};

@@ -73,7 +73,7 @@ std::vector<std::string> find_changing(const Json& sweep) {
 
 /// A row a point: what is set, then every single number of the result.
 Block make_sweep_table(const Json& sweep, const std::vector<std::string>& axes) {
-  scenarios::ResultTable table{fmt::format("All {} runs", sweep["points"].size()), axes, {}};
+  scenarios::ResultTable table{"All " + format_count(sweep["points"].size(), "run"), axes, {}};
   std::vector<std::string> keys;
   for (const auto& [key, value] : sweep["points"].front()["result"].items()) {
     if (value.is_number()) keys.push_back(key);
@@ -127,12 +127,12 @@ Page make_regress_page(const Json& regression) {
     shares.push_back(rounded(worst));
   }
   const bool is_good = good == runs.size();
-  Page page{"regress", "Regression runs against their goldens", fmt::format("{} runs", runs.size()), {}, false, {}};
+  Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run"), {}, false, {}};
   Section verdict{"Verdict"};
-  verdict.blocks.push_back(
-      make_lead(is_good ? "good" : "bad",
-                is_good ? fmt::format("All {} runs are as their goldens.", runs.size())
-                        : fmt::format("{} of {} runs differ from their goldens.", runs.size() - good, runs.size())));
+  verdict.blocks.push_back(make_lead(
+      is_good ? "good" : "bad",
+      is_good ? fmt::format("As their goldens: {}.", format_count(runs.size(), "run"))
+              : fmt::format("{} of {} differ from the golden.", runs.size() - good, format_count(runs.size(), "run"))));
   verdict.blocks.push_back({{"type", "bars"},
                             {"label", "Worst difference of each run"},
                             {"unit", "of its tolerance"},

@@ -3,6 +3,7 @@
 #include "identification/road_load_report.h"
 #include "report/blocks.h"
 #include "report/fit_pages.h"
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -115,7 +116,8 @@ Page make_road_load_page(const identification::CoastdownFile& file, const scenar
                          const RoadLoadFit& fit, const identification::RoadLoadChecks& checks) {
   Page page{"fit road-load",
             "Road load from coastdowns",
-            fmt::format("{} runs, {} speed bins, {}", file.data.runs.size(), fit.points.size(),
+            fmt::format("{}, {}, {}", format_count(file.data.runs.size(), "run"),
+                        format_count(fit.points.size(), "speed bin"),
                         file.is_trace ? "from speed traces" : "from times through bins"),
             {},
             false,

@@ -6,6 +6,7 @@
 
 #include "proof/report.h"
 #include "report/blocks.h"
+#include "sim/core/text.h"
 
 namespace rollrig::report {
 namespace {
@@ -127,15 +128,19 @@ Section make_missed(const Score& score) {
     table.rows.push_back({proof::describe_truth(one), proof::describe_answer(one)});
   }
   if (!table.rows.empty()) section.blocks.push_back(make_table(table));
-  if (!table.rows.empty()) section.folded = fmt::format("{} sets", table.rows.size());
+  if (!table.rows.empty()) section.folded = format_count(table.rows.size(), "set");
   return section;
 }
 
 }  // namespace
 
 Page make_score_page(const Score& score, const std::string& bank) {
-  Page page{
-      "blind score", "Score of the blind proof", fmt::format("Bank {}, {} sets", bank, score.sets), {}, false, {}};
+  Page page{"blind score",
+            "Score of the blind proof",
+            fmt::format("Bank {}, {}", bank, format_count(score.sets, "set")),
+            {},
+            false,
+            {}};
   std::size_t missed = 0;
   std::size_t judged = 0;
   for (const Figure& figure : score.figures) {

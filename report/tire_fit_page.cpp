@@ -6,6 +6,7 @@
 #include "report/blocks.h"
 #include "report/fit_pages.h"
 #include "report/set_comparison.h"
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -114,7 +115,7 @@ models::Context<double> make_fitted_context(const diagnosis::PreparedSet& prepar
 Page make_tire_fit_page(const scenarios::MeasurementSet& set, const TireFit& fit) {
   Page page{"fit tire",
             fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
-            fmt::format("From tire {}, rig {}, {} runs", set.tire.name, set.rig->name, set.runs.size()),
+            fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run")),
             {},
             false,
             {}};

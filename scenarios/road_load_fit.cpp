@@ -9,6 +9,7 @@
 
 #include "scenarios/coastdown_problem.h"
 #include "sim/core/error.h"
+#include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::scenarios {
@@ -223,7 +224,8 @@ void put_range(const CoastdownProblem& problem, RoadLoadFit& fit) {
 void warn(const CoastdownProblem& problem, const CoastdownData& data, const RoadLoadFitOptions& options,
           RoadLoadFit& fit) {
   const std::size_t left_out = data.runs.size() - problem.runs.size();
-  if (left_out > 0) fit.warnings.push_back(fmt::format("{} runs have no whole speed bin and are left out", left_out));
+  if (left_out > 0)
+    fit.warnings.push_back(fmt::format("without a whole speed bin, and left out: {}", format_count(left_out, "run")));
   if (problem.model.count() == 3) {
     fit.warnings.push_back("not both headings: wind and slope are inside A, B and C, and no standard deviation tells");
   }

@@ -45,6 +45,10 @@ std::string clip(const std::string& text, std::size_t width) {
   return kept + mark;
 }
 
+std::string format_count(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // which from_chars does not take
   double value = 0.0;

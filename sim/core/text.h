@@ -18,6 +18,9 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width 
 /// would take more than a third.
 std::string clip(const std::string& text, std::size_t width);
 
+/// "1 run", "2 runs": a number and what it counts, with an s unless it is one.
+std::string format_count(std::size_t count, const std::string& what);
+
 /// A finite number in decimal or scientific notation, with a sign or without, that is the whole of the text.
 /// Checked  tests/core/text_test.cpp
 std::optional<double> parse_number(std::string_view text);

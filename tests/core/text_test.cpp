@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+using rollrig::format_count;
 using rollrig::parse_number;
 
 TEST_CASE("a number is read whole, with a sign or without", "[fast]") {
@@ -17,4 +18,10 @@ TEST_CASE("what is not a finite number as a whole is none", "[fast]") {
     INFO(text);
     CHECK_FALSE(parse_number(text).has_value());
   }
+}
+
+TEST_CASE("one is told in the singular", "[fast]") {
+  CHECK(format_count(0, "run") == "0 runs");
+  CHECK(format_count(1, "run") == "1 run");
+  CHECK(format_count(2, "speed bin") == "2 speed bins");
 }
