@@ -129,34 +129,69 @@ std::string show(const Json& value, int digits) {
   return value.is_number() ? fmt::format("{:.{}f}", value.get<double>(), digits) : "-";
 }
 
-/// As the source's tables name it, so that a line holds.
+/// "constant 105 km/h", so that a line holds.
 std::string shorten(const std::string& section) {
-  return boost::algorithm::replace_first_copy(section, "constant speed", "CS");
+  return boost::algorithm::replace_first_copy(section, "constant speed", "constant");
+}
+
+/// The sum over all sections; null where one of them has none.
+Json add_up(const Json& sections, const char* key) {
+  double sum = 0.0;
+  for (const Json& section : sections) {
+    if (!section[key].is_number()) return {};
+    sum += section[key].get<double>();
+  }
+  return sum;
+}
+
+/// Loss of one tire by the model and by the ISO coefficient, the whole test last.
+ResultTable make_tire_table(const Json& sections) {
+  ResultTable table{"Rolling resistance of one tire: by the model, and by its ISO coefficient alone",
+                    {"section", "km", "model Wh", "ISO Wh", "difference %", "mean RRc N/kN"},
+                    {}};
+  for (const Json& section : sections) {
+    table.rows.push_back({shorten(section["name"].get<std::string>()), show(section["distance_km"], 2),
+                          show(section["rr_energy_Wh"], 1), show(section["rr_energy_iso_Wh"], 1),
+                          show(section["difference_percent"], 1), show(section["mean_rrc_N_per_kN"], 2)});
+  }
+  const Json model_Wh = add_up(sections, "rr_energy_Wh");
+  const Json iso_Wh = add_up(sections, "rr_energy_iso_Wh");
+  const bool has_iso = iso_Wh.is_number() && iso_Wh.get<double>() > 0.0;
+  const Json difference = has_iso ? Json(100.0 * (model_Wh.get<double>() / iso_Wh.get<double>() - 1.0)) : Json();
+  table.rows.push_back({"all sections", show(add_up(sections, "distance_km"), 2), show(model_Wh, 1), show(iso_Wh, 1),
+                        show(difference, 1), ""});
+  return table;
+}
+
+/// Temperatures of that tire and energies of the vehicle, the whole test last.
+ResultTable make_vehicle_table(const Json& sections) {
+  ResultTable table{"Liner of that tire; energy of the whole vehicle, at its hubs and its battery",
+                    {"section", "start degC", "end degC", "hubs Wh", "recuperated Wh", "battery Wh"},
+                    {}};
+  for (const Json& section : sections) {
+    table.rows.push_back({shorten(section["name"].get<std::string>()), show(section["temperature_start_degC"], 1),
+                          show(section["temperature_end_degC"], 1), show(section["wheel_energy_Wh"], 0),
+                          show(section["recuperated_Wh"], 0), show(section["battery_energy_Wh"], 0)});
+  }
+  table.rows.push_back({"all sections", "", "", show(add_up(sections, "wheel_energy_Wh"), 0),
+                        show(add_up(sections, "recuperated_Wh"), 0), show(add_up(sections, "battery_energy_Wh"), 0)});
+  return table;
 }
 
 void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
   Json sections = Json::array();
-  ResultTable table{"One tire; energy at the wheels of the whole vehicle",
-                    {"section", "km", "RR Wh", "ISO Wh", "diff %", "RRc", "degC", "to", "wheels Wh"},
-                    {}};
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (!is_section(outcome.recording.phases[i].name)) continue;
-    const Json section = evaluate_section(spec, layout, outcome.recording, i);
-    table.rows.push_back({shorten(section["name"].get<std::string>()), show(section["distance_km"], 2),
-                          show(section["rr_energy_Wh"], 1), show(section["rr_energy_iso_Wh"], 1),
-                          show(section["difference_percent"], 1), show(section["mean_rrc_N_per_kN"], 2),
-                          show(section["temperature_start_degC"], 1), show(section["temperature_end_degC"], 1),
-                          show(section["wheel_energy_Wh"], 0)});
-    sections.push_back(section);
+    sections.push_back(evaluate_section(spec, layout, outcome.recording, i));
   }
+  outcome.tables = {make_tire_table(sections), make_vehicle_table(sections)};
   outcome.result["sections"] = std::move(sections);
   outcome.lines.push_back({"Wheels simulated", settings.conditions.wheels == 4
                                                    ? "4; the tire shown is the front left"
                                                    : fmt::format("a quarter, {}", settings.conditions.quarter.value)});
   outcome.lines.push_back({"Load of the tire", fmt::format("{:.0f} N", layout.wheels.front().static_load_N)});
   outcome.lines.push_back({"Counted above", fmt::format("{:.0f} km/h", 3.6 * settings.count_from())});
-  outcome.tables.push_back(std::move(table));
 }
 
 }  // namespace

@@ -35,6 +35,14 @@ TEST_CASE("the main job prints a short table and exits with 0", "[fast]") {
   CHECK(longest_line(run.out) <= 80);
 }
 
+TEST_CASE("the tables of a multi-cycle test stay within 80 columns", "[fast]") {
+  const auto run = run_program("run sae_j1634 --tire a50 --set wheels=1 --fidelity quasi_static");
+  INFO(run.out);
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("all sections"));
+  CHECK(longest_line(run.out) <= 80);
+}
+
 TEST_CASE("results land in a folder: JSON of the contract, recording, manifest", "[fast]") {
   const TemporaryFolder folder;
   REQUIRE(run_program("run iso_28580 --tire a50 --out results", folder.path()).status == 0);
