@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "cli/help_formatter.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -36,9 +37,8 @@ bool is_help(const CLI::Option& option) { return option.check_name("--help"); }
 
 /// What an option takes: TEXT, or its choices; empty for a flag.
 std::string name_value(const CLI::Option& option) {
-  std::string type = option.get_positional() ? "" : option.get_type_name();
-  if (!type.empty() && type.front() == ':') type.erase(0, 1);
-  return type.empty() ? "" : " " + type;
+  const std::string value = option.get_positional() ? "" : describe_value(option);
+  return value.empty() ? "" : " " + value;
 }
 
 std::string format_option(const CLI::Option& option) {

@@ -360,6 +360,9 @@ TEST_CASE("help stands everywhere and completion scripts parse", "[fast]") {
     CHECK_THAT(run.out, Contains("Usage"));
     CHECK(longest_line(run.out) <= 80);
   }
+  CHECK_THAT(run_program("--help").out, Contains("--log debug|info|warning|error|off\n"));
+  CHECK_THAT(run_program("man").out, Contains("debug|info|warning|error|off"));
+  CHECK_THAT(run_program("fit road-load --help").out, Contains("--mass positive FLOAT\n"));
   const TemporaryFolder folder;
   write_file(folder.file("completion.bash"), run_program("completion bash").out);
   write_file(
