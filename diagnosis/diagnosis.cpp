@@ -54,6 +54,21 @@ const Contender* find_lead(const Race& race, const std::vector<Cause>& causes) {
   return nullptr;
 }
 
+/// What a fit makes of the sensors, offsets included.
+std::vector<double> find_fitted(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+                                const Fit& fit) {
+  const Model model(set, base, fit.hypothesis);
+  const Eigen::VectorXd left = model.subtract_from_measured(fit.unknowns, fit.simulated);
+  std::vector<double> values(set.residual_count());
+  for (const Series& series : set.series()) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const std::size_t row = series.first_residual + k;
+      values[row] = series.measured[k] - left(at(row));
+    }
+  }
+  return values;
+}
+
 /// A set that cannot be what it is said to be has no cause in the catalogue, whatever comes near.
 void forbid_causes(Diagnosis& diagnosis) {
   for (auto& [hypothesis, probability] : diagnosis.probability) probability = hypothesis == "unknown" ? 1.0 : 0.0;
@@ -97,7 +112,9 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
+  diagnosis.fitted.recalibrated = find_fitted(set, base, race.null.fit);
   if (lead != nullptr) {
+    diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);
     weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);
     diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   }

@@ -110,6 +110,13 @@ struct LoneRun {
   double probability = 0.0;          // of the first cause, or of "none"
 };
 
+/// What the sensors would have shown by the fits to all runs, their offsets included: block means in SI units, in the
+/// order of PreparedSet's residuals. For pictures; not part of the JSON.
+struct FittedSet {
+  std::vector<double> recalibrated;  // base parameters moved within their uncertainty
+  std::vector<double> with_cause;    // and the first cause added; empty where there is none
+};
+
 struct Diagnosis {
   std::string set;
   Verdict verdict = Verdict::kNoGap;
@@ -124,6 +131,7 @@ struct Diagnosis {
   std::vector<std::string> warnings;      // about the data, a sentence each
   std::string doubt;                      // of the warnings, the one for which no cause may be named; else empty
   std::optional<LoneRun> without_run;     // of an unexplained set of three runs or more
+  FittedSet fitted;
 };
 
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the race.

@@ -40,17 +40,27 @@ std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
 std::vector<SimulatedSet> simulate_before_and_after(const diagnosis::PreparedSet& set, const Diagnosis& diagnosis) {
   const models::Context<double> context = set.kind().make_context(set.source());
   std::vector<SimulatedSet> simulated{simulate_set(set, "simulated, files' numbers", context, {})};
+  const diagnosis::FittedSet& fitted = diagnosis.fitted;
+  // Rows of stuck sensors, which the fits leave out, are on the page: then the fits are of other blocks.
+  const auto is_of_set = [&set](const std::vector<double>& values) { return values.size() == set.residual_count(); };
+  if (is_of_set(fitted.recalibrated)) simulated.push_back({"recalibrated", fitted.recalibrated});
   if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return simulated;
   const Cause& cause = diagnosis.causes.front();
-  simulated.push_back(
-      simulate_set(set, fmt::format("with {}", fmt::join(cause.effects, " and ")), context, make_effects(cause)));
+  const std::string names = fmt::format("{}", fmt::join(cause.effects, " and "));
+  if (is_of_set(fitted.with_cause)) {
+    simulated.push_back({"recalibrated, with " + names, fitted.with_cause});
+  } else {
+    simulated.push_back(simulate_set(set, "files' numbers, with " + names, context, make_effects(cause)));
+  }
   return simulated;
 }
 
 Section make_runs(const diagnosis::PreparedSet& set, const std::vector<SimulatedSet>& simulated) {
-  Section section{"Run by run",
-                  "Measurement and simulation. Base parameters stand as the files give them, and sensor offsets are "
-                  "not taken off, so a gap that a recalibration takes is seen here as well."};
+  Section section{
+      "Run by run",
+      "Measurement and simulation. With the files' numbers a gap is seen that a recalibration would take as "
+      "well, sensor offsets among it; recalibrated, the numbers are moved within their uncertainties and the "
+      "offsets added, each fit to all runs."};
   for (std::size_t run = 0; run < set.runs().size(); ++run) {
     const auto of_run = [run](const diagnosis::Series& series) { return series.run == run; };
     if (std::none_of(set.series().begin(), set.series().end(), of_run))

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "diagnosis/diagnosis_json.h"
+#include "diagnosis/prepared_set.h"
 #include "sim/core/error.h"
 #include "tests/blind/blind_fixture.h"
 #include "tests/diagnosis/gap_sets.h"
@@ -93,6 +94,28 @@ TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", 
   REQUIRE_FALSE(found.where.empty());
   CHECK(found.where.front().channel == "drum_torque_Nm");
   CHECK(found.warnings.empty());
+}
+
+TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause nearest", "[fast]") {
+  const Diagnosis found = diagnose(warm_bearings(), only(kFew));
+  const diagnosis::PreparedSet set(warm_bearings());
+  REQUIRE(found.fitted.recalibrated.size() == set.residual_count());
+  REQUIRE(found.fitted.with_cause.size() == set.residual_count());
+  const auto mean_square = [&set](const std::vector<double>& fitted) {
+    double sum = 0.0;
+    for (const diagnosis::Series& series : set.series()) {
+      for (std::size_t k = 0; k < series.size(); ++k) {
+        const double left = (series.measured[k] - fitted[series.first_residual + k]) / series.floor;
+        sum += left * left;
+      }
+    }
+    return sum / static_cast<double>(set.residual_count());
+  };
+  // In noise floors, so that noise alone leaves about 1; the drift of a sensor may double it.
+  CHECK(mean_square(found.fitted.with_cause) < 2.0);
+  CHECK(mean_square(found.fitted.recalibrated) > 1.5 * mean_square(found.fitted.with_cause));
+  const Diagnosis without = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kFew));
+  CHECK(without.fitted.with_cause.empty());
 }
 
 TEST_CASE("the same answer from one thread or two, and from runs listed in another order", "[fast]") {
