@@ -146,8 +146,9 @@ struct DiagnosisOptions {
 
 /// The diagnosis of a measurement set of any kind, against either baseline.
 /// Method  docs/diagnosis.md
-/// Errors  InputError: a file lacks what the set's kind needs; an unknown effect; nothing measured. RunFailure: no fit
-/// converges Checked tests/diagnosis/diagnosis_test.cpp
+/// Errors  InputError: a file lacks what the set's kind needs; an unknown effect; nothing measured.
+///         RunFailure: no fit converges
+/// Checked tests/diagnosis/diagnosis_test.cpp
 Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options);
 
 }  // namespace rollrig::diagnosis

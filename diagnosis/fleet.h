@@ -43,16 +43,15 @@ struct Fleet {
       recurrences;  // the likeliest first; of each effect the widest group in which that is likelier than not
 };
 
-/// Folders below `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself. Errors InputError:
-/// a folder without any
+/// Folders below `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself.
+/// Errors  InputError: a folder without any
 std::vector<std::string> find_sets(const std::string& folder);
 
 /// Probability that an effect acts in all sets of a group, rather than in each by itself or not.
 /// Equation  log odds = log(q/(1-q)) + sum over sets of log(b/(q b + 1 - q)), b = P/(1-P) (1-q)/q
 /// Symbols   q prior probability of the effect, P its probability in a set; b Bayes factor of the set for it
-/// Validity  sets with sessions of their own. Of one set P/(P + 1 - q), a half at most: one set cannot show that an
-/// effect
-///           comes back
+/// Validity  sets with sessions of their own. Of one set P/(P + 1 - q), a half at most: one set cannot show that
+///           an effect comes back
 /// Checked   tests/diagnosis/fleet_test.cpp
 double calc_recurrence_probability(const std::vector<double>& in_sets, double prior);
 

@@ -30,11 +30,12 @@ std::vector<double> find_push_knots(const PreparedRun& run);
 /// Derivatives at the null by pushes on each balance, a size of its own for each run and knot. Families: a force at the
 /// surface that heats nothing (of a drum "drum torque": also the torque sensor), "tire loss" (force that heats the
 /// rubber), "tire heat" (into the rubber node), "gas heat", "gas mass", "boundary" (ambient and surface temperature),
-/// forces that go with the square of drive and brake force ("slip"), with
-/// acceleration ("inertia"), with the square of speed ("air drag"), as far as the set's kind names them, and a sensor's
-/// own "temperature sensor", "pressure sensor", "gas temperature
-/// sensor" where it is there. Equation  push = sum_i a_i hat_i(t), derivatives by a_i at 0, by forward differentiation
-/// of the replay Errors    RunFailure: a run cannot be simulated at the null Checked   tests/diagnosis/balance_test.cpp
+/// forces that go with the square of drive and brake force ("slip"), with acceleration ("inertia"), with the square of
+/// speed ("air drag"), as far as the set's kind names them, and a sensor's own "temperature sensor", "pressure sensor",
+/// "gas temperature sensor" where it is there.
+/// Equation  push = sum_i a_i hat_i(t), derivatives by a_i at 0, by forward differentiation of the replay
+/// Errors    RunFailure: a run cannot be simulated at the null
+/// Checked   tests/diagnosis/balance_test.cpp
 std::vector<PushFamily> calc_pushes(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
                                     const Eigen::VectorXd& unknowns, int threads);
 

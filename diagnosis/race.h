@@ -40,8 +40,8 @@ struct RaceSettings {
 };
 
 /// Screens, refits every effect that could matter from its best start, then pairs on top of the best, then triples on
-/// top of the best pair where two effects are asked for, and weighs all. Errors  RunFailure: the baseline cannot be
-/// fitted
+/// top of the best pair where two effects are asked for, and weighs all.
+/// Errors  RunFailure: the baseline cannot be fitted
 Race run_race(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
               const Remainder& remainder, const RaceSettings& settings);
 

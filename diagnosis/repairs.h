@@ -34,8 +34,9 @@ enum class Mistakes { kAll, kExchanges };
 /// Of the mistakes in the list (two columns exchanged; speed in m/s or multiplied by 3.6; load in kgf;
 /// pressure absolute, in bar or psi; temperature in degF; torque too small by 3.6 or with the other sign) the one that,
 /// undone in all of `odd_runs` and simulated again, brings every channel within its tolerance and the sum of squares
-/// below a tenth; with it the other runs that it brings below a tenth. None where none does. Validity  one mistake at a
-/// time, the same in all of `odd_runs` Checked   tests/diagnosis/set_checks_test.cpp
+/// below a tenth; with it the other runs that it brings below a tenth. None where none does.
+/// Validity  one mistake at a time, the same in all of `odd_runs`
+/// Checked   tests/diagnosis/set_checks_test.cpp
 std::optional<Repair> find_repair(const scenarios::MeasurementSet& set, const std::vector<std::size_t>& odd_runs,
                                   Mistakes which, int threads);
 

@@ -22,8 +22,7 @@ Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Ef
 /// Tries every effect on top of `fit`, with a finite size, so that effects without a first order are seen too:
 /// signature g = difference at the middle of the prior and, one at a time, one prior unit off in each shape.
 /// Equation  z = s/sqrt(V), best size = s/V middles, s and V score and variance of g (linear_fit.h); score = z^2/2
-/// where
-///           the sign is one that the effect may have; d' = sqrt(V)
+///           where the sign is one that the effect may have; d' = sqrt(V)
 /// An effect that cannot be simulated on top of the fit at all is listed without a score
 std::vector<Screened> screen(const Model& null, const Remainder& remainder, const Amplitudes& amplitudes,
                              const Fit& fit, const std::vector<identification::FreeParameter>& base,

@@ -11,7 +11,6 @@ namespace rollrig::diagnosis {
 /// told from, or what it means; where; which equation; the gap in noise floors and in units; shrinkage on
 /// runs that the fit did not see; what is not excluded; the next test. Then what N of a torque are, objections and
 /// warnings. What is too long for its line ends in "..." and stands in full in the JSON.
-///
 /// Checked tests/diagnosis/summary_test.cpp
 std::string format_summary(const Diagnosis& diagnosis);
 
@@ -20,7 +19,8 @@ std::string show_probability(double probability);
 
 /// Of an explained gap, that the runs left out do not confirm the cause: the interval of what it shrinks on them holds
 /// 0. Empty where they confirm it, or where none could be left out. The verdict does not follow it: it is by
-/// probability. Checked tests/diagnosis/summary_test.cpp
+/// probability.
+/// Checked tests/diagnosis/summary_test.cpp
 std::string describe_unconfirmed(const Diagnosis& diagnosis);
 
 }  // namespace rollrig::diagnosis

@@ -47,7 +47,8 @@ struct TireFile {
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
   /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,
   /// H 4 W/K, z 12 W/K, f 1.4 W s/(m K), 220 kN/m, slip stiffness 75 kN, pressure exponent 0.4, the load and the
-  /// pressure given as references. Throws InputError without [constant]. Source    Assumed: those of the asset tires
+  /// pressure given as references. Throws InputError without [constant].
+  /// Source    Assumed: those of the asset tires
   /// Checked   tests/models/tire_file_test.cpp
   TireParameters<double> parameters_with_class_values(double load_N, double pressure_Pa) const;
 };

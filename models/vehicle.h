@@ -12,7 +12,8 @@ constexpr double kGasConstantOfAir_J_per_kg_K = 287.05;  // dry air; Internation
 /// Density of dry air.
 /// Equation  rho = p/(R T)
 /// Symbols   p absolute pressure [Pa], T temperature [K], R = 287.05 J/(kg K)
-/// Source    ideal gas. Checked   tests/models/vehicle_test.cpp
+/// Source    ideal gas
+/// Checked   tests/models/vehicle_test.cpp
 template <class S>
 S calc_air_density_kg_per_m3(const S& pressure_Pa, const S& temperature_K) {
   const S R = quantity<S>(kGasConstantOfAir_J_per_kg_K, {0, 2, -2, -1});
@@ -22,7 +23,8 @@ S calc_air_density_kg_per_m3(const S& pressure_Pa, const S& temperature_K) {
 /// Aerodynamic drag, against the motion when positive.
 /// Equation  F = rho/2 CdA w |w|,  w = v + wind
 /// Symbols   v speed [m/s], wind along the road, positive against the vehicle [m/s], CdA drag area [m2]
-/// Source    definition of the drag coefficient; the C v^2 of (3.20). Checked   tests/models/vehicle_test.cpp
+/// Source    definition of the drag coefficient; the C v^2 of (3.20)
+/// Checked   tests/models/vehicle_test.cpp
 template <class S>
 S calc_drag_N(const S& density_kg_per_m3, const S& drag_area_m2, const S& speed_m_s, const S& wind_m_s) {
   using std::abs;
@@ -50,7 +52,8 @@ struct ForceDemand {
 /// Blended braking: the motor brakes as far as it may, friction takes the rest.
 /// Equation  F >= 0: motor F; F < 0: motor -min(-F, L min(1, v/v_f)), friction -F - |motor|
 /// Symbols   F demand [N], L most that the motor brakes [N], v speed [m/s], v_f speed below which it fades [m/s]
-/// Source    Assumed: usual series blending of electric cars. Checked   tests/models/vehicle_test.cpp
+/// Source    Assumed: usual series blending of electric cars
+/// Checked   tests/models/vehicle_test.cpp
 template <class S>
 ForceDemand<S> blend_brakes(const S& demand_N, const S& motor_limit_N, const S& speed_m_s, const S& fade_m_s) {
   using std::abs;
@@ -63,7 +66,8 @@ ForceDemand<S> blend_brakes(const S& demand_N, const S& motor_limit_N, const S& 
 
 /// Whether the vehicle is to stand still. Its motor holds it then, uphill and downhill, without power: a friction
 /// brake whose force fades with the speed would let it creep.
-/// Source    Assumed: hill hold, usual of electric cars. Checked   tests/rigs/vehicle_test.cpp
+/// Source    Assumed: hill hold, usual of electric cars
+/// Checked   tests/rigs/vehicle_test.cpp
 template <class S>
 bool is_held(const InputPort<S>& acting) {
   return value_of(acting.speed_m_s) == 0.0 && value_of(acting.acceleration_m_s2) == 0.0;

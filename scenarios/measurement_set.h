@@ -24,7 +24,7 @@ std::vector<std::string> measured_channels(SetKind kind);
 /// Those of all kinds.
 std::vector<std::string> all_measured_channels();
 
-/// Columns of a drum run in which more was done than it was told by speed and load.
+/// Column of a drum run in which more was done than is told by speed and load.
 constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
 
 struct MeasuredRun {

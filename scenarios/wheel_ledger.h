@@ -28,9 +28,8 @@ struct WheelPowers {
 /// Equation  mechanical: hubs + rollers + gravity + jumps - change of kinetic energy - losses = 0, jumps being those of
 ///           kinetic energy where the mass (a load step) or the speed jumps between two intervals;
 ///           thermal: heat generated - change of stored heat - heat to air and road = 0
-/// Validity  the midpoint rule: an interval's speed runs straight, so that a m v h is the change of m v^2/2. Loss of
-/// the
-///           tire is counted over the way, as in the loss force; what slip takes from it is of second order
+/// Validity  the midpoint rule: an interval's speed runs straight, so that a m v h is the change of m v^2/2. Loss
+///           of the tire is counted over the way, as in the loss force; what slip takes from it is of second order
 /// Checked   tests/scenarios/given_run_test.cpp
 class WheelLedger : public ReplayObserver<double> {
  public:

@@ -44,17 +44,16 @@ struct GapCandidate {
 };
 
 /// Simulates every effect that acts on the dynamometer over the source's drive (§3.4.4) at sizes of -3 to 6 prior
-/// units, shapes at the middle of their priors. Equation  error = mean over the samples above 20 km/h of (P_model -
-/// P_measured)/P_measured, P = loss force x speed Source    Table 4.3's caption; that the mean is over samples, and
-/// over sections of a kind, is assumed
+/// units, shapes at the middle of their priors.
+/// Equation  error = mean over the samples above 20 km/h of (P_model - P_measured)/P_measured, P = loss force x speed
+/// Source    Table 4.3's caption; that the mean is over samples, and over sections of a kind, is assumed
 std::vector<GapCurve> simulate_gap_curves(const std::vector<const models::Effect*>& effects);
 
 /// All candidates, the likeliest first.
 /// Equation  log weight = max over u of sum over tires of (-1/2 sum over kinds ((e - t)/s)^2) - u^2/2; where each tire
 ///           may have its own size the better of that and of one u a tire, each with its -u^2/2
 /// Symbols   e, t error with the effect and in the table; s = 0.02 (Assumed: four times by how much the model of the
-/// drive
-///           misses the energies of Tables 4.4 and 4.5)
+///           drive misses the energies of Tables 4.4 and 4.5)
 /// `measured_above`: the table's unprinted sign. True where the measured power is above the model's
 std::vector<GapCandidate> rank_gap(const std::vector<GapCurve>& curves, const PowerErrors& table, bool measured_above);
 

@@ -6,8 +6,8 @@
 namespace rollrig::proof {
 
 /// Figures of each baseline whose folder is in the bank, by the same truth, oracle and ceiling; none where the truth
-/// was left out of the race. A method that names nothing is judged by its shrinkage alone. Errors  InputError: as
-/// read_cases()
+/// was left out of the race. A method that names nothing is judged by its shrinkage alone.
+/// Errors   InputError: as read_cases()
 std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreOptions& options);
 
 /// Into the score, with the best value of each figure.
