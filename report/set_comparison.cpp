@@ -178,10 +178,8 @@ Block make_gap_map(const PreparedSet& set, const SimulatedSet& simulated,
       {"legend",
        "Outlined: what stays beyond noise and beyond what a recalibration within the files' uncertainties takes, "
        "with its z; warm above, cool below, deeper the clearer; it exceeds what the recalibrated curve of the charts "
-       "leaves "
-       "where that has bent towards the gap. All other numbers: mean over the phase with the files' own numbers, "
-       "sensor "
-       "offsets included."}};
+       "leaves where that has bent towards the gap. All other numbers: mean over the phase with the files' own "
+       "numbers, sensor offsets included."}};
   for (const std::string& channel : set.channels()) {
     const std::string unit = pretty_unit(diagnosis::find_report_unit(set, channel).symbol);
     block["columns"].push_back(plain_name(channel) + ", " + unit);

@@ -16,13 +16,11 @@ struct CavityVolume {
         "steps with load and speed";
     info.equation =
         "V/V_0 = w = 1 - e ((Fz/Fz_ref)^m - l - q (v/v_1)^2), v_1 = 120 km/h; a change of volume warms or cools the "
-        "gas "
-        "by dT/T = -(kappa - 1) dw, which goes into the rubber: p ~ T_gas (1 - (kappa - 1) (w - w_f))/w, dw_f/dt = "
-        "(w - w_f) H/C_gas";
+        "gas by dT/T = -(kappa - 1) dw, which goes into the rubber: p ~ T_gas (1 - (kappa - 1) (w - w_f))/w, dw_f/dt "
+        "= (w - w_f) H/C_gas";
     info.source =
-        "0 to 1 %, with load and speed: effects.md. Assumed: m about 1, q up to 1, the square (centrifugal "
-        "force), "
-        "l from 0 (pressure set on the lifted wheel) to 1 (on the loaded one). Heat of compression: ideal gas, kappa = "
+        "0 to 1 %, with load and speed: effects.md. Assumed: m about 1, q up to 1, the square (centrifugal force), l "
+        "from 0 (pressure set on the lifted wheel) to 1 (on the loaded one). Heat of compression: ideal gas, kappa = "
         "1.4; what it heats the rubber by is nothing beside the rubber's own loss. The run starts in equilibrium "
         "under its first load, at rest";
     info.parameters = {

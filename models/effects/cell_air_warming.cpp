@@ -14,8 +14,7 @@ struct CellAirWarming {
     info.id = "cell_air_warming";
     info.summary =
         "While the rig turns, the air at the tire slowly becomes warmer than the recorded ambient, and with it a "
-        "surface "
-        "whose temperature is not recorded";
+        "surface whose temperature is not recorded";
     info.equation =
         "T_amb <- T_amb + theta, tau d(theta)/dt = D (v/v_ref)^n (1 - s + s Fz/Fz_ref) - theta; v_ref = 80 km/h; at "
         "rest to 0";

@@ -17,11 +17,10 @@ struct PressureRecord {
     info.equation = "p <- p + o (1 - g + g p/p_ref) + d (T - 25 degC)";
     info.source =
         "constant, 2 to 15 kPa: effects.md, in the port of the measured channels (baseline.md). cold_pressure_kPa is "
-        "read on the setting gauge (formats.md), which stays right: what is off is the reading of the cavity's sensor. "
-        "Assumed: either sign, the same in every run; d, the zero's shift with temperature, as of strain-gauge sensors "
-        "in a tire: 0.02 % of 400 kPa a kelvin; T of the liner; g, of zero and scale one may be off as well as the "
-        "other; p_ref the "
-        "tire's reference pressure";
+        "read on the setting gauge (formats.md), which stays right: what is off is the reading of the cavity's "
+        "sensor. Assumed: either sign, the same in every run; d, the zero's shift with temperature, as of "
+        "strain-gauge sensors in a tire: 0.02 % of 400 kPa a kelvin; T of the liner; g, of zero and scale one may be "
+        "off as well as the other; p_ref the tire's reference pressure";
     info.parameters = {
         {"offset_kPa",
          between(-200.0, 200.0),

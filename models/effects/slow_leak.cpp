@@ -18,8 +18,7 @@ struct SlowLeak {
         "sets that back";
     info.equation =
         "m/m_0 <- (m/m_0)(1 - s), ds/dt = r exp(e (T - 40 degC))/(p_cold + p_amb) tanh(p/p_0); p_0 = 10 kPa: no "
-        "overpressure, "
-        "no leak";
+        "overpressure, no leak";
     info.source =
         "source (3.14) has the gas sealed; 0.2 to 2 kPa/h: effects.md. Assumed: the pressure that drives it hardly "
         "changes; e, a hole knows no temperature, while gas goes through rubber with 25 to 45 kJ/mol, 0.03 to 0.055 /K "
