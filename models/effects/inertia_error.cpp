@@ -26,7 +26,7 @@ struct InertiaError {
     info.confused_with = {"slip_loss", "speed_record"};
     info.splitting_tests = {"ramps of several accelerations with the tire lifted",
                             "ramps up and down: slip has one sign"};
-    info.law_error = {0.15, 0.03};
+    info.law_error = {0.15, 0.03};  // Assumed
     return info;
   }
 

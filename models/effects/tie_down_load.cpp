@@ -12,7 +12,9 @@ struct TieDownLoad {
     EffectInfo info;
     info.id = "tie_down_load";
     info.summary = "The tie-downs press every wheel onto its roller with more than the recorded load";
-    info.equation = "Fz <- Fz + dF (1 - r w), where Fz > 0; tau dw/dt = 1 - w, w = 0 at the start, tau = 15 min";
+    info.equation =
+        "Fz <- Fz + dF (1 - r w), where Fz > 0; tau dw/dt = 1 - w, w = 0 at the start, 1 right after another run, "
+        "tau = 15 min";
     info.source =
         "source §3.4.2 (vehicle held by tie-downs); 50 to 400 N a wheel: effects.md. Assumed: straps that creep, r, "
         "tau; tied down anew before a run, but for one right after another";

@@ -11,8 +11,9 @@ struct TorqueGain {
     EffectInfo info;
     info.id = "torque_gain";
     info.summary =
-        "The force measurement shows a fixed share too much or too little: drum torque, loss force or traction force; "
-        "the level of the loss takes it up where that is uncertain, but temperatures do not follow it";
+        "The force measurement shows a share too much or too little, fixed or other at other forces: drum torque, loss "
+        "force or traction force; the level of the loss takes it up where that is uncertain, but temperatures do not "
+        "follow it";
     info.equation =
         "F <- F (1 + s q), q = (((F/F_ref)^2 + e^2)/(1 + e^2))^(n/2), F_ref = 60 N, e = 0.05; F: torque over the "
         "drum's radius, loss force; traction force of a vehicle on the road: q = 1";
@@ -20,7 +21,8 @@ struct TorqueGain {
         "2 %, of all torque: effects.md. On a dynamometer one scale of hub and roller, so that the loss between them "
         "has it too; Assumed: two scales that differ would leak the drive force into it, which is not in the "
         "catalogue; n about 0, below it for a bridge that reads less at high force, which a rig's sensor is and the "
-        "reckoning of a motor's force is not; F_ref, about the rolling resistance of a car's tire";
+        "reckoning of a motor's force is not; F_ref, about the rolling resistance of a car's tire; e, below which the "
+        "share stays, since the force passes through 0";
     info.parameters = {{"gain_percent", between(-50.0, 50.0), {-2.0, 2.0}, "s, shown over true at 60 N, less one", 0.0},
                        {"power", between(-0.9, 1.0), {-0.2, 0.2}, "n, of the force, by which the share grows"}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N"};

@@ -25,7 +25,7 @@ struct WindAndGrade {
     info.confused_with = {"toe_camber_drag", "tire_temperature"};
     info.splitting_tests = {"the same stretch in both directions", "an anemometer on the vehicle",
                             "the same drive at two speeds: drag goes with the square"};
-    info.law_error = {0.3, 0.09};
+    info.law_error = {0.3, 0.09};  // Assumed
     return info;
   }
 
