@@ -55,9 +55,17 @@ void add_examples(const CLI::App& app) {
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }
 
-int report(const char* what, const std::string& text, int status) {
+int report(const char* kind, const InputProblem& problem, int status) {
   std::cout << std::flush;
-  std::cerr << format_error(std::string(what) + ": ", text);
+  std::cerr << format_error(std::string(kind) + ": ", problem);
+  return status;
+}
+
+int report(const char* kind, const std::string& what, int status) {
+  const std::string text = std::string(kind) + ": " + what;
+  const bool has_lines = text.find('\n') != std::string::npos;  // of its own: a list of terms
+  std::cout << std::flush;
+  std::cerr << (has_lines ? text + "\n" : wrap(text, 2).substr(2));
   return status;
 }
 
@@ -111,7 +119,7 @@ int main(int argc, char** argv) {
   try {
     return parse_and_run(argc, argv);
   } catch (const rollrig::InputError& error) {
-    return report("error", error.what(), kInputError);
+    return report("error", error.problem(), kInputError);
   } catch (const rollrig::RunFailure& error) {
     return report("run failed", error.what(), kRunFailed);
   } catch (const rollrig::Interrupted&) {

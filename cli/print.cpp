@@ -71,24 +71,14 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
   return text;
 }
 
-std::string format_error(const std::string& start, const std::string& text) {
-  constexpr std::size_t kColumns = 80;
-  constexpr std::size_t kLabelColumns = 11;  // of InputError: two spaces, the label, a space
-  std::istringstream in(start + text);
-  std::string out;
-  for (std::string line; std::getline(in, line);) {
-    const std::string label = line.substr(0, kLabelColumns);
-    const bool is_copied = label == "  where    " || label == "  value    ";
-    if (is_copied || count_characters(line) <= kColumns) {
-      out += line + "\n";
-      continue;
-    }
-    const bool is_labelled = line.rfind("  ", 0) == 0 && line.size() > kLabelColumns;
-    const std::size_t indent = is_labelled ? kLabelColumns : 2;
-    const std::string first = is_labelled ? label : line.substr(0, indent);
-    out += first + wrap(line.substr(first.size()), indent).substr(indent);
+std::string format_error(const std::string& start, const InputProblem& problem) {
+  constexpr std::size_t kLabelColumns = 11;  // two spaces, the label, a space
+  std::string text = wrap(start + problem.what, 2).substr(2);
+  for (const ProblemPart& part : list_parts(problem)) {
+    text += fmt::format("  {:<8} ", part.label);
+    text += part.is_copied ? part.content + "\n" : wrap(part.content, kLabelColumns).substr(kLabelColumns);
   }
-  return out;
+  return text;
 }
 
 }  // namespace rollrig::cli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
+#include "sim/core/error.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -18,7 +19,7 @@ std::string format_table(const scenarios::ResultTable& table);
 /// Header, lines, tables and warnings of a run.
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
 
-/// An error's text (sim/core/error.h) within 80 columns, `start` before it. Paths and values stay whole, to be copied.
-std::string format_error(const std::string& start, const std::string& text);
+/// An error's message within 80 columns, `start` before it. Places and values stay whole, to be copied.
+std::string format_error(const std::string& start, const InputProblem& problem);
 
 }  // namespace rollrig::cli

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "sim/core/error.h"
-
 namespace rollrig::cli {
 namespace {
 
@@ -77,15 +75,18 @@ std::string describe_problem(const CLI::App& app, const CLI::App& called, const 
 
 }  // namespace
 
-std::string explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   int next = 1;
   const CLI::App& called = find_called(app, argc, argv, next);
   std::string command = "rollrig";
   for (int i = 1; i < next; ++i) command += std::string(" ") + argv[i];
-  std::string text = describe_problem(app, called, error, argc, argv, next);
-  const std::string nearest = suggest(app, called, argc, argv, next);
-  if (!nearest.empty()) text += fmt::format("\n  nearest  {}", nearest);
-  return text + fmt::format("\n  allowed  see {} --help", command);
+  return {describe_problem(app, called, error, argc, argv, next),
+          "",
+          0,
+          "",
+          "",
+          fmt::format("see {} --help", command),
+          suggest(app, called, argc, argv, next)};
 }
 
 }  // namespace rollrig::cli

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/error.h"
+
 namespace rollrig::cli {
 
 /// CLI11's message, and the nearest option or subcommand when a word was not expected.
-std::string explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
+InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
 /// Long option names of an app, such as "--tire".
 std::vector<std::string> list_options(const CLI::App& app);

@@ -12,16 +12,7 @@ namespace {
 
 std::string format_problem(const InputProblem& problem) {
   std::string text = problem.what;
-  const auto append = [&text](const char* label, const std::string& content) {
-    if (!content.empty()) text += fmt::format("\n  {:<8} {}", label, content);
-  };
-  if (!problem.file.empty()) {
-    append("where", problem.line > 0 ? fmt::format("{}, line {}", problem.file, problem.line) : problem.file);
-  }
-  append("key", problem.key);
-  append("value", problem.value);
-  append("allowed", problem.allowed);
-  append("nearest", problem.nearest);
+  for (const ProblemPart& part : list_parts(problem)) text += fmt::format("\n  {:<8} {}", part.label, part.content);
   return text;
 }
 
@@ -34,6 +25,19 @@ int find_edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::vector<ProblemPart> list_parts(const InputProblem& problem) {
+  const std::string where =
+      problem.line > 0 && !problem.file.empty() ? fmt::format("{}, line {}", problem.file, problem.line) : problem.file;
+  std::vector<ProblemPart> parts{{"where", where, true},
+                                 {"key", problem.key},
+                                 {"value", problem.value, true},
+                                 {"allowed", problem.allowed},
+                                 {"nearest", problem.nearest}};
+  parts.erase(std::remove_if(parts.begin(), parts.end(), [](const ProblemPart& part) { return part.content.empty(); }),
+              parts.end());
+  return parts;
+}
 
 InputError::InputError(InputProblem problem)
     : std::runtime_error(format_problem(problem)), problem_(std::move(problem)) {}

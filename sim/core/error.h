@@ -18,6 +18,16 @@ struct InputProblem {
   std::string nearest;  // nearest known name
 };
 
+/// One labelled line of a message.
+struct ProblemPart {
+  const char* label;
+  std::string content;
+  bool is_copied = false;  // a place or a value, which a person copies: not to be broken
+};
+
+/// What a message says below its first sentence, in order.
+std::vector<ProblemPart> list_parts(const InputProblem& problem);
+
 /// A mistake in what the user gave: exit status 2, nothing written.
 class InputError : public std::runtime_error {
  public:
