@@ -62,17 +62,17 @@ std::vector<S> read_instants(const scenarios::MeasurementSet& set, const scenari
   return values;
 }
 
-/// What the effects of the port "trace" make of a true force that is the same in every row.
+/// What the effects of the port "trace" make of a true force in every row.
 template <class S>
 std::vector<S> trace_of(const scenarios::MeasuredRun& run, const models::Corner<S>& corner, const std::string& channel,
-                        double force) {
+                        const std::vector<double>& force) {
   sim::Recording<S> recording;
   recording.time_s = run.time_s;
   const auto add = [&](const std::string& name, std::vector<S> values) {
     recording.channels.push_back({name});
     recording.values.push_back(std::move(values));
   };
-  add(channel, std::vector<S>(run.time_s.size(), S(force)));
+  add(channel, {force.begin(), force.end()});
   for (const char* name : {"load_N", "ambient_degC"}) {
     const std::vector<double>& given = run.columns.at(name);
     add(name, {given.begin(), given.end()});
@@ -86,10 +86,11 @@ std::vector<S> read_force(const scenarios::MeasuredRun& run, const models::Corne
                           const std::string& channel) {
   const bool hangs = run.has(kHungTorque);
   if (!hangs && !run.reversed) return values;
-  const std::vector<S> of_zero = trace_of(run, corner, channel, 0.0);
-  const std::vector<S> of_one = trace_of(run, corner, channel, 1.0);
+  const std::vector<double> none(values.size(), 0.0);
+  const std::vector<S> of_zero = trace_of(run, corner, channel, none);
+  const std::vector<S> of_hung = trace_of(run, corner, channel, hangs ? run.columns.at(kHungTorque) : none);
   for (std::size_t row = 0; row < values.size(); ++row) {
-    if (hangs) values[row] += (of_one[row] - of_zero[row]) * S(run.columns.at(kHungTorque)[row]);
+    values[row] += of_hung[row] - of_zero[row];
     if (run.reversed) values[row] -= S(2.0) * of_zero[row];
   }
   return values;

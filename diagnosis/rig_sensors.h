@@ -32,9 +32,10 @@ const RigSensor& find_rig_sensor(const std::string& channel);
 using scenarios::kHungTorque;
 
 /// A channel of a run as a sensor would read it, a value a row.
-/// Equation  with torque hung on it  y + (trace(1) - trace(0)) hung;  in reversed rotation  y - 2 trace(0)
+/// Equation  with torque hung on it  y + trace(hung) - trace(0);  in reversed rotation  y - 2 trace(0)
 /// Symbols   y the channel as simulated, trace() what the effects of the port "trace" make of a true force
-/// Validity  those effects are straight lines in the force; sensors other than a set's channels: full detail
+/// Validity  while torque is hung next to nothing else turns the sensor; those effects turn over with the force but for
+///           what they make of none; sensors other than a set's channels: full detail
 /// Checked   tests/diagnosis/next_test_test.cpp
 template <class S>
 std::vector<S> read_channel(const PreparedSet& set, const scenarios::MeasuredRun& run, const models::Corner<S>& corner,

@@ -10,6 +10,7 @@
 
 #include "diagnosis/base_parameters.h"
 #include "diagnosis/kinds/kinds.h"
+#include "diagnosis/rig_sensors.h"
 #include "diagnosis/verdict.h"
 #include "identification/replay.h"
 #include "scenarios/sensor_file.h"
@@ -328,6 +329,24 @@ TEST_CASE("weights on a lever read the zero and reversed rotation turns it over"
   const double by_ramps = find_judged(inertia, "ramps").bits;
   CHECK(by_ramps > find_judged(inertia, "drum_alone").bits);
   CHECK(by_ramps > 0.1);
+}
+
+TEST_CASE("weights on a lever are read with the gain that a bent sensor has at their torque", "[fast]") {
+  const Raced& raced = bearings_or_zero();
+  const models::Corner<double> corner(raced.set.context(),
+                                      {tests::make_active(models::find_effect("torque_gain"), {2.0, -0.3})});
+  scenarios::MeasuredRun run;
+  run.time_s = {0.0, 1.0, 2.0};
+  run.columns = {{"load_N", {0.0, 0.0, 0.0}}, {"ambient_degC", {298.15, 298.15, 298.15}}};
+  run.columns[scenarios::kHungTorque] = {0.0, 60.0, 600.0};
+  sim::Recording<double> recording;
+  recording.channels.push_back({"drum_torque_Nm"});
+  recording.values = {{0.0, 0.0, 0.0}};
+  const std::vector<double> read_Nm = read_channel(raced.set, run, corner, recording, "drum_torque_Nm");
+  CHECK(read_Nm[0] == 0.0);
+  CHECK(read_Nm[1] == Approx(61.2));  // 60 N at a radius of 1 m
+  CHECK(read_Nm[2] > 600.0);
+  CHECK(read_Nm[2] < 600.0 + 0.6 * 12.0);
 }
 
 TEST_CASE("to repeat a run that could not show an effect tells next to nothing of it", "[fast]") {
