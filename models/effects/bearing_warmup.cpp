@@ -68,7 +68,7 @@ struct BearingWarmup {
     const S air_N = all_N - calc_bearing_N(loss, S(abs(now.motion.speed_m_s)));
     const S share = S(1.0) - (S(1.0) - self.parameter(kQuadraticShare)) * air_N / all_N;
     const S fallen = S(1.0) - exp(-self.parameter(kFall) * over_reference_dK);
-    port.factor *= S(1.0) - fallen * share;
+    port.factor *= positive_part(S(S(1.0) - fallen * share));
   }
 
   template <class S>

@@ -16,7 +16,7 @@ struct SpeedRecord {
         "drag and inertia go with the true speed, while the record keeps its own";
     info.equation =
         "x <- x + s ((1 - g - o) x + g x^2 + o x/sqrt(x^2 + e^2)), x = v/v_ref, v_ref = 80 km/h, e = 0.05; dv/dt by "
-        "the derivative; on entry as recorded";
+        "the derivative; neither below a tenth of what is recorded; on entry as recorded";
     info.source =
         "scale, 1 to 10 %: effects.md. The record is given and the truth follows from it; torque and force are "
         "measured by themselves, so that their channels have no error of their own from it. A slope is taken as it is "
@@ -42,6 +42,7 @@ struct SpeedRecord {
     using std::abs;
     using std::sqrt;
     constexpr double kAtRest = 0.05;
+    constexpr double kLeast = 0.1;
     const S& error = self.parameter(kError);
     const S& growing = self.parameter(kGrowingShare);
     const S& fixed = self.parameter(kFixedShare);
@@ -49,8 +50,11 @@ struct SpeedRecord {
     const S smoothed = sqrt(S(x * x + S(kAtRest * kAtRest)));
     const S constant = S(1.0) - growing - fixed;
     const S at_rest = S(kAtRest) / smoothed;
-    port.speed_m_s *= S(1.0) + error * (constant + growing * x + fixed / smoothed);
-    port.acceleration_m_s2 *= S(1.0) + error * (constant + S(2.0) * growing * x + fixed * at_rest * at_rest / smoothed);
+    const S turns = S(1.0) + error * (constant + growing * x + fixed / smoothed);
+    const S gains = S(1.0) + error * (constant + S(2.0) * growing * x + fixed * at_rest * at_rest / smoothed);
+    const bool is_sound = value_of(turns) > kLeast;  // no error turns a drum the other way round
+    port.speed_m_s *= is_sound ? turns : S(kLeast);
+    port.acceleration_m_s2 *= is_sound ? gains : S(kLeast);
   }
 };
 

@@ -13,7 +13,8 @@ struct TieDownLoad {
     info.id = "tie_down_load";
     info.summary = "The tie-downs press every wheel onto its roller with more than the recorded load";
     info.equation =
-        "Fz <- Fz + dF (1 - r w), where Fz > 0; tau dw/dt = 1 - w, w = 0 at the start, 1 right after another run, "
+        "Fz <- Fz + dF (1 - r w), where Fz > 0, not below 0; tau dw/dt = 1 - w, w = 0 at the start, 1 right after "
+        "another run, "
         "tau = 15 min";
     info.source =
         "source §3.4.2 (vehicle held by tie-downs); 50 to 400 N a wheel: effects.md. Assumed: straps that creep, r, "
@@ -37,7 +38,8 @@ struct TieDownLoad {
   template <class S>
   static void input(const EffectView<S>& self, const Instant<S>&, InputPort<S>& port) {
     if (value_of(port.load_N) <= 0.0) return;  // the rollers alone: no vehicle stands on them
-    port.load_N += self.parameter(kLoad) * (S(1.0) - self.parameter(kRelaxing) * self.state(kRelaxed));
+    const S added_N = self.parameter(kLoad) * (S(1.0) - self.parameter(kRelaxing) * self.state(kRelaxed));
+    port.load_N = positive_part(S(port.load_N + added_N));
   }
 
   template <class S>

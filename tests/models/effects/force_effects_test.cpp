@@ -94,6 +94,12 @@ TEST_CASE("tie-downs press the wheel onto its roller, and only there", "[fast]")
         Approx(find_loss_N(RigKind::kDyno, {}, 20.0, 5700.0)));
 }
 
+TEST_CASE("a restraint that lifts more than there is leaves no load", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("tie_down_load", {-900.0, 0.0})});
+  at.inputs.load_N = 500.0;
+  CHECK(at.evaluate().acting.load_N == 0.0);
+}
+
 TEST_CASE("straps creep from what they were tied down with, and have crept right after a run", "[fast]") {
   const auto effect = switch_on("tie_down_load", {300.0, 0.2});
   HandFedCorner<double> at(make_context_on(RigKind::kDyno), {effect});

@@ -70,6 +70,14 @@ TEST_CASE("an error of the speed is its size at 80 km/h, grows or falls with spe
   }
 }
 
+TEST_CASE("no error of the speed turns the surface the other way round", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kFlat), {switch_on("speed_record", {-50.0, 0.0, 1.0})});
+  for (const double speed_m_s : {0.01, 0.3, 3.0, 30.0}) {
+    at.inputs.speed_m_s = speed_m_s;
+    CHECK(at.evaluate().acting.speed_m_s > 0.0);
+  }
+}
+
 TEST_CASE("a fixed speed beside the scale is as many km/h at every speed but at rest", "[fast]") {
   const auto off_m_s = [](double speed_m_s) {
     HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, 0.0, 1.0})});

@@ -237,6 +237,13 @@ TEST_CASE("a surface warms more under more load and speed, and cools at rest", "
   CHECK(settled(0.0, 5400.0) == Approx(0.0).margin(1e-9));
 }
 
+TEST_CASE("bearings never drive the rig, however thin their grease is said to be", "[fast]") {
+  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("bearing_warmup", {0.2, 30.0, 0.1, 1.0, 2.0})});
+  at.inputs.ambient_K = 298.15 + 100.0;
+  at.inputs.speed_m_s = 40.0;
+  CHECK(at.evaluate().parasitic_N >= 0.0);
+}
+
 TEST_CASE("the skin of a surface warms before its body, to the same rise", "[fast]") {
   const auto warmed_dK = [](double skin_share, double duration_s) {
     HandFedCorner<double> at(make_context_on(RigKind::kDrum),
