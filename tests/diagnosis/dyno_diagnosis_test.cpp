@@ -57,7 +57,7 @@ TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
 }
 
 TEST_CASE("a driveline that warms is named on a dynamometer, with its place and its equation", "[fast]") {
-  const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("driveline_warming", 0.7)}, 3), 4);
+  const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("driveline_warming", 0.8)}, 3), 4);
   const Diagnosis found = diagnose(set, only(kFew));
   INFO(diagnosis::format_summary(found));
   CHECK(names(found, "driveline_warming"));
