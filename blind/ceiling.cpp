@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "blind/known_set.h"
 #include "blind/observer.h"
@@ -19,6 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kFormat = "rollrig-blind-ceiling/1";
 constexpr double kToldApart = 3.0;  // expected log Bayes factor; the diagnosis' own measure
 
 bool is_outside(const std::string& id) { return find_effect_kind(id)->outside; }
@@ -61,6 +63,15 @@ std::vector<std::pair<std::string, SetOrder>> read_orders(const CeilingOrder& or
   return orders;
 }
 
+/// The sets that an older ceiling of the same truth holds; none where there is no such file.
+Json read_kept(const std::string& file, const std::string& truth_sha256) {
+  std::ifstream in(file);
+  const Json old = Json::parse(in, nullptr, false);
+  const bool is_ours =
+      old.is_object() && old.value("format", "") == kFormat && old.value("truth_sha256", "") == truth_sha256;
+  return is_ours && old.contains("sets") ? old["sets"] : Json::object();
+}
+
 void check_place(const std::string& out, const std::string& bank) {
   require_writable(out, "--out");
   for (const char* kept : {"sets", "truth.json", "seal.sha256"}) {
@@ -79,12 +90,12 @@ std::vector<std::string> Ceiling::twins() const {
   return ids;
 }
 
-Ceiling find_ceiling(const SetOrder& order) {
+Ceiling find_ceiling(const SetOrder& order, bool detection_alone) {
   const KnownSet set(order);
   const Observer observer(set.unknowns());
   const Eigen::VectorXd signal = observer.reduce(set.signal());
   Ceiling ceiling{signal.norm(), {}};
-  if (std::any_of(order.effects.begin(), order.effects.end(), is_outside)) return ceiling;
+  if (detection_alone || std::any_of(order.effects.begin(), order.effects.end(), is_outside)) return ceiling;
   for (const EffectKind* rival : set.rivals()) {
     if (order.effects.size() == 1 && order.effects.front() == rival->id) continue;
     const Eigen::MatrixXd alternatives = observer.reduce(find_alternatives(set, order, *rival));
@@ -102,10 +113,10 @@ CeilingWritten write_ceiling(const CeilingOrder& order, const std::function<void
   const auto work = [&](std::size_t i) {
     const auto& [number, set] = orders[i];
     require_same_files((fs::path(order.bank) / "sets" / number).string(), set);
-    described[i] = describe(set, find_ceiling(set));
+    described[i] = describe(set, find_ceiling(set, order.detection_alone));
   };
   work_on_all(orders.size(), order.threads, work, progress);
-  Json json = {{"format", "rollrig-blind-ceiling/1"}, {"truth_sha256", truth.sha256}, {"sets", Json::object()}};
+  Json json = {{"format", kFormat}, {"truth_sha256", truth.sha256}, {"sets", read_kept(out, truth.sha256)}};
   for (std::size_t i = 0; i < orders.size(); ++i) json["sets"][orders[i].first] = std::move(described[i]);
   write_file(out, json.dump(1) + "\n", "--out");
   return {out, orders.size()};

@@ -24,13 +24,14 @@ struct Ceiling {
 };
 
 /// Of a set with effects. Those outside of the catalogue are compared with no others, a pair with all single effects,
-/// an effect with all but itself.
-Ceiling find_ceiling(const SetOrder& order);
+/// an effect with all but itself. `detection_alone` leaves the comparison out, which is most of the work.
+Ceiling find_ceiling(const SetOrder& order, bool detection_alone = false);
 
 struct CeilingOrder {
   std::string bank;
   std::string out;                // empty: ceiling.json in the bank
   std::vector<std::string> sets;  // empty: all
+  bool detection_alone = false;   // d' and not what can be told apart
   std::size_t threads = 0;        // 0: as many as there are cores
 };
 
@@ -39,7 +40,7 @@ struct CeilingWritten {
   std::size_t sets = 0;
 };
 
-/// Opens the seal and writes rollrig-blind-ceiling/1. `progress` is told the number of sets done and in all.
+/// Opens the seal and writes rollrig-blind-ceiling/1. What the file has of other sets of the same truth stays. `progress` is told the number of sets done and in all.
 /// Errors  InputError: as open_truth() and require_same_files(); no such set
 CeilingWritten write_ceiling(const CeilingOrder& order, const std::function<void(std::size_t, std::size_t)>& progress);
 

@@ -208,6 +208,8 @@ CLI::App* add_ceiling(CLI::App& app, CeilingOrder& order) {
   ceiling->add_option("bank", order.bank, "Folder made by bank")->required();
   ceiling->add_option("--out", order.out, "File for the ceiling [ceiling.json in the bank]");
   ceiling->add_option("--sets", order.sets, "Numbers of sets, as 0001,0002 [all]")->delimiter(',');
+  ceiling->add_flag("--detection", order.detection_alone,
+                    "Whether each is to be seen, and not what it can be told from: a tenth of the time");
   ceiling->add_option("--threads", order.threads, "Sets at a time [as many as there are cores]")
       ->check(CLI::Range(1, kMostThreads));
   return ceiling;

@@ -107,6 +107,32 @@ TEST_CASE("the ceiling does not depend on threads, nor a set's on the other sets
   CHECK(one.at("0002") == all.at("0002"));
 }
 
+TEST_CASE("what is detected can be asked for alone, and what can be told apart of some sets after it", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string bank = folder.file("bank");
+  make_bank(bank,
+            {"--kind drum --runs 1 --effect windage --seed 2", "--kind drum --runs 1 --effect slow_leak --seed 3"});
+  const auto ceiling = [&bank](const std::string& options) {
+    const auto ran = run_blind("ceiling " + bank + " " + options);
+    INFO(ran.err);
+    REQUIRE(ran.status == 0);
+    return Json::parse(read_file(bank + "/ceiling.json")).at("sets");
+  };
+  const Json detected = ceiling("--detection");
+  REQUIRE(detected.size() == 2);
+  for (const Json& set : detected) CHECK(set.count("identifiable") == 0);
+  const Json both = ceiling("--sets 0002");
+  CHECK(both.at("0001") == detected.at("0001"));
+  CHECK(both.at("0002").at("d_prime") == detected.at("0002").at("d_prime"));
+  CHECK(both.at("0002").count("identifiable") == 1);
+  // of another truth nothing is kept
+  std::string other = read_file(bank + "/ceiling.json");
+  const std::size_t at = other.find("truth_sha256") + 16;
+  other[at] = other[at] == '0' ? '1' : '0';
+  write_file(bank + "/ceiling.json", other);
+  CHECK(ceiling("--sets 0002").size() == 1);
+}
+
 TEST_CASE("a truth that was not sealed, other files and a wrong place are refused, and nothing is written", "[fast]") {
   const TemporaryFolder folder;
   const std::string bank = folder.file("bank");
