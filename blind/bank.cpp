@@ -6,6 +6,7 @@
 
 #include "blind/draws.h"
 #include "blind/effect.h"
+#include "blind/interrupt.h"
 #include "blind/output.h"
 
 namespace blind {
@@ -139,6 +140,7 @@ void write_bank(const BankOrder& order, const std::function<void(const std::stri
     if (order.counterfactual) folder.write("counterfactual/" + name, made.counterfactual);
     truth["sets"][name] = std::move(made.truth);
     progress(i + 1, plans.size());
+    throw_if_interrupted();
   }
   const std::string text = truth.dump(1) + "\n";
   const std::string sha256 = calc_sha256(text);

@@ -14,6 +14,7 @@
 #include "blind/effect.h"
 #include "blind/effect_options.h"
 #include "blind/follow_up.h"
+#include "blind/interrupt.h"
 #include "blind/kind_options.h"
 #include "blind/measurement_set.h"
 #include "blind/output.h"
@@ -24,7 +25,7 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-enum ExitStatus { kDone = 0, kInputError = 2, kRunFailed = 3 };
+enum ExitStatus { kDone = 0, kInputError = 2, kRunFailed = 3, kInterrupted = 130 };
 
 struct MakeOptions {
   std::string kind = name_of(Kind::kDrum);
@@ -282,10 +283,13 @@ int report(const char* what, const std::string& text, int status) {
 }  // namespace blind
 
 int main(int argc, char** argv) {
+  blind::install_interrupt_handler();
   try {
     return blind::parse_and_run(argc, argv);
   } catch (const blind::InputError& error) {
     return blind::report("error", error.what(), blind::kInputError);
+  } catch (const blind::Interrupted&) {
+    return blind::report("stopped", "nothing was written", blind::kInterrupted);
   } catch (const std::exception& error) {
     return blind::report("run failed", error.what(), blind::kRunFailed);
   }

@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "blind/interrupt.h"
+
 namespace blind {
 
 void work_on_all(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& work,
@@ -21,6 +23,7 @@ void work_on_all(std::size_t count, std::size_t threads, const std::function<voi
   };
   const auto work_on = [&](std::size_t mine) {
     try {
+      throw_if_interrupted();
       work(mine);
       const std::lock_guard lock(mutex);
       progress(++done, count);

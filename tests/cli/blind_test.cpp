@@ -85,6 +85,15 @@ TEST_CASE("a score under another seal is refused and writes nothing", "[fast]") 
   CHECK_FALSE(fs::exists(made.folder.file("score.json")));
 }
 
+TEST_CASE("a bank whose making is interrupted leaves nothing behind", "[fast]") {
+  const TemporaryFolder folder;
+  const auto stopped = run_program("blind make --seed 9 --out bank --kind drum --singles 200", folder.path(),
+                                   "timeout --foreground -s INT --preserve-status 1");
+  CHECK(stopped.status == 130);
+  CHECK_THAT(stopped.err, Contains("nothing was written"));
+  CHECK(folder.entry_count() == 0);
+}
+
 TEST_CASE("a run that is interrupted leaves whole answers, and goes on from them", "[slow]") {
   const TemporaryFolder folder;
   REQUIRE(run_program("blind make --seed 9 --out bank --kind drum --singles 6 --pairs 0 --none 0 --outside 0",
