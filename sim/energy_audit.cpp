@@ -41,7 +41,12 @@ void EnergyAudit::require_closed(double limit) const {
   for (const auto& [ledger, name] :
        {std::pair{EnergyTerm::Ledger::kMechanical, "mechanical"}, std::pair{EnergyTerm::Ledger::kThermal, "thermal"}}) {
     const double closure = calc_closure(ledger);
-    if (closure <= limit) continue;  // NaN goes on
+    if (closure <= limit) continue;
+    if (!std::isfinite(closure)) {
+      throw RunFailure(
+          "the run does not stay finite: values of the tire or of an effect are beyond what its steps can follow; "
+          "nearer to the usual ones, or with --fidelity multibody, they may");
+    }
     std::string text = fmt::format("the {} energy audit does not close: {:.3g} of the motor work, allowed {:.3g}", name,
                                    closure, limit);
     for (const EnergyTerm& term : terms) {

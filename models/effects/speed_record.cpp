@@ -15,7 +15,8 @@ struct SpeedRecord {
         "What really turns is faster or slower than recorded, by a share, fixed or other at other speeds: loss, heat, "
         "drag and inertia go with the true speed, while the record keeps its own";
     info.equation =
-        "x <- x + s ((1 - g - o) x + g x^2 + o x/sqrt(x^2 + e^2)), x = v/v_ref, v_ref = 80 km/h, e = 0.05; dv/dt by "
+        "x <- x + s ((1 - g - o) x + g x^2 + o x sqrt((1 + e^2)/(x^2 + e^2))), x = v/v_ref, v_ref = 80 km/h, e = 0.15; "
+        "dv/dt by "
         "the derivative; neither below a tenth of what is recorded; on entry as recorded";
     info.source =
         "scale, 1 to 10 %: effects.md. The record is given and the truth follows from it; torque and force are "
@@ -41,17 +42,17 @@ struct SpeedRecord {
   static void input(const EffectView<S>& self, const Instant<S>&, InputPort<S>& port) {
     using std::abs;
     using std::sqrt;
-    constexpr double kAtRest = 0.05;
+    constexpr double kAtRest = 0.15;
     constexpr double kLeast = 0.1;
     const S& error = self.parameter(kError);
     const S& growing = self.parameter(kGrowingShare);
     const S& fixed = self.parameter(kFixedShare);
     const S x = abs(port.speed_m_s) / get_reference_speed_m_s<S>();
-    const S smoothed = sqrt(S(x * x + S(kAtRest * kAtRest)));
+    const S squares = x * x + S(kAtRest * kAtRest);
+    const S of_fixed = fixed * sqrt(S(S(1.0 + kAtRest * kAtRest) / squares));
     const S constant = S(1.0) - growing - fixed;
-    const S at_rest = S(kAtRest) / smoothed;
-    const S turns = S(1.0) + error * (constant + growing * x + fixed / smoothed);
-    const S gains = S(1.0) + error * (constant + S(2.0) * growing * x + fixed * at_rest * at_rest / smoothed);
+    const S turns = S(1.0) + error * (constant + growing * x + of_fixed);
+    const S gains = S(1.0) + error * (constant + S(2.0) * growing * x + of_fixed * S(kAtRest * kAtRest) / squares);
     const bool is_sound = value_of(turns) > kLeast;  // no error turns a drum the other way round
     port.speed_m_s *= is_sound ? turns : S(kLeast);
     port.acceleration_m_s2 *= is_sound ? gains : S(kLeast);
