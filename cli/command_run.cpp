@@ -63,6 +63,10 @@ int run_command(const Options& options) {
   if (out.has_value())
     std::cout << fmt::format("  written to {}/: result.json recording.csv manifest.json\n", options.out);
   if (set.has_value()) std::cout << fmt::format("  measurement set written to {}/\n", options.set_folder);
+  if (set.has_value() && !spec.sensors.has_value()) {
+    std::cout << wrap(
+        "warning: nothing is measured in it: --sensors source, dyno or road, or a file, gives it channels", 2);
+  }
   return kDone;
 }
 

@@ -53,7 +53,16 @@ Finding validate_set(const std::string& path) {
 
 Finding validate_cycle(const std::string& path) {
   const CsvTable csv = CsvTable::read(path);
-  csv.require_known({"time_s", "speed_km_h"});
+  for (const std::string& column : csv.columns()) {
+    if (column == "time_s" || column == "speed_km_h") continue;
+    InputProblem problem = unknown_name("column", column, {"time_s", "speed_km_h"});
+    problem.what += ": a CSV by itself is read as a drive cycle";
+    problem.file = path;
+    problem.line = 1;
+    problem.key = column;
+    problem.allowed = "time_s, speed_km_h; or in its place the folder of the measurement set to which it belongs";
+    throw InputError(problem);
+  }
   csv.increasing_times("time_s");
   csv.numbers({"speed_km_h", between(0.0, 400.0), "speed"});
   return {"cycle: " + format_count(csv.row_count(), "row")};

@@ -70,7 +70,9 @@ const ConfigValue& TableReader::require(const std::string& key) {
   missing.file = table_.origin.file;
   missing.line = table_.origin.line;
   missing.key = full_key(key);
-  const std::string nearest = nearest_name(key, table_.keys());
+  std::vector<std::string> others = table_.keys();  // an uncertainty beside a number that is not there is in its place
+  others.erase(std::remove(others.begin(), others.end(), key + "_sd"), others.end());
+  const std::string nearest = nearest_name(key, others);
   if (!nearest.empty()) missing.nearest = fmt::format("'{}' is there; is it meant?", nearest);
   throw InputError(missing);
 }

@@ -237,6 +237,16 @@ TEST_CASE("a set is written, validated and fitted", "[fast]") {
   CHECK(run_program("run iso_28580 --tire fitted/mine.toml", folder.path()).status == 0);
 }
 
+TEST_CASE("a set that is written without sensors is said to hold no measurement", "[fast]") {
+  const TemporaryFolder folder;
+  const auto plain = run_program("run skim --tire a50 --write-set plain", folder.path());
+  CHECK(plain.status == 0);
+  CHECK_THAT(plain.out, Contains("nothing is measured in it") && Contains("--sensors"));
+  const auto measured = run_program("run skim --tire a50 --sensors source --write-set measured", folder.path());
+  CHECK(measured.status == 0);
+  CHECK_THAT(measured.out, !Contains("nothing is measured"));
+}
+
 namespace {
 /// A set of two runs in "set", its pressures in bar under a kPa heading where wanted.
 void write_small_set(const TemporaryFolder& folder, bool in_bar) {
