@@ -1,4 +1,5 @@
-/// The load acts a little along the way of the drum, by a fixed angle or more so as the frame bends.
+/// The load acts a little along the way of the drum, by a fixed angle or more so as the frame gives way.
+#include <algorithm>
 #include <cmath>
 
 #include "blind/effect.h"
@@ -7,6 +8,7 @@
 namespace blind {
 namespace {
 
+/// Angle d (1 - b + b sqrt(x)), x the load over the reference load: seats that close give way less and less.
 class LoadCrossTalk : public Effect {
  public:
   LoadCrossTalk(double angle_mrad, Draws& draws) : angle_(1e-3 * angle_mrad) {
@@ -17,7 +19,8 @@ class LoadCrossTalk : public Effect {
   void trace(RunRecord& record) const override {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
       const double load_N = record.load_N[row];
-      const double angle = angle_ * (1.0 - bending_ + bending_ * load_N / record.specimen->reference_load_N);
+      const double gives_way = std::sqrt(std::max(0.0, load_N) / record.specimen->reference_load_N);
+      const double angle = angle_ * (1.0 - bending_ + bending_ * gives_way);
       record.force[row] += record.lever * load_N * std::sin(angle);
     }
   }
@@ -55,7 +58,7 @@ const EffectKind kind_load_cross_talk{
     log_normal(0.08, 0.5, 0.05, 0.8),
     true,
     0.0,
-    {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the load",
+    {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the root of the load",
       make_law<LoadCrossTalk>},
      {"fixed", "Fz sin(d) with a fixed angle", make_law<FixedAngle>}},
     kRigGrounds,

@@ -1,4 +1,4 @@
-/// The sensor in the cavity reads off by a constant that goes with its temperature, or by a scale.
+/// The sensor in the cavity reads off by a constant that goes with its temperature, or by a scale that bends.
 #include <cmath>
 
 #include "blind/effect.h"
@@ -25,19 +25,24 @@ class PressureRecord : public Effect {
   double per_K_ = 0.0;
 };
 
-/// A share of the pressure.
+/// e x (1 + q (x - 1)), x the pressure over the reference pressure.
 class PressureScale : public Effect {
  public:
-  PressureScale(double offset_kPa, Draws&) : offset_kPa_(offset_kPa) {}
+  PressureScale(double offset_kPa, Draws& draws) : offset_kPa_(offset_kPa) {
+    bend_ = draws.uniform(-0.8, -0.2);
+    shape = {{"bend", bend_}};
+  }
 
   void trace(RunRecord& record) const override {
     for (double& pressure_kPa : record.pressure_kPa) {
-      pressure_kPa += offset_kPa_ * pressure_kPa / record.specimen->reference_pressure_kPa;
+      const double x = pressure_kPa / record.specimen->reference_pressure_kPa;
+      pressure_kPa += offset_kPa_ * x * (1.0 + bend_ * (x - 1.0));
     }
   }
 
  private:
   double offset_kPa_;
+  double bend_ = 0.0;
 };
 
 }  // namespace
@@ -54,7 +59,7 @@ const EffectKind kind_pressure_record{
     true,
     0.0,
     {{"warming", "an offset with a share that goes with the temperature", make_law<PressureRecord>},
-     {"scale", "an error of scale, at the reference pressure", make_law<PressureScale>}},
+     {"scale", "an error of a scale that bends, at the reference pressure", make_law<PressureScale>}},
     kRigGrounds,
     kRigGrounds};
 
