@@ -40,7 +40,8 @@ struct CeilingWritten {
   std::size_t sets = 0;
 };
 
-/// Opens the seal and writes rollrig-blind-ceiling/1. What the file has of other sets of the same truth stays. `progress` is told the number of sets done and in all.
+/// Opens the seal and writes rollrig-blind-ceiling/1. What the file has of other sets of the same truth stays.
+/// `progress` is told the number of sets done and in all.
 /// Errors  InputError: as open_truth() and require_same_files(); no such set
 CeilingWritten write_ceiling(const CeilingOrder& order, const std::function<void(std::size_t, std::size_t)>& progress);
 

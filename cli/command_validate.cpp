@@ -53,14 +53,12 @@ Finding validate_set(const std::string& path) {
 
 Finding validate_cycle(const std::string& path) {
   const CsvTable csv = CsvTable::read(path);
-  for (const std::string& column : csv.columns()) {
-    if (column == "time_s" || column == "speed_km_h") continue;
-    InputProblem problem = unknown_name("column", column, {"time_s", "speed_km_h"});
+  try {
+    csv.require_known({"time_s", "speed_km_h"});
+  } catch (const InputError& error) {
+    InputProblem problem = error.problem();
     problem.what += ": a CSV by itself is read as a drive cycle";
-    problem.file = path;
-    problem.line = 1;
-    problem.key = column;
-    problem.allowed = "time_s, speed_km_h; or in its place the folder of the measurement set to which it belongs";
+    problem.allowed += "; or in its place the folder of the measurement set to which it belongs";
     throw InputError(problem);
   }
   csv.increasing_times("time_s");
