@@ -144,38 +144,58 @@ Json add_up(const Json& sections, const char* key) {
   return sum;
 }
 
-/// Loss of one tire by the model and by the ISO coefficient, the whole test last.
-ResultTable make_tire_table(const Json& sections) {
-  ResultTable table{"Rolling resistance of one tire: by the model, and by its ISO coefficient alone",
-                    {"section", "km", "model Wh", "ISO Wh", "difference %", "mean RRc N/kN"},
-                    {}};
-  for (const Json& section : sections) {
-    table.rows.push_back({shorten(section["name"].get<std::string>()), show(section["distance_km"], 2),
-                          show(section["rr_energy_Wh"], 1), show(section["rr_energy_iso_Wh"], 1),
-                          show(section["difference_percent"], 1), show(section["mean_rrc_N_per_kN"], 2)});
+struct SectionColumn {
+  const char* heading;
+  const char* key;  // of a section's result
+  int digits;
+  bool is_summed;  // over the whole test
+};
+
+/// A row a section, the whole test last.
+ResultTable make_section_table(const std::string& title, const std::vector<SectionColumn>& columns,
+                               const Json& sections) {
+  ResultTable table{title, {"section"}, {}};
+  std::vector<std::string> totals{"all sections"};
+  for (const SectionColumn& column : columns) {
+    table.columns.push_back(column.heading);
+    totals.push_back(column.is_summed ? show(add_up(sections, column.key), column.digits) : "");
   }
+  for (const Json& section : sections) {
+    std::vector<std::string> row{shorten(section["name"].get<std::string>())};
+    for (const SectionColumn& column : columns) row.push_back(show(section[column.key], column.digits));
+    table.rows.push_back(std::move(row));
+  }
+  table.rows.push_back(std::move(totals));
+  return table;
+}
+
+/// Loss of one tire by the model and by the ISO coefficient.
+ResultTable make_tire_table(const Json& sections) {
+  ResultTable table =
+      make_section_table("Rolling resistance of one tire: by the model, and by its ISO coefficient alone",
+                         {{"km", "distance_km", 2, true},
+                          {"model Wh", "rr_energy_Wh", 1, true},
+                          {"ISO Wh", "rr_energy_iso_Wh", 1, true},
+                          {"difference %", "difference_percent", 1, false},
+                          {"mean RRc N/kN", "mean_rrc_N_per_kN", 2, false}},
+                         sections);
   const Json model_Wh = add_up(sections, "rr_energy_Wh");
   const Json iso_Wh = add_up(sections, "rr_energy_iso_Wh");
   const bool has_iso = iso_Wh.is_number() && iso_Wh.get<double>() > 0.0;
   const Json difference = has_iso ? Json(100.0 * (model_Wh.get<double>() / iso_Wh.get<double>() - 1.0)) : Json();
-  table.rows.push_back({"all sections", show(add_up(sections, "distance_km"), 2), show(model_Wh, 1), show(iso_Wh, 1),
-                        show(difference, 1), ""});
+  table.rows.back()[4] = show(difference, 1);
   return table;
 }
 
-/// Temperatures of that tire and energies of the vehicle, the whole test last.
+/// Temperatures of that tire and energies of the vehicle.
 ResultTable make_vehicle_table(const Json& sections) {
-  ResultTable table{"Liner of that tire; energy of the whole vehicle, at its hubs and its battery",
-                    {"section", "start degC", "end degC", "hubs Wh", "recuperated Wh", "battery Wh"},
-                    {}};
-  for (const Json& section : sections) {
-    table.rows.push_back({shorten(section["name"].get<std::string>()), show(section["temperature_start_degC"], 1),
-                          show(section["temperature_end_degC"], 1), show(section["wheel_energy_Wh"], 0),
-                          show(section["recuperated_Wh"], 0), show(section["battery_energy_Wh"], 0)});
-  }
-  table.rows.push_back({"all sections", "", "", show(add_up(sections, "wheel_energy_Wh"), 0),
-                        show(add_up(sections, "recuperated_Wh"), 0), show(add_up(sections, "battery_energy_Wh"), 0)});
-  return table;
+  return make_section_table("Liner of that tire; energy of the whole vehicle, at its hubs and its battery",
+                            {{"start degC", "temperature_start_degC", 1, false},
+                             {"end degC", "temperature_end_degC", 1, false},
+                             {"hubs Wh", "wheel_energy_Wh", 0, true},
+                             {"recuperated Wh", "recuperated_Wh", 0, true},
+                             {"battery Wh", "battery_energy_Wh", 0, true}},
+                            sections);
 }
 
 void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
