@@ -112,9 +112,10 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
-  diagnosis.fitted.recalibrated = find_fitted(set, base, race.null.fit);
+  const bool is_whole = checks.doubtful.empty();
+  if (is_whole) diagnosis.fitted.recalibrated = find_fitted(set, base, race.null.fit);
   if (lead != nullptr) {
-    diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);
+    if (is_whole) diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);
     weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);
     diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   }

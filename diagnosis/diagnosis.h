@@ -111,7 +111,8 @@ struct LoneRun {
 };
 
 /// What the sensors would have shown by the fits to all runs, their offsets included: block means in SI units, in the
-/// order of PreparedSet's residuals. For pictures; not part of the JSON.
+/// order of the residuals of a PreparedSet of the whole set; empty where rows of stuck sensors were left out. For
+/// pictures; not part of the JSON.
 struct FittedSet {
   std::vector<double> recalibrated;  // base parameters moved within their uncertainty
   std::vector<double> with_cause;    // and the first cause added; empty where there is none

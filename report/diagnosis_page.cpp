@@ -41,13 +41,11 @@ std::vector<SimulatedSet> simulate_before_and_after(const diagnosis::PreparedSet
   const models::Context<double> context = set.kind().make_context(set.source());
   std::vector<SimulatedSet> simulated{simulate_set(set, "simulated, files' numbers", context, {})};
   const diagnosis::FittedSet& fitted = diagnosis.fitted;
-  // Rows of stuck sensors, which the fits leave out, are on the page: then the fits are of other blocks.
-  const auto is_of_set = [&set](const std::vector<double>& values) { return values.size() == set.residual_count(); };
-  if (is_of_set(fitted.recalibrated)) simulated.push_back({"recalibrated", fitted.recalibrated});
+  if (!fitted.recalibrated.empty()) simulated.push_back({"recalibrated", fitted.recalibrated});
   if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return simulated;
   const Cause& cause = diagnosis.causes.front();
   const std::string names = fmt::format("{}", fmt::join(cause.effects, " and "));
-  if (is_of_set(fitted.with_cause)) {
+  if (!fitted.with_cause.empty()) {
     simulated.push_back({"recalibrated, with " + names, fitted.with_cause});
   } else {
     simulated.push_back(simulate_set(set, "files' numbers, with " + names, context, make_effects(cause)));
