@@ -138,6 +138,7 @@ void write_bank(const BankOrder& order, const std::function<void(const std::stri
     MadeSet made = make_planned(order, plans[i], name);
     folder.write("sets/" + name, made.files);
     if (order.counterfactual) folder.write("counterfactual/" + name, made.counterfactual);
+    made.truth["set_sha256"] = hash_files(made.files);
     truth["sets"][name] = std::move(made.truth);
     progress(i + 1, plans.size());
     throw_if_interrupted();

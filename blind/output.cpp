@@ -116,4 +116,10 @@ std::string calc_sha256(const std::string& content) {
   return hex.data();
 }
 
+std::string hash_files(const Files& files) {
+  std::string all;
+  for (const auto& [name, content] : files) all += fmt::format("{}  {}\n", calc_sha256(content), name);
+  return calc_sha256(all);
+}
+
 }  // namespace blind

@@ -39,5 +39,7 @@ bool lies_within(const std::string& path, const std::string& folder);
 std::string read_whole(const std::string& path);
 
 std::string calc_sha256(const std::string& content);
+/// SHA-256 over names and contents of all files of a set, as rollrig takes it of a folder.
+std::string hash_files(const Files& files);
 
 }  // namespace blind

@@ -175,10 +175,4 @@ TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double
   return plan;
 }
 
-std::string hash_files(const Files& files) {
-  std::string all;
-  for (const auto& [name, content] : files) all += fmt::format("{}  {}\n", calc_sha256(content), name);
-  return calc_sha256(all);
-}
-
 }  // namespace blind

@@ -19,7 +19,4 @@ struct TestPlan {
 /// Errors  InputError: no plan, a plan of another kind of set, columns or rows that no run can have
 TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double road_load_N);
 
-/// SHA-256 over names and contents of all files of a set, as rollrig takes it of a folder.
-std::string hash_files(const Files& files);
-
 }  // namespace blind

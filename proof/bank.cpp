@@ -66,6 +66,19 @@ TrueEffect read_effect(const Json& json) {
   return effect;
 }
 
+/// Banks made before the seal covered the sets have no hashes of them. Throws InputError.
+void require_sealed_files(const std::string& bank, const Json& sets) {
+  std::vector<std::string> changed;
+  for (const auto& [set, of] : sets.items()) {
+    const bool is_sealed = of.contains("set_sha256");
+    if (is_sealed && of["set_sha256"] != hash_set(set_folder(bank, set))) changed.push_back(set);
+  }
+  if (changed.empty()) return;
+  throw problem(fmt::format("the seal is broken: {} of {} sets are not the files that were sealed", changed.size(),
+                            sets.size()),
+                (fs::path(bank) / "sets").string(), "set", changed.front(), "the files as rollrig blind make wrote them");
+}
+
 Truth read_truth(const std::string& set, const Json& json, const std::vector<std::string>& catalogue) {
   Truth truth;
   truth.set = set;
@@ -131,11 +144,13 @@ std::vector<Truth> open_truth(const std::string& bank, const std::string& seal) 
     throw problem("the seal is broken: truth.json is not the file that was sealed", file, "SHA-256", found, expected);
   }
   std::vector<Truth> truths;
+  Json sealed_sets;
   try {
     const Json json = Json::parse(text);
     if (json.at("format") != kBankFormat) throw problem("not the truth of a bank", file, "format", "", kBankFormat);
     const std::vector<std::string> catalogue = models::effect_ids();
-    for (const auto& [set, of] : json.at("sets").items()) truths.push_back(read_truth(set, of, catalogue));
+    sealed_sets = json.at("sets");
+    for (const auto& [set, of] : sealed_sets.items()) truths.push_back(read_truth(set, of, catalogue));
   } catch (const Json::exception& error) {
     throw problem(fmt::format("not the truth of a bank: {}", error.what()), file, "", "", kBankFormat);
   }
@@ -146,6 +161,7 @@ std::vector<Truth> open_truth(const std::string& bank, const std::string& seal) 
     throw problem(fmt::format("the truth is of {} sets, the bank has {}", sealed.size(), sets.size()), file, "sets", "",
                   "the sets that were sealed, all of them");
   }
+  require_sealed_files(bank, sealed_sets);
   return truths;
 }
 

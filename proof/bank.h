@@ -41,7 +41,7 @@ struct Truth {
 
 /// Opens truth.json of a bank.
 /// Errors  InputError: no such file; its SHA-256 is not `seal`, or where that is empty not that of seal.sha256; not
-///         the truth of this bank's sets
+///         the truth of this bank's sets; a set whose files are not those whose hash is under the seal
 std::vector<Truth> open_truth(const std::string& bank, const std::string& seal);
 
 }  // namespace rollrig::proof

@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "proof/bank.h"
 #include "sim/core/file_io.h"
 #include "tests/blind/blind_fixture.h"
 #include "tests/support/run_program.h"
@@ -244,6 +245,7 @@ TEST_CASE("a bank is shuffled, numbered, repeatable, and its truth has the hash 
     order += set.at("effects").empty() ? "-" : set.at("effects").front().at("id").get<std::string>().substr(0, 1);
     CHECK(fs::is_directory(folder.file("bank/sets/" + number)));
     CHECK_NOTHROW(scenarios::read_measurement_set(folder.file("bank/sets/" + number)));
+    CHECK(set.at("set_sha256") == proof::hash_set(folder.file("bank/sets/" + number)));
   }
   CHECK(truth.contains("kind") == false);  // of a drum: as it always was
   CHECK(by_count == std::map<std::size_t, int>{{0, 6}, {1, 6}, {2, 2}});

@@ -43,6 +43,17 @@ TEST_CASE("the truth opens with its own seal alone", "[fast]") {
   CHECK_THROWS_WITH(proof::open_truth(made.bank, ""), Contains("the seal is broken"));
 }
 
+TEST_CASE("the seal covers the files of the sets", "[fast]") {
+  BankFolder made;
+  Json json = Json::parse(read_file(made.truth));
+  for (auto& [set, of] : json["sets"].items()) of["set_sha256"] = proof::hash_set(proof::set_folder(made.bank, set));
+  made.write_truth(json.dump());
+  CHECK(proof::open_truth(made.bank, "").size() == 3);
+  write_file(made.bank + "/sets/0002/set.toml", "another set\n");
+  answer_all(made);  // an answer to the edited files does not make them those that were sealed
+  CHECK_THROWS_WITH(proof::open_truth(made.bank, ""), Contains("1 of 3 sets are not the files") && Contains("0002"));
+}
+
 TEST_CASE("a truth of other sets is not scored", "[fast]") {
   BankFolder made;
   Json json = Json::parse(read_file(made.truth));
