@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "sim/core/error.h"
+
 namespace rollrig::models {
 namespace {
 
@@ -137,6 +141,24 @@ void Corner<S>::calc_rates(const S* x, Instant<S>& now, S* rates) const {
         rates[on.first_state + i] = S(0.0) * states[i] / second;
       }
     }
+  }
+}
+
+template <class S>
+void Corner<S>::require_possible(const S* x) const {
+  // Assumed: rubber shatters long before the one and burns long before the other.
+  constexpr double kColdest_K = 100.0;
+  constexpr double kHottest_K = 1000.0;
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
+    if (!nodes_[i]) continue;
+    const double temperature_K = value_of(x[node_state_[i]]);
+    if (temperature_K > kColdest_K && temperature_K < kHottest_K) continue;  // neither where it is not a number
+    const std::string is = std::isfinite(temperature_K) ? fmt::format("{:.4g} degC", temperature_K - kZeroCelsius_K)
+                                                        : std::string("not finite");
+    throw RunFailure(fmt::format(
+        "the temperature of the tire's {} is {}: values of the tire, the rig or an effect are beyond what can be "
+        "simulated; nearer to the usual ones, they may be within",
+        kNodeNames[i], is));
   }
 }
 

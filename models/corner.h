@@ -54,6 +54,9 @@ class Corner {
   /// From all of now.motion: port thermal, and the rates of all states.
   void calc_rates(const S* x, Instant<S>& now, S* rates) const;
 
+  /// Throws RunFailure where a node is colder or hotter than anything of a tire can be.
+  void require_possible(const S* x) const;
+
   /// Heat stored in all nodes, from 0 K, and on its way into them [J].
   S calc_stored_heat_J(const S* x) const;
 

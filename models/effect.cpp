@@ -69,4 +69,17 @@ std::vector<ActiveEffect> read_effects(const ConfigTable& effects) {
   return active;
 }
 
+std::string describe_effects(const std::vector<ActiveEffect>& effects) {
+  std::vector<std::string> described;
+  for (const ActiveEffect& on : effects) {
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < on.parameters.size(); ++i) {
+      const std::string& key = on.effect->info.parameters[i].key;
+      values.push_back(fmt::format("{} = {:.4g}", key, unit_of_key(key).from_si(on.parameters[i])));
+    }
+    described.push_back(fmt::format("{} ({})", on.effect->info.id, fmt::join(values, ", ")));
+  }
+  return fmt::format("{}", fmt::join(described, ", "));
+}
+
 }  // namespace rollrig::models

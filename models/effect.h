@@ -192,4 +192,7 @@ const Effect& find_effect(const std::string& id);
 /// Reads [effects.<id>] tables: parameters left out take the centre of their prior. Throws InputError.
 std::vector<ActiveEffect> read_effects(const ConfigTable& effects);
 
+/// For a person: "<id> (<key> = <value in the unit of the key>, ...)", one after the other.
+std::string describe_effects(const std::vector<ActiveEffect>& effects);
+
 }  // namespace rollrig::models

@@ -134,6 +134,8 @@ class MultibodyDrum::Implementation : public SimbodySystem {
         former_N - find_acting(time_s, y).load_N;
   }
 
+  void require_possible(const double* y) const override { corner_.require_possible(y + corner_offset()); }
+
   double watch(const std::string& name, double time_s, const double* y) override {
     if (name == kWatchTireTemperature) return y[corner_offset() + corner_.state_of(Node::kRubber)];
     if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);

@@ -27,6 +27,7 @@ void MultibodyRig::begin_segment(const sim::Segment& segment, double time_s, dou
 void MultibodyRig::evaluate(double time_s, const double* state, double* rates, double* integrands) {
   guarded([&] { system_->evaluate(time_s, state, rates, integrands); });
 }
+void MultibodyRig::require_possible(const double* state) const { system_->require_possible(state); }
 double MultibodyRig::watch(const std::string& name, double time_s, const double* state) {
   return guarded([&] { return system_->watch(name, time_s, state); });
 }

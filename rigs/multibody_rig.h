@@ -28,6 +28,7 @@ class MultibodyRig : public sim::OdeSystem<double> {
   void begin_phase(const sim::Phase& phase, double time_s, double* state) override;
   void begin_segment(const sim::Segment& segment, double time_s, double* state, double* integrals) override;
   void evaluate(double time_s, const double* state, double* rates, double* integrands) override;
+  void require_possible(const double* state) const override;
   double watch(const std::string& name, double time_s, const double* state) override;
   void observe(double time_s, const double* state, double* values) override;
   void calc_stored(double time_s, const double* state, double* stored_J) override;

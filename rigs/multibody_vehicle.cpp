@@ -128,6 +128,10 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     take_segment(segment, time_s);
   }
 
+  void require_possible(const double* y) const override {
+    for (std::size_t i = 0; i < corners_.size(); ++i) corners_[i].require_possible(y + slip_state(i) + 1);
+  }
+
   double watch(const std::string& name, double time_s, const double* y) override {
     if (name == kWatchTireTemperature) return y[slip_state(0) + 1 + corners_.front().state_of(Node::kRubber)];
     if (name != kWatchSpeed) throw std::invalid_argument("vehicle: cannot watch " + name);

@@ -153,6 +153,11 @@ void QuasiStaticDrum<S>::fill_integrands(S* integrands) const {
 }
 
 template <class S>
+void QuasiStaticDrum<S>::require_possible(const S* state) const {
+  corner_.require_possible(state + kFirstCornerState);
+}
+
+template <class S>
 S QuasiStaticDrum<S>::watch(const std::string& name, double time_s, const S* state) {
   if (name == kWatchTireTemperature) return state[kFirstCornerState + corner_.state_of(Node::kRubber)];
   if (name != kWatchSpeed) throw std::invalid_argument("drum rig: cannot watch " + name);

@@ -35,6 +35,7 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   void begin_phase(const sim::Phase& phase, double time_s, S* state) override;
   void begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) override;
   void evaluate(double time_s, const S* state, S* rates, S* integrands) override;
+  void require_possible(const S* state) const override;
   S watch(const std::string& name, double time_s, const S* state) override;
   void observe(double time_s, const S* state, S* values) override;
   void calc_stored(double time_s, const S* state, S* stored_J) override;

@@ -281,6 +281,11 @@ void QuasiStaticVehicle<S>::fill_wheel_integrands(std::size_t i, S* integrands) 
 }
 
 template <class S>
+void QuasiStaticVehicle<S>::require_possible(const S* state) const {
+  for (std::size_t i = 0; i < wheels_.size(); ++i) corners_[i].require_possible(state + first_state_of(i));
+}
+
+template <class S>
 S QuasiStaticVehicle<S>::watch(const std::string& name, double time_s, const S* state) {
   if (name == kWatchTireTemperature) return state[first_state_of(0) + corners_.front().state_of(Node::kRubber)];
   if (name != kWatchSpeed) throw std::invalid_argument("vehicle: cannot watch " + name);

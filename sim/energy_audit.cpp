@@ -45,7 +45,7 @@ void EnergyAudit::require_closed(double limit) const {
     if (!std::isfinite(closure)) {
       throw RunFailure(
           "the run does not stay finite: values of the tire or of an effect are beyond what its steps can follow; "
-          "nearer to the usual ones, or with --fidelity multibody, they may");
+          "nearer to the usual ones, or in the other fidelity, they may");
     }
     std::string text = fmt::format("the {} energy audit does not close: {:.3g} of the motor work, allowed {:.3g}", name,
                                    closure, limit);

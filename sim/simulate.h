@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "sim/core/error.h"
@@ -155,6 +156,15 @@ std::vector<S> subtract(const std::vector<S>& a, const std::vector<S>& b) {
   return difference;
 }
 
+template <class S>
+void require_possible(const OdeSystem<S>& system, const Integrator<S>& integrator) {
+  try {
+    system.require_possible(integrator.state());
+  } catch (const RunFailure& failure) {
+    throw RunFailure("at t = " + std::to_string(integrator.time_s()) + " s " + failure.what());
+  }
+}
+
 /// The two ledgers from what was stored before and after, and what was integrated.
 template <class S>
 EnergyAudit make_audit(const OdeSystem<S>& system, const std::vector<S>& stored_before,
@@ -228,6 +238,7 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
                        phase.until.has_value() ? &*phase.until : nullptr);
       while (!stopped && integrator.time_s() < planned_end_s) {
         stopped = integrator.step(planned_end_s);
+        detail::require_possible(system, integrator);
         sampler.follow(integrator, stopped ? integrator.time_s() : planned_end_s);
         throw_if_interrupted();
         if (progress) progress((integrator.time_s() - program.start_time_s) / duration_s);

@@ -442,3 +442,16 @@ TEST_CASE("a run that fails exits with 3 and says why", "[fast]") {
   CHECK(run.status == 3);
   CHECK_THAT(run.err, Contains("run failed"));
 }
+
+TEST_CASE("a tire that an effect cools without end is a failed run that names the effect", "[fast]") {
+  // a loss of -800 N: the tire drives, and what it gives is taken from its heat
+  const std::string effect =
+      " --set effects.tire_loss_in_skim.force_N=-20 --set effects.tire_loss_in_skim.load_power=1";
+  for (const char* fidelity : {"multibody", "quasi_static"}) {
+    const auto run = run_program(std::string("run warm_up --tire a50 --fidelity ") + fidelity + effect, "",
+                                 "timeout --foreground 60");
+    INFO(fidelity);
+    CHECK(run.status == 3);
+    CHECK_THAT(run.err, Contains("temperature of the tire's rubber") && Contains("tire_loss_in_skim (force_N = -20"));
+  }
+}
