@@ -7,6 +7,8 @@
 #include <memory>
 
 #include "cli/command.h"
+#include "cli/print.h"
+#include "diagnosis/fleet.h"
 #include "diagnosis/set_checks.h"
 #include "identification/coast_set.h"
 #include "scenarios/measurement_set.h"
@@ -94,18 +96,37 @@ Finding validate_toml(const std::string& path) {
   throw InputError(problem);
 }
 
-/// What a CI job asks: 1 where a set cannot be what it is said to be, as of a regression that differs. A set that is
-/// merely warned of is good.
+Finding validate(const std::string& path) {
+  if (fs::is_directory(path)) return validate_set(path);
+  return fs::path(path).extension() == ".csv" ? validate_cycle(path) : validate_toml(path);
+}
+
+/// A folder of sets stands for these.
+std::vector<std::string> list_files(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    const std::vector<std::string> sets = diagnosis::find_sets(path);
+    files.insert(files.end(), sets.begin(), sets.end());
+    if (sets.empty()) files.push_back(path);
+  }
+  return files;
+}
+
+/// What a CI job asks: 2 where a file is wrong, 1 where a set cannot be what it is said to be, as of a regression that
+/// differs. A set that is merely warned of is good.
 int validate_command(const std::vector<std::string>& paths) {
   int status = kDone;
-  for (const std::string& path : paths) {
-    const bool is_csv = fs::path(path).extension() == ".csv";
-    const Finding found = fs::is_directory(path) ? validate_set(path)
-                          : is_csv               ? validate_cycle(path)
-                                                 : validate_toml(path);
-    std::cout << fmt::format("{}: {} {}\n", path, found.is_good ? "good" : "doubtful", found.what);
-    for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
-    if (!found.is_good) status = kDiffers;
+  for (const std::string& path : list_files(paths)) {
+    try {
+      const Finding found = validate(path);
+      std::cout << fmt::format("{}: {} {}\n", path, found.is_good ? "good" : "doubtful", found.what);
+      for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
+      if (!found.is_good) status = std::max<int>(status, kDiffers);
+    } catch (const InputError& error) {  // of one file: the others are checked as well
+      std::cout << std::flush;
+      std::cerr << format_error("error: ", error.problem());
+      status = kInputError;
+    }
   }
   return status;
 }
@@ -117,7 +138,10 @@ void add_validate_command(CLI::App& app, Action& action) {
       "validate",
       "Check files; of a measurement set also whether columns and units can be right: exit status 1 where they cannot");
   auto paths = std::make_shared<std::vector<std::string>>();
-  command->add_option("file", *paths, "Tire, rig, run, sensors, vehicle or set.toml, a set's folder, or a cycle's CSV")
+  command
+      ->add_option("file", *paths,
+                   "Tire, rig, run, sensors, vehicle or set.toml, a set's folder or one with such folders, or a "
+                   "cycle's CSV")
       ->required();
   command->callback([paths, &action] { action = [paths] { return validate_command(*paths); }; });
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "cli/command.h"
@@ -62,10 +63,12 @@ int report(const char* kind, const InputProblem& problem, int status) {
 }
 
 int report(const char* kind, const std::string& what, int status) {
-  const std::string text = std::string(kind) + ": " + what;
-  const bool has_lines = text.find('\n') != std::string::npos;  // of its own: a list of terms
   std::cout << std::flush;
-  std::cerr << (has_lines ? text + "\n" : wrap(text, 2).substr(2));
+  std::istringstream text(std::string(kind) + ": " + what);
+  for (std::string line; std::getline(text, line);) {
+    // Lines that fit are as they should be: those of a list of terms, say.
+    std::cerr << (count_characters(line) <= 80 ? line + "\n" : wrap(line, 2).substr(2));
+  }
   return status;
 }
 

@@ -123,6 +123,44 @@ std::string gap_text(const Diagnosis& diagnosis) {
   return fmt::format("{:.1f}->{:.1f}", gap.recalibrated.before, gap.recalibrated.after);
 }
 
+/// The set of a member; what is wrong with it goes into the member.
+std::optional<scenarios::MeasurementSet> read_member(FleetMember& member) {
+  try {
+    scenarios::MeasurementSet set = scenarios::read_measurement_set(member.folder);
+    member.machine = set.rig ? set.rig->name : set.vehicle->name;
+    member.tire = set.tire.name;
+    return set;
+  } catch (const InputError& error) {
+    member.failure = error.what();
+    return std::nullopt;
+  }
+}
+
+std::string name_of(const FleetMember& member) { return fs::path(member.folder).filename().string(); }
+
+/// What failed, with its reason; which files are in doubt; how many warnings there are of other sets.
+std::string format_troubles(const Fleet& fleet) {
+  std::string failed, doubtful, warned;
+  for (const FleetMember& member : fleet.members) {
+    if (!member.diagnosis) {
+      const std::size_t sentence = member.failure.find('\n');
+      failed += wrap(fmt::format("{}: {}", name_of(member), member.failure.substr(0, sentence)), 2);
+      if (sentence != std::string::npos) failed += member.failure.substr(sentence + 1) + "\n";
+      continue;
+    }
+    const std::size_t others = member.diagnosis->warnings.size() - (member.diagnosis->doubt.empty() ? 0 : 1);
+    if (!member.diagnosis->doubt.empty()) {
+      doubtful += wrap(fmt::format("{}: {}", name_of(member), member.diagnosis->doubt), 2);
+    }
+    if (others > 0) warned += fmt::format("{}{} {}", warned.empty() ? "" : ", ", name_of(member), others);
+  }
+  std::string text;
+  if (!failed.empty()) text += "\nNot diagnosed\n" + failed;
+  if (!doubtful.empty()) text += "\nFiles in doubt, so no cause is named\n" + doubtful;
+  if (!warned.empty()) text += "\nWarnings, which rollrig diagnose of that set alone tells\n" + wrap(warned, 2);
+  return text;
+}
+
 const char* word_of(Shared shared) {
   switch (shared) {
     case Shared::kMachine:
@@ -155,10 +193,6 @@ std::vector<std::string> find_sets(const std::string& folder) {
   if (!fs::is_directory(folder) || fs::exists(fs::path(folder) / "set.toml")) return sets;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (fs::exists(entry.path() / "set.toml")) sets.push_back(entry.path().string());
-  }
-  if (sets.empty()) {
-    throw InputError({fmt::format("there is no measurement set in '{}'", folder), folder, 0, "set", folder,
-                      "a folder with set.toml, or one with such folders right in it", ""});
   }
   std::sort(sets.begin(), sets.end());
   return sets;
@@ -196,14 +230,13 @@ std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members
 
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
   Fleet fleet;
-  fleet.members.resize(folders.size());
-  std::vector<scenarios::MeasurementSet> sets;
-  for (std::size_t i = 0; i < folders.size(); ++i) {
-    sets.push_back(scenarios::read_measurement_set(folders[i]));
-    FleetMember& member = fleet.members[i];
-    member.folder = folders[i];
-    member.machine = sets[i].rig ? sets[i].rig->name : sets[i].vehicle->name;
-    member.tire = sets[i].tire.name;
+  std::vector<std::optional<scenarios::MeasurementSet>> sets;
+  for (const std::string& folder : folders) {
+    fleet.members.push_back({folder, "", "", std::nullopt, ""});
+    sets.push_back(read_member(fleet.members.back()));
+  }
+  if (std::none_of(sets.begin(), sets.end(), [](const auto& set) { return set.has_value(); })) {
+    scenarios::read_measurement_set(folders.front());  // says what is wrong with it
   }
   std::mutex mutex;
   std::size_t done = 0;
@@ -212,9 +245,11 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
     one.threads = 1;
     one.progress = {};
     try {
-      fleet.members[i].diagnosis = diagnose(sets[i], one);
+      if (sets[i].has_value()) fleet.members[i].diagnosis = diagnose(*sets[i], one);
     } catch (const RunFailure& failure) {
       fleet.members[i].failure = failure.what();
+    } catch (const InputError& error) {  // what a diagnosis cannot do with: a sensor without noise, say
+      fleet.members[i].failure = error.what();
     }
     const std::lock_guard<std::mutex> lock(mutex);
     ++done;
@@ -240,9 +275,9 @@ std::string format_fleet(const Fleet& fleet) {
   };
   std::string text = row("Set", "Verdict", "Cause", "Prob.", "Gap, floors");
   for (const FleetMember& member : fleet.members) {
-    const std::string name = fs::path(member.folder).filename().string();
+    const std::string name = name_of(member);
     if (!member.diagnosis) {
-      text += row(name, "failed", member.failure, "", "");
+      text += row(name, "failed", "see below", "", "");
       continue;
     }
     const Diagnosis& one = *member.diagnosis;
@@ -250,11 +285,11 @@ std::string format_fleet(const Fleet& fleet) {
     const double probability = explained                        ? one.causes.front().probability
                                : one.verdict == Verdict::kNoGap ? one.probability.at("none")
                                                                 : one.probability.at("unknown");
-    text +=
-        row(name, name_of(one.verdict), explained ? fmt::format("{}", fmt::join(one.causes.front().effects, "+")) : "",
-            fmt::format("{:.0f} %", 100.0 * probability), gap_text(one));
+    text += row(name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
+                explained ? fmt::format("{}", fmt::join(one.causes.front().effects, "+")) : "",
+                one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one));
   }
-  text += "\nComes back from set to set\n";
+  text += format_troubles(fleet) + "\nComes back from set to set\n";
   if (fleet.recurrences.empty()) text += "  nothing\n";
   for (const Recurrence& one : fleet.recurrences) text += wrap(describe(one), 2);
   return text;

@@ -14,10 +14,10 @@ namespace rollrig::diagnosis {
 /// One set of a fleet.
 struct FleetMember {
   std::string folder;   // as named to the program
-  std::string machine;  // name of its rig or vehicle
-  std::string tire;     // name
+  std::string machine;  // name of its rig or vehicle; empty where the set cannot be read, as is
+  std::string tire;     // its name
   std::optional<Diagnosis> diagnosis;
-  std::string failure;  // why there is none
+  std::string failure;  // why there is none: a sentence, and below it where an input is wrong the parts of its message
 };
 
 /// What sets share.
@@ -43,8 +43,7 @@ struct Fleet {
       recurrences;  // the likeliest first; of each effect the widest group in which that is likelier than not
 };
 
-/// Folders below `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself.
-/// Errors  InputError: a folder without any
+/// Folders right in `folder` that hold a set.toml, sorted by name; none where `folder` is a set itself.
 std::vector<std::string> find_sets(const std::string& folder);
 
 /// Probability that an effect acts in all sets of a group, rather than in each by itself or not.
@@ -60,12 +59,12 @@ double calc_recurrence_probability(const std::vector<double>& in_sets, double pr
 /// Source  Assumed: q = 0.02, about what a single effect has in a race of the whole catalogue
 std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members);
 
-/// Diagnoses every set of a folder, several at a time.
-/// Errors  InputError: a set that cannot be read, before any is diagnosed. A diagnosis that fails is noted, and the
-///         others go on
+/// Diagnoses every set of a folder, several at a time. A set that cannot be read and a diagnosis that fails are noted,
+/// and the others go on.
+/// Errors  InputError: no set can be read; an unknown effect in `options`
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options);
 
-/// One line a set, then what comes back; 80 columns.
+/// One line a set, then what failed, what is in doubt, and what comes back; 80 columns but for places in files.
 std::string format_fleet(const Fleet& fleet);
 
 /// rollrig-fleet/1: `sets` (each `folder`, `machine`, `tire`, `failure`, `diagnosis` as of one set), `recurring`.

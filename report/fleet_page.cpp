@@ -21,7 +21,7 @@ Block make_members(const Fleet& fleet) {
   for (const FleetMember& member : fleet.members) {
     std::vector<std::string> row{member.folder, member.machine, member.tire};
     if (!member.diagnosis.has_value()) {
-      row.insert(row.end(), {"failed: " + member.failure, "", "", "", ""});
+      row.insert(row.end(), {"failed", "-", "-", "-", "-"});
     } else {
       const diagnosis::Diagnosis& one = *member.diagnosis;
       const bool has_cause = !one.causes.empty() && one.verdict != diagnosis::Verdict::kNoGap;
@@ -76,6 +76,19 @@ Block make_gaps(const Fleet& fleet) {
           {"series", {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}}}};
 }
 
+/// The verdict on a set in a sentence, or why there is none, and what is warned of.
+Section make_member(const FleetMember& member) {
+  Section section{member.folder.substr(member.folder.rfind('/') + 1)};
+  if (!member.diagnosis.has_value()) {
+    section.blocks.push_back(make_lead("bad", "Not diagnosed: " + member.failure));
+    return section;
+  }
+  const bool is_bad = member.diagnosis->verdict == diagnosis::Verdict::kUnexplained;
+  section.blocks.push_back(make_lead(is_bad ? "bad" : "good", describe_verdict(*member.diagnosis)));
+  for (const std::string& warning : member.diagnosis->warnings) section.blocks.push_back(make_paragraph(warning));
+  return section;
+}
+
 }  // namespace
 
 Page make_fleet_page(const Fleet& fleet) {
@@ -91,11 +104,7 @@ Page make_fleet_page(const Fleet& fleet) {
           : make_recurrences(fleet));
   page.add(std::move(back));
   for (const FleetMember& member : fleet.members) {
-    if (!member.diagnosis.has_value()) continue;
-    page.add({member.folder.substr(member.folder.rfind('/') + 1),
-              "",
-              {make_lead(member.diagnosis->verdict == diagnosis::Verdict::kUnexplained ? "bad" : "good",
-                         describe_verdict(*member.diagnosis))}});
+    page.add(make_member(member));
   }
   return page;
 }

@@ -228,7 +228,8 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   if (fs::is_directory(folder) && !fs::exists(set.path)) {
     throw InputError({fmt::format("there is no set.toml in '{}'", folder), folder, 0, "", "",
                       "a folder with set.toml (tire, rig, sensors, a [[run]] for each CSV; docs/formats.md); "
-                      "assets/examples/hidden_effect is one to copy, rollrig import makes one from logs",
+                      "assets/examples/hidden_effect is one to copy, rollrig import makes one from logs; diagnose and "
+                      "validate also take a folder of such folders",
                       ""});
   }
   const ConfigTable config = read_config(set.path);

@@ -114,6 +114,31 @@ TEST_CASE("a speed in m/s under a km/h heading comes out as unexplained, with th
   CHECK_THAT(result["warnings"].dump(), Contains("speed_km_h holds m/s"));
 }
 
+TEST_CASE("of a folder of sets all are validated and diagnosed, whatever one of them is like", "[slow]") {
+  const SetFolder made;
+  const std::string sets = made.folder.path() + "/sets";
+  fs::create_directory(sets);
+  for (const char* name : {"good", "mistyped", "in_m_s"}) fs::copy(made.folder.path() + "/set", sets + "/" + name);
+  for (const auto& entry : fs::directory_iterator(sets + "/in_m_s")) {
+    if (entry.path().extension() == ".csv") divide_speeds(entry.path().string(), 3.6);
+  }
+  std::string text = read_file(sets + "/mistyped/set.toml");
+  text.replace(text.find("session"), 7, "sesion");
+  write_file(sets + "/mistyped/set.toml", text);
+  const auto valid = run_program("validate sets", made.folder.path());
+  CHECK(valid.status == 2);
+  CHECK_THAT(valid.out, Contains("sets/good: good") && Contains("sets/in_m_s: doubtful"));
+  CHECK_THAT(valid.err, Contains("missing key 'session'") && Contains("sets/mistyped/set.toml"));
+  const auto run = run_program("diagnose sets --only bearing_warmup --json all.json", made.folder.path());
+  INFO(run.out << run.err);
+  CHECK(run.status == 3);
+  CHECK_THAT(run.out, Contains("mistyped               failed") && Contains("mistyped: missing key 'session'"));
+  CHECK_THAT(run.out, Contains("in doubt") && Contains("Files in doubt, so no cause is named\n  in_m_s: "));
+  const json all = json::parse(read_file(made.folder.path() + "/all.json"));
+  CHECK(all["sets"][0]["diagnosis"]["verdict"] == "no_gap");
+  CHECK(all["sets"][2]["diagnosis"].is_null());
+}
+
 TEST_CASE("an interrupted diagnosis writes nothing", "[slow]") {
   const SetFolder made;
   const auto run = run_program("diagnose set --threads 1 --json why.json", made.folder.path(),

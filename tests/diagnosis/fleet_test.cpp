@@ -114,6 +114,11 @@ TEST_CASE("a fleet is a line a set in 80 columns, failures with their reason", "
   diagnosis::Fleet fleet;
   fleet.members = {warms("drum-1", "a40"), is_clean("drum-1", "a-tire-with-a-name-that-does-not-fit-into-its-column")};
   fleet.members.push_back({"sets/broken", "drum-1", "a60", std::nullopt, "the baseline cannot be fitted to the set"});
+  fleet.members.push_back(
+      {"sets/typo", "", "", std::nullopt, "unknown column 'sped_km_h'\n  where    sets/typo/a.csv"});
+  fleet.members.push_back(is_clean("drum-1", "exchanged"));
+  fleet.members.back().diagnosis->doubt = "the liner temperature and the pressure may be exchanged";
+  fleet.members.back().diagnosis->warnings = {fleet.members.back().diagnosis->doubt, "few samples"};
   fleet.recurrences = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a50")});
   std::istringstream text(diagnosis::format_fleet(fleet));
   std::vector<std::string> lines;
@@ -125,9 +130,15 @@ TEST_CASE("a fleet is a line a set in 80 columns, failures with their reason", "
   }
   CHECK_THAT(lines[1], Catch::Contains("explained") && Catch::Contains("bearing_warmup"));
   CHECK_THAT(lines[2], Catch::Contains("no_gap"));
-  CHECK_THAT(lines[3], Catch::Contains("failed") && Catch::Contains("the baseline"));
+  CHECK_THAT(lines[3], Catch::Contains("failed"));
+  CHECK_THAT(lines[5], Catch::Contains("in doubt") && !Catch::Contains("no_gap"));
+  const std::string whole = diagnosis::format_fleet(fleet);
+  CHECK_THAT(whole, Catch::Contains("broken: the baseline cannot be fitted"));
+  CHECK_THAT(whole, Catch::Contains("typo: unknown column 'sped_km_h'\n  where    sets/typo/a.csv\n"));
+  CHECK_THAT(whole, Catch::Contains("clean-exchanged-drum-1: the liner temperature and the pressure may be"));
+  CHECK_THAT(whole, Catch::Contains("clean-exchanged-drum-1 1\n"));  // warnings beside the doubt
   const Json json = diagnosis::make_fleet_json(fleet);
-  CHECK(json["sets"].size() == 3);
+  CHECK(json["sets"].size() == 5);
   CHECK(json["sets"][0]["diagnosis"]["format"] == "rollrig-diagnosis/1");
   CHECK(json["sets"][2]["diagnosis"].is_null());
   CHECK(json["recurring"].size() == 1);
