@@ -38,7 +38,7 @@ scenarios::ResultTable make_table(const identification::TireFit& fit) {
                                {"parameter", "value", "sd", "from", "to"},
                                {}};
   for (const identification::Estimate& estimate : fit.estimates) {
-    const auto number = [](double value) { return fmt::format("{:.5g}", value); };
+    const auto number = [](double value) { return fmt::format("{:.4g}", value); };
     table.rows.push_back({short_name(estimate.key) + (estimate.nuisance ? " *" : ""), number(estimate.value),
                           number(estimate.sd), number(estimate.lower_95()), number(estimate.upper_95())});
   }
@@ -64,9 +64,10 @@ std::string format_fit(const scenarios::MeasurementSet& set, const identificatio
   return text;
 }
 
-/// A fit follows whatever the columns say, so a suspicion that they say another thing is told beside its numbers.
-identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const identification::FitOptions& options) {
-  const std::string suspicion = diagnosis::check_set(set, options.threads).suspicion;
+/// A fit follows whatever the columns say, so a suspicion that they say another thing is told beside its numbers, or
+/// beside the error that comes of it.
+identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const identification::FitOptions& options,
+                                    const std::string& suspicion) {
   try {
     identification::TireFit fit = identification::fit_tire(set, options);
     if (!suspicion.empty()) fit.warnings.push_back(suspicion + ". Then the fitted numbers are wrong");
@@ -74,6 +75,10 @@ identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const 
   } catch (const RunFailure& failure) {
     if (suspicion.empty()) throw;
     throw RunFailure(fmt::format("{}; {}", failure.what(), suspicion));
+  } catch (const InputError& error) {
+    InputProblem problem = error.problem();
+    if (!suspicion.empty()) problem.what += "; " + suspicion;
+    throw InputError(problem);
   }
 }
 
@@ -88,7 +93,8 @@ int fit_tire_command(const Options& options) {
   if (options.free_H) fit_options.free_H = true;
   ProgressLine progress("fit tire", options.quiet);
   fit_options.progress = [&progress](int iteration) { progress.show(fmt::format("iteration {}", iteration)); };
-  identification::TireFit fit = fit_checked(set, fit_options);
+  const std::string suspicion = diagnosis::check_set(set, options.threads).suspicion;
+  identification::TireFit fit = fit_checked(set, fit_options, suspicion);
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
   const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";
   const std::string tire_file = fit.tire.name + ".toml";
@@ -100,10 +106,11 @@ int fit_tire_command(const Options& options) {
   }
   if (!options.json.empty()) write_output(options.json, json);
   if (options.html.is_wanted()) options.html.write(report::make_tire_fit_page(set, fit));
-  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
+  const int status = suspicion.empty() ? kDone : kDiffers;  // as of validate
+  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return status;
   std::cout << format_fit(set, fit) << options.html.note();
   if (out.has_value()) std::cout << fmt::format("  written to {}/: {} fit.json\n", options.out, tire_file);
-  return kDone;
+  return status;
 }
 
 }  // namespace

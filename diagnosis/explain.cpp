@@ -76,9 +76,18 @@ std::string describe_tests(const models::EffectInfo& info) {
   return text;
 }
 
+/// Two of the documents that sources name cannot be looked up in docs/.
+std::string describe_source(const models::EffectInfo& info) {
+  std::string text = info.source;
+  if (text.find("effects.md") != std::string::npos) {
+    text += ". (effects.md: the specification of the catalogue, from which usual sizes are; not part of rollrig)";
+  }
+  return text;
+}
+
 std::string describe(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
-  text += section("Equation", info.equation) + section("Source", info.source);
+  text += section("Equation", info.equation) + section("Source", describe_source(info));
   text += "Own parameters, and where two thirds of the belief lie before any data\n";
   for (const models::EffectParameter& parameter : info.parameters) {
     text += wrap(fmt::format("{}: {}", parameter.key, describe_prior(parameter)), kIndent);
@@ -111,7 +120,7 @@ std::string explain_effect(const std::string& name) {
     if (effect->info.id == name) return describe(effect->info);
   }
   InputProblem problem = unknown_name("effect", name, explainable_names());
-  if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
+  problem.nearest = nearest_name(name, models::effect_ids());  // "none" is near to any short word
   problem.file = "command line";
   problem.key = "--explain";
   throw InputError(problem);

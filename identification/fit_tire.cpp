@@ -10,6 +10,7 @@
 
 #include "identification/drum_residuals.h"
 #include "identification/sample_selection.h"
+#include "sim/core/error.h"
 
 namespace rollrig::identification {
 namespace {
@@ -22,7 +23,11 @@ class ResidualFunction : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int>(residuals.unknown_count()));
   }
   bool Evaluate(double const* const* unknowns, double* out, double** jacobians) const override {
-    residuals_.evaluate(unknowns[0], out, jacobians != nullptr ? jacobians[0] : nullptr);
+    try {
+      residuals_.evaluate(unknowns[0], out, jacobians != nullptr ? jacobians[0] : nullptr);
+    } catch (const RunFailure&) {  // no tire: the step that tried it is taken back
+      return false;
+    }
     return std::all_of(out, out + residuals_.residual_count(), [](double r) { return std::isfinite(r); });
   }
 

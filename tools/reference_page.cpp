@@ -7,6 +7,7 @@
 
 #include "models/tire_file.h"
 #include "rigs/rig_file.h"
+#include "rigs/vehicle_file.h"
 #include "scenarios/measurement_set.h"
 
 namespace rollrig::tools {
@@ -72,14 +73,19 @@ std::string describe(const models::EffectInfo& effect) {
 }
 
 template <class Group>
-std::string describe_table(const std::string& name) {
-  std::string text = fmt::format("\n`[{}]`\n\n| key | allowed | default | meaning |\n|---|---|---|---|\n", name);
+std::string describe_keys() {
+  std::string text = "\n| key | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const Field& field : list_fields<Group>()) {
     text +=
         fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.range.to_string()),
                     field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required", cell(field.doc));
   }
   return text;
+}
+
+template <class Group>
+std::string describe_table(const std::string& name) {
+  return fmt::format("\n`[{}]`\n", name) + describe_keys<Group>();
 }
 
 std::string describe_tire_file() {
@@ -117,6 +123,21 @@ std::string describe_rig_file() {
   return text;
 }
 
+std::string describe_vehicle_file() {
+  std::string text =
+      "\n## Vehicle file\n\n`format = \"rollrig-vehicle/1\"`, `name`, `tires` (how many, 1 to 20), the keys of the "
+      "first table, of which each may have its\nstandard uncertainty beside it under its key with `_sd`, and the "
+      "tables "
+      "below it, all of which may be left out.\n";
+  text += describe_keys<rigs::VehicleBody>();
+  text += describe_table<rigs::VehicleGeometry>("geometry");
+  text += describe_table<rigs::VehicleSuspension>("suspension") + "\nOf one wheel.\n";
+  text += describe_table<rigs::VehiclePowertrain>("powertrain");
+  text += "\n`driven_axle`: `front`, `rear` (default) or `all`.\n" + describe_table<rigs::VehicleBrakes>("brakes");
+  text += describe_table<models::RoadLoad<double>>("road_load");
+  return text + "\nIn place of drag and tires on the road. Then `drag_area_m2` may be left out.\n";
+}
+
 }  // namespace
 
 std::string make_reference_page() {
@@ -127,9 +148,10 @@ std::string make_reference_page() {
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) text += describe(*scenario);
   text += "\n## Effects\n\n" + anchor_list(effects);
   for (const models::Effect* effect : models::all_effects()) text += describe(effect->info);
-  text += describe_tire_file() + describe_rig_file();
+  text += describe_tire_file() + describe_rig_file() + describe_vehicle_file();
   text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(scenarios::all_measured_channels()) +
-          "\n(`[sensors.<channel>]`: `offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
+          "\n(`[sensors.<channel>]` of a set or of a file `rollrig-sensors/1`, which has a `name` beside it: "
+          "`offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
           "channel's unit).\n";
   return text;
 }

@@ -7,10 +7,12 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/text.h"
 
 namespace rollrig {
 namespace {
@@ -80,17 +82,27 @@ class CsvScanner {
   int line_ = 1;
 };
 
+constexpr const char* kImportReads = "rollrig import reads logs of other forms and writes this one";
+
+/// Asked where something is wrong with a line: whether it is a remark, of which there can be none.
+void require_no_comment(const std::string& first, const std::string& path, int line) {
+  if (first.empty() || (first.front() != '#' && first.front() != '%')) return;
+  throw InputError({"a comment, of which this file can have none", path, line, "", first.substr(0, 60),
+                    fmt::format("a header in line 1 and rows below it; {}", kImportReads), ""});
+}
+
 /// Refuses a header that only looks like one column because its fields are separated by something else.
 void require_separated(const std::vector<std::string>& header, const std::string& path, const CsvForm& form) {
   if (header.size() != 1) return;
   for (const char other : {';', '\t', ','}) {
     if (other == form.separator || header[0].find(other) == std::string::npos) continue;
     const std::string name = other == ';' ? "semicolons" : other == '\t' ? "tabs" : "commas";
-    throw InputError({"the fields are separated by " + name, path, form.header_line, "", header[0].substr(0, 60),
-                      form.separator == ',' ? "commas between fields and a point in numbers, as formats.md has it; "
-                                              "rollrig import reads logs of other forms and writes this one"
-                                            : "the separator that the mapping file names",
-                      ""});
+    throw InputError(
+        {"the fields are separated by " + name, path, form.header_line, "", header[0].substr(0, 60),
+         form.separator == ','
+             ? fmt::format("commas between fields and a point in numbers, as formats.md has it; {}", kImportReads)
+             : std::string("the separator that the mapping file names"),
+         ""});
   }
 }
 
@@ -124,6 +136,8 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
     row.cells = scanner.next_record();
     if (row.cells.size() == 1 && row.cells[0].empty()) continue;  // a blank line, as at the end of a file
     if (row.cells.size() != table.columns_.size()) {
+      require_no_comment(table.columns_.front(), path, form.header_line);
+      require_no_comment(row.cells.front(), path, row.line);
       throw InputError({"ragged row", path, row.line, "", fmt::format("{} fields", row.cells.size()),
                         fmt::format("{} fields, as in the header", table.columns_.size()), ""});
     }
@@ -141,10 +155,12 @@ bool CsvTable::has(const std::string& column) const {
 void CsvTable::require_known(const std::vector<std::string>& known) const {
   for (const std::string& column : columns_) {
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
+    require_no_comment(column, path_, header_line_);
     InputProblem problem = unknown_name("column", column, known);
     problem.file = path_;
     problem.line = header_line_;
     problem.key = column;
+    problem.allowed += "; rollrig import takes columns of other names and units";
     throw InputError(problem);
   }
 }
@@ -186,7 +202,9 @@ double CsvTable::parse_cell(const Row& row, const std::string& column, const std
   const char* end = plain.data() + plain.size();
   const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
-    throw cell_problem(row, column, cell, fmt::format("'{}' is not a number", cell), allowed);
+    const bool has_comma = decimal_ == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
+    throw cell_problem(row, column, cell, fmt::format("'{}' is not a number", cell),
+                       has_comma ? allowed + " with a decimal point; rollrig import reads decimal commas" : allowed);
   }
   if (!std::isfinite(value)) throw cell_problem(row, column, cell, fmt::format("'{}' is not finite", cell), allowed);
   if (!field.range.contains(value)) {
