@@ -110,7 +110,7 @@ int run_tasks(const proof::Ranks& ranks, const RunOptions& options, const std::s
   if (ranks.is_first() && (is_stopped || !options.quiet)) {
     std::string text =
         fmt::format("{} of {} sets answered in {}/: {} now, {} before", sums[0] + sums[1], all, out, sums[1], sums[0]);
-    if (sums[2] > 0) text += fmt::format("; of these {} could not be diagnosed", sums[2]);
+    if (sums[2] > 0) text += fmt::format("; {} not diagnosed", sums[2]);
     if (order.ranks > 1) text += fmt::format("; {} processes", order.ranks);
     if (is_stopped) text = "stopped: " + text + "; the same command goes on from here";
     (is_stopped ? std::cerr : std::cout) << wrap(text, 2).substr(2);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,6 +15,8 @@
 #include "scenarios/measurement_set.h"
 #include "sim/core/file_io.h"
 
+namespace fs = std::filesystem;
+
 namespace rollrig::cli {
 namespace {
 
@@ -27,12 +30,21 @@ struct Options {
   bool quiet = false;
 };
 
+bool is_same_folder(const std::string& a, const std::string& b) {
+  const auto full = [](const std::string& path) { return (fs::weakly_canonical(path) / "").lexically_normal(); };
+  return full(a) == full(b);
+}
+
 int run_command(const Options& options) {
   const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
   if (!options.set_folder.empty() && !spec.scenario->set_kind.has_value()) {
     throw InputError({fmt::format("scenario '{}' writes no measurement set", spec.scenario->text.name), "command line",
                       0, "--write-set", options.set_folder,
                       "--out for result and recording; sets come from drum tests, wheel_program and drive", ""});
+  }
+  if (!options.out.empty() && is_same_folder(options.out, options.set_folder)) {
+    throw InputError({"results and measurement set go to one folder", "command line", 0, "--write-set",
+                      options.set_folder, "another folder than that of --out", ""});
   }
   // Refused before the run, not after it, when the results could not be written.
   std::optional<OutputFolder> out;
