@@ -6,7 +6,9 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
+#include "diagnosis/set_checks.h"
 #include "import/import.h"
+#include "scenarios/measurement_set.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
@@ -64,6 +66,21 @@ std::string format_import(const logs::Mapping& mapping, const logs::Import& impo
   return text;
 }
 
+/// What rollrig validate says of the set: a column that was taken over without its unit shows there.
+std::string format_checks(const std::string& folder) {
+  std::string text;
+  try {
+    for (const std::string& warning : diagnosis::check_set(scenarios::read_measurement_set(folder)).warnings) {
+      text += wrap("warning: " + warning, 2);
+    }
+  } catch (const InputError& error) {
+    text = wrap("warning: " + error.problem().what, 2);
+  } catch (const RunFailure& failure) {
+    text = wrap(fmt::format("warning: {}", failure.what()), 2);
+  }
+  return text;
+}
+
 int import_command(const Options& options) {
   const logs::Mapping mapping = logs::read_mapping(options.mapping, options.data);
   OutputFolder out(options.out, options.force);
@@ -75,7 +92,8 @@ int import_command(const Options& options) {
   if (!options.json.empty()) write_output(options.json, logs::make_import_json(mapping, imported).dump(2) + "\n");
   if (options.quiet || options.json == "-") return kDone;
   std::cout << format_import(mapping, imported);
-  std::cout << fmt::format("  written to {}/: set.toml, a CSV a run, import.json, marks.csv\n", options.out);
+  std::cout << format_checks(options.out)
+            << fmt::format("  written to {}/: set.toml, a CSV a run, import.json, marks.csv\n", options.out);
   return kDone;
 }
 

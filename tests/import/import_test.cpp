@@ -220,3 +220,16 @@ TEST_CASE("the example is imported", "[slow]") {
   CHECK(std::abs(clock["shift_s"].get<double>() - 93.7) < 3.0 * clock["shift_sd_s"].get<double>());
   CHECK(run_program("validate joined", folder.path()).status == 0);
 }
+
+TEST_CASE("a unit that the mapping leaves out is told once the set is written", "[slow]") {
+  const TemporaryFolder folder;
+  const fs::path example = fs::path(ROLLRIG_SOURCE_DIR) / "assets/examples/logs";
+  fs::copy(example, folder.file("logs"));
+  std::string mapping = read_file(folder.file("logs/import.toml"));
+  const std::string unit = R"({ column = "p", unit = "bar" })";
+  mapping.replace(mapping.find(unit), unit.size(), R"("p")");
+  write_file(folder.file("logs/import.toml"), mapping);
+  const auto run = run_program("import logs/import.toml --out joined", folder.path());
+  CHECK(run.status == 0);
+  CHECK_THAT(run.out, Contains("cavity_pressure_kPa holds bar"));
+}
