@@ -74,9 +74,9 @@ void require_sealed_files(const std::string& bank, const Json& sets) {
     if (is_sealed && of["set_sha256"] != hash_set(set_folder(bank, set))) changed.push_back(set);
   }
   if (changed.empty()) return;
-  throw problem(fmt::format("the seal is broken: {} of {} sets are not the files that were sealed", changed.size(),
-                            sets.size()),
-                (fs::path(bank) / "sets").string(), "set", changed.front(), "the files as rollrig blind make wrote them");
+  throw problem(
+      fmt::format("the seal is broken: {} of {} sets are not the files that were sealed", changed.size(), sets.size()),
+      (fs::path(bank) / "sets").string(), "set", changed.front(), "the files as rollrig blind make wrote them");
 }
 
 Truth read_truth(const std::string& set, const Json& json, const std::vector<std::string>& catalogue) {

@@ -27,6 +27,7 @@ struct Case {
   std::optional<double> oracle_shrink_percent;  // with the true effect alone in the race
   std::optional<double> d_prime;                // of the ideal observer
   std::optional<bool> identifiable;             // likewise: whether its data tell the effect from all others
+  std::vector<double> log_bayes_factors;        // likewise: expected, of the truth over each other effect; may be empty
   std::optional<FollowUp> next_test;            // that the answer proposes; none where it leaves nothing open
   std::optional<FollowUp> drawn_test;           // drawn from the menu instead
 

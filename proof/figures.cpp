@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "proof/ideal_observer.h"
+
 namespace rollrig::proof {
 namespace {
 
@@ -10,7 +12,6 @@ using diagnosis::Verdict;
 using Cases = std::vector<Case>;
 using Is = std::function<bool(const Case&)>;
 
-constexpr std::size_t kTop = 3;
 constexpr double kMedian = 0.5;
 constexpr double kTenth = 0.1;
 
@@ -50,11 +51,6 @@ Figure make_number(const char* id, const char* label, std::optional<double> valu
 std::optional<double> quantile(const std::vector<double>& values, double share) {
   if (values.empty()) return std::nullopt;
   return calc_quantile(values, share);
-}
-
-bool is_detectable(const Case& one, const ScoreOptions& options) {
-  if (one.d_prime.has_value()) return *one.d_prime >= options.detectable_d_prime;
-  return one.truth.signal_floors >= options.detectable_floors;
 }
 
 void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
@@ -225,6 +221,11 @@ void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
 
 }  // namespace
 
+bool is_detectable(const Case& one, const ScoreOptions& options) {
+  if (one.d_prime.has_value()) return *one.d_prime >= options.detectable_d_prime;
+  return one.truth.signal_floors >= options.detectable_floors;
+}
+
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
   std::vector<Figure> figures;
   add_names(cases, options, figures);
@@ -232,6 +233,7 @@ std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOpti
   add_sizes(cases, figures);
   add_shrinkage(cases, figures);
   add_the_rest(cases, figures);
+  add_ceilings(cases, options, figures);
   return figures;
 }
 

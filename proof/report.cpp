@@ -24,6 +24,16 @@ std::string format_target(const Figure& figure) {
   return fmt::format("{} {}", figure.more_is_better ? ">=" : "<=", format_value(figure, figure.target));
 }
 
+/// What an ideal observer would reach, where that is known.
+std::string format_ceilings(const Score& score) {
+  std::string text;
+  for (const Figure& figure : score.figures) {
+    if (!figure.ceiling.has_value()) continue;
+    text += fmt::format("{} {} {}", text.empty() ? "" : ";", figure.label, format_value(figure, figure.ceiling));
+  }
+  return text.empty() ? "" : wrap("An ideal observer would reach:" + text, 0);
+}
+
 std::string format_figures(const Score& score) {
   std::string text =
       fmt::format("{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n", "figure", "value", "95 %", "cases", "target", "best b.");
@@ -38,7 +48,7 @@ std::string format_figures(const Score& score) {
                         format_range(figure), format_cases(figure), format_target(figure),
                         format_value(figure, figure.best_baseline));
   }
-  return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n";
+  return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n" + format_ceilings(score);
 }
 
 std::string format_baselines(const Score& score) {

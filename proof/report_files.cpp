@@ -39,6 +39,7 @@ Json make_figure(const Figure& figure) {
           {"more_is_better", figure.more_is_better},
           {"best_baseline", number(figure.best_baseline)},
           {"best_baseline_id", figure.best_baseline_id.empty() ? Json(nullptr) : Json(figure.best_baseline_id)},
+          {"ceiling", number(figure.ceiling)},
           {"note", figure.note}};
 }
 
@@ -89,15 +90,17 @@ std::string format_best_baseline(const Figure& figure) {
 
 std::string write_figures(const Score& score) {
   std::string text =
-      "| figure | value | 95 % | cases | target | floor | | best baseline |\n|---|---|---|---|---|---|---|---|\n";
+      "| figure | value | 95 % | cases | target | floor | | best baseline | ideal observer |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (const Figure& figure : score.figures) {
     const bool is_share = figure.interval.has_value();
     text += fmt::format(
-        "| {} | {} | {} | {} | {} | {} | {} | {} |\n", figure.label.substr(figure.label.find_first_not_of(' ')),
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", figure.label.substr(figure.label.find_first_not_of(' ')),
         format_value(figure, figure.value) + (figure.unit == Unit::kPercent && figure.value ? " %" : ""),
         is_share ? fmt::format("{:.1f} to {:.1f}", 100.0 * figure.interval->low, 100.0 * figure.interval->high) : "",
         is_share ? fmt::format("{} of {}", figure.k, figure.n) : fmt::format("{}", figure.n),
-        bar(figure, figure.target), bar(figure, figure.floor), judge(figure), format_best_baseline(figure));
+        bar(figure, figure.target), bar(figure, figure.floor), judge(figure), format_best_baseline(figure),
+        format_value(figure, figure.ceiling));
   }
   return text;
 }

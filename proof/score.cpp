@@ -33,6 +33,8 @@ void read_ceiling(const std::string& bank, const std::string& file, std::vector<
       const auto at = json.at("sets").find(one.truth.set);
       if (at == json.at("sets").end()) continue;
       if (at->contains("d_prime")) one.d_prime = at->at("d_prime").get<double>();
+      const Json nats_by_effect = at->value("log_bayes_factors", Json::object());
+      for (const Json& nats : nats_by_effect) one.log_bayes_factors.push_back(nats.get<double>());
       if (at->contains("identifiable")) one.identifiable = at->at("identifiable").get<bool>();
     }
   } catch (const Json::exception& error) {

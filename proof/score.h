@@ -25,8 +25,9 @@ struct Figure {
   std::optional<double> floor = {};  // the least that is asked for
   bool more_is_better = true;
   std::optional<double> best_baseline = {};
-  std::string best_baseline_id = {};  // of that method
-  std::string note = {};              // where there is no value: why
+  std::string best_baseline_id = {};   // of that method
+  std::optional<double> ceiling = {};  // what an ideal observer would reach; none where it is not known
+  std::string note = {};               // where there is no value: why
 
   bool meets(const std::optional<double>& bar) const;
 };

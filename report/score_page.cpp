@@ -29,9 +29,10 @@ std::string show_bar(const Figure& figure, const std::optional<double>& bar) {
 }
 
 Block make_figures(const Score& score) {
-  scenarios::ResultTable table{"Figures and targets; shares in %",
-                               {"figure", "value", "95 % from", "to", "cases", "target", "", "best baseline"},
-                               {}};
+  scenarios::ResultTable table{
+      "Figures and targets; shares in %",
+      {"figure", "value", "95 % from", "to", "cases", "target", "", "best baseline", "ideal observer"},
+      {}};
   for (const Figure& figure : score.figures) {
     const auto percent = [&](double share) { return fmt::format("{:.1f}", 100.0 * share); };
     const bool has_interval = figure.interval.has_value();
@@ -39,7 +40,8 @@ Block make_figures(const Score& score) {
         {figure.label, proof::format_value(figure, figure.value), has_interval ? percent(figure.interval->low) : "",
          has_interval ? percent(figure.interval->high) : "",
          has_interval ? fmt::format("{}/{}", figure.k, figure.n) : fmt::format("{}", figure.n),
-         show_bar(figure, figure.target), judge(figure), proof::format_value(figure, figure.best_baseline)});
+         show_bar(figure, figure.target), judge(figure), proof::format_value(figure, figure.best_baseline),
+         proof::format_value(figure, figure.ceiling)});
   }
   return make_table(table);
 }
