@@ -159,13 +159,13 @@ void check_moved(const std::vector<Expected>& effects) {
 
 }  // namespace
 
-TEST_CASE("an effect of its neutral size does nothing", "[fast]") {
+TEST_CASE("an effect of its neutral size does nothing", "[slow]") {
   check_neutral(kEffects);
   check_neutral(kRoadEffects);
   check_neutral(kOutside);
 }
 
-TEST_CASE("an effect moves its channels and leaves the others alone", "[fast]") {
+TEST_CASE("an effect moves its channels and leaves the others alone", "[slow]") {
   check_moved(kEffects);
   check_moved(kRoadEffects);
   check_moved(kOutside);

@@ -75,7 +75,7 @@ TEST_CASE("the same order gives the same set to the bit, another seed another se
   CHECK(fewer.size() == 5);
 }
 
-TEST_CASE("nothing but the measured values depends on the effect", "[fast]") {
+TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
   const std::map<std::string, std::string> options{
       {"drum", "--kind drum"},
       {"dyno", "--kind dyno --runs 1"},
