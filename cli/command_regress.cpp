@@ -85,7 +85,7 @@ void run_case(Case& each) {
   try {
     const scenarios::RunSpec spec =
         scenarios::read_run_spec(read_config(each.run_file), fs::path(each.run_file).parent_path().string());
-    std::vector<scenarios::GoldenValue> now = scenarios::make_golden(spec.scenario->run(spec, {}));
+    std::vector<scenarios::GoldenValue> now = scenarios::make_golden(scenarios::run_scenario(spec, {}));
     compare_case(each, now);
     each.golden_text = scenarios::write_golden(now);
   } catch (const RunFailure& failure) {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -15,8 +14,6 @@
 #include "scenarios/measurement_set.h"
 #include "sim/core/file_io.h"
 
-namespace fs = std::filesystem;
-
 namespace rollrig::cli {
 namespace {
 
@@ -30,11 +27,6 @@ struct Options {
   bool quiet = false;
 };
 
-bool is_same_folder(const std::string& a, const std::string& b) {
-  const auto full = [](const std::string& path) { return (fs::weakly_canonical(path) / "").lexically_normal(); };
-  return full(a) == full(b);
-}
-
 int run_command(const Options& options) {
   const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
   if (!options.set_folder.empty() && !spec.scenario->set_kind.has_value()) {
@@ -42,7 +34,7 @@ int run_command(const Options& options) {
                       0, "--write-set", options.set_folder,
                       "--out for result and recording; sets come from drum tests, wheel_program and drive", ""});
   }
-  if (!options.out.empty() && is_same_folder(options.out, options.set_folder)) {
+  if (!options.out.empty() && !options.set_folder.empty() && is_same_place(options.out, options.set_folder)) {
     throw InputError({"results and measurement set go to one folder", "command line", 0, "--write-set",
                       options.set_folder, "another folder than that of --out", ""});
   }
@@ -53,7 +45,7 @@ int run_command(const Options& options) {
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.force);
   ProgressLine progress(spec.scenario->text.name, options.quiet);
-  const scenarios::Outcome outcome = spec.scenario->run(spec, progress.callback());
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, progress.callback());
   const std::string result = scenarios::make_result_json(spec, outcome).dump(2) + "\n";
   files.require_no_input();
   if (out.has_value()) {

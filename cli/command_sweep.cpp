@@ -165,7 +165,7 @@ int sweep_command(const Options& options) {
   ProgressLine progress("sweep", options.quiet);
   std::atomic<std::size_t> done{0};
   parallel_for(specs.size(), options.threads, [&](std::size_t i) {
-    const scenarios::Outcome outcome = specs[i].scenario->run(specs[i], {});
+    const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
     results[i] = outcome.result;
     manifests[i] = scenarios::make_manifest(specs[i], outcome).dump(2) + "\n";
     progress.update(static_cast<double>(++done) / static_cast<double>(specs.size()));

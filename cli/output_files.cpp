@@ -18,13 +18,16 @@ InputError bad_place(const std::string& what, const OutputFile& file) {
   return InputError({what, "command line", 0, file.option, file.path, "another file", ""});
 }
 
+}  // namespace
+
 bool is_same_place(const std::string& a, const std::string& b) {
   if (a == "-" || b == "-") return a == b;
-  std::error_code code;
-  return fs::weakly_canonical(a, code) == fs::weakly_canonical(b, code);
+  // Absolute first: of what is not there yet only the parts that are there become canonical.
+  const auto full = [](const std::string& path) {
+    return (fs::weakly_canonical(fs::absolute(path)) / "").lexically_normal();
+  };
+  return full(a) == full(b);
 }
-
-}  // namespace
 
 OutputFiles::OutputFiles(std::vector<OutputFile> files) : files_(std::move(files)) {
   files_.erase(std::remove_if(files_.begin(), files_.end(), [](const OutputFile& file) { return file.path.empty(); }),

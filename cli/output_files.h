@@ -12,6 +12,9 @@ struct OutputFile {
   std::string path;
 };
 
+/// Whether two names, of files or folders that may not be there yet, mean one place; "-" means standard output.
+bool is_same_place(const std::string& a, const std::string& b);
+
 /// The files of one command. An older file at such a place is replaced, as a compiler does, so that a command can be
 /// given again; only what the command itself reads is not.
 class OutputFiles {

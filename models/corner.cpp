@@ -146,9 +146,8 @@ void Corner<S>::calc_rates(const S* x, Instant<S>& now, S* rates) const {
 
 template <class S>
 void Corner<S>::require_possible(const S* x) const {
-  // Assumed: rubber shatters long before the one and burns long before the other.
-  constexpr double kColdest_K = 100.0;
-  constexpr double kHottest_K = 1000.0;
+  constexpr double kColdest_K = 100.0;   // Assumed: rubber shatters long before
+  constexpr double kHottest_K = 1000.0;  // Assumed: rubber burns long before
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (!nodes_[i]) continue;
     const double temperature_K = value_of(x[node_state_[i]]);

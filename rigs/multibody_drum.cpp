@@ -1,5 +1,7 @@
 #include "rigs/multibody_drum.h"
 
+#include <fmt/format.h>
+
 #include <Simbody.h>
 
 #include <algorithm>
@@ -223,8 +225,10 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     const double set_m_s = find_acting(time_s, y).speed_m_s;
     const double is_m_s = y[kSpeeds] / corner_.context().surface_curvature_per_m;
     if (std::abs(is_m_s - set_m_s) <= kFloor_m_s + kShare * std::abs(set_m_s)) return;
-    throw RunFailure("at t = " + std::to_string(time_s) + " s the motor does not hold the speed: set " +
-                     std::to_string(set_m_s) + " m/s, is " + std::to_string(is_m_s) + " m/s");
+    throw RunFailure(fmt::format(
+        "at t = {:.1f} s the motor does not hold the speed: set {:.1f} km/h, is {:.1f} km/h; what drives or brakes "
+        "it (speeds, slope, wind, effects) is more than it can do",
+        time_s, unit_of_key("speed_km_h").from_si(set_m_s), unit_of_key("speed_km_h").from_si(is_m_s)));
   }
 
   double slip_spring_N_per_m() const {

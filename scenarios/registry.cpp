@@ -8,6 +8,15 @@ namespace rollrig::scenarios {
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
 
+Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) {
+  try {
+    return spec.scenario->run(spec, progress);
+  } catch (const RunFailure& failure) {
+    if (spec.effects.empty()) throw;
+    throw RunFailure(std::string(failure.what()) + "\neffects that were on: " + describe_effects(spec.effects));
+  }
+}
+
 const std::vector<const Scenario*>& all_scenarios() {
   static const std::vector<const Scenario*> scenarios{
 #define ROLLRIG_SCENARIO(name) &scenario_##name(),

@@ -5,17 +5,6 @@
 
 namespace rollrig::scenarios {
 
-/// Runs `call`; a run that fails says which effects were on.
-template <class Call>
-void with_effects_named(const RunSpec& spec, Call&& call) {
-  try {
-    call();
-  } catch (const RunFailure& failure) {
-    if (spec.effects.empty()) throw;
-    throw RunFailure(std::string(failure.what()) + "\neffects that were on: " + describe_effects(spec.effects));
-  }
-}
-
 /// Settings (with a member `conditions`) are read and completed, `plan` makes the program, `simulate` runs it,
 /// `evaluate` fills result, lines and tables; `check_tire` throws InputError when the tire lacks what the rig takes.
 template <class Settings, class Program, class Simulate, class CheckTire>
@@ -39,11 +28,8 @@ Scenario make_rig_scenario(ScenarioText text, Program (*plan)(const Settings&, c
     const Settings settings = read(spec);
     Outcome outcome;
     outcome.settings = settings_to_json(settings);
-    const Program program = plan(settings, spec);
-    with_effects_named(spec, [&] {
-      simulate(spec, settings.conditions, program, progress, outcome);
-      evaluate(settings, spec, outcome);
-    });
+    simulate(spec, settings.conditions, plan(settings, spec), progress, outcome);
+    evaluate(settings, spec, outcome);
     return outcome;
   };
   return scenario;

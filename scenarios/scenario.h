@@ -110,11 +110,15 @@ struct Scenario {
   std::vector<SettingInfo> settings;
   /// Reads spec.settings and plans, without running. Throws InputError.
   std::function<void(const RunSpec& spec)> check;
-  /// Reads spec.settings, runs, evaluates. Throws InputError, RunFailure, Interrupted.
+  /// Reads spec.settings, runs, evaluates: what run_scenario() calls. Throws InputError, RunFailure, Interrupted.
   std::function<Outcome(const RunSpec& spec, const sim::Progress& progress)> run;
 
   bool has_rig() const { return !default_rig.empty(); }
 };
+
+/// Runs the scenario of `spec`. A run that fails says which effects were on. Throws InputError, RunFailure,
+/// Interrupted.
+Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress);
 
 /// All scenarios, in the order of scenarios.def.
 const std::vector<const Scenario*>& all_scenarios();

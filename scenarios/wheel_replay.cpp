@@ -49,6 +49,7 @@ void march(const models::Corner<S>& corner, const rigs::DrumStart<S>& start, con
     evaluate(part, middle.data(), now);
     corner.calc_rates(middle.data(), now, rates.data());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += part.duration_s * rates[i];
+    corner.require_possible(x.data());
     const S& force_N = record(part, now);
     if (observer != nullptr) observer->add(part, now, force_N);
   }

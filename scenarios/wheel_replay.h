@@ -28,6 +28,7 @@ class ReplayObserver {
 /// Symbols   x states, h duration, Fx recorded longitudinal force, C slip stiffness (infinite in the baseline),
 ///           j factor on the roller's inertia J (1 in the baseline), R its radius, a acceleration
 /// Validity  h well below every time constant; order 2 in h. The recorded force is that of the contact
+/// Errors    RunFailure: a tire that runs away in temperature
 /// Source    explicit midpoint rule with a lagged predictor. baseline.md, "Rig"
 /// Checked   tests/scenarios/wheel_replay_test.cpp
 template <class S>

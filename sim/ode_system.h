@@ -65,7 +65,7 @@ class OdeSystem {
   virtual void evaluate(double time_s, const S* state, S* rates, S* integrands) = 0;
   /// Asked after each step. Throws RunFailure where the state is none that the system can have: an integrator may
   /// follow a run-away for ever, in ever smaller steps.
-  virtual void require_possible(const S* /*state*/) const {}
+  virtual void require_possible(const S* state) const = 0;
   /// The value of a quantity that a StopCondition may watch. Throws std::invalid_argument for an unknown one.
   virtual S watch(const std::string& name, double time_s, const S* state) = 0;
   /// Values of the channels that are not means, in the order of channels(), SI units.

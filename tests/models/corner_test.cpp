@@ -121,3 +121,16 @@ TEST_CASE("dimensions are right through every port, with every effect on, on eve
     CHECK(at.rates[i].dimension() == at.x[i].dimension() / dimension::kTime);
   }
 }
+
+TEST_CASE("a node colder, hotter or less than a number is no tire's, whichever it is", "[fast]") {
+  const Corner<double> corner = tests::DrumFixture().corner();
+  const auto fine = states_at(corner, 298.15);
+  CHECK_NOTHROW(corner.require_possible(fine.data()));
+  for (const auto& [node, name] : {std::pair{Node::kRubber, "rubber"}, std::pair{Node::kGas, "gas"}}) {
+    for (const double temperature_K : {50.0, 2000.0, -1e9, std::nan("")}) {
+      auto x = fine;
+      x[corner.state_of(node)] = temperature_K;
+      CHECK_THROWS_WITH(corner.require_possible(x.data()), Catch::Contains(name));
+    }
+  }
+}

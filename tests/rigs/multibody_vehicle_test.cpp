@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "sim/core/error.h"
 #include "tests/support/hand_fed_corner.h"
 #include "tests/support/vehicle_fixture.h"
 
@@ -223,4 +224,27 @@ TEST_CASE("a driver who cannot keep the speed is a failed run, not a result", "[
   CHECK_THROWS_WITH(
       fixture.run_multibody(make_program({driving("stand", 5.0, 0.0, 0.0), driving("at once", 20.0, 30.0, 30.0)})),
       Catch::Contains("does not keep the speed"));
+}
+
+TEST_CASE("the temperatures of every wheel are asked whether they are possible, in both fidelities", "[fast]") {
+  const auto check_each = [](const sim::OdeSystem<double>& vehicle, const std::vector<double>& state,
+                             std::size_t wheels) {
+    CHECK_NOTHROW(vehicle.require_possible(state.data()));
+    std::size_t temperatures = 0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      if (state[i] < 280.0 || state[i] > 360.0) continue;  // no other state of a vehicle that stands is so large
+      ++temperatures;
+      std::vector<double> hot = state;
+      hot[i] = 2000.0;
+      CHECK_THROWS_AS(vehicle.require_possible(hot.data()), RunFailure);
+    }
+    CHECK(temperatures == 2 * wheels);  // rubber and gas
+  };
+  const VehicleFixture fixture("dyno_1m2", true);
+  const sim::Program stand = make_program({driving("stand", 5.0, 0.0, 0.0)});
+  Ran ran(fixture, stand);
+  check_each(ran.vehicle, ran.recording.final_state, ran.corners.size());
+  std::vector<models::Corner<double>> corners = fixture.corners();
+  const rigs::QuasiStaticVehicle<double> quasi_static(corners, fixture.layout(), fixture.start(), false);
+  check_each(quasi_static, fixture.run_quasi_static(stand).final_state, corners.size());
 }

@@ -47,6 +47,7 @@ class LambdaSystem : public sim::OdeSystem<double> {
     }
     if (integrands != nullptr) std::copy(y, y + start_.size(), integrands);
   }
+  void require_possible(const double*) const override {}
   double watch(const std::string& name, double, const double* y) override {
     if (name != "y0") throw std::invalid_argument("cannot watch " + name);
     return y[0];
