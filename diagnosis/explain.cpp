@@ -79,8 +79,9 @@ std::string describe_tests(const models::EffectInfo& info) {
 /// Two of the documents that sources name cannot be looked up in docs/.
 std::string describe_source(const models::EffectInfo& info) {
   std::string text = info.source;
-  if (text.find("effects.md") != std::string::npos) {
-    text += ". (effects.md: the specification of the catalogue, from which usual sizes are; not part of rollrig)";
+  for (const char* document : {"effects.md", "baseline.md"}) {
+    if (text.find(document) == std::string::npos) continue;
+    text += fmt::format(". ({}: the specification to which the catalogue was written; not part of rollrig)", document);
   }
   return text;
 }
@@ -120,7 +121,7 @@ std::string explain_effect(const std::string& name) {
     if (effect->info.id == name) return describe(effect->info);
   }
   InputProblem problem = unknown_name("effect", name, explainable_names());
-  problem.nearest = nearest_name(name, models::effect_ids());  // "none" is near to any short word
+  if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
   problem.file = "command line";
   problem.key = "--explain";
   throw InputError(problem);

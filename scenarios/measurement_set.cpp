@@ -57,7 +57,9 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, 
 }
 
 void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
-  const CsvTable csv = CsvTable::read(run.file);
+  CsvForm form;
+  form.elsewise = "rollrig import reads logs of other forms, names and units, and writes such files";
+  const CsvTable csv = CsvTable::read(run.file, form);
   std::vector<std::string> known{"time_s"};
   for (const auto* list : {&columns.given, &columns.optional_given, &columns.measured}) {
     for (const Field& field : *list) known.push_back(field.key);
@@ -66,6 +68,12 @@ void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
   run.time_s = csv.increasing_times("time_s");
   if (run.time_s.size() < 2) {
     throw InputError({"a run needs two rows at least", run.file, 2, "", "", "two or more rows", ""});
+  }
+  constexpr double kLongest_s = 3.0 * 86400.0;  // Assumed: five minutes in milliseconds are longer
+  if (run.time_s.back() - run.time_s.front() > kLongest_s) {
+    throw InputError({"a run of more than three days", run.file, csv.line_of(csv.row_count() - 1), "time_s",
+                      fmt::format("{:.10g}", run.time_s.back()),
+                      "seconds, not milliseconds; of a longer test, several runs", ""});
   }
   for (const Field& field : columns.given) run.columns[field.key] = csv.numbers(field);
   for (const Field& field : columns.optional_given) {
@@ -97,6 +105,12 @@ void check_runs(const MeasurementSet& set) {
 }
 
 }  // namespace
+
+bool MeasuredRun::has_samples(const std::string& column) const {
+  const auto at = columns.find(column);
+  return at != columns.end() &&
+         std::any_of(at->second.begin(), at->second.end(), [](double value) { return !std::isnan(value); });
+}
 
 const SetColumns& columns_of(SetKind kind) {
   static const std::vector<Field> temperatures_and_pressure{

@@ -42,6 +42,8 @@ struct MeasuredRun {
   std::map<std::string, std::vector<double>> columns;  // SI by column name; NaN where there is no sample
 
   bool has(const std::string& column) const { return columns.count(column) > 0; }
+  /// Whether a column holds anything but empty fields.
+  bool has_samples(const std::string& column) const;
 };
 
 struct MeasurementSet {

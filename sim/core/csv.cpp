@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
@@ -82,13 +83,17 @@ class CsvScanner {
   int line_ = 1;
 };
 
-constexpr const char* kImportReads = "rollrig import reads logs of other forms and writes this one";
+/// What is allowed, and what to do instead.
+std::string allow(const std::string& allowed, const CsvForm& form) {
+  return form.elsewise.empty() ? allowed : allowed + "; " + form.elsewise;
+}
 
-/// Asked where something is wrong with a line: whether it is a remark, of which there can be none.
-void require_no_comment(const std::string& first, const std::string& path, int line) {
-  if (first.empty() || (first.front() != '#' && first.front() != '%')) return;
+/// Asked where something is wrong with a line: whether it is a remark, of which there can be none. A lone # is the name
+/// of a counter.
+void require_no_comment(const std::string& first, const std::string& path, int line, const CsvForm& form) {
+  if (first.size() < 2 || (first.front() != '#' && first.front() != '%')) return;
   throw InputError({"a comment, of which this file can have none", path, line, "", first.substr(0, 60),
-                    fmt::format("a header in line 1 and rows below it; {}", kImportReads), ""});
+                    allow(fmt::format("a header in line {} and rows below it", form.header_line), form), ""});
 }
 
 /// Refuses a header that only looks like one column because its fields are separated by something else.
@@ -97,12 +102,11 @@ void require_separated(const std::vector<std::string>& header, const std::string
   for (const char other : {';', '\t', ','}) {
     if (other == form.separator || header[0].find(other) == std::string::npos) continue;
     const std::string name = other == ';' ? "semicolons" : other == '\t' ? "tabs" : "commas";
-    throw InputError(
-        {"the fields are separated by " + name, path, form.header_line, "", header[0].substr(0, 60),
-         form.separator == ','
-             ? fmt::format("commas between fields and a point in numbers, as formats.md has it; {}", kImportReads)
-             : std::string("the separator that the mapping file names"),
-         ""});
+    throw InputError({"the fields are separated by " + name, path, form.header_line, "", header[0].substr(0, 60),
+                      allow(form.separator == ',' ? "commas between fields and a point in numbers, as formats.md has it"
+                                                  : "the separator that is named",
+                            form),
+                      ""});
   }
 }
 
@@ -112,8 +116,7 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
   const std::string text = read_text_file(path);
   CsvTable table;
   table.path_ = path;
-  table.decimal_ = form.decimal;
-  table.header_line_ = form.header_line;
+  table.form_ = form;
   CsvScanner scanner(text, path, form.separator);
   scanner.go_to_line(form.header_line);
   table.columns_ = scanner.next_record();
@@ -136,8 +139,8 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
     row.cells = scanner.next_record();
     if (row.cells.size() == 1 && row.cells[0].empty()) continue;  // a blank line, as at the end of a file
     if (row.cells.size() != table.columns_.size()) {
-      require_no_comment(table.columns_.front(), path, form.header_line);
-      require_no_comment(row.cells.front(), path, row.line);
+      require_no_comment(table.columns_.front(), path, form.header_line, form);
+      require_no_comment(row.cells.front(), path, row.line, form);
       throw InputError({"ragged row", path, row.line, "", fmt::format("{} fields", row.cells.size()),
                         fmt::format("{} fields, as in the header", table.columns_.size()), ""});
     }
@@ -155,12 +158,13 @@ bool CsvTable::has(const std::string& column) const {
 void CsvTable::require_known(const std::vector<std::string>& known) const {
   for (const std::string& column : columns_) {
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
-    require_no_comment(column, path_, header_line_);
+    require_no_comment(column, path_, form_.header_line, form_);
     InputProblem problem = unknown_name("column", column, known);
     problem.file = path_;
-    problem.line = header_line_;
+    problem.line = form_.header_line;
     problem.key = column;
-    problem.allowed += "; rollrig import takes columns of other names and units";
+    problem.allowed = allow(problem.allowed, form_);
+    if (boost::algorithm::trim_copy(column) != column) problem.what += ", with a blank before or after the name";
     throw InputError(problem);
   }
 }
@@ -171,8 +175,9 @@ std::size_t CsvTable::find_column(const std::string& column) const {
   InputProblem problem;
   problem.what = fmt::format("missing column '{}'", column);
   problem.file = path_;
-  problem.line = header_line_;
+  problem.line = form_.header_line;
   problem.key = column;
+  problem.allowed = "it beside these: " + boost::algorithm::join(columns_, ", ");
   problem.nearest = nearest_name(column, columns_);
   throw InputError(problem);
 }
@@ -192,19 +197,20 @@ InputError CsvTable::cell_problem(const Row& row, const std::string& column, con
 
 double CsvTable::parse_cell(const Row& row, const std::string& column, const std::string& cell,
                             const Field& field) const {
-  const std::string allowed = fmt::format("a number {}", field.range.to_string());
+  const std::string range = field.range.to_string();
+  const std::string allowed = range.empty() ? "a number" : "a number " + range;
   double value = 0.0;
   std::string plain = cell;
-  if (decimal_ != '.') {
+  if (form_.decimal != '.') {
     std::replace(plain.begin(), plain.end(), '.', '?');  // a point is no number's then
-    std::replace(plain.begin(), plain.end(), decimal_, '.');
+    std::replace(plain.begin(), plain.end(), form_.decimal, '.');
   }
   const char* end = plain.data() + plain.size();
   const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
-    const bool has_comma = decimal_ == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
+    const bool has_comma = form_.decimal == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
     throw cell_problem(row, column, cell, fmt::format("'{}' is not a number", cell),
-                       has_comma ? allowed + " with a decimal point; rollrig import reads decimal commas" : allowed);
+                       has_comma ? allow(allowed + " with a decimal point", form_) : allowed);
   }
   if (!std::isfinite(value)) throw cell_problem(row, column, cell, fmt::format("'{}' is not finite", cell), allowed);
   if (!field.range.contains(value)) {

@@ -17,6 +17,7 @@ struct CsvForm {
   char decimal = '.';
   int header_line = 1;     // lines before it are not read
   int first_row_line = 2;  // lines between header and this one (units, say) are not read
+  std::string elsewise{};  // for errors: what to do where a file is of another form
 };
 
 /// A CSV file as text cells.
@@ -57,8 +58,7 @@ class CsvTable {
   double parse_cell(const Row& row, const std::string& column, const std::string& cell, const Field& field) const;
 
   std::string path_;
-  char decimal_ = '.';
-  int header_line_ = 1;
+  CsvForm form_;
   std::vector<std::string> columns_;
   std::vector<Row> rows_;
 };

@@ -143,7 +143,8 @@ std::string read_text_file(const std::string& path) {
   std::string text = content.str();
   if (text.empty()) throw file_problem(fmt::format("'{}' is empty", path), path);
   if (text.find('\0') != std::string::npos || !is_utf8(text)) {
-    throw file_problem(fmt::format("'{}' is not a text file", path), path, "UTF-8 text");
+    throw file_problem(fmt::format("'{}' is not a text file", path), path,
+                       "UTF-8 text; iconv -f latin1 -t utf-8 (or -f utf-16) makes it of a text of another encoding");
   }
   return text;
 }

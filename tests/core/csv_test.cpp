@@ -50,10 +50,12 @@ TEST_CASE("wrong files are refused with line and column", "[fast]") {
   CHECK_THROWS_WITH(parse("a,b\n"), Catch::Contains("no rows"));
   CHECK_THROWS_WITH(parse("time_s\n1\n1\n").increasing_times("time_s"), Catch::Contains("does not increase"));
   CHECK_THROWS_WITH(parse("a_N\nx\n").numbers({"a_N", any_number(), ""}), Catch::Contains("not a number"));
-  CHECK_THROWS_WITH(parse("a_N\n\"1,5\"\n").numbers({"a_N", any_number(), ""}), Catch::Contains("decimal commas"));
+  CHECK_THROWS_WITH(parse("a_N\n\"1,5\"\n").numbers({"a_N", any_number(), ""}), Catch::Contains("decimal point"));
   CHECK_THROWS_WITH(parse("# rig log\na_N,b_N\n1,2\n"), Catch::Contains("a comment") && Catch::Contains("line 1"));
   CHECK_THROWS_WITH(parse("a_N,b_N\n1,2\n# stop\n"), Catch::Contains("a comment") && Catch::Contains("line 3"));
   CHECK_THROWS_WITH(parse("# a_N\n1\n").require_known({"a_N"}), Catch::Contains("a comment"));
-  CHECK_THROWS_WITH(parse("a_kN\n1\n").require_known({"a_N"}), Catch::Contains("rollrig import"));
+  CHECK_THROWS_WITH(parse("a_kN\n1\n").require_known({"a_N"}), Catch::Contains("unknown column 'a_kN'"));
+  CHECK_THROWS_WITH(parse(" a_N\n1\n").require_known({"a_N"}), Catch::Contains("a blank before or after"));
+  CHECK_THROWS_WITH(parse("#,a_N\n1,2\n3\n"), Catch::Contains("ragged") && Catch::Contains("line 3"));  // a counter
   CHECK_THROWS_WITH(parse("a_N\nnan\n").numbers({"a_N", any_number(), ""}), Catch::Contains("not finite"));
 }
