@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/html_option.h"
 #include "cli/output_files.h"
+#include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
 #include "diagnosis/diagnosis_json.h"
@@ -77,9 +78,14 @@ int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
   files.require_no_input();
   give(options, diagnosis::make_fleet_json(fleet), diagnosis::format_fleet(fleet),
        [&fleet] { return report::make_fleet_page(fleet); });
-  const bool failed = std::any_of(fleet.members.begin(), fleet.members.end(),
-                                  [](const diagnosis::FleetMember& member) { return !member.failure.empty(); });
-  return failed ? kRunFailed : kDone;
+  const bool is_table_shown = !options.quiet && options.json != "-" && !options.html.is_standard_output();
+  int status = kDone;
+  for (const diagnosis::FleetMember& member : fleet.members) {
+    if (member.failure.empty()) continue;
+    if (!is_table_shown) std::cerr << "error: " << member.folder << ": " << member.failure << '\n';
+    if (status != kInputError) status = member.is_wrong_input ? kInputError : kRunFailed;
+  }
+  return status;
 }
 
 /// Writes the first proposed test into the folder. What it says to a person: where it is, or that there is none.
@@ -103,6 +109,7 @@ int diagnose_command(const Options& options) {
       throw InputError({"a plan is made for one set", "command line", 0, "--plan", options.plan,
                         "the folder of one set, without sets below it", ""});
     }
+    if (!options.quiet) warn_of_undescribed(options.set);
     return diagnose_all(options, sets);
   }
   const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);

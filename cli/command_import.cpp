@@ -74,9 +74,11 @@ std::string format_checks(const std::string& folder) {
       text += wrap("warning: " + warning, 2);
     }
   } catch (const InputError& error) {
-    text = wrap("warning: " + error.problem().what, 2);
+    text = format_error("  warning: ", error.problem());
   } catch (const RunFailure& failure) {
     text = wrap(fmt::format("warning: {}", failure.what()), 2);
+  } catch (const Interrupted&) {  // the set is written, whole
+    text = "  warning: not checked to the end\n";
   }
   return text;
 }

@@ -30,11 +30,8 @@ struct Finding {
 
 bool has_measured(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run) {
   const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
-  return std::any_of(channels.begin(), channels.end(), [&run](const std::string& channel) {
-    if (!run.has(channel)) return false;
-    const std::vector<double>& values = run.columns.at(channel);
-    return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
-  });
+  return std::any_of(channels.begin(), channels.end(),
+                     [&run](const std::string& channel) { return run.has_samples(channel); });
 }
 
 /// A set is held against the simulation as well: exchanged columns and wrong units are in no single number.
@@ -106,6 +103,7 @@ std::vector<std::string> list_files(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     const std::vector<std::string> sets = diagnosis::find_sets(path);
+    if (!sets.empty()) warn_of_undescribed(path);
     files.insert(files.end(), sets.begin(), sets.end());
     if (sets.empty()) files.push_back(path);
   }
@@ -119,7 +117,7 @@ int validate_command(const std::vector<std::string>& paths) {
   for (const std::string& path : list_files(paths)) {
     try {
       const Finding found = validate(path);
-      std::cout << fmt::format("{}: {} {}\n", path, found.is_good ? "good" : "doubtful", found.what);
+      std::cout << wrap(fmt::format("{}: {} {}", path, found.is_good ? "good" : "doubtful", found.what), 2).substr(2);
       for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
       if (!found.is_good) status = std::max<int>(status, kDiffers);
     } catch (const InputError& error) {  // of one file: the others are checked as well

@@ -85,7 +85,7 @@ constexpr const char* kRest =
 done
 .TP
 .B 1
-a regression differs, or a set that validate looked at is doubtful
+a regression differs, or a set that validate or fit tire looked at is doubtful
 .TP
 .B 2
 input or usage; nothing is written

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iostream>
 #include <sstream>
 
+#include "diagnosis/fleet.h"
 #include "scenarios/run_spec.h"
 
 namespace rollrig::cli {
@@ -79,6 +81,15 @@ std::string format_error(const std::string& start, const InputProblem& problem) 
     text += part.is_copied ? part.content + "\n" : wrap(part.content, kLabelColumns).substr(kLabelColumns);
   }
   return text;
+}
+
+void warn_of_undescribed(const std::string& folder) {
+  const std::vector<std::string> left_out = diagnosis::find_undescribed_folders(folder);
+  if (left_out.empty()) return;
+  std::cerr << wrap(fmt::format("warning: left out, since they have CSV files and no set.toml: {}",
+                                fmt::join(left_out, ", ")),
+                    2)
+                   .substr(2);
 }
 
 }  // namespace rollrig::cli

@@ -19,6 +19,9 @@ std::string format_table(const scenarios::ResultTable& table);
 /// Header, lines, tables and warnings of a run.
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
 
+/// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
+void warn_of_undescribed(const std::string& folder);
+
 /// An error's message within 80 columns, `start` before it. Places and values stay whole, to be copied.
 std::string format_error(const std::string& start, const InputProblem& problem);
 

@@ -77,7 +77,7 @@ void forbid_causes(Diagnosis& diagnosis) {
 
 Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
   const SetChecks checks = check_set(measured, options.threads);
-  const PreparedSet set(leave_out(measured, checks.doubtful));
+  const PreparedSet set(leave_out(measured, checks.stuck));
   const Remainder remainder(set);
   const std::vector<identification::FreeParameter> base = find_base_parameters(measured, set.context());
   RaceSettings settings;
@@ -112,7 +112,7 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
-  const bool is_whole = checks.doubtful.empty();
+  const bool is_whole = checks.stuck.empty();
   if (is_whole) diagnosis.fitted.recalibrated = find_fitted(set, base, race.null.fit);
   if (lead != nullptr) {
     if (is_whole) diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);

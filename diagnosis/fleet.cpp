@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPrior = 0.02;
-constexpr double kRecurs = 0.8;    // Assumed: what is named once and not excluded elsewhere says little
+constexpr double kRecurs = 0.8;
 constexpr double kCertain = 1e-6;  // a race is not surer than this
 
 bool names(const Diagnosis& diagnosis, const std::string& effect) {
@@ -70,7 +70,7 @@ struct Group {
 std::vector<Group> make_groups(const std::vector<FleetMember>& members) {
   std::map<std::pair<Shared, std::string>, std::vector<const FleetMember*>> by_name;
   for (const FleetMember& member : members) {
-    if (!member.diagnosis.has_value()) continue;
+    if (!member.diagnosis.has_value() || !member.diagnosis->doubt.empty()) continue;
     by_name[{Shared::kMachineAndTire, member.tire + " on " + member.machine}].push_back(&member);
     by_name[{Shared::kMachine, member.machine}].push_back(&member);
     by_name[{Shared::kTire, member.tire}].push_back(&member);
@@ -132,6 +132,7 @@ std::optional<scenarios::MeasurementSet> read_member(FleetMember& member) {
     return set;
   } catch (const InputError& error) {
     member.failure = error.what();
+    member.is_wrong_input = true;
     return std::nullopt;
   }
 }
@@ -198,6 +199,19 @@ std::vector<std::string> find_sets(const std::string& folder) {
   return sets;
 }
 
+std::vector<std::string> find_undescribed_folders(const std::string& folder) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory() || fs::exists(entry.path() / "set.toml")) continue;
+    const fs::directory_iterator files(entry.path());
+    const bool has_csv =
+        std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() == ".csv"; });
+    if (has_csv) found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 double calc_recurrence_probability(const std::vector<double>& in_sets, double prior) {
   const double prior_odds = prior / (1.0 - prior);
   double log_odds = std::log(prior_odds);
@@ -229,6 +243,9 @@ std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members
 }
 
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
+  for (const auto* named : {&options.without, &options.only}) {
+    for (const std::string& id : *named) models::find_effect(id);  // throws where unknown
+  }
   Fleet fleet;
   std::vector<std::optional<scenarios::MeasurementSet>> sets;
   for (const std::string& folder : folders) {
@@ -250,6 +267,7 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
       fleet.members[i].failure = failure.what();
     } catch (const InputError& error) {  // what a diagnosis cannot do with: a sensor without noise, say
       fleet.members[i].failure = error.what();
+      fleet.members[i].is_wrong_input = true;
     }
     const std::lock_guard<std::mutex> lock(mutex);
     ++done;
@@ -313,7 +331,7 @@ Json make_fleet_json(const Fleet& fleet) {
                                  {"named_in", one.named_in},
                                  {"probability", one.probability},
                                  {"mean_size", or_null(one.mean_size)},
-                                 {"mean_size_sd", one.mean_size_sd},
+                                 {"mean_size_sd", one.mean_size ? Json(one.mean_size_sd) : Json(nullptr)},
                                  {"unit", one.unit},
                                  {"same_size_p", or_null(one.same_size_p)}});
   }

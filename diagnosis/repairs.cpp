@@ -109,9 +109,12 @@ double calc_squares_without(const Mistake& mistake, const MeasurementSet& set, s
 std::vector<WrongUnit> list_common_wrong_units() {
   constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
   constexpr double kBar_kPa = 100.0;
+  constexpr double kMile_km = 1.609344;  // exact
   return {{"speed_km_h", 3.6, 0.0, "holds m/s"},
           {"speed_km_h", 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
+          {"speed_km_h", kMile_km, 0.0, "holds mph"},
           {"load_N", kStandardGravity_m_s2, 0.0, "holds kgf"},
+          {"load_N", 1e3, 0.0, "holds kN"},
           {"cavity_pressure_kPa", 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},
           {"cavity_pressure_kPa", kBar_kPa, 0.0, "holds bar"},
           {"cavity_pressure_kPa", kPsi_kPa, 0.0, "holds psi"},

@@ -22,12 +22,6 @@ using scenarios::MeasurementSet;
 constexpr double kOdd = 0.3;      // tolerances of plausibility.h from which a mistake is looked for
 constexpr double kOutside = 2.0;  // from which none is needed to doubt the set; effects of unlikely size stay below
 
-bool has_samples(const MeasuredRun& run, const std::string& channel) {
-  if (!run.has(channel)) return false;
-  const std::vector<double>& values = run.columns.at(channel);
-  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
-}
-
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 void require_noise(const MeasurementSet& set) {
@@ -57,7 +51,7 @@ void check_force(const MeasurementSet& set, SetChecks& checks) {
   std::vector<std::size_t> without;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     if (set.runs[r].force_at_standstill) continue;  // its zero is
-    const bool measured = has_samples(set.runs[r], force.name);
+    const bool measured = set.runs[r].has_samples(force.name);
     if (measured && find_compared_rows(set, set.runs[r], force.name).empty()) without.push_back(r);
   }
   if (without.empty()) return;
@@ -177,7 +171,7 @@ void check_stuck(const MeasurementSet& set, const Replays& replays, int threads,
     report_repair(set, *repair, checks);
     return;
   }
-  checks.doubtful = stuck.rows;
+  checks.stuck = stuck.rows;
   checks.warnings.insert(checks.warnings.end(), stuck.warnings.begin(), stuck.warnings.end());
 }
 
@@ -186,11 +180,21 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
   const std::vector<std::string> channels = scenarios::measured_channels(kept.kind);
   for (const MeasuredRun& run : kept.runs) {
     const auto is_left = [&](const std::string& channel) { return !find_compared_rows(kept, run, channel).empty(); };
-    if (checks.doubtful.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
+    if (checks.stuck.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
   }
-  const DoubtfulRows& first = checks.doubtful.front();
+  const DoubtfulRows& first = checks.stuck.front();
   throw InputError({"every measured channel stands still where it should move: stuck sensors, or no measurement at all",
                     kept.runs[first.run].file, 0, first.channel, "", "samples of a sensor that works", ""});
+}
+
+/// Whether a run's loss is next to nothing of the simulated, as in a unit a thousand times as large. Of a vehicle on
+/// the road the force need not be a loss.
+bool lacks_loss(const MeasurementSet& set, const RunMisfit& misfit) {
+  constexpr double kLeast = 0.15;  // Assumed: no effect takes so much of a loss
+  if (set.kind == scenarios::SetKind::kRoad) return false;
+  const std::string force = kind_of(set).force_channel(set).name;
+  return std::any_of(misfit.channels.begin(), misfit.channels.end(),
+                     [&force](const ChannelMisfit& at) { return at.channel == force && at.ratio < kLeast; });
 }
 
 /// Columns and units.
@@ -198,7 +202,7 @@ void check_plausibility(const MeasurementSet& kept, const Replays& replays, int 
   const std::vector<RunMisfit>& misfits = replays.misfits;
   std::vector<std::size_t> odd;
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
-    if (misfits[r].worst() > kOdd) odd.push_back(r);
+    if (misfits[r].worst() > kOdd || lacks_loss(kept, misfits[r])) odd.push_back(r);
   }
   if (odd.empty()) return;
   const std::optional<Repair> repair = find_repair(kept, odd, Mistakes::kAll, threads);
@@ -229,7 +233,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);
   if (checks.is_implausible()) return checks;
-  const MeasurementSet kept = leave_out(set, checks.doubtful);
+  const MeasurementSet kept = leave_out(set, checks.stuck);
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
     const bool simulated = replays.misfits[r].failure.empty();
     if (simulated) replays.misfits[r] = calc_misfit(kept, kept.runs[r], replays.recordings[r]);
@@ -247,7 +251,7 @@ std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
   std::vector<std::string> sentences;
   std::vector<std::size_t> empty;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
-    const auto is_measured = [&](const std::string& channel) { return has_samples(set.runs[r], channel); };
+    const auto is_measured = [&](const std::string& channel) { return set.runs[r].has_samples(channel); };
     if (std::none_of(channels.begin(), channels.end(), is_measured)) empty.push_back(r);
   }
   if (empty.size() == set.runs.size()) {
@@ -262,7 +266,7 @@ std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
     std::vector<std::size_t> without;
     bool anywhere = false;
     for (std::size_t r = 0; r < set.runs.size(); ++r) {
-      if (has_samples(set.runs[r], channel)) {
+      if (set.runs[r].has_samples(channel)) {
         anywhere = true;
       } else if (set.runs[r].has(channel) && std::find(empty.begin(), empty.end(), r) == empty.end()) {
         without.push_back(r);

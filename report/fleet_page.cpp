@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <boost/algorithm/string.hpp>
+
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/summary.h"
 #include "report/blocks.h"
@@ -24,12 +26,12 @@ Block make_members(const Fleet& fleet) {
       row.insert(row.end(), {"failed", "-", "-", "-", "-"});
     } else {
       const diagnosis::Diagnosis& one = *member.diagnosis;
-      const bool has_cause = !one.causes.empty() && one.verdict != diagnosis::Verdict::kNoGap;
-      row.insert(row.end(), {diagnosis::name_of(one.verdict),
+      const bool has_cause = one.verdict == diagnosis::Verdict::kExplained;
+      row.insert(row.end(), {one.doubt.empty() ? diagnosis::name_of(one.verdict) : "in doubt",
                              has_cause ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "-",
                              has_cause ? show_probability(one.causes.front().probability) : "-",
                              fmt::format("{:.2f}", one.gap.recalibrated.before),
-                             fmt::format("{:.2f}", one.gap.recalibrated.after)});
+                             has_cause ? fmt::format("{:.2f}", one.gap.recalibrated.after) : "-"});
     }
     table.rows.push_back(row);
   }
@@ -67,7 +69,8 @@ Block make_gaps(const Fleet& fleet) {
     if (!member.diagnosis.has_value()) continue;
     names.push_back(member.folder.substr(member.folder.rfind('/') + 1));
     before.push_back(rounded(member.diagnosis->gap.recalibrated.before));
-    after.push_back(rounded(member.diagnosis->gap.recalibrated.after));
+    const bool has_cause = member.diagnosis->verdict == diagnosis::Verdict::kExplained;
+    after.push_back(has_cause ? rounded(member.diagnosis->gap.recalibrated.after) : Json(nullptr));
   }
   return {{"type", "bars"},
           {"label", "Gap on held-out runs"},
@@ -80,12 +83,16 @@ Block make_gaps(const Fleet& fleet) {
 Section make_member(const FleetMember& member) {
   Section section{member.folder.substr(member.folder.rfind('/') + 1)};
   if (!member.diagnosis.has_value()) {
-    section.blocks.push_back(make_lead("bad", "Not diagnosed: " + member.failure));
+    std::vector<std::string> lines;
+    boost::algorithm::split(lines, member.failure, boost::algorithm::is_any_of("\n"));
+    section.blocks.push_back(make_lead("bad", "Not diagnosed: " + lines.front()));
+    lines.erase(lines.begin());
+    for (const std::string& line : lines) section.blocks.push_back(make_paragraph(line));
     return section;
   }
   const bool is_bad = member.diagnosis->verdict == diagnosis::Verdict::kUnexplained;
   section.blocks.push_back(make_lead(is_bad ? "bad" : "good", describe_verdict(*member.diagnosis)));
-  for (const std::string& warning : member.diagnosis->warnings) section.blocks.push_back(make_paragraph(warning));
+  if (!member.diagnosis->warnings.empty()) section.blocks.push_back(make_warnings(member.diagnosis->warnings));
   return section;
 }
 
@@ -98,10 +105,9 @@ Page make_fleet_page(const Fleet& fleet) {
       false,      {}};
   page.add({"Sets", "", {make_members(fleet), make_gaps(fleet)}});
   Section back{"What comes back"};
-  back.blocks.push_back(
-      fleet.recurrences.empty()
-          ? make_paragraph("No effect is likelier than not to act in all sets of a machine or a tire.")
-          : make_recurrences(fleet));
+  back.blocks.push_back(fleet.recurrences.empty()
+                            ? make_paragraph("No effect acts with more than 80 % in all sets of a machine or a tire.")
+                            : make_recurrences(fleet));
   page.add(std::move(back));
   for (const FleetMember& member : fleet.members) {
     page.add(make_member(member));

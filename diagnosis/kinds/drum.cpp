@@ -72,6 +72,7 @@ class DrumKind : public KindWithRig {
   /// all else anyway.
   std::vector<WrongUnit> list_wrong_units() const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
+    wrong.push_back({"drum_torque_Nm", 1e3, 0.0, "holds kN m"});
     wrong.push_back({"drum_torque_Nm", 3.6, 0.0, "is too small by a factor of 3.6"});
     wrong.push_back({"drum_torque_Nm", -1.0, 0.0, "has the other sign: positive drives"});
     return wrong;

@@ -65,6 +65,7 @@ class DynoKind : public KindWithRig {
 
   std::vector<WrongUnit> list_wrong_units() const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
+    wrong.push_back({kLoss, 1e3, 0.0, "holds kN"});
     wrong.push_back({kLoss, 3.6, 0.0, "is too small by a factor of 3.6"});
     wrong.push_back({kLoss, -1.0, 0.0, "has the other sign: a loss is positive"});
     return wrong;

@@ -88,6 +88,15 @@ TEST_CASE("what one set of three has does not come back", "[fast]") {
   CHECK(find_recurrences({warms("drum-1", "a40")}).empty());
 }
 
+TEST_CASE("a set whose files are in doubt says nothing of any effect", "[fast]") {
+  FleetMember in_doubt = is_clean("drum-1", "a50");
+  in_doubt.diagnosis->probability["bearing_warmup"] = 0.0;
+  in_doubt.diagnosis->doubt = "speed_km_h may hold m/s";
+  const auto found = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a60"), in_doubt});
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].sets == 2);
+}
+
 TEST_CASE("a set in which an effect cannot act says nothing of it", "[fast]") {
   FleetMember elsewhere = is_clean("drum-1", "a50");
   elsewhere.diagnosis->probability.erase("bearing_warmup");

@@ -98,7 +98,7 @@ TEST_CASE("a set as the simulator makes it is let through without a word", "[fas
   const SetChecks checks = check_set(short_set());
   INFO(join(checks.warnings));
   CHECK(checks.warnings.empty());
-  CHECK(checks.doubtful.empty());
+  CHECK(checks.stuck.empty());
   CHECK_FALSE(checks.is_implausible());
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]"
       const SetChecks checks = check_set(tests::simulate_campaign(campaign, static_cast<std::uint64_t>(i)));
       INFO(join(checks.warnings));
       CHECK_THAT(join(checks.warnings), !Contains("looks as if"));
-      CHECK(checks.doubtful.empty());
+      CHECK(checks.stuck.empty());
       ++sets;
       stopped += checks.is_implausible() ? 1 : 0;
     }
@@ -173,7 +173,10 @@ TEST_CASE("a wrong unit is named", "[fast]") {
                                 {"drum_torque_Nm", 3.6, 0.0, "drum_torque_Nm of all runs (3.6 of the simulated"},
                                 {"drum_torque_Nm", 1.0 / 3.6, 0.0, "drum_torque_Nm is too small by a factor of 3.6"},
                                 {"drum_torque_Nm", -1.0, 0.0, "the other sign"},
+                                {"speed_km_h", 1.0 / 1.609344, 0.0, "speed_km_h holds mph"},
+                                {"drum_torque_Nm", 1e-3, 0.0, "drum_torque_Nm holds kN m"},
                                 {"load_N", 1.0 / 9.80665, 0.0, "load_N holds kgf"},
+                                {"load_N", 1e-3, 0.0, "load_N holds kN"},
                                 {"cavity_pressure_kPa", 1.0, 101.325, "absolute"},
                                 {"cavity_pressure_kPa", 0.01, 0.0, "holds bar"},
                                 {"cavity_pressure_kPa", 1.0 / 6.894757, 0.0, "holds psi"},
@@ -218,16 +221,16 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
       const SetChecks checks = check_set(set);
       INFO(channel << " from " << from << ": " << join(checks.warnings));
       CHECK_FALSE(checks.is_implausible());
-      REQUIRE(checks.doubtful.size() == 1);
-      CHECK(checks.doubtful[0].run == 1);
-      CHECK(checks.doubtful[0].channel == channel);
+      REQUIRE(checks.stuck.size() == 1);
+      CHECK(checks.stuck[0].run == 1);
+      CHECK(checks.stuck[0].channel == channel);
       CHECK_THAT(join(checks.warnings), Contains("stands at") && Contains(set.runs[1].id));
       // what is left is the set without those samples, and it is let through
-      const MeasurementSet kept = diagnosis::leave_out(set, checks.doubtful);
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.doubtful[0].first_row]));
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.doubtful[0].last_row]));
+      const MeasurementSet kept = diagnosis::leave_out(set, checks.stuck);
+      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.stuck[0].first_row]));
+      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.stuck[0].last_row]));
       CHECK(kept.runs[0].columns.at("load_N") == set.runs[0].columns.at("load_N"));
-      CHECK(check_set(kept).doubtful.empty());
+      CHECK(check_set(kept).stuck.empty());
     }
   }
 }
@@ -253,7 +256,7 @@ TEST_CASE("a channel that holds still because nothing moves is not doubtful", "[
   }
   const SetChecks checks = check_set(set);
   INFO(join(checks.warnings));
-  CHECK(checks.doubtful.empty());
+  CHECK(checks.stuck.empty());
 }
 
 TEST_CASE("nothing measured is an error; a channel without samples a warning", "[fast]") {
