@@ -12,6 +12,7 @@ using diagnosis::Verdict;
 using Cases = std::vector<Case>;
 using Is = std::function<bool(const Case&)>;
 
+constexpr std::size_t kTop = 3;  // places of "top-3"
 constexpr double kMedian = 0.5;
 constexpr double kTenth = 0.1;
 
@@ -53,6 +54,11 @@ std::optional<double> quantile(const std::vector<double>& values, double share) 
   return calc_quantile(values, share);
 }
 
+bool is_detectable(const Case& one, const ScoreOptions& options) {
+  if (one.d_prime.has_value()) return *one.d_prime >= options.detectable_d_prime;
+  return one.truth.signal_floors >= options.detectable_floors;
+}
+
 void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
   const Cases singles = only(cases, [](const Case& one) { return one.is_single(); });
   const Cases detectable = only(singles, [&](const Case& one) { return is_detectable(one, options); });
@@ -60,6 +66,7 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   figures.push_back(make_share(
       "detection", "detection, detectable singles", detectable,
       [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); }, 0.99));
+  figures.back().ceiling = find_mean_chance(detectable, find_chance_of_detection);
   figures.push_back(make_share(
       "false_alarms", "false alarms, no effect", only(cases, [](const Case& one) { return one.is_clean(); }),
       [](const Case& one) { return !one.is(Verdict::kNoGap); }, 0.01, false));
@@ -68,15 +75,20 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
       "top1_set_aware", "top-1 set-aware, detectable", detectable, [](const Case& one) { return one.is_named(); },
       0.97));
   figures.back().floor = 0.92;
+  figures.back().ceiling = find_mean_chance(detectable, find_chance_of_small_set);
   figures.push_back(make_share(
       "top1_exact", "top-1 exact, identifiable", identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
   figures.push_back(make_share(
       "top3", "top-3, all singles", singles,
       [](const Case& one) { return one.answer.failure.empty() && one.rank_of_truth() < kTop; }, 0.98));
   figures.back().floor = 0.95;
+  figures.back().ceiling =
+      find_mean_chance(singles, [](const Case& one) { return find_chance_among_first(one, kTop); });
+  const Cases pairs = only(cases, [](const Case& one) { return one.is_pair(); });
   figures.push_back(make_share(
-      "pairs", "pairs, both named", only(cases, [](const Case& one) { return one.is_pair(); }),
-      [](const Case& one) { return one.is_named(); }, 0.90));
+      "pairs", "pairs, both named", pairs, [](const Case& one) { return one.is_named(); }, 0.90));
+  figures.back().ceiling =
+      find_mean_chance(pairs, [&](const Case& one) { return find_chance_of_pair(one, options.detectable_d_prime); });
   // Only a computed ceiling tells that the second effect can be seen beside the first.
   figures.push_back(make_share(
       "pairs_identifiable", "  of those that can be told",
@@ -221,11 +233,6 @@ void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
 
 }  // namespace
 
-bool is_detectable(const Case& one, const ScoreOptions& options) {
-  if (one.d_prime.has_value()) return *one.d_prime >= options.detectable_d_prime;
-  return one.truth.signal_floors >= options.detectable_floors;
-}
-
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
   std::vector<Figure> figures;
   add_names(cases, options, figures);
@@ -233,7 +240,6 @@ std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOpti
   add_sizes(cases, figures);
   add_shrinkage(cases, figures);
   add_the_rest(cases, figures);
-  add_ceilings(cases, options, figures);
   return figures;
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 using diagnosis::Verdict;
 
-/// What an ideal observer makes of the sets: rollrig-blind-ceiling/1, `sets` with `d_prime` and `identifiable`.
+/// What an ideal observer makes of the sets: rollrig-blind-ceiling/1, `sets` with `d_prime`, `identifiable`,
+/// `log_bayes_factors`.
 void read_ceiling(const std::string& bank, const std::string& file, std::vector<Case>& cases) {
   if (file.empty()) return;
   try {

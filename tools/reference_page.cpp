@@ -15,7 +15,9 @@ namespace {
 
 constexpr const char* kIntroduction =
     "# Reference\n\n"
-    "Every scenario, setting, result, effect and file key. Written by `cmake --build build/release --target "
+    "Every scenario, setting, result and effect, and the keys of tire, rig, vehicle and sensor files; those of other "
+    "files "
+    "are in\n[formats.md](formats.md). Written by `cmake --build build/release --target "
     "docs_pages`\nfrom the declarations in the code; a test holds it to them.\n";
 
 /// A cell of a Markdown table.
@@ -112,14 +114,16 @@ std::string describe_tire_file() {
 std::string describe_rig_file() {
   std::string text =
       "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `flat`), and the "
-      "tables below. A dyno has `[roller]` in place of\n`[drum]`; `[skim]` and `[carriage]` belong to a "
-      "drum, `[parasitic]` and `[drive]` to a drum or a dyno.\n";
+      "tables below. A dyno has `[roller]` in place of\n`[drum]`, `[tie_down]`, and `rollers_under` (`all_wheels`, the "
+      "default, or `driven_wheels`: the other axle stands still); `[skim]` and `[carriage]` belong to a\ndrum, "
+      "`[parasitic]` and `[drive]` to a drum or a dyno.\n";
   text += describe_table<rigs::DrumParameters>("drum");
   text += describe_table<models::ParasiticParameters<double>>("parasitic");
   text += describe_table<rigs::RigEnvironment>("environment");
   text += describe_table<rigs::SkimParameters>("skim");
   text += describe_table<rigs::CarriageParameters>("carriage");
   text += describe_table<rigs::DriveParameters>("drive");
+  text += describe_table<rigs::TieDownParameters>("tie_down");
   return text;
 }
 

@@ -50,6 +50,8 @@ TEST_CASE("a ceiling stands where all sets of a figure have what it needs", "[fa
   CHECK(*ceiling_of({told, faint}, "top1_set_aware") == Approx(1.0));  // what cannot be detected is not asked for
   CHECK(*ceiling_of({told, faint}, "top3") == Approx(0.5).margin(0.01));
   CHECK(*ceiling_of({told, pair}, "pairs") == 0.0);
+  CHECK(*ceiling_of({pair, seen({"windage", "rim_heat"}, 20.0, {30.0, 9.0})}, "pairs") == 0.5);
+  CHECK(*ceiling_of({seen({"windage"}, 5.0, {9.0})}, "detection") == Approx(0.9963).margin(1e-4));
   CHECK(*ceiling_of({told, alike}, "detection") == Approx(1.0));
   Case detected = told;
   detected.log_bayes_factors.clear();  // of rollrig_blind ceiling --detection

@@ -136,7 +136,12 @@ TEST_CASE("a ceiling of another bank is refused, one of this bank read", "[fast]
   proof::ScoreOrder order = make_order(made);
   order.ceiling = made.bank + "/ceiling.json";
   const auto write_ceiling = [&](const std::string& sha256) {
-    const Json json = {{"truth_sha256", sha256}, {"sets", {{"0002", {{"d_prime", 7.5}, {"identifiable", true}}}}}};
+    const Json json = {{"truth_sha256", sha256},
+                       {"sets",
+                        {{"0002",
+                          {{"d_prime", 7.5},
+                           {"identifiable", true},
+                           {"log_bayes_factors", {{"windage", 20.0}, {"slow_leak", 9.5}}}}}}}};
     write_file(order.ceiling, json.dump());
   };
   write_ceiling(std::string(64, '0'));
@@ -144,5 +149,7 @@ TEST_CASE("a ceiling of another bank is refused, one of this bank read", "[fast]
   write_ceiling(made.seal);
   const std::vector<proof::Case> cases = proof::read_cases(order);
   CHECK(cases[1].d_prime == 7.5);
+  CHECK(cases[1].log_bayes_factors == std::vector<double>{20.0, 9.5});
   CHECK_FALSE(cases[0].d_prime.has_value());
+  CHECK(cases[0].log_bayes_factors.empty());
 }

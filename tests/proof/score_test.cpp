@@ -172,7 +172,13 @@ TEST_CASE("a diagnosis that failed is missed, and never right", "[fast]") {
 }
 
 TEST_CASE("the report fits the terminal and says each missed set", "[fast]") {
-  const proof::Score score = proof::score_cases(make_bank(), {});
+  std::vector<Case> bank = make_bank();
+  for (Case& one : bank) {  // with all that an ideal observer can be asked
+    one.d_prime = 20.0;
+    one.identifiable = true;
+    one.log_bayes_factors = {40.0, 50.0};
+  }
+  const proof::Score score = proof::score_cases(bank, {});
   const std::string text = proof::format_score(score);
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) CHECK(line.size() <= 80);
@@ -181,7 +187,11 @@ TEST_CASE("the report fits the terminal and says each missed set", "[fast]") {
     CHECK_THAT(text, Catch::Contains(one.truth.set + " "));
     CHECK_THAT(page, Catch::Contains("| " + one.truth.set + " "));
   }
+  CHECK_THAT(text, Catch::Contains("An ideal observer would reach: detection, detectable singles 100"));
+  CHECK_THAT(page, Catch::Contains("| ideal observer |"));
   const Json json = proof::make_score_json(score);
+  CHECK(json.at("figures").at(0).at("ceiling") == Approx(1.0));
+  CHECK(json.at("figures").at(1).at("ceiling").is_null());  // false alarms: as many as one likes
   CHECK(json.at("missed").size() == score.missed.size());
   CHECK(json.at("confusion").at("rim_heat").at("windage") == 1);
   CHECK(json.at("by_effect").at("slow_leak").at("sets") == 3);
