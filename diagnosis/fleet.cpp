@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <sstream>
 
 #include "diagnosis/diagnosis_json.h"
 #include "sim/core/error.h"
@@ -139,14 +140,30 @@ std::optional<scenarios::MeasurementSet> read_member(FleetMember& member) {
 
 std::string name_of(const FleetMember& member) { return fs::path(member.folder).filename().string(); }
 
+/// A failure below the name of its set, within 80 columns but for places, which stay whole.
+std::string format_failure(const FleetMember& member) {
+  constexpr std::size_t kLabelColumns = 11;  // two spaces, the label, a space
+  constexpr std::size_t kColumns = 80;
+  std::istringstream lines(member.failure);
+  std::string line;
+  std::getline(lines, line);
+  std::string text = wrap(fmt::format("{}: {}", name_of(member), line), 2);
+  while (std::getline(lines, line)) {
+    const bool is_place = line.rfind("  where", 0) == 0 || line.rfind("  value", 0) == 0;
+    const bool fits = is_place || count_characters(line) <= kColumns;
+    text += fits
+                ? line + "\n"
+                : line.substr(0, kLabelColumns) + wrap(line.substr(kLabelColumns), kLabelColumns).substr(kLabelColumns);
+  }
+  return text;
+}
+
 /// What failed, with its reason; which files are in doubt; how many warnings there are of other sets.
 std::string format_troubles(const Fleet& fleet) {
   std::string failed, doubtful, warned;
   for (const FleetMember& member : fleet.members) {
     if (!member.diagnosis) {
-      const std::size_t sentence = member.failure.find('\n');
-      failed += wrap(fmt::format("{}: {}", name_of(member), member.failure.substr(0, sentence)), 2);
-      if (sentence != std::string::npos) failed += member.failure.substr(sentence + 1) + "\n";
+      failed += format_failure(member);
       continue;
     }
     const std::size_t others = member.diagnosis->warnings.size() - (member.diagnosis->doubt.empty() ? 0 : 1);

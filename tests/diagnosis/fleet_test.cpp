@@ -124,7 +124,9 @@ TEST_CASE("a fleet is a line a set in 80 columns, failures with their reason", "
   fleet.members = {warms("drum-1", "a40"), is_clean("drum-1", "a-tire-with-a-name-that-does-not-fit-into-its-column")};
   fleet.members.push_back({"sets/broken", "drum-1", "a60", std::nullopt, "the baseline cannot be fitted to the set"});
   fleet.members.push_back(
-      {"sets/typo", "", "", std::nullopt, "unknown column 'sped_km_h'\n  where    sets/typo/a.csv"});
+      {"sets/typo", "", "", std::nullopt,
+       "unknown column 'sped_km_h'\n  where    sets/typo/a.csv\n"
+       "  allowed  time_s, speed_km_h, load_N, ambient_degC, drum_torque_Nm, liner_temperature_degC"});
   fleet.members.push_back(is_clean("drum-1", "exchanged"));
   fleet.members.back().diagnosis->doubt = "the liner temperature and the pressure may be exchanged";
   fleet.members.back().diagnosis->warnings = {fleet.members.back().diagnosis->doubt, "few samples"};
