@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -12,6 +13,8 @@
 #include "diagnosis/repairs.h"
 #include "diagnosis/tire_checks.h"
 #include "identification/sample_selection.h"
+#include "identification/spikes.h"
+#include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -59,6 +62,55 @@ void check_force(const MeasurementSet& set, SetChecks& checks) {
       "no {} of {} is compared: all of it is slower than {:.0f} km/h or within {:.0f} s of a change of load or "
       "acceleration",
       force.word, name_runs(set, without), identification::kTrustedSpeed_m_s * 3.6, identification::kSettling_s));
+}
+
+/// Rows of the number that a logger writes where it has no sample: that of a spike which no other sample of steady rows
+/// comes near to, wherever it stands.
+void add_placeholders(const std::vector<double>& values, const std::vector<bool>& is_steady,
+                      std::vector<std::size_t>& spikes) {
+  const std::set<std::size_t> alone(spikes.begin(), spikes.end());
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isnan(values[row]) || !is_steady[row] || alone.count(row) > 0) continue;
+    low = std::min(low, values[row]);
+    high = std::max(high, values[row]);
+  }
+  std::set<double> placeholders;
+  for (const std::size_t row : spikes) {
+    if (values[row] < low || values[row] > high) placeholders.insert(values[row]);
+  }
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (std::isnan(values[row]) || alone.count(row) > 0) continue;
+    if (placeholders.count(values[row]) > 0) spikes.push_back(row);
+  }
+  std::sort(spikes.begin(), spikes.end());
+}
+
+/// Samples that stand alone are left out: spikes, and what a logger writes where it has no sample.
+void check_spikes(const MeasurementSet& set, SetChecks& checks) {
+  constexpr double kFar = 20.0;  // Assumed: standard deviations; what noise and physics never do
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    const MeasuredRun& run = set.runs[r];
+    const std::vector<bool> steady = identification::find_steady_rows(run.columns, run.time_s.size());
+    const std::vector<bool> all(run.time_s.size(), true);
+    for (const std::string& channel : scenarios::measured_channels(set.kind)) {
+      const auto sensor = set.sensors.find(channel);
+      if (!run.has(channel) || sensor == set.sensors.end()) continue;
+      const std::vector<double>& values = run.columns.at(channel);
+      const std::vector<bool>& judged = identification::carries_inertia(channel) ? steady : all;
+      std::vector<std::size_t> rows = identification::find_spikes(
+          values, kFar, std::max(sensor->second.noise_sd, sensor->second.resolution), judged);
+      if (rows.empty()) continue;
+      add_placeholders(values, judged, rows);
+      for (const std::size_t row : rows) checks.stuck.push_back({r, channel, row, row});
+      checks.warnings.push_back(fmt::format(
+          "{} of run {}: {} alone, far from those beside {} (the first in row {}: {:.6g}): spikes, or what a logger "
+          "writes for no sample; left out",
+          channel, run.id, rows.size() == 1 ? "a sample stands" : fmt::format("{} samples stand", rows.size()),
+          rows.size() == 1 ? "it" : "them", rows.front() + 1, unit_of_key(channel).from_si(values[rows.front()])));
+    }
+  }
 }
 
 /// A run of next to no samples shows no gap, whatever acts.
@@ -171,7 +223,7 @@ void check_stuck(const MeasurementSet& set, const Replays& replays, int threads,
     report_repair(set, *repair, checks);
     return;
   }
-  checks.stuck = stuck.rows;
+  checks.stuck.insert(checks.stuck.end(), stuck.rows.begin(), stuck.rows.end());
   checks.warnings.insert(checks.warnings.end(), stuck.warnings.begin(), stuck.warnings.end());
 }
 
@@ -230,6 +282,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   check_force(set, checks);
   check_amount(set, checks);
   check_runs(set, checks);
+  check_spikes(set, checks);
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);
   if (checks.is_implausible()) return checks;

@@ -235,6 +235,42 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
   }
 }
 
+TEST_CASE("samples that stand alone are left out, those beside them stay", "[fast]") {
+  const MeasurementSet clean = short_set();
+  REQUIRE(check_set(clean).stuck.empty());
+  for (const char* channel : kChannels) {
+    MeasurementSet set = clean;
+    std::vector<double>& values = set.runs[1].columns.at(channel);
+    std::vector<std::size_t> rows;
+    for (std::size_t row = 250; row + 20 < values.size() && rows.size() < 5; row += 37) {
+      if (std::isnan(values[row])) continue;
+      rows.push_back(row);
+      values[row] = -9999.0;
+    }
+    const SetChecks checks = check_set(set);
+    INFO(channel << ": " << join(checks.warnings));
+    CHECK_FALSE(checks.is_implausible());
+    CHECK_THAT(join(checks.warnings), Contains("5 samples stand alone") && Contains(set.runs[1].id));
+    REQUIRE(checks.stuck.size() == rows.size());
+    const MeasurementSet kept = diagnosis::leave_out(set, checks.stuck);
+    for (const std::size_t row : rows) {
+      CHECK(std::isnan(kept.runs[1].columns.at(channel)[row]));
+      CHECK(kept.runs[1].columns.at(channel)[row + 1] == clean.runs[1].columns.at(channel)[row + 1]);
+    }
+  }
+}
+
+TEST_CASE("the number of a spike is a placeholder wherever it stands, if nothing comes near to it", "[fast]") {
+  MeasurementSet set = short_set();
+  std::vector<double>& torque = set.runs[1].columns.at("drum_torque_Nm");
+  for (std::size_t row = 5; row < torque.size(); row += 31) torque[row] = -9999.0;  // on ramps and load changes as well
+  const SetChecks checks = check_set(set);
+  const MeasurementSet kept = diagnosis::leave_out(set, checks.stuck);
+  const std::vector<double>& left = kept.runs[1].columns.at("drum_torque_Nm");
+  CHECK(std::count(left.begin(), left.end(), -9999.0) == 0);
+  CHECK(checks.stuck.size() == static_cast<std::size_t>(std::count(torque.begin(), torque.end(), -9999.0)));
+}
+
 TEST_CASE("where every sensor is stuck nothing is left", "[fast]") {
   MeasurementSet set = short_set();
   for (MeasuredRun& run : set.runs) {

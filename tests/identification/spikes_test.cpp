@@ -1,4 +1,4 @@
-#include "import/cleaning.h"
+#include "identification/spikes.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,7 +8,7 @@
 #include "sim/core/random.h"
 
 using namespace rollrig;
-using logs::find_spikes;
+using identification::find_spikes;
 
 namespace {
 
