@@ -112,8 +112,9 @@ int run_tasks(const proof::Ranks& ranks, const RunOptions& options, const std::s
         fmt::format("{} of {} sets answered in {}/: {} now, {} before", sums[0] + sums[1], all, out, sums[1], sums[0]);
     if (sums[2] > 0) text += fmt::format("; {} not diagnosed", sums[2]);
     if (order.ranks > 1) text += fmt::format("; {} processes", order.ranks);
-    if (is_stopped) text = "stopped: " + text + "; the same command goes on from here";
+    if (is_stopped) text = "stopped: " + text;
     (is_stopped ? std::cerr : std::cout) << wrap(text, 2).substr(2);
+    if (is_stopped) std::cerr << "the same command goes on from here\n";
   }
   return is_stopped ? kInterrupted : kDone;
 }

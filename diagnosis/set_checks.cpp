@@ -64,6 +64,23 @@ void check_force(const MeasurementSet& set, SetChecks& checks) {
       force.word, name_runs(set, without), identification::kTrustedSpeed_m_s * 3.6, identification::kSettling_s));
 }
 
+/// Between two rows inputs run straight, so that a step of speed or load may be off by half their distance: a clock
+/// that is off by as little cannot be told from that.
+void check_spacing(const MeasurementSet& set, SetChecks& checks) {
+  constexpr double kWide_s = 1.9;  // Assumed: formats.md's examples have rows a second apart
+  double widest_s = 0.0;
+  for (const MeasuredRun& run : set.runs) {
+    const double mean_s = (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.time_s.size() - 1);
+    widest_s = std::max(widest_s, mean_s);
+  }
+  if (widest_s < kWide_s) return;
+  checks.warnings.push_back(
+      fmt::format("rows are up to {:.2g} s apart, and inputs are taken as straight between them: a clock_shift of up "
+                  "to {:.2g} s may "
+                  "be of that",
+                  widest_s, 0.5 * widest_s));
+}
+
 /// Rows of the number that a logger writes where it has no sample: that of a spike which no other sample of steady rows
 /// comes near to, wherever it stands.
 void add_placeholders(const std::vector<double>& values, const std::vector<bool>& is_steady,
@@ -282,6 +299,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   check_force(set, checks);
   check_amount(set, checks);
   check_runs(set, checks);
+  check_spacing(set, checks);
   check_spikes(set, checks);
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);

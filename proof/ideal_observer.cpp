@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
-#include <cmath>
 
 #include "diagnosis/thresholds.h"
 
@@ -12,21 +11,6 @@ namespace {
 double calc_normal_share_below(double deviations) { return cdf(boost::math::normal(), deviations); }
 
 }  // namespace
-
-double calc_chance_among_first(std::size_t places, const std::vector<double>& log_bayes_factors) {
-  std::vector<double> ahead{1.0};  // chance of so many others ahead
-  for (const double nats : log_bayes_factors) {
-    const double chance = calc_normal_share_below(-std::sqrt(0.5 * std::max(0.0, nats)));
-    ahead.push_back(0.0);
-    for (std::size_t n = ahead.size() - 1; n > 0; --n) {
-      ahead[n] = (1.0 - chance) * ahead[n] + chance * ahead[n - 1];
-    }
-    ahead[0] *= 1.0 - chance;
-  }
-  double sum = 0.0;
-  for (std::size_t n = 0; n < std::min(places, ahead.size()); ++n) sum += ahead[n];
-  return sum;
-}
 
 std::optional<double> find_chance_of_detection(const Case& one) {
   constexpr double kOneInHundred = 2.326;  // quantile of the normal distribution
@@ -39,11 +23,6 @@ std::optional<double> find_chance_of_small_set(const Case& one) {
   const auto twins = std::count_if(one.log_bayes_factors.begin(), one.log_bayes_factors.end(),
                                    [](double nats) { return nats < diagnosis::thresholds::kToldApart_nats; });
   return static_cast<std::size_t>(twins) < kLargestNamedSet ? 1.0 : 0.0;
-}
-
-std::optional<double> find_chance_among_first(const Case& one, std::size_t places) {
-  if (one.log_bayes_factors.empty()) return std::nullopt;
-  return calc_chance_among_first(places, one.log_bayes_factors);
 }
 
 std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_prime) {

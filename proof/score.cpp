@@ -34,6 +34,10 @@ void read_ceiling(const std::string& bank, const std::string& file, std::vector<
       const auto at = json.at("sets").find(one.truth.set);
       if (at == json.at("sets").end()) continue;
       if (at->contains("d_prime")) one.d_prime = at->at("d_prime").get<double>();
+      if (one.d_prime.has_value() && !(*one.d_prime >= 0.0)) {
+        throw InputError({"a d' below zero", file, 0, one.truth.set + " d_prime", fmt::format("{}", *one.d_prime),
+                          "0 or more, as rollrig_blind ceiling writes it", ""});
+      }
       const Json nats_by_effect = at->value("log_bayes_factors", Json::object());
       for (const Json& nats : nats_by_effect) one.log_bayes_factors.push_back(nats.get<double>());
       if (at->contains("identifiable")) one.identifiable = at->at("identifiable").get<bool>();
@@ -95,6 +99,17 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
     programs.insert(one.answer.settings.program_sha256);
   }
   score.reliability = find_reliability(stated);
+  const auto lacks_d_prime = [](const Case& one) {
+    return (one.is_single() || one.is_pair()) && !one.d_prime.has_value();
+  };
+  const auto lacking = std::count_if(cases.begin(), cases.end(), lacks_d_prime);
+  const bool any_known =
+      std::any_of(cases.begin(), cases.end(), [](const Case& one) { return one.d_prime.has_value(); });
+  if (lacking > 0 && any_known) {
+    score.warnings.push_back(
+        fmt::format("the ceiling lacks {} of the sets: of these a signal of {:.2g} noise floors counts as detectable",
+                    lacking, options.detectable_floors));
+  }
   if (programs.size() > 1) {
     score.warnings.push_back(fmt::format("the answers are of {} different programs", programs.size()));
   }

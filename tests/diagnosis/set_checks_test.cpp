@@ -235,6 +235,21 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
   }
 }
 
+TEST_CASE("rows far apart are warned of, with the shift that they may make", "[fast]") {
+  MeasurementSet set = short_set();
+  CHECK_THAT(join(check_set(set).warnings), !Contains("apart"));
+  for (MeasuredRun& run : set.runs) {
+    const auto thin = [](std::vector<double>& values) {
+      std::vector<double> kept;
+      for (std::size_t row = 0; row < values.size(); row += 4) kept.push_back(values[row]);
+      values = kept;
+    };
+    thin(run.time_s);
+    for (auto& [name, values] : run.columns) thin(values);
+  }
+  CHECK_THAT(join(check_set(set).warnings), Contains("s apart") && Contains("clock_shift"));
+}
+
 TEST_CASE("samples that stand alone are left out, those beside them stay", "[fast]") {
   const MeasurementSet clean = short_set();
   REQUIRE(check_set(clean).stuck.empty());
