@@ -151,8 +151,12 @@ Page make_score_page(const Score& score, const std::string& bank) {
     if (!figure.meets(figure.target)) ++missed;
   }
   Section result{"Result"};
-  result.blocks.push_back(
-      make_lead(missed == 0 ? "good" : "doubt", fmt::format("{} of {} targets are met.", judged - missed, judged)));
+  constexpr std::size_t kFew = 100;  // Assumed: one case of fewer moves most shares by more than a target leaves
+  const bool is_few = score.sets < kFew;
+  const std::string few =
+      is_few ? fmt::format(" {} prove nothing: see the intervals.", format_count(score.sets, "set")) : "";
+  result.blocks.push_back(make_lead(missed == 0 && !is_few ? "good" : "doubt",
+                                    fmt::format("{} of {} targets are met.{}", judged - missed, judged, few)));
   if (!score.warnings.empty()) result.blocks.push_back(make_warnings(score.warnings));
   result.blocks.push_back(make_figures(score));
   result.blocks.push_back(make_shares(score));

@@ -44,7 +44,8 @@ function makeOption(block, width) {
     title: axisTitle(`${block.label}, ${block.unit}`, block.series.length > 1),
     grid: { left: 8, right: 8, top: block.series.length > 1 ? 58 : 34, bottom: 4, containLabel: true },
     xAxis: { ...axis, type: 'category', data: block.categories, splitLine: { show: false }, axisTick: { show: false },
-      axisLabel: { ...axis.axisLabel, interval: 0, hideOverlap: false, rotate: crowded ? 50 : 0, width: crowded ? 90 : width / block.categories.length - 8, overflow: crowded ? 'truncate' : 'break', lineHeight: 14 } },
+      axisLabel: { ...axis.axisLabel, formatter: (name) => name.replaceAll('/', '\u2215'), interval: 0, // no break inside of km/h
+        hideOverlap: false, rotate: crowded ? 50 : 0, width: crowded ? 90 : width / block.categories.length - 8, overflow: crowded ? 'truncate' : 'break', lineHeight: 14 } },
     yAxis: { ...axis, type: 'value',       axisLine: { show: false }, axisTick: { show: false } },
     series: [...bars, ...block.series.map((s, k) => (s.low ? whiskers(s, k, block.series.length) : null)).filter(Boolean)],
   };

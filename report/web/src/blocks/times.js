@@ -57,7 +57,7 @@ function phaseStrip(phases, unit) {
         type: 'group',
         children: [
           { type: 'rect', shape: box, style: { fill: colour(i % 2 ? 'phase-b' : 'phase-a'), stroke: colour('axis'), lineWidth: 0.5 } },
-          box.width > 26 && {
+          box.width - 8 > Math.min(6.2 * name.length, 44) && { // a letter or two say nothing
             type: 'text',
             style: { x: box.x + 4, y: area.y + area.height / 2, text: name, width: box.width - 8, overflow: 'truncate',
               ellipsis: '\u2026', verticalAlign: 'middle', fontSize: 11, fill: colour('ink') },
