@@ -60,9 +60,9 @@ double calc_recurrence_probability(const std::vector<double>& in_sets, double pr
 
 /// Which effects come back with the machine or with the tire. An effect is listed where it is named in one set at
 /// least and acts with more than 80 % in all that share something, two sets at least. A set whose files are in doubt
-/// says nothing of any effect. Source  Assumed: q = 0.02, about what a single effect has in a race of the whole
-/// catalogue; 80 %, since what is named
-///         once and not excluded elsewhere says little
+/// says nothing of any effect.
+/// Source  Assumed: q = 0.02, about what a single effect has in a race of the whole catalogue; 80 %, since what is
+///         named once and not excluded elsewhere says little
 std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members);
 
 /// Diagnoses every set of a folder, several at a time. A set that cannot be read and a diagnosis that fails are noted,

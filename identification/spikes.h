@@ -19,8 +19,9 @@ namespace rollrig::identification {
 std::vector<std::size_t> find_spikes(const std::vector<double>& values, double threshold, double floor,
                                      const std::vector<bool>& is_judged);
 
-/// Rows where speed (within 1 km/h), load and longitudinal force (within 5 % of their largest) stay as they are three
-/// rows to each side. A column that is not there says nothing. Source  Assumed: all limits
+/// Rows where speed (within 1 km/h), load and longitudinal force (within 5 % of their largest) stay as they are
+/// three rows to each side. A column that is not there says nothing.
+/// Source  Assumed: all limits
 std::vector<bool> find_steady_rows(const std::map<std::string, std::vector<double>>& columns, std::size_t rows);
 
 /// Whether a column holds what accelerating takes, so that it may jump where the speed does.
