@@ -148,7 +148,7 @@ struct SectionColumn {
   const char* heading;
   const char* key;  // of a section's result
   int digits;
-  bool is_summed;  // over the whole test
+  std::optional<Json> total = {};  // of the whole test; none: an empty field
 };
 
 /// A row a section, the whole test last.
@@ -158,7 +158,7 @@ ResultTable make_section_table(const std::string& title, const std::vector<Secti
   std::vector<std::string> totals{"all sections"};
   for (const SectionColumn& column : columns) {
     table.columns.push_back(column.heading);
-    totals.push_back(column.is_summed ? show(add_up(sections, column.key), column.digits) : "");
+    totals.push_back(column.total.has_value() ? show(*column.total, column.digits) : "");
   }
   for (const Json& section : sections) {
     std::vector<std::string> row{shorten(section["name"].get<std::string>())};
@@ -171,30 +171,27 @@ ResultTable make_section_table(const std::string& title, const std::vector<Secti
 
 /// Loss of one tire by the model and by the ISO coefficient.
 ResultTable make_tire_table(const Json& sections) {
-  ResultTable table =
-      make_section_table("Rolling resistance of one tire: by the model, and by its ISO coefficient alone",
-                         {{"km", "distance_km", 2, true},
-                          {"model Wh", "rr_energy_Wh", 1, true},
-                          {"ISO Wh", "rr_energy_iso_Wh", 1, true},
-                          {"difference %", "difference_percent", 1, false},
-                          {"mean RRc N/kN", "mean_rrc_N_per_kN", 2, false}},
-                         sections);
   const Json model_Wh = add_up(sections, "rr_energy_Wh");
   const Json iso_Wh = add_up(sections, "rr_energy_iso_Wh");
   const bool has_iso = iso_Wh.is_number() && iso_Wh.get<double>() > 0.0;
   const Json difference = has_iso ? Json(100.0 * (model_Wh.get<double>() / iso_Wh.get<double>() - 1.0)) : Json();
-  table.rows.back()[4] = show(difference, 1);
-  return table;
+  return make_section_table("Rolling resistance of one tire: by the model, and by its ISO coefficient alone",
+                            {{"km", "distance_km", 2, add_up(sections, "distance_km")},
+                             {"model Wh", "rr_energy_Wh", 1, model_Wh},
+                             {"ISO Wh", "rr_energy_iso_Wh", 1, iso_Wh},
+                             {"difference %", "difference_percent", 1, difference},
+                             {"mean RRc N/kN", "mean_rrc_N_per_kN", 2}},
+                            sections);
 }
 
 /// Temperatures of that tire and energies of the vehicle.
 ResultTable make_vehicle_table(const Json& sections) {
   return make_section_table("Liner of that tire; energy of the whole vehicle, at its hubs and its battery",
-                            {{"start degC", "temperature_start_degC", 1, false},
-                             {"end degC", "temperature_end_degC", 1, false},
-                             {"hubs Wh", "wheel_energy_Wh", 0, true},
-                             {"recuperated Wh", "recuperated_Wh", 0, true},
-                             {"battery Wh", "battery_energy_Wh", 0, true}},
+                            {{"start degC", "temperature_start_degC", 1},
+                             {"end degC", "temperature_end_degC", 1},
+                             {"hubs Wh", "wheel_energy_Wh", 0, add_up(sections, "wheel_energy_Wh")},
+                             {"recuperated Wh", "recuperated_Wh", 0, add_up(sections, "recuperated_Wh")},
+                             {"battery Wh", "battery_energy_Wh", 0, add_up(sections, "battery_energy_Wh")}},
                             sections);
 }
 

@@ -13,6 +13,7 @@
 
 namespace fs = std::filesystem;
 using namespace rollrig;
+using tests::flatten;
 using tests::run_program;
 using tests::TemporaryFolder;
 
@@ -29,14 +30,6 @@ void replace_all(std::string& text, const std::string& what, const std::string& 
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
     text.replace(at, what.size(), with);
   }
-}
-
-/// Words with one space between, wherever lines end.
-std::string flatten(const std::string& text) {
-  std::istringstream in(text);
-  std::string flat;
-  for (std::string word; in >> word;) flat += (flat.empty() ? "" : " ") + word;
-  return flat;
 }
 
 BadInput read_case(const fs::path& file) {

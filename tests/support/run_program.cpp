@@ -1,5 +1,7 @@
 #include "tests/support/run_program.h"
 
+#include <sstream>
+
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -25,6 +27,13 @@ ProgramResult run_program(const std::string& arguments, const std::string& folde
 
 ProgramResult run_blind(const std::string& arguments, const std::string& folder, const std::string& prefix) {
   return run_other(ROLLRIG_BLIND_PROGRAM, arguments, folder, prefix);
+}
+
+std::string flatten(const std::string& text) {
+  std::istringstream in(text);
+  std::string flat;
+  for (std::string word; in >> word;) flat += (flat.empty() ? "" : " ") + word;
+  return flat;
 }
 
 }  // namespace rollrig::tests

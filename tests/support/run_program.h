@@ -23,4 +23,7 @@ ProgramResult run_other(const char* program, const std::string& arguments, const
 ProgramResult run_blind(const std::string& arguments, const std::string& folder = "/tmp",
                         const std::string& prefix = "");
 
+/// Words with one space between, wherever lines end.
+std::string flatten(const std::string& text);
+
 }  // namespace rollrig::tests
