@@ -83,7 +83,7 @@ int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
   for (const diagnosis::FleetMember& member : fleet.members) {
     if (member.failure.empty()) continue;
     if (!is_table_shown) std::cerr << "error: " << member.folder << ": " << member.failure << '\n';
-    if (status != kInputError) status = member.is_wrong_input ? kInputError : kRunFailed;
+    if (status != kInputError) status = member.problem ? kInputError : kRunFailed;
   }
   return status;
 }

@@ -83,7 +83,7 @@ identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const 
 }
 
 int fit_tire_command(const Options& options) {
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
+  scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
@@ -93,8 +93,14 @@ int fit_tire_command(const Options& options) {
   if (options.free_H) fit_options.free_H = true;
   ProgressLine progress("fit tire", options.quiet);
   fit_options.progress = [&progress](int iteration) { progress.show(fmt::format("iteration {}", iteration)); };
-  const std::string suspicion = diagnosis::check_set(set, options.threads).suspicion;
+  const diagnosis::SetChecks checks = diagnosis::check_set(set, options.threads);
+  const std::string& suspicion = checks.suspicion;
+  set = diagnosis::leave_out(std::move(set), checks.left_out);
   identification::TireFit fit = fit_checked(set, fit_options, suspicion);
+  if (!checks.left_out.empty()) {
+    fit.warnings.emplace_back(
+        "samples of stuck sensors or that stand alone were left out: rollrig validate tells which");
+  }
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
   const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";
   const std::string tire_file = fit.tire.name + ".toml";

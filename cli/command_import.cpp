@@ -74,7 +74,7 @@ std::string format_checks(const std::string& folder) {
       text += wrap("warning: " + warning, 2);
     }
   } catch (const InputError& error) {
-    text = format_error("  warning: ", error.problem());
+    text = "  " + format_error("warning: ", error.problem());
   } catch (const RunFailure& failure) {
     text = wrap(fmt::format("warning: {}", failure.what()), 2);
   } catch (const Interrupted&) {  // the set is written, whole

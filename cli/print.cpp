@@ -73,16 +73,6 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
   return text;
 }
 
-std::string format_error(const std::string& start, const InputProblem& problem) {
-  constexpr std::size_t kLabelColumns = 11;  // two spaces, the label, a space
-  std::string text = wrap(start + problem.what, 2).substr(2);
-  for (const ProblemPart& part : list_parts(problem)) {
-    text += fmt::format("  {:<8} ", part.label);
-    text += part.is_copied ? part.content + "\n" : wrap(part.content, kLabelColumns).substr(kLabelColumns);
-  }
-  return text;
-}
-
 void warn_of_undescribed(const std::string& folder) {
   const std::vector<std::string> left_out = diagnosis::find_undescribed_folders(folder);
   if (left_out.empty()) return;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "sim/core/error.h"
+#include "sim/core/error_text.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -21,8 +21,5 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
 
 /// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
 void warn_of_undescribed(const std::string& folder);
-
-/// An error's message within 80 columns, `start` before it. Places and values stay whole, to be copied.
-std::string format_error(const std::string& start, const InputProblem& problem);
 
 }  // namespace rollrig::cli

@@ -25,9 +25,7 @@ std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSe
   const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
   };
-  for (const auto* named : {&options.without, &options.only}) {
-    for (const std::string& id : *named) models::find_effect(id);  // throws where unknown
-  }
+  require_known_effects(options);
   std::vector<const models::Effect*> effects;
   const models::RigKind kind = kind_of(set).rig_kind();  // and the set's baseline: some effects it has already
   for (const models::Effect* effect : models::all_effects()) {
@@ -77,7 +75,7 @@ void forbid_causes(Diagnosis& diagnosis) {
 
 Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
   const SetChecks checks = check_set(measured, options.threads);
-  const PreparedSet set(leave_out(measured, checks.stuck));
+  const PreparedSet set(leave_out(measured, checks.left_out));
   const Remainder remainder(set);
   const std::vector<identification::FreeParameter> base = find_base_parameters(measured, set.context());
   RaceSettings settings;
@@ -112,7 +110,7 @@ Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const Dia
   report(0.9, "runs left out");
   const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
   diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
-  const bool is_whole = checks.stuck.empty();
+  const bool is_whole = checks.left_out.empty();
   if (is_whole) diagnosis.fitted.recalibrated = find_fitted(set, base, race.null.fit);
   if (lead != nullptr) {
     if (is_whole) diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);
@@ -159,6 +157,12 @@ std::optional<LoneRun> diagnose_without_run(scenarios::MeasurementSet set, const
 double probability_of(const Diagnosis& diagnosis, const std::string& name) {
   const auto at = diagnosis.probability.find(name);
   return at == diagnosis.probability.end() ? 0.0 : at->second;
+}
+
+void require_known_effects(const DiagnosisOptions& options) {
+  for (const auto* named : {&options.without, &options.only}) {
+    for (const std::string& id : *named) models::find_effect(id);
+  }
 }
 
 Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options) {

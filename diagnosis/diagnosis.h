@@ -111,7 +111,7 @@ struct LoneRun {
 };
 
 /// What the sensors would have shown by the fits to all runs, their offsets included: block means in SI units, in the
-/// order of the residuals of a PreparedSet of the whole set; empty where rows of stuck sensors were left out. For
+/// order of the residuals of a PreparedSet of the whole set; empty where rows were left out. For
 /// pictures; not part of the JSON.
 struct FittedSet {
   std::vector<double> recalibrated;  // base parameters moved within their uncertainty
@@ -144,6 +144,9 @@ struct DiagnosisOptions {
   int threads = 0;                   // 0: as many as the machine has
   std::function<void(double done, const std::string& stage)> progress = {};
 };
+
+/// Throws InputError for the first effect of `without` or `only` that there is not.
+void require_known_effects(const DiagnosisOptions& options);
 
 /// The diagnosis of a measurement set of any kind, against either baseline.
 /// Method  docs/diagnosis.md

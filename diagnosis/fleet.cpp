@@ -9,10 +9,9 @@
 #include <map>
 #include <mutex>
 #include <set>
-#include <sstream>
 
 #include "diagnosis/diagnosis_json.h"
-#include "sim/core/error.h"
+#include "sim/core/error_text.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
 
@@ -133,29 +132,17 @@ std::optional<scenarios::MeasurementSet> read_member(FleetMember& member) {
     return set;
   } catch (const InputError& error) {
     member.failure = error.what();
-    member.is_wrong_input = true;
+    member.problem = error.problem();
     return std::nullopt;
   }
 }
 
 std::string name_of(const FleetMember& member) { return fs::path(member.folder).filename().string(); }
 
-/// A failure below the name of its set, within 80 columns but for places, which stay whole.
+/// A failure below the name of its set.
 std::string format_failure(const FleetMember& member) {
-  constexpr std::size_t kLabelColumns = 11;  // two spaces, the label, a space
-  constexpr std::size_t kColumns = 80;
-  std::istringstream lines(member.failure);
-  std::string line;
-  std::getline(lines, line);
-  std::string text = wrap(fmt::format("{}: {}", name_of(member), line), 2);
-  while (std::getline(lines, line)) {
-    const bool is_place = line.rfind("  where", 0) == 0 || line.rfind("  value", 0) == 0;
-    const bool fits = is_place || count_characters(line) <= kColumns;
-    text += fits
-                ? line + "\n"
-                : line.substr(0, kLabelColumns) + wrap(line.substr(kLabelColumns), kLabelColumns).substr(kLabelColumns);
-  }
-  return text;
+  const std::string start = name_of(member) + ": ";
+  return member.problem ? "  " + format_error(start, *member.problem) : wrap(start + member.failure, 2);
 }
 
 /// What failed, with its reason; which files are in doubt; how many warnings there are of other sets.
@@ -260,13 +247,11 @@ std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members
 }
 
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
-  for (const auto* named : {&options.without, &options.only}) {
-    for (const std::string& id : *named) models::find_effect(id);  // throws where unknown
-  }
+  require_known_effects(options);
   Fleet fleet;
   std::vector<std::optional<scenarios::MeasurementSet>> sets;
   for (const std::string& folder : folders) {
-    fleet.members.push_back({folder, "", "", std::nullopt, ""});
+    fleet.members.push_back({folder, "", "", std::nullopt, "", std::nullopt});
     sets.push_back(read_member(fleet.members.back()));
   }
   if (std::none_of(sets.begin(), sets.end(), [](const auto& set) { return set.has_value(); })) {
@@ -284,7 +269,7 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
       fleet.members[i].failure = failure.what();
     } catch (const InputError& error) {  // what a diagnosis cannot do with: a sensor without noise, say
       fleet.members[i].failure = error.what();
-      fleet.members[i].is_wrong_input = true;
+      fleet.members[i].problem = error.problem();
     }
     const std::lock_guard<std::mutex> lock(mutex);
     ++done;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnosis/diagnosis.h"
+#include "sim/core/error.h"
 #include "sim/core/json.h"
 
 namespace rollrig::diagnosis {
@@ -17,8 +18,8 @@ struct FleetMember {
   std::string machine;  // name of its rig or vehicle; empty where the set cannot be read, as is
   std::string tire;     // its name
   std::optional<Diagnosis> diagnosis;
-  std::string failure;  // why there is none: a sentence, and below it where an input is wrong the parts of its message
-  bool is_wrong_input = false;  // and not a diagnosis that failed
+  std::string failure;                  // why there is none
+  std::optional<InputProblem> problem;  // of the input, where that is why
 };
 
 /// What sets share.

@@ -76,8 +76,7 @@ void check_spacing(const MeasurementSet& set, SetChecks& checks) {
   if (widest_s < kWide_s) return;
   checks.warnings.push_back(
       fmt::format("rows are up to {:.2g} s apart, and inputs are taken as straight between them: a clock_shift of up "
-                  "to {:.2g} s may "
-                  "be of that",
+                  "to {:.2g} s may be of that",
                   widest_s, 0.5 * widest_s));
 }
 
@@ -120,7 +119,7 @@ void check_spikes(const MeasurementSet& set, SetChecks& checks) {
           values, kFar, std::max(sensor->second.noise_sd, sensor->second.resolution), judged);
       if (rows.empty()) continue;
       add_placeholders(values, judged, rows);
-      for (const std::size_t row : rows) checks.stuck.push_back({r, channel, row, row});
+      for (const std::size_t row : rows) checks.left_out.push_back({r, channel, row, row});
       checks.warnings.push_back(fmt::format(
           "{} of run {}: {} alone, far from those beside {} (the first in row {}: {:.6g}): spikes, or what a logger "
           "writes for no sample; left out",
@@ -240,7 +239,7 @@ void check_stuck(const MeasurementSet& set, const Replays& replays, int threads,
     report_repair(set, *repair, checks);
     return;
   }
-  checks.stuck.insert(checks.stuck.end(), stuck.rows.begin(), stuck.rows.end());
+  checks.left_out.insert(checks.left_out.end(), stuck.rows.begin(), stuck.rows.end());
   checks.warnings.insert(checks.warnings.end(), stuck.warnings.begin(), stuck.warnings.end());
 }
 
@@ -249,9 +248,9 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
   const std::vector<std::string> channels = scenarios::measured_channels(kept.kind);
   for (const MeasuredRun& run : kept.runs) {
     const auto is_left = [&](const std::string& channel) { return !find_compared_rows(kept, run, channel).empty(); };
-    if (checks.stuck.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
+    if (checks.left_out.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
   }
-  const DoubtfulRows& first = checks.stuck.front();
+  const DoubtfulRows& first = checks.left_out.front();
   throw InputError({"every measured channel stands still where it should move: stuck sensors, or no measurement at all",
                     kept.runs[first.run].file, 0, first.channel, "", "samples of a sensor that works", ""});
 }
@@ -304,7 +303,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   Replays replays = replay_all(set, threads);
   check_stuck(set, replays, threads, checks);
   if (checks.is_implausible()) return checks;
-  const MeasurementSet kept = leave_out(set, checks.stuck);
+  const MeasurementSet kept = leave_out(set, checks.left_out);
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
     const bool simulated = replays.misfits[r].failure.empty();
     if (simulated) replays.misfits[r] = calc_misfit(kept, kept.runs[r], replays.recordings[r]);

@@ -12,10 +12,10 @@
 namespace rollrig::diagnosis {
 
 struct SetChecks {
-  std::vector<std::string> warnings;  // a sentence each
-  std::vector<DoubtfulRows> stuck;    // rows of stuck sensors and samples that stand alone, to be left out
-  std::string suspicion;              // why columns, units or files cannot be what they are said to be; else empty
-  std::string doubt;                  // the suspicion and what a diagnosis makes of it; one of the warnings, or empty
+  std::vector<std::string> warnings;   // a sentence each
+  std::vector<DoubtfulRows> left_out;  // rows of stuck sensors and samples that stand alone
+  std::string suspicion;               // why columns, units or files cannot be what they are said to be; else empty
+  std::string doubt;                   // the suspicion and what a diagnosis makes of it; one of the warnings, or empty
 
   /// Whether no cause is to be named.
   bool is_implausible() const { return !doubt.empty(); }

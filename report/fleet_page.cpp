@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <boost/algorithm/string.hpp>
-
 #include "diagnosis/diagnosis_json.h"
 #include "diagnosis/summary.h"
 #include "report/blocks.h"
@@ -83,11 +81,12 @@ Block make_gaps(const Fleet& fleet) {
 Section make_member(const FleetMember& member) {
   Section section{member.folder.substr(member.folder.rfind('/') + 1)};
   if (!member.diagnosis.has_value()) {
-    std::vector<std::string> lines;
-    boost::algorithm::split(lines, member.failure, boost::algorithm::is_any_of("\n"));
-    section.blocks.push_back(make_lead("bad", "Not diagnosed: " + lines.front()));
-    lines.erase(lines.begin());
-    for (const std::string& line : lines) section.blocks.push_back(make_paragraph(line));
+    section.blocks.push_back(
+        make_lead("bad", "Not diagnosed: " + (member.problem ? member.problem->what : member.failure)));
+    if (!member.problem) return section;
+    for (const ProblemPart& part : list_parts(*member.problem)) {
+      section.blocks.push_back(make_paragraph(fmt::format("{}: {}", part.label, part.content)));
+    }
     return section;
   }
   const bool is_bad = member.diagnosis->verdict == diagnosis::Verdict::kUnexplained;

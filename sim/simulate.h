@@ -206,7 +206,7 @@ EnergyAudit make_audit(const OdeSystem<S>& system, const std::vector<S>& stored_
 
 /// Runs `program` on `system` with `integrator`.
 /// Errors  RunFailure when the integration fails or the system is in a state that it cannot have; Interrupted on
-/// Ctrl-C. The audits are in the recording;
+///         Ctrl-C. The audits are in the recording;
 ///         the caller says what closure it asks for.
 template <class S>
 Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Program& program,

@@ -16,8 +16,7 @@ namespace {
 constexpr const char* kIntroduction =
     "# Reference\n\n"
     "Every scenario, setting, result and effect, and the keys of tire, rig, vehicle and sensor files; those of other "
-    "files "
-    "are in\n[formats.md](formats.md). Written by `cmake --build build/release --target "
+    "files are in\n[formats.md](formats.md). Written by `cmake --build build/release --target "
     "docs_pages`\nfrom the declarations in the code; a test holds it to them.\n";
 
 /// A cell of a Markdown table.
@@ -131,8 +130,7 @@ std::string describe_vehicle_file() {
   std::string text =
       "\n## Vehicle file\n\n`format = \"rollrig-vehicle/1\"`, `name`, `tires` (how many, 1 to 20), the keys of the "
       "first table, of which each may have its\nstandard uncertainty beside it under its key with `_sd`, and the "
-      "tables "
-      "below it, all of which may be left out.\n";
+      "tables below it, all of which may be left out.\n";
   text += describe_keys<rigs::VehicleBody>();
   text += describe_table<rigs::VehicleGeometry>("geometry");
   text += describe_table<rigs::VehicleSuspension>("suspension") + "\nOf one wheel.\n";

@@ -64,7 +64,7 @@ Eigen::VectorXd scale_own(const ChosenEffect& chosen) {
 }  // namespace
 
 LinearisedSet::LinearisedSet(const scenarios::MeasurementSet& measured, const Settings& settings)
-    : set_(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).stuck)),
+    : set_(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).left_out)),
       base_(diagnosis::find_base_parameters(measured, set_.context())),
       remainder_(set_),
       effects_(choose_effects(measured, settings)),

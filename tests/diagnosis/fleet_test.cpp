@@ -20,7 +20,7 @@ constexpr double kPrior = 0.02;
 
 /// A set that names warming bearings, with their fall and its standard deviation.
 FleetMember warms(const std::string& machine, const std::string& tire, double fall = 0.02, double sd = 0.002) {
-  FleetMember member{"sets/" + tire + "-" + machine, machine, tire, tests::make_explained(), ""};
+  FleetMember member{"sets/" + tire + "-" + machine, machine, tire, tests::make_explained(), "", std::nullopt};
   member.diagnosis->probability["bearing_warmup"] = 0.98;
   member.diagnosis->causes.front().parameters.front().value = fall;
   member.diagnosis->causes.front().parameters.front().sd = sd;
@@ -28,7 +28,7 @@ FleetMember warms(const std::string& machine, const std::string& tire, double fa
 }
 
 FleetMember is_clean(const std::string& machine, const std::string& tire) {
-  FleetMember member{"sets/clean-" + tire + "-" + machine, machine, tire, tests::make_no_gap(), ""};
+  FleetMember member{"sets/clean-" + tire + "-" + machine, machine, tire, tests::make_no_gap(), "", std::nullopt};
   member.diagnosis->probability["bearing_warmup"] = 0.001;
   return member;
 }
@@ -122,11 +122,16 @@ TEST_CASE("sizes are averaged by their uncertainty, and it is said where they di
 TEST_CASE("a fleet is a line a set in 80 columns, failures with their reason", "[fast]") {
   diagnosis::Fleet fleet;
   fleet.members = {warms("drum-1", "a40"), is_clean("drum-1", "a-tire-with-a-name-that-does-not-fit-into-its-column")};
-  fleet.members.push_back({"sets/broken", "drum-1", "a60", std::nullopt, "the baseline cannot be fitted to the set"});
   fleet.members.push_back(
-      {"sets/typo", "", "", std::nullopt,
-       "unknown column 'sped_km_h'\n  where    sets/typo/a.csv\n"
-       "  allowed  time_s, speed_km_h, load_N, ambient_degC, drum_torque_Nm, liner_temperature_degC"});
+      {"sets/broken", "drum-1", "a60", std::nullopt, "the baseline cannot be fitted to the set", std::nullopt});
+  const InputProblem typo{"unknown column 'sped_km_h'",
+                          "sets/typo/a.csv",
+                          0,
+                          "",
+                          "",
+                          "time_s, speed_km_h, load_N, ambient_degC, drum_torque_Nm, liner_temperature_degC",
+                          ""};
+  fleet.members.push_back({"sets/typo", "", "", std::nullopt, InputError(typo).what(), typo});
   fleet.members.push_back(is_clean("drum-1", "exchanged"));
   fleet.members.back().diagnosis->doubt = "the liner temperature and the pressure may be exchanged";
   fleet.members.back().diagnosis->warnings = {fleet.members.back().diagnosis->doubt, "few samples"};

@@ -98,7 +98,7 @@ TEST_CASE("a set as the simulator makes it is let through without a word", "[fas
   const SetChecks checks = check_set(short_set());
   INFO(join(checks.warnings));
   CHECK(checks.warnings.empty());
-  CHECK(checks.stuck.empty());
+  CHECK(checks.left_out.empty());
   CHECK_FALSE(checks.is_implausible());
 }
 
@@ -131,7 +131,7 @@ TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]"
       const SetChecks checks = check_set(tests::simulate_campaign(campaign, static_cast<std::uint64_t>(i)));
       INFO(join(checks.warnings));
       CHECK_THAT(join(checks.warnings), !Contains("looks as if"));
-      CHECK(checks.stuck.empty());
+      CHECK(checks.left_out.empty());
       ++sets;
       stopped += checks.is_implausible() ? 1 : 0;
     }
@@ -221,16 +221,16 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
       const SetChecks checks = check_set(set);
       INFO(channel << " from " << from << ": " << join(checks.warnings));
       CHECK_FALSE(checks.is_implausible());
-      REQUIRE(checks.stuck.size() == 1);
-      CHECK(checks.stuck[0].run == 1);
-      CHECK(checks.stuck[0].channel == channel);
+      REQUIRE(checks.left_out.size() == 1);
+      CHECK(checks.left_out[0].run == 1);
+      CHECK(checks.left_out[0].channel == channel);
       CHECK_THAT(join(checks.warnings), Contains("stands at") && Contains(set.runs[1].id));
       // what is left is the set without those samples, and it is let through
-      const MeasurementSet kept = diagnosis::leave_out(set, checks.stuck);
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.stuck[0].first_row]));
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.stuck[0].last_row]));
+      const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
+      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.left_out[0].first_row]));
+      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.left_out[0].last_row]));
       CHECK(kept.runs[0].columns.at("load_N") == set.runs[0].columns.at("load_N"));
-      CHECK(check_set(kept).stuck.empty());
+      CHECK(check_set(kept).left_out.empty());
     }
   }
 }
@@ -252,7 +252,7 @@ TEST_CASE("rows far apart are warned of, with the shift that they may make", "[f
 
 TEST_CASE("samples that stand alone are left out, those beside them stay", "[fast]") {
   const MeasurementSet clean = short_set();
-  REQUIRE(check_set(clean).stuck.empty());
+  REQUIRE(check_set(clean).left_out.empty());
   for (const char* channel : kChannels) {
     MeasurementSet set = clean;
     std::vector<double>& values = set.runs[1].columns.at(channel);
@@ -266,8 +266,8 @@ TEST_CASE("samples that stand alone are left out, those beside them stay", "[fas
     INFO(channel << ": " << join(checks.warnings));
     CHECK_FALSE(checks.is_implausible());
     CHECK_THAT(join(checks.warnings), Contains("5 samples stand alone") && Contains(set.runs[1].id));
-    REQUIRE(checks.stuck.size() == rows.size());
-    const MeasurementSet kept = diagnosis::leave_out(set, checks.stuck);
+    REQUIRE(checks.left_out.size() == rows.size());
+    const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
     for (const std::size_t row : rows) {
       CHECK(std::isnan(kept.runs[1].columns.at(channel)[row]));
       CHECK(kept.runs[1].columns.at(channel)[row + 1] == clean.runs[1].columns.at(channel)[row + 1]);
@@ -280,10 +280,10 @@ TEST_CASE("the number of a spike is a placeholder wherever it stands, if nothing
   std::vector<double>& torque = set.runs[1].columns.at("drum_torque_Nm");
   for (std::size_t row = 5; row < torque.size(); row += 31) torque[row] = -9999.0;  // on ramps and load changes as well
   const SetChecks checks = check_set(set);
-  const MeasurementSet kept = diagnosis::leave_out(set, checks.stuck);
+  const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
   const std::vector<double>& left = kept.runs[1].columns.at("drum_torque_Nm");
   CHECK(std::count(left.begin(), left.end(), -9999.0) == 0);
-  CHECK(checks.stuck.size() == static_cast<std::size_t>(std::count(torque.begin(), torque.end(), -9999.0)));
+  CHECK(checks.left_out.size() == static_cast<std::size_t>(std::count(torque.begin(), torque.end(), -9999.0)));
 }
 
 TEST_CASE("where every sensor is stuck nothing is left", "[fast]") {
@@ -307,7 +307,7 @@ TEST_CASE("a channel that holds still because nothing moves is not doubtful", "[
   }
   const SetChecks checks = check_set(set);
   INFO(join(checks.warnings));
-  CHECK(checks.stuck.empty());
+  CHECK(checks.left_out.empty());
 }
 
 TEST_CASE("nothing measured is an error; a channel without samples a warning", "[fast]") {
