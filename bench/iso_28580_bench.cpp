@@ -5,7 +5,7 @@
 
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 namespace {
 

@@ -4,9 +4,9 @@
 
 #include "rigs/multibody_vehicle.h"
 #include "rigs/quasi_static_vehicle.h"
-#include "scenarios/coastdown_evaluation.h"
-#include "scenarios/run_spec.h"
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/coastdown_evaluation.h"
+#include "scenarios/common/vehicle_bench.h"
+#include "scenarios/run/run_spec.h"
 
 namespace {
 

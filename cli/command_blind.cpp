@@ -14,13 +14,13 @@
 #include "cli/command_blind_score.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
-#include "proof/bank.h"
-#include "proof/baselines/baselines.h"
-#include "proof/oracle.h"
-#include "proof/ranks.h"
-#include "proof/run_bank.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
+#include "validation/scoring/bank.h"
+#include "validation/scoring/baselines/baselines.h"
+#include "validation/scoring/oracle.h"
+#include "validation/scoring/ranks.h"
+#include "validation/scoring/run_bank.h"
 
 namespace fs = std::filesystem;
 
@@ -137,7 +137,7 @@ int baselines_command(const RunOptions& options) {
   for (const proof::BaselineMethod& method : proof::all_baselines()) {
     if (!is_asked(method.id)) continue;
     const int status = run_tasks(ranks, options, proof::baseline_folder(options.bank, method), tasks,
-                                 [&method](const scenarios::MeasurementSet& set, const proof::Settings& settings) {
+                                 [&method](const measurements::MeasurementSet& set, const proof::Settings& settings) {
                                    return proof::diagnose_by(method, set, settings);
                                  });
     if (status != kDone) return status;

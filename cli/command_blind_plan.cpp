@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "cli/progress.h"
-#include "proof/follow_up.h"
 #include "sim/core/text.h"
+#include "validation/scoring/follow_up.h"
 
 namespace fs = std::filesystem;
 

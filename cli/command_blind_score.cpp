@@ -6,12 +6,12 @@
 
 #include "cli/html_option.h"
 #include "cli/output_files.h"
-#include "proof/baselines/comparison.h"
-#include "proof/report.h"
-#include "proof/score.h"
 #include "report/score_page.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "validation/scoring/baselines/comparison.h"
+#include "validation/scoring/report.h"
+#include "validation/scoring/score.h"
 
 namespace fs = std::filesystem;
 

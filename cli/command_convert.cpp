@@ -8,9 +8,9 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
-#include "models/tire_file.h"
-#include "scenarios/assets.h"
-#include "scenarios/loss_conversion.h"
+#include "estimation/loss_conversion.h"
+#include "models/tire/tire_file.h"
+#include "sim/core/assets.h"
 #include "sim/core/config.h"
 #include "sim/core/file_io.h"
 #include "sim/core/schema.h"
@@ -29,7 +29,7 @@ struct Options {
   std::optional<double> force_N, rrc_N_per_kN;
   std::string tire;
   Side from, to;
-  scenarios::ConversionExponents exponents;
+  estimation::ConversionExponents exponents;
   std::string json;
 };
 
@@ -66,7 +66,7 @@ void require_both(bool from_given, bool to_given, const std::string& from, const
 /// The tire of --tire, with its diameter and its pressure exponent; those given by hand come first.
 void apply_tire(Options& options, bool exponent_given) {
   if (options.tire.empty()) return;
-  const models::TireFile tire = models::read_tire(read_config(scenarios::find_asset("tires", options.tire)));
+  const models::TireFile tire = models::read_tire(read_config(find_asset("tires", options.tire)));
   if (!options.from.tire_diameter_m.has_value()) options.from.tire_diameter_m = tire.values.geometry.outer_diameter_m;
   if (!exponent_given && tire.has_rolling_resistance) {
     options.exponents.pressure = tire.values.rolling_resistance.pressure_exponent;
@@ -100,8 +100,8 @@ void check(const Options& options) {
   }
 }
 
-scenarios::LossConditions make_conditions(const Side& side, const std::string& drum_option) {
-  scenarios::LossConditions conditions;
+estimation::LossConditions make_conditions(const Side& side, const std::string& drum_option) {
+  estimation::LossConditions conditions;
   conditions.drum_curvature_per_m = read_curvature(side.drum, drum_option);
   conditions.tire_diameter_m = side.tire_diameter_m;
   if (side.pressure_kPa.has_value()) conditions.pressure_Pa = 1e3 * *side.pressure_kPa;
@@ -136,9 +136,9 @@ Json to_json(const Loss& loss) {
   return json;
 }
 
-Json make_json(const scenarios::LossConversion& conversion, const Loss& from, const Loss& to) {
+Json make_json(const estimation::LossConversion& conversion, const Loss& from, const Loss& to) {
   Json json = {{"format", "rollrig-conversion/1"}, {"given", to_json(from)}, {"factors", Json::array()}};
-  for (const scenarios::ConversionFactor& factor : conversion.factors) {
+  for (const estimation::ConversionFactor& factor : conversion.factors) {
     json["factors"].push_back({{"name", factor.name},
                                {"equation", factor.equation},
                                {"from", factor.from},
@@ -160,9 +160,9 @@ std::string describe(const Loss& loss) {
   return text;
 }
 
-std::string format_conversion(const scenarios::LossConversion& conversion, const Loss& from, const Loss& to) {
+std::string format_conversion(const estimation::LossConversion& conversion, const Loss& from, const Loss& to) {
   scenarios::ResultTable table{"", {"factor", "equation", "from", "to", "of the force"}, {}};
-  for (const scenarios::ConversionFactor& factor : conversion.factors) {
+  for (const estimation::ConversionFactor& factor : conversion.factors) {
     table.rows.push_back({factor.name, factor.equation, factor.from, factor.to, fmt::format("{:.4f}", factor.factor)});
   }
   table.rows.push_back({"product", "", "", "", fmt::format("{:.4f}", conversion.force_factor)});
@@ -175,10 +175,10 @@ std::string format_conversion(const scenarios::LossConversion& conversion, const
 int convert_command(Options options, bool exponent_given) {
   apply_tire(options, exponent_given);
   check(options);
-  scenarios::LossConditions from = make_conditions(options.from, "--from-drum");
-  scenarios::LossConditions to = make_conditions(options.to, "--to-drum");
+  estimation::LossConditions from = make_conditions(options.from, "--from-drum");
+  estimation::LossConditions to = make_conditions(options.to, "--to-drum");
   const OutputFiles files({{"--json", options.json}});
-  const scenarios::LossConversion conversion = scenarios::convert_loss(from, to, options.exponents);
+  const estimation::LossConversion conversion = estimation::convert_loss(from, to, options.exponents);
   const auto [given, result] = apply_conversion(options, conversion.force_factor);
   if (!options.json.empty()) write_output(options.json, make_json(conversion, given, result).dump(2) + "\n");
   if (options.json != "-") std::cout << format_conversion(conversion, given, result);

@@ -11,11 +11,11 @@
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/race_options.h"
-#include "diagnosis/diagnosis_json.h"
-#include "diagnosis/explain.h"
-#include "diagnosis/fleet.h"
-#include "diagnosis/plan_files.h"
-#include "diagnosis/summary.h"
+#include "diagnosis/next_test/plan_files.h"
+#include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/output/explain.h"
+#include "diagnosis/output/fleet.h"
+#include "diagnosis/output/summary.h"
 #include "report/diagnosis_page.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -89,7 +89,8 @@ int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
 }
 
 /// Writes the first proposed test into the folder. What it says to a person: where it is, or that there is none.
-std::string write_plan(const scenarios::MeasurementSet& set, const diagnosis::Diagnosis& result, OutputFolder& folder) {
+std::string write_plan(const measurements::MeasurementSet& set, const diagnosis::Diagnosis& result,
+                       OutputFolder& folder) {
   const auto files = diagnosis::write_plan(set, result);
   if (files.empty()) return fmt::format("no test is proposed, so no plan is written to {}/\n", folder.path());
   for (const auto& [name, content] : files) folder.add(name, content);
@@ -112,7 +113,7 @@ int diagnose_command(const Options& options) {
     if (!options.quiet) warn_of_undescribed(options.set);
     return diagnose_all(options, sets);
   }
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
+  const measurements::MeasurementSet set = measurements::read_measurement_set(options.set);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   std::optional<OutputFolder> plan;
   if (!options.plan.empty()) plan.emplace(options.plan, options.force);

@@ -5,9 +5,9 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "export/hdf5_file.h"
-#include "export/mat_file.h"
-#include "export/source.h"
+#include "exports/hdf5_file.h"
+#include "exports/mat_file.h"
+#include "exports/source.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 

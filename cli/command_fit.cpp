@@ -9,8 +9,8 @@
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "diagnosis/set_checks.h"
-#include "identification/fit_tire.h"
+#include "diagnosis/checks/set_checks.h"
+#include "estimation/tire_fit/fit_tire.h"
 #include "report/fit_pages.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -33,11 +33,11 @@ struct Options {
 
 std::string short_name(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
 
-scenarios::ResultTable make_table(const identification::TireFit& fit) {
+scenarios::ResultTable make_table(const estimation::TireFit& fit) {
   scenarios::ResultTable table{"Fitted, with standard uncertainty and 95 % interval (* beside a prior)",
                                {"parameter", "value", "sd", "from", "to"},
                                {}};
-  for (const identification::Estimate& estimate : fit.estimates) {
+  for (const estimation::Estimate& estimate : fit.estimates) {
     const auto number = [](double value) { return fmt::format("{:.4g}", value); };
     table.rows.push_back({short_name(estimate.key) + (estimate.nuisance ? " *" : ""), number(estimate.value),
                           number(estimate.sd), number(estimate.lower_95()), number(estimate.upper_95())});
@@ -45,14 +45,14 @@ scenarios::ResultTable make_table(const identification::TireFit& fit) {
   return table;
 }
 
-std::string format_fit(const scenarios::MeasurementSet& set, const identification::TireFit& fit) {
+std::string format_fit(const measurements::MeasurementSet& set, const estimation::TireFit& fit) {
   std::string text = fmt::format("fit tire   set {}   tire {}   rig {}\n", set.name, set.tire.name, set.rig->name);
   text += format_table(make_table(fit));
-  for (const identification::ChannelFit& channel : fit.channels) {
+  for (const estimation::ChannelFit& channel : fit.channels) {
     text += fmt::format("  {:<24} {:>7} samples, rest {:.3f} of the sensor's noise\n", channel.channel, channel.samples,
                         channel.whitened_rms);
   }
-  const identification::TwoStepEstimate& two_step = fit.two_step;
+  const estimation::TwoStepEstimate& two_step = fit.two_step;
   text += wrap(fmt::format("two-step regression of the source (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "
                            "{:.4g} 1/degC, B1 {:.4g} s/(m degC), z {:.4g} W/K, f {:.4g} W s/(m K){}",
                            two_step.A0_N, two_step.A1_N_s_per_m, two_step.B0_per_K, two_step.B1_s_per_m_K,
@@ -66,10 +66,10 @@ std::string format_fit(const scenarios::MeasurementSet& set, const identificatio
 
 /// A fit follows whatever the columns say, so a suspicion that they say another thing is told beside its numbers, or
 /// beside the error that comes of it.
-identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const identification::FitOptions& options,
-                                    const std::string& suspicion) {
+estimation::TireFit fit_checked(const measurements::MeasurementSet& set, const estimation::FitOptions& options,
+                                const std::string& suspicion) {
   try {
-    identification::TireFit fit = identification::fit_tire(set, options);
+    estimation::TireFit fit = estimation::fit_tire(set, options);
     if (!suspicion.empty()) fit.warnings.push_back(suspicion + ". Then the fitted numbers are wrong");
     return fit;
   } catch (const RunFailure& failure) {
@@ -83,11 +83,11 @@ identification::TireFit fit_checked(const scenarios::MeasurementSet& set, const 
 }
 
 int fit_tire_command(const Options& options) {
-  scenarios::MeasurementSet set = scenarios::read_measurement_set(options.set);
+  measurements::MeasurementSet set = measurements::read_measurement_set(options.set);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
-  identification::FitOptions fit_options;
+  estimation::FitOptions fit_options;
   fit_options.load_map = options.load_map;
   fit_options.threads = options.threads;
   if (options.free_H) fit_options.free_H = true;
@@ -96,13 +96,13 @@ int fit_tire_command(const Options& options) {
   const diagnosis::SetChecks checks = diagnosis::check_set(set, options.threads);
   const std::string& suspicion = checks.suspicion;
   set = diagnosis::leave_out(std::move(set), checks.left_out);
-  identification::TireFit fit = fit_checked(set, fit_options, suspicion);
+  estimation::TireFit fit = fit_checked(set, fit_options, suspicion);
   if (!checks.left_out.empty()) {
     fit.warnings.emplace_back(
         "samples of stuck sensors or that stand alone were left out: rollrig validate tells which");
   }
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
-  const std::string json = identification::make_fit_json(set, fit).dump(2) + "\n";
+  const std::string json = estimation::make_fit_json(set, fit).dump(2) + "\n";
   const std::string tire_file = fit.tire.name + ".toml";
   files.require_no_input();
   if (out.has_value()) {

@@ -8,7 +8,7 @@
 #include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
-#include "identification/drum_coastdown.h"
+#include "estimation/drum_deceleration/drum_coastdown.h"
 #include "report/fit_pages.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
@@ -16,11 +16,11 @@
 namespace rollrig::cli {
 namespace {
 
-using identification::CoastSet;
-using identification::DrumCoastdownFit;
-using identification::Interval;
-using identification::PressureLevel;
-using identification::SpeedPoint;
+using estimation::CoastSet;
+using estimation::DrumCoastdownFit;
+using estimation::Interval;
+using estimation::PressureLevel;
+using estimation::SpeedPoint;
 
 struct Options {
   std::string set;
@@ -79,7 +79,7 @@ scenarios::ResultTable make_law_table(const DrumCoastdownFit& fit) {
 
 std::string format_fit(const CoastSet& set, const DrumCoastdownFit& fit) {
   std::size_t missed = 0, doubled = 0, other = 0, rows = 0;
-  for (const identification::CoastAnalysis& analysis : fit.analyses) {
+  for (const estimation::CoastAnalysis& analysis : fit.analyses) {
     rows += analysis.coast.time_s.size();
     missed += analysis.coast.missed;
     doubled += analysis.coast.doubled;
@@ -98,17 +98,17 @@ std::string format_fit(const CoastSet& set, const DrumCoastdownFit& fit) {
 }
 
 int fit_drum_coastdown_command(const Options& options) {
-  const CoastSet set = identification::read_coast_set(options.set, options.data);
+  const CoastSet set = estimation::read_coast_set(options.set, options.data);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
-  const DrumCoastdownFit fit = identification::fit_drum_coastdown(set);
-  const std::string json = identification::make_coastdown_json(set, fit).dump(2) + "\n";
+  const DrumCoastdownFit fit = estimation::fit_drum_coastdown(set);
+  const std::string json = estimation::make_coastdown_json(set, fit).dump(2) + "\n";
   files.require_no_input();
   if (out.has_value()) {
     out->add("fit.json", json);
-    out->add("decelerations.csv", identification::make_deceleration_csv(set, fit));
-    out->add("residuals.csv", identification::make_residual_csv(set, fit));
+    out->add("decelerations.csv", estimation::make_deceleration_csv(set, fit));
+    out->add("residuals.csv", estimation::make_residual_csv(set, fit));
     out->commit();
   }
   if (!options.json.empty()) write_output(options.json, json);

@@ -12,7 +12,7 @@
 #include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
-#include "identification/road_load_report.h"
+#include "estimation/road_load/road_load_report.h"
 #include "report/fit_pages.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
@@ -21,11 +21,11 @@
 namespace rollrig::cli {
 namespace {
 
-using identification::CheckStatus;
-using identification::CoastdownFile;
-using identification::RoadLoadChecks;
-using scenarios::RoadLoadFit;
-using scenarios::RoadLoadFitOptions;
+using estimation::CheckStatus;
+using estimation::CoastdownFile;
+using estimation::RoadLoadChecks;
+using estimation::RoadLoadFit;
+using estimation::RoadLoadFitOptions;
 
 constexpr double kPerKmh = 1.0 / 3.6;
 
@@ -63,8 +63,8 @@ double parse_edge(const std::string& text, double empty, const std::string& give
 }
 
 /// "not-negative", or "A=0:300,C=0:" in N, N/(km/h), N/(km/h)^2.
-scenarios::RoadLoadBounds parse_bounds(const std::string& given) {
-  scenarios::RoadLoadBounds bounds = scenarios::not_negative_bounds();
+estimation::RoadLoadBounds parse_bounds(const std::string& given) {
+  estimation::RoadLoadBounds bounds = estimation::not_negative_bounds();
   if (given == "not-negative") return bounds;
   const double none = std::numeric_limits<double>::infinity();
   bounds.lower = {-none, -none, -none};
@@ -77,7 +77,7 @@ scenarios::RoadLoadBounds parse_bounds(const std::string& given) {
     if (which == std::string::npos || part.size() < 3 || part[1] != '=' || colon == std::string::npos) {
       throw option_error(fmt::format("bound '{}' is not understood", part), "--bounds", given, allowed);
     }
-    const double unit = unit_of_key(identification::road_load_key(static_cast<int>(which), false)).factor;
+    const double unit = unit_of_key(estimation::road_load_key(static_cast<int>(which), false)).factor;
     bounds.lower[which] = unit * parse_edge(part.substr(2, colon - 2), -none, given);
     bounds.upper[which] = unit * parse_edge(part.substr(colon + 1), none, given);
     if (bounds.lower[which] > bounds.upper[which]) {
@@ -134,8 +134,8 @@ std::string format_coefficients(const RoadLoadFit& fit) {
                                {}};
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const auto number = [i](double si) { return fmt::format("{:.5g}", identification::road_load_in_file_unit(i, si)); };
-    const std::string unit = unit_of_key(identification::road_load_key(i, fit.per_mass)).symbol;
+    const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };
+    const std::string unit = unit_of_key(estimation::road_load_key(i, fit.per_mass)).symbol;
     if (fit.on_bound[at]) {
       table.rows.push_back({std::string(1, "ABC"[i]), number(fit.values()[at]), "on its bound", "", "", unit});
       continue;
@@ -176,7 +176,7 @@ std::string format_scatter(const RoadLoadFit& fit) {
     lines.push_back({"slope, from the headings",
                      fmt::format("{:.3f} +- {:.3f} % uphill in +", 100.0 * *fit.slope, 100.0 * fit.slope_sd)});
   }
-  for (const scenarios::SessionWind& wind : fit.winds) {
+  for (const estimation::SessionWind& wind : fit.winds) {
     lines.push_back(
         {"wind, from the headings", fmt::format("{:.2f} +- {:.2f} m/s against +{}", wind.wind_m_s, wind.sd_m_s,
                                                 wind.session.empty() ? "" : " '" + wind.session.substr(0, 10) + "'")});
@@ -186,11 +186,11 @@ std::string format_scatter(const RoadLoadFit& fit) {
 
 std::string format_checks(const RoadLoadChecks& checks) {
   std::string text = "  Checks\n";
-  for (const identification::RoadLoadCheck& check : checks.checks) {
-    text += fmt::format("    {:<23} {:<12} {:<23} {}\n", check.name, identification::name_of(check.status), check.found,
+  for (const estimation::RoadLoadCheck& check : checks.checks) {
+    text += fmt::format("    {:<23} {:<12} {:<23} {}\n", check.name, estimation::name_of(check.status), check.found,
                         check.limit);
   }
-  for (const identification::SessionDrift& drift : checks.drifts) {
+  for (const estimation::SessionDrift& drift : checks.drifts) {
     text += wrap(
         fmt::format("drift of coast times over {} runs{}: {:+.1f} % ({:+.1f} to {:+.1f}), {:+.2f} % a run", drift.runs,
                     drift.session.empty() ? "" : " of '" + drift.session + "'", 100.0 * drift.time_change,
@@ -221,7 +221,7 @@ std::string format_fit(const Options& options, const CoastdownFile& file, const 
 void select_sessions(const std::vector<std::string>& wanted, CoastdownFile& file) {
   if (wanted.empty()) return;
   std::vector<std::string> known;
-  for (const scenarios::CoastdownRun& run : file.data.runs) {
+  for (const estimation::CoastdownRun& run : file.data.runs) {
     if (std::find(known.begin(), known.end(), run.session) == known.end()) known.push_back(run.session);
   }
   for (const std::string& session : wanted) {
@@ -232,7 +232,7 @@ void select_sessions(const std::vector<std::string>& wanted, CoastdownFile& file
     throw InputError(problem);
   }
   auto& runs = file.data.runs;
-  const auto unwanted = [&wanted](const scenarios::CoastdownRun& run) {
+  const auto unwanted = [&wanted](const estimation::CoastdownRun& run) {
     return std::find(wanted.begin(), wanted.end(), run.session) == wanted.end();
   };
   runs.erase(std::remove_if(runs.begin(), runs.end(), unwanted), runs.end());
@@ -241,7 +241,7 @@ void select_sessions(const std::vector<std::string>& wanted, CoastdownFile& file
 /// The fit, its InputErrors with the file's name.
 RoadLoadFit fit_file(const CoastdownFile& file, const Options& options, const RoadLoadFitOptions& fit_options) {
   try {
-    return scenarios::fit_road_load(file.data, fit_options);
+    return estimation::fit_road_load(file.data, fit_options);
   } catch (const InputError& error) {
     InputProblem problem = error.problem();
     if (problem.file.empty()) problem.file = options.csv;
@@ -251,19 +251,19 @@ RoadLoadFit fit_file(const CoastdownFile& file, const Options& options, const Ro
 
 int fit_road_load_command(const Options& options) {
   const RoadLoadFitOptions fit_options = make_fit_options(options);
-  CoastdownFile file = identification::read_coastdowns(options.csv);
+  CoastdownFile file = estimation::read_coastdowns(options.csv);
   select_sessions(options.sessions, file);
   std::optional<OutputFolder> out;
   if (!options.out.empty()) out.emplace(options.out, options.force);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   RoadLoadFit fit = fit_file(file, options, fit_options);
   if (file.rows_off > 0) fit.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
-  const RoadLoadChecks checks = identification::check_road_load(file.data, fit);
-  const std::string json = identification::make_road_load_json(file, fit_options, fit, checks).dump(2) + "\n";
+  const RoadLoadChecks checks = estimation::check_road_load(file.data, fit);
+  const std::string json = estimation::make_road_load_json(file, fit_options, fit, checks).dump(2) + "\n";
   files.require_no_input();
   if (out.has_value()) {
     out->add("road_load.json", json);
-    out->add("residuals.csv", identification::write_road_load_residuals(file, fit));
+    out->add("residuals.csv", estimation::write_road_load_residuals(file, fit));
     out->commit();
   }
   if (!options.json.empty()) write_output(options.json, json);

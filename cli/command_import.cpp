@@ -6,9 +6,9 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
-#include "diagnosis/set_checks.h"
-#include "import/import.h"
-#include "scenarios/measurement_set.h"
+#include "diagnosis/checks/set_checks.h"
+#include "measurements/logs/import.h"
+#include "measurements/measurement_set.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
@@ -24,7 +24,7 @@ struct Options {
   bool quiet = false;
 };
 
-std::string format_clock(const logs::ClockEstimate& clock) {
+std::string format_clock(const measurements::ClockEstimate& clock) {
   const char* how = clock.method == "common"     ? "from what both logs measure"
                     : clock.method == "response" ? "from how the tire answers to speed and load"
                                                  : "as the mapping gives it";
@@ -32,18 +32,18 @@ std::string format_clock(const logs::ClockEstimate& clock) {
   text += fmt::format("    shift {:+.3f} +- {:.3f} s (1 sd), {}\n", clock.clock.shift_s, clock.calc_shift_sd_s(), how);
   text += fmt::format("    rate  {:+.1f} +- {:.1f} ppm{}\n", 1e6 * clock.clock.rate, 1e6 * clock.rate_sd,
                       clock.rate_is_decided ? "" : ", not decided by the logs");
-  for (const logs::ClockEvidence& evidence : clock.evidence) {
+  for (const measurements::ClockEvidence& evidence : clock.evidence) {
     text += fmt::format("    {:<24} {:>7} rows, {:5.1f} % of it follows the torque log\n", evidence.channel,
                         evidence.rows, 100.0 * evidence.explained);
   }
   return text;
 }
 
-std::string format_run(const logs::ImportedRun& run) {
+std::string format_run(const measurements::ImportedRun& run) {
   constexpr std::size_t kMost = 8;  // import.json has all
   std::string text = fmt::format("  run {}: {}\n", run.plan.id, format_count(run.rows.time_s.size(), "row"));
   for (std::size_t i = 0; i < std::min(kMost, run.rows.empty.size()); ++i) {
-    const logs::EmptyRange& range = run.rows.empty[i];
+    const measurements::EmptyRange& range = run.rows.empty[i];
     text += wrap(fmt::format("{} {} from {:.6g} to {:.6g} s ({}): {}", range.column,
                              range.rows_left_out ? "missing, rows left out" : "empty", range.from_s, range.to_s,
                              format_count(range.rows, "row"), range.reason),
@@ -53,13 +53,13 @@ std::string format_run(const logs::ImportedRun& run) {
   return text;
 }
 
-std::string format_import(const logs::Mapping& mapping, const logs::Import& imported) {
+std::string format_import(const measurements::Mapping& mapping, const measurements::Import& imported) {
   std::string text = fmt::format("import   set {}   {}\n", mapping.set.name, format_count(imported.runs.size(), "run"));
-  for (const logs::ClockEstimate& clock : imported.clocks) text += format_clock(clock);
-  for (const logs::ImportedRun& run : imported.runs) text += format_run(run);
-  for (const logs::Log& log : imported.logs) {
+  for (const measurements::ClockEstimate& clock : imported.clocks) text += format_clock(clock);
+  for (const measurements::ImportedRun& run : imported.runs) text += format_run(run);
+  for (const measurements::Log& log : imported.logs) {
     std::map<std::string, std::size_t> counts;
-    for (const logs::Mark& mark : log.marks) ++counts[mark.reason];
+    for (const measurements::Mark& mark : log.marks) ++counts[mark.reason];
     for (const auto& [reason, count] : counts) text += fmt::format("  {}: {} x {}\n", log.file, count, reason);
   }
   for (const std::string& warning : imported.warnings) text += wrap("warning: " + warning, 2);
@@ -70,7 +70,7 @@ std::string format_import(const logs::Mapping& mapping, const logs::Import& impo
 std::string format_checks(const std::string& folder) {
   std::string text;
   try {
-    for (const std::string& warning : diagnosis::check_set(scenarios::read_measurement_set(folder)).warnings) {
+    for (const std::string& warning : diagnosis::check_set(measurements::read_measurement_set(folder)).warnings) {
       text += wrap("warning: " + warning, 2);
     }
   } catch (const InputError& error) {
@@ -84,14 +84,15 @@ std::string format_checks(const std::string& folder) {
 }
 
 int import_command(const Options& options) {
-  const logs::Mapping mapping = logs::read_mapping(options.mapping, options.data);
+  const measurements::Mapping mapping = measurements::read_mapping(options.mapping, options.data);
   OutputFolder out(options.out, options.force);
   const OutputFiles files({{"--json", options.json}});
-  const logs::Import imported = logs::import_logs(mapping);
+  const measurements::Import imported = measurements::import_logs(mapping);
   files.require_no_input();
-  for (auto& [name, content] : logs::make_set_files(mapping, imported)) out.add(name, content);
+  for (auto& [name, content] : measurements::make_set_files(mapping, imported)) out.add(name, content);
   out.commit();
-  if (!options.json.empty()) write_output(options.json, logs::make_import_json(mapping, imported).dump(2) + "\n");
+  if (!options.json.empty())
+    write_output(options.json, measurements::make_import_json(mapping, imported).dump(2) + "\n");
   if (options.quiet || options.json == "-") return kDone;
   std::cout << format_import(mapping, imported);
   std::cout << format_checks(options.out)

@@ -6,9 +6,9 @@
 
 #include "cli/command.h"
 #include "cli/print.h"
-#include "scenarios/assets.h"
-#include "scenarios/run_spec.h"
-#include "scenarios/speed_trace.h"
+#include "scenarios/common/speed_trace.h"
+#include "scenarios/run/run_spec.h"
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
@@ -23,8 +23,7 @@ Json list_everything() {
   for (const models::Effect* effect : models::all_effects()) {
     json["effects"].push_back({{"name", effect->info.id}, {"summary", effect->info.summary}});
   }
-  for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"})
-    json[folder] = scenarios::list_assets(folder);
+  for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"}) json[folder] = list_assets(folder);
   return json;
 }
 
@@ -124,9 +123,9 @@ int describe_command(const std::string& name) {
     known.push_back(effect->info.id);
   }
   for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"}) {
-    for (const std::string& asset : scenarios::list_assets(folder)) {
+    for (const std::string& asset : list_assets(folder)) {
       if (asset == name) {
-        const std::string path = scenarios::find_asset(folder, name);
+        const std::string path = find_asset(folder, name);
         std::string(folder) == "cycles" ? describe_cycle(path) : describe_file(path);
         return kDone;
       }

@@ -12,9 +12,9 @@
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "report/list_pages.h"
-#include "scenarios/assets.h"
-#include "scenarios/golden.h"
-#include "scenarios/run_spec.h"
+#include "scenarios/run/golden.h"
+#include "scenarios/run/run_spec.h"
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
 
@@ -161,7 +161,7 @@ Json cases_to_json(const std::vector<Case>& cases) {
 
 int regress_command(const Options& options) {
   const std::string folder =
-      options.folder.empty() ? (fs::path(scenarios::find_assets_folder()) / "regression").string() : options.folder;
+      options.folder.empty() ? (fs::path(find_assets_folder()) / "regression").string() : options.folder;
   std::vector<Case> cases = find_cases(folder);
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   {

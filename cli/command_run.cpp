@@ -10,8 +10,9 @@
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
+#include "measurements/measurement_set.h"
 #include "report/run_page.h"
-#include "scenarios/measurement_set.h"
+#include "scenarios/common/written_set.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::cli {

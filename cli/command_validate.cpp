@@ -8,12 +8,12 @@
 
 #include "cli/command.h"
 #include "cli/print.h"
-#include "diagnosis/fleet.h"
-#include "diagnosis/set_checks.h"
-#include "identification/coast_set.h"
-#include "scenarios/measurement_set.h"
-#include "scenarios/run_spec.h"
-#include "scenarios/sensor_file.h"
+#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/output/fleet.h"
+#include "estimation/drum_deceleration/coast_set.h"
+#include "measurements/measurement_set.h"
+#include "measurements/sensor_file.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
 
@@ -28,18 +28,18 @@ struct Finding {
   bool is_good = true;
 };
 
-bool has_measured(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run) {
-  const std::vector<std::string> channels = scenarios::measured_channels(set.kind);
+bool has_measured(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
+  const std::vector<std::string> channels = measurements::measured_channels(set.kind);
   return std::any_of(channels.begin(), channels.end(),
                      [&run](const std::string& channel) { return run.has_samples(channel); });
 }
 
 /// A set is held against the simulation as well: exchanged columns and wrong units are in no single number.
 Finding validate_set(const std::string& path) {
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(path);
+  const measurements::MeasurementSet set = measurements::read_measurement_set(path);
   std::size_t rows = 0;
   std::size_t without = 0;
-  for (const scenarios::MeasuredRun& run : set.runs) {
+  for (const measurements::MeasuredRun& run : set.runs) {
     rows += run.time_s.size();
     if (!has_measured(set, run)) without += run.time_s.size();
   }
@@ -73,11 +73,11 @@ Finding validate_toml(const std::string& path) {
   if (kind == "rollrig-tire") return {fmt::format("tire '{}'", models::read_tire(config).name)};
   if (kind == "rollrig-rig") return {fmt::format("rig '{}'", rigs::read_rig(config).name)};
   if (kind == "rollrig-sensors")
-    return {"sensors: " + format_count(scenarios::read_sensor_file(config).size(), "channel")};
+    return {"sensors: " + format_count(measurements::read_sensor_file(config).size(), "channel")};
   if (kind == "rollrig-measurements") return validate_set(path);
   if (kind == "rollrig-vehicle") return {fmt::format("vehicle '{}'", rigs::read_vehicle(config).name)};
   if (kind == "rollrig-drum-coastdown") {
-    const identification::CoastSet set = identification::read_coast_set(path);
+    const estimation::CoastSet set = estimation::read_coast_set(path);
     return {fmt::format("set of drum coast-downs '{}': {}", set.name, format_count(set.runs.size(), "run"))};
   }
   if (kind == "rollrig-run") {

@@ -5,10 +5,10 @@
 
 #include "cli/command.h"
 #include "cli/typo.h"
-#include "diagnosis/explain.h"
+#include "diagnosis/output/explain.h"
 #include "models/effect.h"
-#include "scenarios/assets.h"
-#include "scenarios/scenario.h"
+#include "scenarios/run/scenario.h"
+#include "sim/core/assets.h"
 #include "sim/core/error.h"
 
 namespace rollrig::cli {
@@ -17,10 +17,10 @@ namespace {
 /// Words that may follow an option or stand as the first argument of a subcommand.
 std::string words_after(const std::string& what) {
   std::vector<std::string> words;
-  if (what == "--tire") words = scenarios::list_assets("tires");
-  if (what == "--rig") words = scenarios::list_assets("rigs");
-  if (what == "--vehicle") words = scenarios::list_assets("vehicles");
-  if (what == "--sensors") words = scenarios::list_assets("sensors");
+  if (what == "--tire") words = list_assets("tires");
+  if (what == "--rig") words = list_assets("rigs");
+  if (what == "--vehicle") words = list_assets("vehicles");
+  if (what == "--sensors") words = list_assets("sensors");
   if (what == "--fidelity") words = {"multibody", "quasi_static"};
   if (what == "--baseline") words = {"combined", "constant_rrc"};
   if (what == "run" || what == "sweep") words = scenarios::scenario_names();
@@ -31,7 +31,7 @@ std::string words_after(const std::string& what) {
     words = scenarios::scenario_names();
     for (const std::string& id : models::effect_ids()) words.push_back(id);
     for (const char* folder : {"tires", "rigs", "sensors"}) {
-      for (const std::string& name : scenarios::list_assets(folder)) words.push_back(name);
+      for (const std::string& name : list_assets(folder)) words.push_back(name);
     }
   }
   return fmt::format("{}", fmt::join(words, " "));

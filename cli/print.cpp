@@ -7,8 +7,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "diagnosis/fleet.h"
-#include "scenarios/run_spec.h"
+#include "diagnosis/output/fleet.h"
+#include "scenarios/run/run_spec.h"
 
 namespace rollrig::cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 namespace rollrig::cli {
 

@@ -39,7 +39,7 @@ if(ROLLRIG_SUNDIALS_VERSION VERSION_LESS 6.4)
   message(FATAL_ERROR "SUNDIALS 6.4 or newer is needed, found '${ROLLRIG_SUNDIALS_VERSION}'")
 endif()
 
-# MPI, where there is one: processes of mpirun share the sets of a bank (proof/ranks.cpp). The program works without.
+# MPI, where there is one: processes of mpirun share the sets of a bank (validation/scoring/ranks.cpp). The program works without.
 option(ROLLRIG_MPI "Share banks among the processes of mpirun, where MPI is found" ON)
 if(ROLLRIG_MPI)
   find_package(MPI COMPONENTS CXX QUIET)

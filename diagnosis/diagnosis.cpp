@@ -4,23 +4,23 @@
 
 #include <algorithm>
 
-#include "diagnosis/balance.h"
-#include "diagnosis/base_parameters.h"
-#include "diagnosis/gap.h"
+#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "diagnosis/comparison/race.h"
+#include "diagnosis/findings/balance.h"
+#include "diagnosis/findings/gap.h"
+#include "diagnosis/findings/locations.h"
+#include "diagnosis/findings/open_questions.h"
+#include "diagnosis/findings/verdict.h"
 #include "diagnosis/kinds/measurement_kind.h"
-#include "diagnosis/locations.h"
-#include "diagnosis/next_test.h"
-#include "diagnosis/open_questions.h"
-#include "diagnosis/race.h"
-#include "diagnosis/set_checks.h"
-#include "diagnosis/verdict.h"
+#include "diagnosis/next_test/next_test.h"
 #include "sim/core/error.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
 /// Effects in the race: those that act on the rig and can be seen there, less those left out. Throws InputError.
-std::vector<const models::Effect*> choose_effects(const scenarios::MeasurementSet& set,
+std::vector<const models::Effect*> choose_effects(const measurements::MeasurementSet& set,
                                                   const DiagnosisOptions& options) {
   const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
@@ -53,7 +53,7 @@ const Contender* find_lead(const Race& race, const std::vector<Cause>& causes) {
 }
 
 /// What a fit makes of the sensors, offsets included.
-std::vector<double> find_fitted(const PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+std::vector<double> find_fitted(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
                                 const Fit& fit) {
   const Model model(set, base, fit.hypothesis);
   const Eigen::VectorXd left = model.subtract_from_measured(fit.unknowns, fit.simulated);
@@ -73,11 +73,11 @@ void forbid_causes(Diagnosis& diagnosis) {
   diagnosis.causes.clear();
 }
 
-Diagnosis diagnose_all_runs(const scenarios::MeasurementSet& measured, const DiagnosisOptions& options) {
+Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const DiagnosisOptions& options) {
   const SetChecks checks = check_set(measured, options.threads);
   const PreparedSet set(leave_out(measured, checks.left_out));
   const Remainder remainder(set);
-  const std::vector<identification::FreeParameter> base = find_base_parameters(measured, set.context());
+  const std::vector<estimation::FreeParameter> base = find_base_parameters(measured, set.context());
   RaceSettings settings;
   settings.effects = choose_effects(measured, options);
   settings.threads = options.threads;
@@ -133,13 +133,13 @@ std::pair<std::string, double> find_lone_run(const std::vector<Location>& where)
 }
 
 /// What the other runs show, where one run holds most of the gap and nothing explains it.
-std::optional<LoneRun> diagnose_without_run(scenarios::MeasurementSet set, const Diagnosis& diagnosis,
+std::optional<LoneRun> diagnose_without_run(measurements::MeasurementSet set, const Diagnosis& diagnosis,
                                             DiagnosisOptions options) {
   const auto [run, share_percent] = find_lone_run(diagnosis.where);
   if (diagnosis.verdict != Verdict::kUnexplained || run.empty() || set.runs.size() < 3) return std::nullopt;
   if (options.progress) options.progress(1.0, "without run " + run);
   options.progress = nullptr;
-  const auto is_lone = [&name = run](const scenarios::MeasuredRun& one) { return one.id == name; };
+  const auto is_lone = [&name = run](const measurements::MeasuredRun& one) { return one.id == name; };
   set.runs.erase(std::remove_if(set.runs.begin(), set.runs.end(), is_lone), set.runs.end());
   const Diagnosis rest = diagnose_all_runs(set, options);
   LoneRun lone{run, share_percent, rest.verdict, {}, 0.0};
@@ -165,7 +165,7 @@ void require_known_effects(const DiagnosisOptions& options) {
   }
 }
 
-Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options) {
+Diagnosis diagnose(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
   Diagnosis diagnosis = diagnose_all_runs(set, options);
   diagnosis.without_run = diagnose_without_run(set, diagnosis, options);
   return diagnosis;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/measurement_set.h"
+#include "measurements/measurement_set.h"
 
 namespace rollrig::diagnosis {
 
@@ -89,8 +89,8 @@ struct NextTest {
   double hours = 0.0;   // of the rig
   bool soaked = false;  // every run starts after a soak
   bool force_at_standstill = false;
-  std::vector<std::string> by_hand = {};          // what is done at the rig beside the runs, a sentence each
-  std::vector<scenarios::MeasuredRun> runs = {};  // their inputs
+  std::vector<std::string> by_hand = {};             // what is done at the rig beside the runs, a sentence each
+  std::vector<measurements::MeasuredRun> runs = {};  // their inputs
 };
 
 /// A sensor that the rig has not, and what it would add to an ordinary run.
@@ -153,6 +153,6 @@ void require_known_effects(const DiagnosisOptions& options);
 /// Errors  InputError: a file lacks what the set's kind needs; an unknown effect; nothing measured.
 ///         RunFailure: no fit converges
 /// Checked tests/diagnosis/diagnosis_test.cpp
-Diagnosis diagnose(const scenarios::MeasurementSet& set, const DiagnosisOptions& options);
+Diagnosis diagnose(const measurements::MeasurementSet& set, const DiagnosisOptions& options);
 
 }  // namespace rollrig::diagnosis

@@ -1,8 +1,9 @@
 #pragma once
 /// Every number that decides what the diagnosis says, in one place: what a proof freezes before its bank is made.
 ///
-/// tests/proof/frozen_thresholds_test.cpp holds this file to the SHA-256 in docs/blind_proof/frozen.sha256. Who changes
-/// a number runs a new bank, publishes it beside the old ones, and writes the new hash (docs/blind.md, "Freezing").
+/// tests/validation/scoring/frozen_thresholds_test.cpp holds this file to the SHA-256 in
+/// docs/blind_proof/frozen.sha256. Who changes a number runs a new bank, publishes it beside the old ones, and writes
+/// the new hash (docs/blind.md, "Freezing").
 
 #include <cstddef>
 

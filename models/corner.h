@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "models/drum_curvature.h"
 #include "models/effect.h"
+#include "models/tire/drum_curvature.h"
 
 namespace rollrig::models {
 

@@ -20,7 +20,7 @@ struct CoastDecelerations {
 /// Validity  no slip between tire and drum; losses of drum and wheel the same loaded and lifted. With mu = 0
 ///           the wheel's own bearing and air losses stay in F_r.
 /// Source    deceleration method of ISO 28580 as in UN Regulation No. 117, Annex 6, F_pl of paragraph 5.1.5
-/// Checked   tests/identification/drum_coastdown_test.cpp
+/// Checked   tests/estimation/drum_coastdown_test.cpp
 template <class S>
 S calc_net_deceleration(const CoastDecelerations<S>& a, const S& mass_ratio) {
   return (S(1.0) + mass_ratio) * a.loaded_m_s2 - a.drum_alone_m_s2 - mass_ratio * a.wheel_alone_m_s2;

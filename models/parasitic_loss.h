@@ -1,7 +1,7 @@
 #pragma once
 /// Loss of the rig alone.
 
-#include "models/rolling_resistance.h"
+#include "models/tire/rolling_resistance.h"
 #include "sim/core/schema.h"
 
 namespace rollrig::models {

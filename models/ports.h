@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "models/inflation_gas.h"
 #include "models/parasitic_loss.h"
-#include "models/thermal_network.h"
-#include "models/tire.h"
-#include "models/vehicle_body.h"
+#include "models/tire/inflation_gas.h"
+#include "models/tire/thermal_network.h"
+#include "models/tire/tire.h"
+#include "models/vehicle/vehicle_body.h"
 
 namespace rollrig::models {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "report/page.h"
-#include "scenarios/scenario.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::report {
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/output/diagnosis_json.h"
 #include "report/blocks.h"
 #include "report/diagnosis_sections.h"
 #include "report/set_comparison.h"
@@ -68,7 +68,7 @@ Section make_runs(const diagnosis::PreparedSet& set, const std::vector<Simulated
   return section;
 }
 
-std::string describe_set(const scenarios::MeasurementSet& set) {
+std::string describe_set(const measurements::MeasurementSet& set) {
   const std::string machine = set.rig.has_value()       ? "rig " + set.rig->name
                               : set.vehicle.has_value() ? "vehicle " + set.vehicle->name
                                                         : "";
@@ -77,7 +77,7 @@ std::string describe_set(const scenarios::MeasurementSet& set) {
 
 }  // namespace
 
-Page make_diagnosis_page(const scenarios::MeasurementSet& set, const Diagnosis& diagnosis) {
+Page make_diagnosis_page(const measurements::MeasurementSet& set, const Diagnosis& diagnosis) {
   const diagnosis::PreparedSet prepared(set);
   const std::vector<SimulatedSet> simulated = simulate_before_and_after(prepared, diagnosis);
   Page page{"diagnose", fmt::format("Diagnosis of {}", diagnosis.set), describe_set(set), {}, false, {}};

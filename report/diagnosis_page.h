@@ -2,14 +2,14 @@
 /// The pages of `rollrig diagnose`.
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/fleet.h"
+#include "diagnosis/output/fleet.h"
 #include "report/page.h"
 
 namespace rollrig::report {
 
 /// Verdict in a sentence, causes with their probabilities, gap before and after on held-out runs, gap map, what cannot
 /// be told apart and the test that would, equation and source of what is named, measurement and simulation by run.
-Page make_diagnosis_page(const scenarios::MeasurementSet& set, const diagnosis::Diagnosis& diagnosis);
+Page make_diagnosis_page(const measurements::MeasurementSet& set, const diagnosis::Diagnosis& diagnosis);
 
 /// The verdict in one sentence: "Gap explained by bearing_warmup (probability 94 %), ...".
 std::string describe_verdict(const diagnosis::Diagnosis& diagnosis);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnosis/summary.h"
+#include "diagnosis/output/summary.h"
 #include "models/effect.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"

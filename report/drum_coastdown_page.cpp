@@ -10,11 +10,11 @@
 namespace rollrig::report {
 namespace {
 
-using identification::CoastSet;
-using identification::DrumCoastdownFit;
-using identification::Interval;
-using identification::PressureLevel;
-using identification::SpeedPoint;
+using estimation::CoastSet;
+using estimation::DrumCoastdownFit;
+using estimation::Interval;
+using estimation::PressureLevel;
+using estimation::SpeedPoint;
 
 constexpr double kKmhPerMs = 3.6;
 
@@ -103,10 +103,10 @@ Block make_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
   std::map<std::string, Points> by_state;
   std::size_t row = 0;
   for (const auto& analysis : fit.analyses) {
-    const bool is_loaded = set.runs[analysis.run].state == identification::CoastState::kLoaded;
+    const bool is_loaded = set.runs[analysis.run].state == estimation::CoastState::kLoaded;
     Points& points = by_state[is_loaded ? "tire loaded" : "tire lifted"];
     for (const auto& at : analysis.decelerations) {
-      for (const identification::FittedRow& fitted : at.residuals) {
+      for (const estimation::FittedRow& fitted : at.residuals) {
         if (row++ % stride != 0) continue;
         points.x.push_back(rounded(kKmhPerMs * fitted.speed_m_s));
         points.y.push_back(rounded(1e3 * (fitted.speed_m_s - fitted.fitted_m_s)));
@@ -144,7 +144,7 @@ Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) 
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
   if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart(set, fit)}});
-  Json document = identification::make_coastdown_json(set, fit);
+  Json document = estimation::make_coastdown_json(set, fit);
   page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
   return page;
 }

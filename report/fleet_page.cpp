@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "diagnosis/diagnosis_json.h"
-#include "diagnosis/summary.h"
+#include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/output/summary.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_sections.h"

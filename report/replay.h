@@ -2,7 +2,7 @@
 /// What the replay of a run needs: sizes of tire and machine, and where each body is over time.
 
 #include "report/page.h"
-#include "scenarios/scenario.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::report {
 

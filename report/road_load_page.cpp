@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "identification/road_load_report.h"
+#include "estimation/road_load/road_load_report.h"
 #include "report/blocks.h"
 #include "report/fit_pages.h"
 #include "sim/core/text.h"
@@ -9,8 +9,8 @@
 namespace rollrig::report {
 namespace {
 
-using scenarios::RoadLoadFit;
-using scenarios::RoadLoadPoint;
+using estimation::RoadLoadFit;
+using estimation::RoadLoadPoint;
 
 constexpr double kKmhPerMs = 3.6;
 
@@ -21,8 +21,8 @@ Block make_coefficients(const RoadLoadFit& fit) {
       "At reference conditions, with 95 % intervals", {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const auto number = [i](double si) { return fmt::format("{:.5g}", identification::road_load_in_file_unit(i, si)); };
-    const std::string unit = pretty_unit(unit_of_key(identification::road_load_key(i, fit.per_mass)).symbol);
+    const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };
+    const std::string unit = pretty_unit(unit_of_key(estimation::road_load_key(i, fit.per_mass)).symbol);
     std::vector<std::string> row{std::string(1, "ABC"[i]), number(fit.values()[at])};
     if (fit.on_bound[at]) {
       row.insert(row.end(), {"on its bound", "", ""});
@@ -60,7 +60,7 @@ Json make_curve(const RoadLoadFit& fit) {
 
 /// Points of one heading; `get` gives what is shown of a point.
 template <class Get>
-Json make_points(const identification::CoastdownFile& file, const RoadLoadFit& fit, int heading, Get&& get) {
+Json make_points(const estimation::CoastdownFile& file, const RoadLoadFit& fit, int heading, Get&& get) {
   const char* name = heading > 0 ? "runs in + heading" : heading < 0 ? "runs in - heading" : "runs";
   Json series = {{"name", name}, {"kind", "points"}, {"x", Json::array()}, {"y", Json::array()}};
   for (const RoadLoadPoint& point : fit.points) {
@@ -72,14 +72,14 @@ Json make_points(const identification::CoastdownFile& file, const RoadLoadFit& f
 }
 
 template <class Get>
-void add_headings(const identification::CoastdownFile& file, const RoadLoadFit& fit, Get&& get, Json& series) {
+void add_headings(const estimation::CoastdownFile& file, const RoadLoadFit& fit, Get&& get, Json& series) {
   for (const int heading : {1, -1, 0}) {
     Json points = make_points(file, fit, heading, get);
     if (!points["x"].empty()) series.push_back(std::move(points));
   }
 }
 
-Block make_force_chart(const identification::CoastdownFile& file, const RoadLoadFit& fit) {
+Block make_force_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array({make_curve(fit)});
   add_headings(
       file, fit, [](const RoadLoadPoint& point) { return point.force_N; }, series);
@@ -90,7 +90,7 @@ Block make_force_chart(const identification::CoastdownFile& file, const RoadLoad
           {"caption", "Points: mean force over a speed bin as tested, with that run's wind, slope and weather."}};
 }
 
-Block make_residual_chart(const identification::CoastdownFile& file, const RoadLoadFit& fit) {
+Block make_residual_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array();
   add_headings(
       file, fit, [](const RoadLoadPoint& point) { return point.residual_N; }, series);
@@ -102,18 +102,18 @@ Block make_residual_chart(const identification::CoastdownFile& file, const RoadL
           {"caption", "Fit as tested: wind, slope and weather are in it."}};
 }
 
-Block make_checks(const identification::RoadLoadChecks& checks) {
+Block make_checks(const estimation::RoadLoadChecks& checks) {
   scenarios::ResultTable table{"What the standards ask of coastdowns", {"check", "", "found", "limit", "clause"}, {}};
-  for (const identification::RoadLoadCheck& check : checks.checks) {
-    table.rows.push_back({check.name, identification::name_of(check.status), check.found, check.limit, check.clause});
+  for (const estimation::RoadLoadCheck& check : checks.checks) {
+    table.rows.push_back({check.name, estimation::name_of(check.status), check.found, check.limit, check.clause});
   }
   return make_table(table);
 }
 
 }  // namespace
 
-Page make_road_load_page(const identification::CoastdownFile& file, const scenarios::RoadLoadFitOptions& options,
-                         const RoadLoadFit& fit, const identification::RoadLoadChecks& checks) {
+Page make_road_load_page(const estimation::CoastdownFile& file, const estimation::RoadLoadFitOptions& options,
+                         const RoadLoadFit& fit, const estimation::RoadLoadChecks& checks) {
   Page page{"fit road-load",
             "Road load from coastdowns",
             fmt::format("{}, {}, {}", format_count(file.data.runs.size(), "run"),
@@ -129,7 +129,7 @@ Page make_road_load_page(const identification::CoastdownFile& file, const scenar
   page.add({"Data and fit", "", {make_force_chart(file, fit)}});
   page.add({"Residuals", "", {make_residual_chart(file, fit)}});
   page.add({"Checks", "", {make_checks(checks)}});
-  Json document = identification::make_road_load_json(file, options, fit, checks);
+  Json document = estimation::make_road_load_json(file, options, fit, checks);
   page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
   return page;
 }

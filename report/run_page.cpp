@@ -7,7 +7,7 @@
 #include "report/replay.h"
 #include "report/run_figures.h"
 #include "report/time_panels.h"
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 namespace rollrig::report {
 namespace {

@@ -2,7 +2,7 @@
 /// The page of `rollrig run`.
 
 #include "report/page.h"
-#include "scenarios/scenario.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::report {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "proof/report.h"
 #include "report/blocks.h"
 #include "sim/core/text.h"
+#include "validation/scoring/report.h"
 
 namespace rollrig::report {
 namespace {

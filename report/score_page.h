@@ -1,8 +1,8 @@
 #pragma once
 /// The page of `rollrig blind score`.
 
-#include "proof/score.h"
 #include "report/page.h"
+#include "validation/scoring/score.h"
 
 namespace rollrig::report {
 

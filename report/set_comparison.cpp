@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "diagnosis/comparison/report_unit.h"
 #include "diagnosis/kinds/measurement_kind.h"
-#include "diagnosis/report_unit.h"
 #include "report/blocks.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"

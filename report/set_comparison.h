@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/comparison/prepared_set.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/prepared_set.h"
 #include "models/effect.h"
 #include "report/page.h"
 

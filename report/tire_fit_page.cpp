@@ -12,8 +12,8 @@
 namespace rollrig::report {
 namespace {
 
-using identification::Estimate;
-using identification::TireFit;
+using estimation::Estimate;
+using estimation::TireFit;
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
@@ -21,7 +21,7 @@ std::string last_part(const std::string& key) { return key.substr(key.rfind('.')
 std::string short_key(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
 
 /// What the two-step regression says of a parameter, in the unit of its key.
-std::optional<double> find_two_step(const identification::TwoStepEstimate& two_step, const std::string& key) {
+std::optional<double> find_two_step(const estimation::TwoStepEstimate& two_step, const std::string& key) {
   if (key.find("load_map") != std::string::npos) return std::nullopt;
   const std::string last = last_part(key);
   if (last == "A0_N") return two_step.A0_N;
@@ -74,7 +74,7 @@ Block make_intervals(const TireFit& fit) {
 Block make_channels(const TireFit& fit) {
   scenarios::ResultTable table{
       "What is left, whitened: 1 is the noise that the sensors' table says", {"channel", "samples", "rms"}, {}};
-  for (const identification::ChannelFit& at : fit.channels) {
+  for (const estimation::ChannelFit& at : fit.channels) {
     table.rows.push_back({at.channel, fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
   }
   return make_table(table);
@@ -100,19 +100,19 @@ Block make_correlations(const TireFit& fit) {
 }
 
 /// The context with every estimate put in, nuisances too.
-models::Context<double> make_fitted_context(const diagnosis::PreparedSet& prepared, scenarios::MeasurementSet set,
+models::Context<double> make_fitted_context(const diagnosis::PreparedSet& prepared, measurements::MeasurementSet set,
                                             const TireFit& fit) {
   set.tire = fit.tire;
   models::Context<double> context = prepared.kind().make_context(set);
   for (const Estimate& at : fit.estimates) {
-    identification::find_parameter(context, at.key) = at.value * unit_of_key(last_part(at.key)).factor;
+    estimation::find_parameter(context, at.key) = at.value * unit_of_key(last_part(at.key)).factor;
   }
   return context;
 }
 
 }  // namespace
 
-Page make_tire_fit_page(const scenarios::MeasurementSet& set, const TireFit& fit) {
+Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& fit) {
   Page page{"fit tire",
             fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
             fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run")),
@@ -133,7 +133,7 @@ Page make_tire_fit_page(const scenarios::MeasurementSet& set, const TireFit& fit
   }
   page.add(std::move(runs));
   page.add({"Correlations", "", {make_correlations(fit)}});
-  Json document = identification::make_fit_json(set, fit);
+  Json document = estimation::make_fit_json(set, fit);
   page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
   return page;
 }

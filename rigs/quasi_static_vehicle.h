@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "models/vehicle.h"
+#include "models/vehicle/vehicle.h"
 #include "rigs/vehicle_channels.h"
 
 namespace rollrig::rigs {
@@ -14,7 +14,7 @@ namespace rollrig::rigs {
 ///           R: rollers' force A + B v + C v^2, or drag, grade and road load on the flat;
 ///           of each wheel, on the surface: X = D_own - F_rr/(1 + r_l k) - I_spin/r_l^2 a;  slip X/C
 /// Symbols   m mass, m_rot equivalent mass of what turns [kg], a acceleration [m/s2], D_own what its motor
-///           and its brake do of D (models/vehicle.h, blend_brakes) [N], r_l loaded radius, k = 1/R_roller,
+///           and its brake do of D (models/vehicle/vehicle.h, blend_brakes) [N], r_l loaded radius, k = 1/R_roller,
 ///           0 on the flat [1/m], C slip stiffness [N], infinite in the baseline
 /// Validity  slow against suspension, tie-downs and the driver's settling (a few seconds); loads are static,
 ///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the flat the sum over both

@@ -5,7 +5,7 @@
 
 #include "models/parasitic_loss.h"
 #include "models/ports.h"
-#include "models/tire_file.h"
+#include "models/tire/tire_file.h"
 
 namespace rollrig::rigs {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "models/contact_force_element.h"
-#include "models/vehicle.h"
+#include "models/vehicle/vehicle.h"
 #include "rigs/vehicle_layout.h"
 
 namespace rollrig::rigs {

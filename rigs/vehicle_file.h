@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "models/road_load.h"
-#include "models/vehicle_body.h"
+#include "models/vehicle/road_load.h"
+#include "models/vehicle/vehicle_body.h"
 #include "sim/core/schema.h"
 
 namespace rollrig::rigs {

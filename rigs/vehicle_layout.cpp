@@ -1,6 +1,6 @@
 #include "rigs/vehicle_layout.h"
 
-#include "models/vehicle.h"
+#include "models/vehicle/vehicle.h"
 
 namespace rollrig::rigs {
 namespace {

@@ -1,6 +1,6 @@
 /// Coastdown of a vehicle on the road or on a dynamometer, both directions, and its A, B, C.
-#include "scenarios/coastdown_evaluation.h"
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/coastdown_evaluation.h"
+#include "scenarios/common/vehicle_bench.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -24,8 +24,9 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const CoastdownData data = collect_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
-  const RoadLoadFit fit = fit_vehicle_coastdowns(data, spec);
+  const estimation::CoastdownData data =
+      collect_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
+  const estimation::RoadLoadFit fit = fit_vehicle_coastdowns(data, spec);
   outcome.result = road_load_to_json(fit);
   outcome.result["coastdowns"] = Json::array();
   for (const sim::PhaseSpan& phase : outcome.recording.phases) {

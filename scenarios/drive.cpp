@@ -1,5 +1,5 @@
 /// A vehicle on the road through rows that a file gives: speed, height and air.
-#include "scenarios/wheel_bench.h"
+#include "scenarios/common/wheel_bench.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {
@@ -84,7 +84,7 @@ const Scenario& scenario_drive() {
         {"drag_energy_Wh", "of it, by drag"},
         {"climb_energy_Wh", "of it, gone into height"},
         {"liner_temperature_end_degC", "of a tire at the end"}}},
-      SetKind::kRoad, &evaluate);
+      measurements::SetKind::kRoad, &evaluate);
   return scenario;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "rigs/rig_file.h"
-#include "scenarios/assets.h"
-#include "scenarios/coastdown_evaluation.h"
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/coastdown_evaluation.h"
+#include "scenarios/common/vehicle_bench.h"
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenarios/drum_bench.h"
-#include "scenarios/readings.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios {
 namespace {

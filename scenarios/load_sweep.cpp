@@ -1,8 +1,8 @@
 /// Load sweep (§3.2.4.1): RRc at several loads, one after the other on a tire that stays warm.
 #include <algorithm>
 
-#include "scenarios/drum_bench.h"
-#include "scenarios/sweep_evaluation.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios {
 namespace {

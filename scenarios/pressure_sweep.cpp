@@ -1,6 +1,6 @@
 /// Pressure sweep (§3.2.4.2): RRc at several cold pressures, each from a soaked tire.
-#include "scenarios/drum_bench.h"
-#include "scenarios/sweep_evaluation.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios {
 namespace {

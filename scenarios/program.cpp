@@ -1,9 +1,9 @@
 /// A drum test that a file gives row by row: speed, load and air over time.
 #include <algorithm>
 
-#include "scenarios/drum_bench.h"
-#include "scenarios/given_run.h"
-#include "scenarios/readings.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/given_run.h"
+#include "scenarios/common/readings.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {
@@ -14,7 +14,7 @@ struct ProgramConditions : DrumConditions {
   FilePath program;
   Choice tire_state{"soaked", {"soaked", "warm"}};
   Choice force_at_standstill{"no", {"no", "yes"}};
-  MeasuredRun run;  // what the file holds
+  measurements::MeasuredRun run;  // what the file holds
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -55,7 +55,7 @@ struct ProgramConditions : DrumConditions {
   const std::vector<double>& column(const char* name) const { return run.columns.at(name); }
 
   void complete(const RunSpec& spec) {
-    run = read_run_inputs(program.path, SetKind::kDrum);
+    run = measurements::read_run_inputs(program.path, measurements::SetKind::kDrum);
     load_N = *std::max_element(column("load_N").begin(), column("load_N").end());
     check_tire_carries(spec, "program", *load_N);
     if (!pressure_Pa.has_value()) pressure_Pa = find_default_pressure_Pa(spec);

@@ -3,7 +3,7 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/vehicle_bench.h"
 
 namespace rollrig::scenarios {
 namespace {

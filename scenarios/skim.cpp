@@ -1,6 +1,6 @@
 /// Skim test: the parasitic loss as a rig measures it, and what of it is the tire's (§3.2.1 item 6).
-#include "scenarios/drum_bench.h"
-#include "scenarios/readings.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Dense>
 
-#include "scenarios/drum_bench.h"
-#include "scenarios/readings.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios {
 namespace {

@@ -1,6 +1,6 @@
 /// Skim tests spread over the warm-up (§3.2.7): does the parasitic loss change as the tire warms?
-#include "scenarios/drum_bench.h"
-#include "scenarios/readings.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios {
 namespace {

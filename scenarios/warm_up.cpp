@@ -3,8 +3,8 @@
 
 #include <boost/math/statistics/linear_regression.hpp>
 
-#include "scenarios/drum_bench.h"
-#include "scenarios/readings.h"
+#include "scenarios/common/drum_bench.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios {
 

@@ -1,7 +1,7 @@
 /// One wheel on its roller through rows that a file gives: speed, load, drive and brake force, air.
 #include <algorithm>
 
-#include "scenarios/wheel_bench.h"
+#include "scenarios/common/wheel_bench.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {
@@ -81,7 +81,7 @@ const Scenario& scenario_wheel_program() {
         {"liner_temperature_max_degC", "highest liner temperature"},
         {"liner_temperature_end_degC", "liner temperature at the end"},
         {"cavity_pressure_end_kPa", "pressure at the end"}}},
-      SetKind::kDyno, &evaluate);
+      measurements::SetKind::kDyno, &evaluate);
   return scenario;
 }
 

@@ -2,7 +2,7 @@
 
 #include <boost/math/tools/roots.hpp>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 namespace rollrig::tools {
 

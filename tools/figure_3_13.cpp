@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 namespace rollrig::tools {
 namespace {

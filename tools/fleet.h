@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "models/road_load.h"
-#include "scenarios/scenario.h"
+#include "models/vehicle/road_load.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::tools {
 

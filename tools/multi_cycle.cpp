@@ -5,7 +5,7 @@
 #include <boost/math/tools/minima.hpp>
 
 #include "rigs/vehicle_file.h"
-#include "scenarios/assets.h"
+#include "sim/core/assets.h"
 #include "sim/core/csv.h"
 #include "tools/class_tire.h"
 
@@ -64,7 +64,7 @@ std::vector<CertificateSection> read_certificate(const std::string& path) {
 
 std::vector<SimulatedSection> simulate_multi_cycle(const MultiCycleTest& test,
                                                    const std::vector<CertificateSection>& certificate) {
-  const rigs::VehicleFile vehicle = rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", test.vehicle)));
+  const rigs::VehicleFile vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", test.vehicle)));
   const bool tires_act = test.rrc_N_per_kN > 0.0;
   const double loss_factor = tires_act ? find_loss_factor(test.rrc_N_per_kN) : 1.0;
   std::vector<std::string> settings = make_settings(certificate);

@@ -121,7 +121,8 @@ std::string write_assumed(const std::string& root) {
     page += fmt::format("| models/effects/{0}.cpp | `{0}` | {1} |\n", effect->info.id,
                         escape_cell(effect->info.source.substr(at + 9)));
   }
-  const std::vector<std::string> folders{"models", "rigs", "sim", "scenarios", "identification", "diagnosis", "import"};
+  const std::vector<std::string> folders{"models",     "rigs",      "sim",      "measurements",
+                                         "estimation", "scenarios", "diagnosis"};
   std::vector<std::string> files = list_files(root, folders, {".h", ".cpp"});
   const std::vector<std::string> assets = list_files(root, {"assets"}, {".toml"});
   files.insert(files.end(), assets.begin(), assets.end());
@@ -147,7 +148,7 @@ std::string make_physics_page(const std::string& root) {
       "[what is assumed](#what-is-assumed)\n\n"
       "## Equations\n\n";
   for (const std::string& file :
-       list_files(root, {"models", "rigs", "sim", "scenarios", "identification", "diagnosis"}, {".h"})) {
+       list_files(root, {"models", "rigs", "sim", "measurements", "estimation", "scenarios", "diagnosis"}, {".h"})) {
     page += write_equations(root, file);
   }
   page += "## Effects\n\nParameters, ranges and priors are in [reference.md](reference.md).\n\n" + write_effects();

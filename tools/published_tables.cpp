@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 #include "tools/drive_tables.h"
 
 namespace rollrig::tools {

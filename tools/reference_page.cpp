@@ -5,10 +5,11 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
 
-#include "models/tire_file.h"
+#include "measurements/measurement_set.h"
+#include "models/tire/tire_file.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
-#include "scenarios/measurement_set.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::tools {
 namespace {
@@ -151,7 +152,7 @@ std::string make_reference_page() {
   text += "\n## Effects\n\n" + anchor_list(effects);
   for (const models::Effect* effect : models::all_effects()) text += describe(effect->info);
   text += describe_tire_file() + describe_rig_file() + describe_vehicle_file();
-  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(scenarios::all_measured_channels()) +
+  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(measurements::all_measured_channels()) +
           "\n(`[sensors.<channel>]` of a set or of a file `rollrig-sensors/1`, which has a `name` beside it: "
           "`offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
           "channel's unit).\n";

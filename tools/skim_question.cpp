@@ -5,9 +5,10 @@
 #include <filesystem>
 
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/output/diagnosis_json.h"
 #include "models/effect.h"
-#include "scenarios/run_spec.h"
+#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
@@ -37,7 +38,7 @@ class Scratch {
   fs::path path_;
 };
 
-scenarios::MeasurementSet measure(const std::string& tire, const std::string& assignment) {
+measurements::MeasurementSet measure(const std::string& tire, const std::string& assignment) {
   ConfigTable document = scenarios::make_run_document("transient_skim");
   const auto set = [&document](const char* key, const std::string& value) {
     set_config_value(document, key, value, "tools/skim_question");
@@ -52,7 +53,7 @@ scenarios::MeasurementSet measure(const std::string& tire, const std::string& as
        scenarios::write_measurement_set(spec, spec.scenario->run(spec, {}), "transient")) {
     write_output((scratch.path() / name).string(), content);
   }
-  return scenarios::read_measurement_set(scratch.path().string());
+  return measurements::read_measurement_set(scratch.path().string());
 }
 
 /// What is named, "or" between what cannot be told apart; else the verdict.

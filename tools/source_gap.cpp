@@ -9,8 +9,8 @@
 #include <limits>
 #include <map>
 
-#include "diagnosis/hypothesis.h"
-#include "scenarios/run_spec.h"
+#include "diagnosis/comparison/hypothesis.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
 #include "sim/core/schema.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "models/drum_curvature.h"
-#include "models/rolling_resistance.h"
+#include "models/tire/drum_curvature.h"
+#include "models/tire/rolling_resistance.h"
 #include "tools/drive_tables.h"
 #include "tools/tire_drive.h"
 

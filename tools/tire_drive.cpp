@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/vehicle_bench.h"
 
 namespace rollrig::tools {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 namespace rollrig::tools {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 #include "tools/published_numbers.h"
 
 namespace rollrig::tools {

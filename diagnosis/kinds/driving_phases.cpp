@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "identification/sample_selection.h"
+#include "measurements/sample_selection.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -26,11 +26,11 @@ struct Window {
 };
 
 /// Windows of two minutes, and of what is left before a change of load.
-std::vector<Window> cut_windows(const scenarios::MeasuredRun& run) {
+std::vector<Window> cut_windows(const measurements::MeasuredRun& run) {
   const bool has_load = run.has("load_N");
   std::vector<Window> windows{{0, 0}};
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-    const bool load_begins = has_load && identification::is_load_change(run, row);
+    const bool load_begins = has_load && measurements::is_load_change(run, row);
     const bool is_full = run.time_s[row] - run.time_s[windows.back().first] >= kWindow_s;
     if (load_begins || is_full) windows.push_back({row, row, load_begins});
     windows.back().last = row + 1;
@@ -38,7 +38,7 @@ std::vector<Window> cut_windows(const scenarios::MeasuredRun& run) {
   return windows;
 }
 
-double find_mean_km_h(const scenarios::MeasuredRun& run, const Window& window) {
+double find_mean_km_h(const measurements::MeasuredRun& run, const Window& window) {
   double sum_m_s = 0.0;
   for (std::size_t row = window.first; row < window.last; ++row) sum_m_s += run.columns.at("speed_km_h")[row];
   return 3.6 * sum_m_s / static_cast<double>(window.last - window.first);
@@ -58,7 +58,7 @@ std::vector<Window> join_equal(const std::vector<Window>& windows) {
 }
 
 /// Gives short ones to the one before them, at the start of a load to the next.
-std::vector<Window> join_short(const scenarios::MeasuredRun& run, std::vector<Window> windows) {
+std::vector<Window> join_short(const measurements::MeasuredRun& run, std::vector<Window> windows) {
   std::vector<Window> joined;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Window& at = windows[i];
@@ -77,7 +77,7 @@ std::vector<Window> join_short(const scenarios::MeasuredRun& run, std::vector<Wi
 
 }  // namespace
 
-std::vector<RunPhase> find_driving_phases(const scenarios::MeasuredRun& run) {
+std::vector<RunPhase> find_driving_phases(const measurements::MeasuredRun& run) {
   std::vector<Window> windows = cut_windows(run);
   for (Window& window : windows) window.name = name_of_speed(find_mean_km_h(run, window));
   std::vector<RunPhase> phases;

@@ -1,7 +1,7 @@
 #pragma once
 /// Phases of a run in which a vehicle is driven.
 
-#include "diagnosis/run_phases.h"
+#include "diagnosis/comparison/run_phases.h"
 
 namespace rollrig::diagnosis {
 
@@ -10,6 +10,6 @@ namespace rollrig::diagnosis {
 /// Where the run records a load, a change of it begins a phase.
 /// Source    Assumed: all limits; a stop at a light is no phase, and ten of them in a row are one of traffic
 /// Checked   tests/diagnosis/driving_phases_test.cpp
-std::vector<RunPhase> find_driving_phases(const scenarios::MeasuredRun& run);
+std::vector<RunPhase> find_driving_phases(const measurements::MeasuredRun& run);
 
 }  // namespace rollrig::diagnosis

@@ -3,27 +3,27 @@
 
 #include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
-#include "identification/sample_selection.h"
+#include "measurements/sample_selection.h"
 #include "models/parasitic_loss.h"
-#include "scenarios/drum_conditions.h"
+#include "scenarios/common/drum_conditions.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-using scenarios::MeasuredRun;
-using scenarios::MeasurementSet;
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
 
 class DrumReplay : public RunReplay {
  public:
-  explicit DrumReplay(const MeasuredRun& run) : program_(identification::make_drum_replay(run)) {}
+  explicit DrumReplay(const MeasuredRun& run) : program_(measurements::make_drum_replay(run)) {}
 
   sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
                                   rigs::Detail detail) const override {
-    return identification::replay_drum_run<double>(set, run, program_, corner, detail);
+    return measurements::replay_drum_run<double>(set, run, program_, corner, detail);
   }
   sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
                                rigs::Detail detail) const override {
-    return identification::replay_drum_run<Jet>(set, run, program_, corner, detail);
+    return measurements::replay_drum_run<Jet>(set, run, program_, corner, detail);
   }
 
  private:
@@ -43,7 +43,7 @@ class DrumKind : public KindWithRig {
   }
 
   std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
-    return identification::find_compared_rows(run, channel);
+    return measurements::find_compared_rows(run, channel);
   }
 
   std::vector<RunPhase> find_phases(const MeasurementSet& set, const MeasuredRun& run) const override {

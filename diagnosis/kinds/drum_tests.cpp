@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "diagnosis/checks/rig_sensors.h"
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/test_plan.h"
-#include "diagnosis/rig_sensors.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -133,7 +133,7 @@ PlannedTest speed_steps(const TestConditions& at) {
 
 PlannedTest pressure_sweep(const TestConditions& at) {
   constexpr double kStep_Pa = 60e3;
-  std::vector<scenarios::MeasuredRun> runs;
+  std::vector<measurements::MeasuredRun> runs;
   for (const double step : {-1.0, 0.0, 1.0}) {
     RunPlan run = begin_cold(at);
     runs.push_back(run.at_pressure(at.pressure_Pa + step * kStep_Pa).roll(30.0, at.load_N, kUsual_km_h).finish());

@@ -6,14 +6,14 @@
 #include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/wheel_replay.h"
-#include "identification/sample_selection.h"
+#include "measurements/sample_selection.h"
 #include "models/parasitic_loss.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-using scenarios::MeasuredRun;
-using scenarios::MeasurementSet;
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
 
 constexpr const char* kLoss = "loss_force_N";
 
@@ -22,7 +22,8 @@ class DynoKind : public KindWithRig {
   models::RigKind rig_kind() const override { return models::RigKind::kDyno; }
 
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelReplay>(run, scenarios::replay_dyno_run<double>, scenarios::replay_dyno_run<Jet>);
+    return std::make_shared<WheelReplay>(run, measurements::replay_dyno_run<double>,
+                                         measurements::replay_dyno_run<Jet>);
   }
 
   ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }
@@ -35,9 +36,9 @@ class DynoKind : public KindWithRig {
     std::vector<std::size_t> rows;
     double settled_s = run.time_s.front();
     for (std::size_t row = 0; row < values.size(); ++row) {
-      if (identification::is_load_change(run, row)) settled_s = run.time_s[row] + identification::kSettling_s;
+      if (measurements::is_load_change(run, row)) settled_s = run.time_s[row] + measurements::kSettling_s;
       const bool trusted =
-          channel != kLoss || (speed_m_s[row] >= identification::kTrustedSpeed_m_s && run.time_s[row] >= settled_s);
+          channel != kLoss || (speed_m_s[row] >= measurements::kTrustedSpeed_m_s && run.time_s[row] >= settled_s);
       if (!std::isnan(values[row]) && trusted) rows.push_back(row);
     }
     return rows;

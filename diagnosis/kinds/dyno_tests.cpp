@@ -46,7 +46,7 @@ PlannedTest ramps(const TestConditions& at) {
 }
 
 PlannedTest ballast(const TestConditions& at) {
-  std::vector<scenarios::MeasuredRun> runs;
+  std::vector<measurements::MeasuredRun> runs;
   for (const double share : {0.8, 1.2}) {
     RunPlan run = begin_cold(at);
     runs.push_back(run.pull(kRoadLoad_N).roll(30.0, share * at.load_N, kUsual_km_h).finish());
@@ -59,7 +59,7 @@ PlannedTest ballast(const TestConditions& at) {
 
 PlannedTest pressure_sweep(const TestConditions& at) {
   constexpr double kStep_Pa = 50e3;
-  std::vector<scenarios::MeasuredRun> runs;
+  std::vector<measurements::MeasuredRun> runs;
   for (const double step : {-1.0, 1.0}) {
     RunPlan run = begin_cold(at);
     runs.push_back(run.at_pressure(at.pressure_Pa + step * kStep_Pa)

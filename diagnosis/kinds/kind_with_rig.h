@@ -7,11 +7,11 @@ namespace rollrig::diagnosis {
 
 class KindWithRig : public MeasurementKind {
  public:
-  models::Context<double> make_context(const scenarios::MeasurementSet& set) const override {
+  models::Context<double> make_context(const measurements::MeasurementSet& set) const override {
     return rigs::make_context(set.tire, *set.rig, set.baseline);
   }
 
-  Uncertainties find_uncertainties(const scenarios::MeasurementSet& set,
+  Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
                                    const models::Context<double>& context) const override {
     Uncertainties uncertainties;
     add_loss_law(set.tire, context, uncertainties);
@@ -20,7 +20,9 @@ class KindWithRig : public MeasurementKind {
     return uncertainties;
   }
 
-  double usual_ambient_K(const scenarios::MeasurementSet& set) const override { return set.rig->environment.ambient_K; }
+  double usual_ambient_K(const measurements::MeasurementSet& set) const override {
+    return set.rig->environment.ambient_K;
+  }
 };
 
 }  // namespace rollrig::diagnosis

@@ -6,13 +6,13 @@
 
 namespace rollrig::diagnosis {
 
-const MeasurementKind& kind_of(const scenarios::MeasurementSet& set) {
+const MeasurementKind& kind_of(const measurements::MeasurementSet& set) {
   switch (set.kind) {
-    case scenarios::SetKind::kDrum:
+    case measurements::SetKind::kDrum:
       return drum_kind();
-    case scenarios::SetKind::kDyno:
+    case measurements::SetKind::kDyno:
       return dyno_kind();
-    case scenarios::SetKind::kRoad:
+    case measurements::SetKind::kRoad:
       return road_kind();
   }
   throw std::invalid_argument("a kind of set without an entry here");

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/base_parameters.h"
-#include "diagnosis/pushes.h"
-#include "diagnosis/repairs.h"
-#include "diagnosis/run_phases.h"
-#include "diagnosis/test_menu.h"
-#include "identification/replay.h"
-#include "scenarios/measurement_set.h"
+#include "diagnosis/checks/repairs.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "diagnosis/comparison/run_phases.h"
+#include "diagnosis/findings/pushes.h"
+#include "diagnosis/next_test/test_menu.h"
+#include "measurements/measurement_set.h"
+#include "measurements/replay.h"
 
 namespace rollrig::diagnosis {
 
@@ -23,9 +23,9 @@ class RunReplay {
   virtual ~RunReplay() = default;
   /// What the sensors would have shown, rows at the run's own times; of the set and run that it was made for.
   /// Throws RunFailure.
-  virtual sim::Recording<double> simulate(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
+  virtual sim::Recording<double> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                                           models::Corner<double>& corner, rigs::Detail detail) const = 0;
-  virtual sim::Recording<Jet> simulate(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
+  virtual sim::Recording<Jet> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                                        models::Corner<Jet>& corner, rigs::Detail detail) const = 0;
 };
 
@@ -44,44 +44,44 @@ class MeasurementKind {
 
   // How a run is simulated.
   /// Throws InputError where the set's files lack what its kind needs.
-  virtual models::Context<double> make_context(const scenarios::MeasurementSet& set) const = 0;
-  virtual std::shared_ptr<const RunReplay> make_replay(const scenarios::MeasurementSet& set,
-                                                       const scenarios::MeasuredRun& run) const = 0;
+  virtual models::Context<double> make_context(const measurements::MeasurementSet& set) const = 0;
+  virtual std::shared_ptr<const RunReplay> make_replay(const measurements::MeasurementSet& set,
+                                                       const measurements::MeasuredRun& run) const = 0;
   /// Adds the columns that every method reads and that this kind does not record.
-  virtual void complete(const scenarios::MeasurementSet& /*set*/, scenarios::MeasuredRun& /*run*/) const {}
+  virtual void complete(const measurements::MeasurementSet& /*set*/, measurements::MeasuredRun& /*run*/) const {}
 
   // What is compared, and how it is cut up.
-  virtual ForceChannel force_channel(const scenarios::MeasurementSet& set) const = 0;
+  virtual ForceChannel force_channel(const measurements::MeasurementSet& set) const = 0;
   /// Rows of a channel that a comparison uses: those with a sample that the simulation can be held to.
-  virtual std::vector<std::size_t> find_compared_rows(const scenarios::MeasuredRun& run,
+  virtual std::vector<std::size_t> find_compared_rows(const measurements::MeasuredRun& run,
                                                       const std::string& channel) const = 0;
-  virtual std::vector<RunPhase> find_phases(const scenarios::MeasurementSet& set,
-                                            const scenarios::MeasuredRun& run) const = 0;
+  virtual std::vector<RunPhase> find_phases(const measurements::MeasurementSet& set,
+                                            const measurements::MeasuredRun& run) const = 0;
   /// Load at or below which a tire is in skim; 0 where there is no skim.
-  virtual double skim_limit_N(const scenarios::MeasurementSet& set) const = 0;
+  virtual double skim_limit_N(const measurements::MeasurementSet& set) const = 0;
 
   // What a recalibration may move, and which equations may need a push.
-  virtual Uncertainties find_uncertainties(const scenarios::MeasurementSet& set,
+  virtual Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
                                            const models::Context<double>& context) const = 0;
   virtual std::vector<NamedPush> pushes() const = 0;
 
   // Which tests could come next, and in which air.
-  virtual double usual_ambient_K(const scenarios::MeasurementSet& set) const = 0;
+  virtual double usual_ambient_K(const measurements::MeasurementSet& set) const = 0;
   virtual std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const = 0;
   /// An ordinary run with every sensor that could be added; none where no sensor's reading is predicted.
   virtual std::optional<PlannedTest> make_sensor_test(const PreparedSet& /*set*/) const { return std::nullopt; }
 
   // Whether a set can be what it says it is.
   /// By how much the force channel may differ from its simulation, in SI units (plausibility.h).
-  virtual double calc_force_tolerance(const scenarios::MeasurementSet& set, double simulated) const = 0;
+  virtual double calc_force_tolerance(const measurements::MeasurementSet& set, double simulated) const = 0;
   virtual std::vector<WrongUnit> list_wrong_units() const = 0;
   /// Of a reading of the force channel what is the tire's; none where the rest is not known well enough.
-  virtual std::optional<double> find_tire_force_N(const scenarios::MeasurementSet& set,
-                                                  const scenarios::MeasuredRun& run, std::size_t row,
+  virtual std::optional<double> find_tire_force_N(const measurements::MeasurementSet& set,
+                                                  const measurements::MeasuredRun& run, std::size_t row,
                                                   double reading) const = 0;
 };
 
 /// The kind of a set.
-const MeasurementKind& kind_of(const scenarios::MeasurementSet& set);
+const MeasurementKind& kind_of(const measurements::MeasurementSet& set);
 
 }  // namespace rollrig::diagnosis

@@ -5,15 +5,15 @@
 #include "diagnosis/kinds/driving_phases.h"
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/wheel_replay.h"
-#include "identification/sample_selection.h"
+#include "measurements/sample_selection.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-using scenarios::MeasuredRun;
-using scenarios::MeasurementSet;
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
 
 constexpr const char* kTraction = "traction_force_N";
 
@@ -22,16 +22,17 @@ class RoadKind : public MeasurementKind {
   models::RigKind rig_kind() const override { return models::RigKind::kFlat; }
 
   models::Context<double> make_context(const MeasurementSet& set) const override {
-    return scenarios::make_road_context(set);
+    return measurements::make_road_context(set);
   }
 
   std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelReplay>(run, scenarios::replay_road_run<double>, scenarios::replay_road_run<Jet>);
+    return std::make_shared<WheelReplay>(run, measurements::replay_road_run<double>,
+                                         measurements::replay_road_run<Jet>);
   }
 
   /// Every tire carries its share of the weight.
   void complete(const MeasurementSet& set, MeasuredRun& run) const override {
-    run.columns["load_N"].assign(run.time_s.size(), scenarios::find_tire_load_N(*set.vehicle));
+    run.columns["load_N"].assign(run.time_s.size(), measurements::find_tire_load_N(*set.vehicle));
   }
 
   ForceChannel force_channel(const MeasurementSet&) const override { return {kTraction, "traction force", 1.0}; }
@@ -41,7 +42,7 @@ class RoadKind : public MeasurementKind {
     const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < values.size(); ++row) {
-      if (!std::isnan(values[row]) && speed_m_s[row] >= identification::kTrustedSpeed_m_s) rows.push_back(row);
+      if (!std::isnan(values[row]) && speed_m_s[row] >= measurements::kTrustedSpeed_m_s) rows.push_back(row);
     }
     return rows;
   }

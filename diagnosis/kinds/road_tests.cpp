@@ -51,7 +51,7 @@ PlannedTest repeat(const PlannedTest& once) {
   test.hours = kDays * once.hours;
   test.runs.clear();
   for (int day = 1; day <= kDays; ++day) {
-    for (scenarios::MeasuredRun run : once.runs) {
+    for (measurements::MeasuredRun run : once.runs) {
       run.session = fmt::format("next-{}", day);
       run.id = fmt::format("{}-{}", test.id, test.runs.size() + 1);
       test.runs.push_back(std::move(run));

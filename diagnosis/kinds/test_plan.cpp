@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/checks/rig_sensors.h"
 #include "diagnosis/kinds/measurement_kind.h"
-#include "diagnosis/rig_sensors.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -79,7 +79,7 @@ RunPlan& RunPlan::reversed() {
   return *this;
 }
 
-scenarios::MeasuredRun RunPlan::finish() {
+measurements::MeasuredRun RunPlan::finish() {
   add_row(speed_km_h_);
   const auto hangs = [](double torque_Nm) { return torque_Nm != 0.0; };
   if (std::any_of(hung_by_row_Nm_.begin(), hung_by_row_Nm_.end(), hangs)) run_.columns[kHungTorque] = hung_by_row_Nm_;
@@ -118,7 +118,7 @@ PlannedTest fit_rim_thermocouple(PlannedTest test) {
   return test;
 }
 
-PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs) {
+PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<measurements::MeasuredRun> runs) {
   PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false, soaks > 0};
   for (std::size_t i = 0; i < test.runs.size(); ++i) {
     test.runs[i].id = fmt::format("{}-{}", id, i + 1);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/test_menu.h"
+#include "diagnosis/next_test/test_menu.h"
 
 namespace rollrig::diagnosis {
 
@@ -42,13 +42,13 @@ class RunPlan {
   /// The whole run in the other direction of rotation.
   RunPlan& reversed();
 
-  scenarios::MeasuredRun finish();
+  measurements::MeasuredRun finish();
 
  private:
   void add_row(double speed_km_h);
 
   TestConditions conditions_;
-  scenarios::MeasuredRun run_;
+  measurements::MeasuredRun run_;
   double speed_km_h_;
   double load_N_ = 0.0;
   double surface_K_ = 0.0;  // 0: not recorded
@@ -65,6 +65,6 @@ RunPlan begin_cold(const TestConditions& at);
 TestConditions read_rim_too(TestConditions at);
 PlannedTest fit_rim_thermocouple(PlannedTest test);
 
-PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<scenarios::MeasuredRun> runs);
+PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<measurements::MeasuredRun> runs);
 
 }  // namespace rollrig::diagnosis

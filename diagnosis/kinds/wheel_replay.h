@@ -4,33 +4,33 @@
 #include <vector>
 
 #include "diagnosis/kinds/measurement_kind.h"
-#include "scenarios/wheel_replay.h"
+#include "measurements/wheel_replay.h"
 
 namespace rollrig::diagnosis {
 
-/// A run whose intervals are made once and simulated by one of the functions of scenarios/wheel_replay.h. Those
+/// A run whose intervals are made once and simulated by one of the functions of measurements/wheel_replay.h. Those
 /// record the measured channels alone, whatever the detail.
 class WheelReplay : public RunReplay {
  public:
   template <class S>
-  using Function = sim::Recording<S> (*)(const scenarios::MeasurementSet&, const scenarios::MeasuredRun&,
-                                         const std::vector<scenarios::WheelInterval>&, models::Corner<S>&,
-                                         scenarios::ReplayObserver<S>*);
+  using Function = sim::Recording<S> (*)(const measurements::MeasurementSet&, const measurements::MeasuredRun&,
+                                         const std::vector<measurements::WheelInterval>&, models::Corner<S>&,
+                                         measurements::ReplayObserver<S>*);
 
-  WheelReplay(const scenarios::MeasuredRun& run, Function<double> plain, Function<Jet> derived)
-      : intervals_(scenarios::make_wheel_intervals(run)), plain_(plain), derived_(derived) {}
+  WheelReplay(const measurements::MeasuredRun& run, Function<double> plain, Function<Jet> derived)
+      : intervals_(measurements::make_wheel_intervals(run)), plain_(plain), derived_(derived) {}
 
-  sim::Recording<double> simulate(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
+  sim::Recording<double> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                                   models::Corner<double>& corner, rigs::Detail) const override {
     return plain_(set, run, intervals_, corner, nullptr);
   }
-  sim::Recording<Jet> simulate(const scenarios::MeasurementSet& set, const scenarios::MeasuredRun& run,
+  sim::Recording<Jet> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                                models::Corner<Jet>& corner, rigs::Detail) const override {
     return derived_(set, run, intervals_, corner, nullptr);
   }
 
  private:
-  std::vector<scenarios::WheelInterval> intervals_;
+  std::vector<measurements::WheelInterval> intervals_;
   Function<double> plain_;
   Function<Jet> derived_;
 };

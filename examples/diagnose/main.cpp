@@ -4,14 +4,14 @@
 
 #include <fmt/format.h>
 
-#include "diagnosis/diagnosis_json.h"
-#include "diagnosis/summary.h"
+#include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/output/summary.h"
 #include "sim/core/error.h"
 
 namespace {
 
 namespace diagnosis = rollrig::diagnosis;
-namespace scenarios = rollrig::scenarios;
+namespace measurements = rollrig::measurements;
 
 /// What a program can do with a diagnosis: decide.
 void decide(const diagnosis::Diagnosis& found) {
@@ -33,7 +33,7 @@ void decide(const diagnosis::Diagnosis& found) {
 
 int run(const std::string& folder) {
   // A set may as well be filled in by hand: tire, rig, sensors, and for each run its columns in SI units.
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(folder);
+  const measurements::MeasurementSet set = measurements::read_measurement_set(folder);
   diagnosis::DiagnosisOptions options;
   options.threads = 2;  // the answer does not depend on it
   options.progress = [](double done, const std::string& stage) {

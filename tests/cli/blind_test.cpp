@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/proof/bank_folder.h"
 #include "tests/support/run_program.h"
+#include "tests/validation/scoring/bank_folder.h"
 
 namespace fs = std::filesystem;
 using Catch::Contains;

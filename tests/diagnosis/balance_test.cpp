@@ -1,8 +1,8 @@
-#include "diagnosis/balance.h"
+#include "diagnosis/findings/balance.h"
 
 #include <catch2/catch.hpp>
 
-#include "diagnosis/pushes.h"
+#include "diagnosis/findings/pushes.h"
 #include "models/effect.h"
 #include "sim/core/parallel.h"
 #include "tests/diagnosis/gap_sets.h"
@@ -52,7 +52,7 @@ struct MissingLoss : Missing {
 /// Shares by name; 0 for a push that is not listed.
 class Shares {
  public:
-  explicit Shares(const scenarios::MeasurementSet& clean) {
+  explicit Shares(const measurements::MeasurementSet& clean) {
     const tests::FittedBaseline fitted(tests::add_noise(clean, 1));
     listed_ = diagnosis::find_balance(fitted.set, fitted.base, fitted.remainder, fitted.null, 1);
     for (const auto& share : listed_) UNSCOPED_INFO(share.name << ' ' << share.share_percent << " %");

@@ -1,27 +1,27 @@
-#include "diagnosis/base_parameters.h"
+#include "diagnosis/comparison/base_parameters.h"
 
 #include <catch2/catch.hpp>
 #include <map>
 #include <set>
 
-#include "models/rolling_resistance.h"
+#include "models/tire/rolling_resistance.h"
 #include "tests/diagnosis/gap_sets.h"
 
 using namespace rollrig;
-using identification::FreeParameter;
+using estimation::FreeParameter;
 
 namespace {
 
 constexpr double kSpeed_m_s = 80.0 / 3.6;
 
 /// A set without runs: base parameters hang on the files alone.
-scenarios::MeasurementSet make_set() { return tests::make_gap_set({}, 0); }
+measurements::MeasurementSet make_set() { return tests::make_gap_set({}, 0); }
 
-models::Context<double> make_context(const scenarios::MeasurementSet& set) {
+models::Context<double> make_context(const measurements::MeasurementSet& set) {
   return rigs::make_context(set.tire, *set.rig, set.baseline);
 }
 
-std::map<std::string, FreeParameter> find(const scenarios::MeasurementSet& set) {
+std::map<std::string, FreeParameter> find(const measurements::MeasurementSet& set) {
   std::map<std::string, FreeParameter> by_key;
   for (const FreeParameter& parameter : diagnosis::find_base_parameters(set, make_context(set))) {
     CHECK(by_key.emplace(parameter.key, parameter).second);
@@ -31,7 +31,7 @@ std::map<std::string, FreeParameter> find(const scenarios::MeasurementSet& set) 
 }
 
 /// Relative change of the tire's loss at 80 km/h and a temperature when a parameter moves by its uncertainty.
-double find_change_of_loss(const scenarios::MeasurementSet& set, const std::string& key, double temperature_K,
+double find_change_of_loss(const measurements::MeasurementSet& set, const std::string& key, double temperature_K,
                            double load_N = 5400.0) {
   models::Context<double> context = make_context(set);
   const FreeParameter parameter = find(set).at(key);
@@ -40,7 +40,7 @@ double find_change_of_loss(const scenarios::MeasurementSet& set, const std::stri
                                              context.tire.rolling_resistance.reference_pressure_Pa, temperature_K);
   };
   const double before = loss_N();
-  identification::find_parameter(context, key) += parameter.prior_sd_SI;
+  estimation::find_parameter(context, key) += parameter.prior_sd_SI;
   return std::abs(loss_N() / before - 1.0);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("priors stand around the values of the files", "[fast]") {
   models::Context<double> context = make_context(set);
   for (const auto& [key, parameter] : find(set)) {
     INFO(key);
-    CHECK(parameter.start_SI == identification::find_parameter(context, key));
+    CHECK(parameter.start_SI == estimation::find_parameter(context, key));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "diagnosis/bounded_step.h"
+#include "diagnosis/comparison/bounded_step.h"
 
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>

@@ -1,5 +1,5 @@
 // The JSON of a diagnosis: the keys of the contract, and null where it says so.
-#include "diagnosis/diagnosis_json.h"
+#include "diagnosis/output/diagnosis_json.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

@@ -1,18 +1,18 @@
 // Whole diagnoses, of small sets by the simulator and by the foreign generator.
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/race.h"
+#include "diagnosis/comparison/race.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/diagnosis_json.h"
-#include "diagnosis/prepared_set.h"
+#include "diagnosis/comparison/prepared_set.h"
+#include "diagnosis/output/diagnosis_json.h"
 #include "sim/core/error.h"
-#include "tests/blind/blind_fixture.h"
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
+#include "tests/validation/generator/blind_fixture.h"
 
 using namespace rollrig;
 using diagnosis::Cause;
@@ -36,7 +36,7 @@ DiagnosisOptions only(const Ids& ids, int threads = 0) {
 }
 
 /// Bearings that warm in two runs, and noise.
-const scenarios::MeasurementSet& warm_bearings() {
+const measurements::MeasurementSet& warm_bearings() {
   static const auto set = tests::add_noise(
       tests::make_gap_set({tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0})}, 2), 1);
   return set;
@@ -121,7 +121,7 @@ TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause 
 TEST_CASE("the same answer from one thread or two, and from runs listed in another order", "[fast]") {
   const std::string one = text_of(diagnose(warm_bearings(), only({"bearing_warmup", "slow_leak"}, 1)));
   CHECK(one == text_of(diagnose(warm_bearings(), only({"bearing_warmup", "slow_leak"}, 2))));
-  scenarios::MeasurementSet other = warm_bearings();
+  measurements::MeasurementSet other = warm_bearings();
   std::reverse(other.runs.begin(), other.runs.end());
   CHECK(one == text_of(diagnose(other, only({"bearing_warmup", "slow_leak"}, 1))));
 }
@@ -183,8 +183,8 @@ TEST_CASE("an effect that does not exist is refused, wherever it is named", "[fa
 }
 
 TEST_CASE("a set that cannot be what it says has no cause", "[fast]") {
-  scenarios::MeasurementSet set = warm_bearings();
-  for (scenarios::MeasuredRun& run : set.runs) {
+  measurements::MeasurementSet set = warm_bearings();
+  for (measurements::MeasuredRun& run : set.runs) {
     for (double& torque : run.columns.at("drum_torque_Nm")) torque *= 3.6;
   }
   const Diagnosis found = diagnose(set, only({"bearing_warmup"}));
@@ -250,13 +250,13 @@ TEST_CASE("sets of the foreign generator without effect have no gap", "[slow]") 
 }
 
 TEST_CASE("of a set by the foreign generator the same answer from one thread or two, and in another order", "[slow]") {
-  const scenarios::MeasurementSet set = tests::make_blind_set("--effect rim_heat,slow_leak --seed 33 --runs 4").set;
+  const measurements::MeasurementSet set = tests::make_blind_set("--effect rim_heat,slow_leak --seed 33 --runs 4").set;
   DiagnosisOptions options;
   options.threads = 1;
   const std::string one = text_of(diagnose(set, options));
   options.threads = 2;
   CHECK(one == text_of(diagnose(set, options)));
-  scenarios::MeasurementSet other = set;
+  measurements::MeasurementSet other = set;
   std::reverse(other.runs.begin(), other.runs.end());
   CHECK(one == text_of(diagnose(other, options)));
 }

@@ -15,8 +15,8 @@ struct Stage {
   double load_N = 5000.0;
 };
 
-scenarios::MeasuredRun make_run(const std::vector<Stage>& stages) {
-  scenarios::MeasuredRun run;
+measurements::MeasuredRun make_run(const std::vector<Stage>& stages) {
+  measurements::MeasuredRun run;
   for (const Stage& stage : stages) {
     for (int i = 0; i < static_cast<int>(60.0 * stage.minutes); ++i) {
       run.time_s.push_back(static_cast<double>(run.time_s.size()));

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "diagnosis/kinds/measurement_kind.h"
-#include "scenarios/assets.h"
-#include "scenarios/speed_trace.h"
+#include "scenarios/common/speed_trace.h"
+#include "sim/core/assets.h"
 
 namespace rollrig::tests {
 namespace {
@@ -30,7 +30,7 @@ class Drive {
     return *this;
   }
 
-  void write(scenarios::MeasuredRun& run, double ambient_K) const {
+  void write(measurements::MeasuredRun& run, double ambient_K) const {
     for (std::size_t i = 0; i < speeds_m_s_.size(); ++i) run.time_s.push_back(static_cast<double>(i));
     run.columns["speed_km_h"] = speeds_m_s_;
     run.columns["ambient_degC"].assign(speeds_m_s_.size(), ambient_K);
@@ -69,40 +69,40 @@ std::vector<double> find_wheel_force_N(const std::vector<double>& speed_m_s) {
   return force_N;
 }
 
-scenarios::MeasurementSet begin_set(scenarios::SetKind kind, models::Baseline baseline) {
-  scenarios::MeasurementSet set;
+measurements::MeasurementSet begin_set(measurements::SetKind kind, models::Baseline baseline) {
+  measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
   set.kind = kind;
   set.baseline = baseline;
-  set.tire = models::read_tire(read_config(scenarios::find_asset("tires", "a50")));
+  set.tire = models::read_tire(read_config(find_asset("tires", "a50")));
   set.tire.has_constant = true;
   set.tire.values.constant.rrc = 0.0075;
-  set.sensors = scenarios::default_sensors(kind);
+  set.sensors = measurements::default_sensors(kind);
   return set;
 }
 
 }  // namespace
 
-void measure_again(scenarios::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
+void measure_again(measurements::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
                    const std::function<void(models::Context<double>&)>& change) {
   const diagnosis::MeasurementKind& kind = diagnosis::kind_of(set);
   models::Context<double> context = kind.make_context(set);
   if (change) change(context);
-  for (scenarios::MeasuredRun& run : set.runs) {
+  for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, effects);
     const auto recording = kind.make_replay(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
   }
 }
 
-scenarios::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
-                                        models::Baseline baseline, double minutes) {
-  scenarios::MeasurementSet set = begin_set(scenarios::SetKind::kDyno, baseline);
-  set.rig = rigs::read_rig(read_config(scenarios::find_asset("rigs", "dyno_1m2")));
+measurements::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
+                                           models::Baseline baseline, double minutes) {
+  measurements::MeasurementSet set = begin_set(measurements::SetKind::kDyno, baseline);
+  set.rig = rigs::read_rig(read_config(find_asset("rigs", "dyno_1m2")));
   set.sensors.erase("gas_temperature_degC");
   for (std::size_t i = 0; i < runs; ++i) {
-    scenarios::MeasuredRun run;
+    measurements::MeasuredRun run;
     run.id = "run_" + std::to_string(i + 1);
     run.session = i % 2 == 0 ? "monday" : "tuesday";
     plan_dyno_drive(i, minutes).write(run, set.rig->environment.ambient_K);
@@ -115,16 +115,16 @@ scenarios::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffect>&
   return set;
 }
 
-scenarios::MeasurementSet make_road_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
-                                        models::Baseline baseline) {
-  scenarios::MeasurementSet set = begin_set(scenarios::SetKind::kRoad, baseline);
-  set.vehicle = rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", "source_car")));
+measurements::MeasurementSet make_road_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
+                                           models::Baseline baseline) {
+  measurements::MeasurementSet set = begin_set(measurements::SetKind::kRoad, baseline);
+  set.vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "source_car")));
   if (baseline == models::Baseline::kConstantRrc) {
     set.tire.has_stiffness = set.tire.has_rolling_resistance = set.tire.has_thermal = false;
   }
   const double ambients_K[] = {278.15, 298.15, 288.15, 303.15, 283.15, 293.15};
   for (std::size_t i = 0; i < runs; ++i) {
-    scenarios::MeasuredRun run;
+    measurements::MeasuredRun run;
     run.id = "trip_" + std::to_string(i + 1);
     run.session = run.id;
     Drive drive;
@@ -141,7 +141,7 @@ scenarios::MeasurementSet make_road_set(const std::vector<models::ActiveEffect>&
     set.runs.push_back(std::move(run));
   }
   measure_again(set, effects);
-  for (scenarios::MeasuredRun& run : set.runs) {  // friction brakes are not logged
+  for (measurements::MeasuredRun& run : set.runs) {  // friction brakes are not logged
     std::vector<double>& traction_N = run.columns.at("traction_force_N");
     for (std::size_t row = 0; row < traction_N.size(); ++row) {
       const bool braked = traction_N[row] < -0.8 * set.vehicle->body.mass_kg;

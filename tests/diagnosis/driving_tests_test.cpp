@@ -5,7 +5,7 @@
 
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/measurement_kind.h"
-#include "diagnosis/next_test.h"
+#include "diagnosis/next_test/next_test.h"
 #include "tests/diagnosis/driving_sets.h"
 
 using namespace rollrig;
@@ -14,7 +14,7 @@ using diagnosis::OpenHypothesis;
 namespace {
 
 /// A hypothesis whose parameters are known to a third of their priors.
-OpenHypothesis open(const diagnosis::PreparedSet& set, const std::vector<identification::FreeParameter>& base,
+OpenHypothesis open(const diagnosis::PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
                     const std::string& effect) {
   diagnosis::Hypothesis hypothesis;
   if (!effect.empty()) hypothesis = hypothesis.with({&models::find_effect(effect), 1});
@@ -24,7 +24,7 @@ OpenHypothesis open(const diagnosis::PreparedSet& set, const std::vector<identif
 }
 
 /// What a test of the menu tells two hypotheses apart by, by its id.
-std::map<std::string, double> judge(const scenarios::MeasurementSet& measured, const std::string& a,
+std::map<std::string, double> judge(const measurements::MeasurementSet& measured, const std::string& a,
                                     const std::string& b) {
   const diagnosis::PreparedSet set(measured);
   const auto base = diagnosis::find_base_parameters(measured, set.context());
@@ -51,7 +51,7 @@ TEST_CASE("every test of a dynamometer can be simulated, and drive and brake for
 }
 
 TEST_CASE("every test of the road can be simulated, and a cold start shows the tire's temperature", "[fast]") {
-  scenarios::MeasurementSet set = tests::make_road_set({}, 1);
+  measurements::MeasurementSet set = tests::make_road_set({}, 1);
   set.sensors.at("traction_force_N") = {5.0, 15.0, 13.0, 20.0, 0.0};
   const auto bits = judge(set, "", "tire_temperature");
   CHECK(bits.size() >= 5);
@@ -59,7 +59,7 @@ TEST_CASE("every test of the road can be simulated, and a cold start shows the t
 }
 
 TEST_CASE("a test of the road on five days tells more than on one, and takes five times as long", "[fast]") {
-  const scenarios::MeasurementSet set = tests::make_road_set({}, 1);
+  const measurements::MeasurementSet set = tests::make_road_set({}, 1);
   const auto bits = judge(set, "", "tire_temperature");
   std::map<std::string, diagnosis::PlannedTest> menu;
   for (const auto& test : diagnosis::make_road_tests(diagnosis::PreparedSet(set))) menu.emplace(test.id, test);

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <ctime>
 
-#include "diagnosis/base_parameters.h"
+#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "diagnosis/comparison/race.h"
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/diagnosis_json.h"
 #include "diagnosis/kinds/measurement_kind.h"
-#include "diagnosis/race.h"
-#include "diagnosis/set_checks.h"
-#include "diagnosis/summary.h"
+#include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/output/summary.h"
 #include "sim/core/error.h"
 #include "tests/diagnosis/answers.h"
 #include "tests/diagnosis/driving_sets.h"
@@ -29,7 +29,7 @@ using tests::only;
 namespace {
 
 /// Of the difference between the loss forces of two sets with the same runs.
-double calc_rms_of_loss(const scenarios::MeasurementSet& a, const scenarios::MeasurementSet& b) {
+double calc_rms_of_loss(const measurements::MeasurementSet& a, const measurements::MeasurementSet& b) {
   double squares = 0.0;
   double samples = 0.0;
   for (std::size_t r = 0; r < a.runs.size(); ++r) {
@@ -83,25 +83,25 @@ TEST_CASE("slip is named where a wheel drives and brakes", "[fast]") {
 
 TEST_CASE("on a dynamometer a base parameter off by twice its uncertainty is made up for by what the fit moves",
           "[fast]") {
-  const scenarios::MeasurementSet nominal = make_dyno_set({}, 3);
+  const measurements::MeasurementSet nominal = make_dyno_set({}, 3);
   const models::Context<double> context = diagnosis::kind_of(nominal).make_context(nominal);
   const auto base = diagnosis::find_base_parameters(nominal, context);
   const auto a0 =
       std::find_if(base.begin(), base.end(), [](const auto& one) { return one.key == "tire.rolling_resistance.A0_N"; });
   REQUIRE(a0 != base.end());
-  scenarios::MeasurementSet off = nominal;
+  measurements::MeasurementSet off = nominal;
   off.sensors.at("loss_force_N").offset_sd = 0.1;  // else it makes up for the most of it
   tests::measure_again(off, {}, [&](models::Context<double>& moved) {
-    identification::find_parameter(moved, a0->key) += 2.0 * a0->prior_sd_SI;
+    estimation::find_parameter(moved, a0->key) += 2.0 * a0->prior_sd_SI;
   });
   const diagnosis::PreparedSet prepared(tests::add_noise(off, 6));
   const diagnosis::Remainder remainder(prepared);
   const diagnosis::Race race = diagnosis::run_race(prepared, base, remainder, {});
-  scenarios::MeasurementSet fitted = nominal;
+  measurements::MeasurementSet fitted = nominal;
   tests::measure_again(fitted, {}, [&](models::Context<double>& moved) {
     for (std::size_t i = 0; i < base.size(); ++i) {
       const double unknown = race.null.fit.unknowns[static_cast<Eigen::Index>(i)];
-      identification::find_parameter(moved, base[i].key) += base[i].prior_sd_SI * unknown;
+      estimation::find_parameter(moved, base[i].key) += base[i].prior_sd_SI * unknown;
     }
   });
   CHECK(calc_rms_of_loss(fitted, off) < 0.15 * calc_rms_of_loss(nominal, off));
@@ -121,7 +121,7 @@ TEST_CASE("against the combined model the tire's temperature is not in the race"
 }
 
 TEST_CASE("columns and units of a dynamometer's set that cannot be are named", "[fast]") {
-  scenarios::MeasurementSet set = tests::add_noise(make_dyno_set({}, 1), 9);
+  measurements::MeasurementSet set = tests::add_noise(make_dyno_set({}, 1), 9);
   SECTION("speed in m/s") {
     for (double& speed : set.runs[0].columns.at("speed_km_h")) speed /= 3.6;
     const auto checks = diagnosis::check_set(set);
@@ -137,7 +137,7 @@ TEST_CASE("columns and units of a dynamometer's set that cannot be are named", "
 }
 
 TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[slow]") {
-  const scenarios::MeasurementSet campaign = make_dyno_set({}, 4);
+  const measurements::MeasurementSet campaign = make_dyno_set({}, 4);
   int named = 0;
   int shown = 0;
   for (const models::Effect* effect : models::all_effects()) {
@@ -145,7 +145,7 @@ TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[
     const auto dyno = models::RigKind::kDyno;
     const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), dyno) != info.faint_on.end();
     if (!models::acts_in(info, dyno, models::Baseline::kCombined) || faint) continue;
-    scenarios::MeasurementSet set = campaign;
+    measurements::MeasurementSet set = campaign;
     tests::measure_again(set, {tests::make_effect_at(info.id, 0.7)});
     const Diagnosis found = diagnosis::diagnose(tests::add_noise(set, 7), {});
     UNSCOPED_INFO(info.id << "\n" << diagnosis::format_summary(found));

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "diagnosis/diagnosis.h"
-#include "identification/replay.h"
+#include "measurements/replay.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
 
@@ -22,13 +22,13 @@ bool is_seen_on_drum(const models::EffectInfo& info) {
 }
 
 /// The campaign measured again with an effect on: what its runs would have shown, and the sensors' noise.
-scenarios::MeasurementSet measure_with(const scenarios::MeasurementSet& campaign, const models::ActiveEffect& effect) {
-  scenarios::MeasurementSet set = campaign;
+measurements::MeasurementSet measure_with(const measurements::MeasurementSet& campaign,
+                                          const models::ActiveEffect& effect) {
+  measurements::MeasurementSet set = campaign;
   const models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
-  for (scenarios::MeasuredRun& run : set.runs) {
+  for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, {effect});
-    const auto recording =
-        identification::replay_drum_run<double>(set, run, identification::make_drum_replay(run), corner);
+    const auto recording = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns.at(channel) = recording.channel(channel);
   }
   return tests::add_noise(set, 7);
@@ -38,7 +38,7 @@ scenarios::MeasurementSet measure_with(const scenarios::MeasurementSet& campaign
 
 TEST_CASE("a set simulated with an effect is named, or the effect is listed as one it would not show", "[slow]") {
   constexpr double kLargeSize = 0.9;  // near the upper end of the prior
-  const scenarios::MeasurementSet campaign = tests::simulate_campaign(tests::make_wide_campaign());
+  const measurements::MeasurementSet campaign = tests::simulate_campaign(tests::make_wide_campaign());
   int named = 0;
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;

@@ -1,4 +1,4 @@
-#include "diagnosis/evidence.h"
+#include "diagnosis/comparison/evidence.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 const PreparedSet& short_set() {
   static const PreparedSet set([] {
     constexpr std::size_t kRows = 600;
-    scenarios::MeasurementSet cut = tests::make_gap_set({}, 1);
+    measurements::MeasurementSet cut = tests::make_gap_set({}, 1);
     cut.runs.front().time_s.resize(kRows);
     for (auto& [name, column] : cut.runs.front().columns) column.resize(kRows);
     return cut;

@@ -1,5 +1,5 @@
 // Explanations of effects: complete, from the catalogue, within 80 columns.
-#include "diagnosis/explain.h"
+#include "diagnosis/output/explain.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>

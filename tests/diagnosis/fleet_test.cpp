@@ -1,5 +1,5 @@
 // Which effects come back from set to set, and with what.
-#include "diagnosis/fleet.h"
+#include "diagnosis/output/fleet.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>

@@ -3,9 +3,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <random>
-#include "diagnosis/base_parameters.h"
-#include "identification/replay.h"
-#include "scenarios/sensor_file.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "measurements/replay.h"
+#include "measurements/sensor_file.h"
 #include "sim/core/error.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
@@ -25,8 +25,8 @@ constexpr double kSkim_s = 300.0;
 constexpr double kRamp_s = 40.0;
 constexpr double kSteady_m_s = 80.0 / 3.6;
 
-scenarios::MeasuredRun plan_run(const Plan& plan, double skim_load_N) {
-  scenarios::MeasuredRun run;
+measurements::MeasuredRun plan_run(const Plan& plan, double skim_load_N) {
+  measurements::MeasuredRun run;
   run.initial_tire_temperature_K = 298.15;
   run.cold_pressure_Pa = 280e3;
   const double fast_m_s = plan.fast_km_h / 3.6;
@@ -43,29 +43,28 @@ scenarios::MeasuredRun plan_run(const Plan& plan, double skim_load_N) {
   return run;
 }
 
-void fill_measured(const scenarios::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
-                   scenarios::MeasuredRun& run) {
+void fill_measured(const measurements::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
+                   measurements::MeasuredRun& run) {
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), effects);
-  const auto recording =
-      identification::replay_drum_run<double>(set, run, identification::make_drum_replay(run), corner);
+  const auto recording = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
   for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
 }
 
 }  // namespace
 
-scenarios::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
-                                       const std::string& sensors) {
+measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
+                                          const std::string& sensors) {
   const std::vector<Plan> plans{{1400.0, 110.0, 1000.0, 5400.0}, {1500.0, 120.0, 800.0, 4200.0},
                                 {1600.0, 100.0, 1200.0, 3000.0}, {700.0, 120.0, 660.0, 5400.0},
                                 {1200.0, 100.0, 1460.0, 4200.0}, {1300.0, 130.0, 900.0, 5400.0}};
-  scenarios::MeasurementSet set;
+  measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
   set.tire = read_asset_tire();
   set.rig = read_asset_rig();
-  set.sensors = scenarios::read_sensor_asset(sensors);
+  set.sensors = measurements::read_sensor_asset(sensors);
   for (std::size_t i = 0; i < runs; ++i) {
-    scenarios::MeasuredRun run = plan_run(plans[i], set.rig->skim.load_N);
+    measurements::MeasuredRun run = plan_run(plans[i], set.rig->skim.load_N);
     run.id = "run_" + std::to_string(i + 1);
     run.session = i % 2 == 0 ? "morning" : "evening";
     fill_measured(set, effects, run);
@@ -74,13 +73,13 @@ scenarios::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect>& 
   return set;
 }
 
-FittedBaseline::FittedBaseline(const scenarios::MeasurementSet& measured)
+FittedBaseline::FittedBaseline(const measurements::MeasurementSet& measured)
     : set(measured),
       base(diagnosis::find_base_parameters(set.source(), set.context())),
       remainder(set),
       null(diagnosis::run_race(set, base, remainder, {}).null) {}
 
-RepeatedBaseline::RepeatedBaseline(const scenarios::MeasurementSet& clean) : clean_(clean) {
+RepeatedBaseline::RepeatedBaseline(const measurements::MeasurementSet& clean) : clean_(clean) {
   const diagnosis::PreparedSet set(clean_);
   base_ = diagnosis::find_base_parameters(set.source(), set.context());
   const diagnosis::Model model(set, base_, {});
@@ -92,8 +91,8 @@ RepeatedBaseline::RepeatedBaseline(const scenarios::MeasurementSet& clean) : cle
 }
 
 RepeatedBaseline::Draw RepeatedBaseline::draw(std::uint64_t seed,
-                                              const std::function<void(scenarios::MeasurementSet&)>& change) const {
-  scenarios::MeasurementSet measured = clean_;
+                                              const std::function<void(measurements::MeasurementSet&)>& change) const {
+  measurements::MeasurementSet measured = clean_;
   if (change) change(measured);
   Draw draw;
   draw.set = std::make_unique<diagnosis::PreparedSet>(add_noise(measured, seed));
@@ -125,7 +124,7 @@ RepeatedBaseline::Draw RepeatedBaseline::draw(std::uint64_t seed,
   return draw;
 }
 
-void add_to_channel(scenarios::MeasuredRun& run, const std::string& channel,
+void add_to_channel(measurements::MeasuredRun& run, const std::string& channel,
                     const std::function<double(double time_s)>& error) {
   for (std::size_t row = 0; row < run.time_s.size(); ++row) run.columns.at(channel)[row] += error(run.time_s[row]);
 }

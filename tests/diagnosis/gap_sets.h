@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/race.h"
+#include "diagnosis/comparison/race.h"
 
 namespace rollrig::tests {
 
 /// Drum runs in two sessions, each skim, 80 km/h, a faster speed, skim; the tire a50 on the asset rig, whose every
 /// effect of `effects` acts. Free of noise. Up to six runs, from 2,000 to 3,500 s at 1 Hz.
-scenarios::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
-                                       const std::string& sensors = "source");
+measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
+                                          const std::string& sensors = "source");
 
 /// A set made ready, and the baseline fitted to it.
 struct FittedBaseline {
-  explicit FittedBaseline(const scenarios::MeasurementSet& measured);
+  explicit FittedBaseline(const measurements::MeasurementSet& measured);
 
   diagnosis::PreparedSet set;
-  std::vector<identification::FreeParameter> base;
+  std::vector<estimation::FreeParameter> base;
   diagnosis::Remainder remainder;
   diagnosis::Contender null;
 };
@@ -29,7 +29,7 @@ struct FittedBaseline {
 /// done to first order, which is exact here, since the base parameters' effect is too.
 class RepeatedBaseline {
  public:
-  explicit RepeatedBaseline(const scenarios::MeasurementSet& clean);
+  explicit RepeatedBaseline(const measurements::MeasurementSet& clean);
 
   /// A set with the errors of its sensors added, and the baseline fitted.
   struct Draw {
@@ -38,19 +38,19 @@ class RepeatedBaseline {
     diagnosis::Contender null;
   };
   /// `change` acts on the clean set before the errors are added.
-  Draw draw(std::uint64_t seed, const std::function<void(scenarios::MeasurementSet&)>& change = {}) const;
-  const std::vector<identification::FreeParameter>& base() const { return base_; }
+  Draw draw(std::uint64_t seed, const std::function<void(measurements::MeasurementSet&)>& change = {}) const;
+  const std::vector<estimation::FreeParameter>& base() const { return base_; }
 
  private:
-  scenarios::MeasurementSet clean_;
-  std::vector<identification::FreeParameter> base_;
+  measurements::MeasurementSet clean_;
+  std::vector<estimation::FreeParameter> base_;
   Eigen::VectorXd simulated_;
   diagnosis::RowMatrix derivatives_;
   diagnosis::RowMatrix jacobian_;
 };
 
 /// Adds to a channel, in SI units, as a function of the run's time.
-void add_to_channel(scenarios::MeasuredRun& run, const std::string& channel,
+void add_to_channel(measurements::MeasuredRun& run, const std::string& channel,
                     const std::function<double(double time_s)>& error);
 
 }  // namespace rollrig::tests

@@ -1,4 +1,4 @@
-#include "diagnosis/gap.h"
+#include "diagnosis/findings/gap.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -39,8 +39,8 @@ std::vector<models::ActiveEffect> warming_bearings(double fall_per_K = 0.02) {
 }
 
 /// A torque that is off by turns to either side, a minute each: nothing that a base parameter or an offset could take.
-void add_turns(double size_Nm, scenarios::MeasurementSet& set) {
-  for (scenarios::MeasuredRun& run : set.runs) {
+void add_turns(double size_Nm, measurements::MeasurementSet& set) {
+  for (measurements::MeasuredRun& run : set.runs) {
     tests::add_to_channel(run, "drum_torque_Nm", [size_Nm](double time_s) {
       return static_cast<long>(time_s / 60.0) % 2 == 0 ? size_Nm : -size_Nm;
     });
@@ -122,7 +122,7 @@ TEST_CASE("twice the curve is twice the gap", "[fast]") {
 
 TEST_CASE("an offset of the sensor is no gap", "[fast]") {
   auto set = tests::make_gap_set({}, 2);
-  for (scenarios::MeasuredRun& run : set.runs) {
+  for (measurements::MeasuredRun& run : set.runs) {
     tests::add_to_channel(run, "drum_torque_Nm", [](double) { return 0.9; });
     tests::add_to_channel(run, "cavity_pressure_kPa", [](double) { return -400.0; });
   }

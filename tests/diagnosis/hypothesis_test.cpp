@@ -1,4 +1,4 @@
-#include "diagnosis/hypothesis.h"
+#include "diagnosis/comparison/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

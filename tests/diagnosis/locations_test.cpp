@@ -1,10 +1,10 @@
-#include "diagnosis/locations.h"
+#include "diagnosis/findings/locations.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/balance.h"
+#include "diagnosis/findings/balance.h"
 #include "models/effect.h"
 #include "sim/core/parallel.h"
 #include "tests/diagnosis/gap_sets.h"
@@ -22,7 +22,7 @@ constexpr double kBegin_s = 1840.0;  // the faster part of run 2
 constexpr double kEnd_s = 2640.0;
 
 /// A resisting force in one phase of run 2 that the baseline does not have.
-void add_force(scenarios::MeasurementSet& set) {
+void add_force(measurements::MeasurementSet& set) {
   const double radius_m = 0.5 * set.rig->drum.diameter_m;
   tests::add_to_channel(set.runs[1], kTorque, [&](double time_s) {
     return time_s >= kBegin_s && time_s < kEnd_s ? kAdded_N * radius_m : 0.0;

@@ -1,10 +1,10 @@
-#include "diagnosis/model.h"
+#include "diagnosis/comparison/model.h"
 
 #include <Eigen/Cholesky>
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "diagnosis/base_parameters.h"
+#include "diagnosis/comparison/base_parameters.h"
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/fit_study.h"
 
@@ -23,7 +23,7 @@ const PreparedSet& two_runs() {
   return set;
 }
 
-const std::vector<identification::FreeParameter>& base() {
+const std::vector<estimation::FreeParameter>& base() {
   static const auto parameters = diagnosis::find_base_parameters(two_runs().source(), two_runs().context());
   return parameters;
 }

@@ -1,4 +1,4 @@
-#include "diagnosis/next_test.h"
+#include "diagnosis/next_test/next_test.h"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <catch2/catch.hpp>
@@ -8,12 +8,12 @@
 #include <numeric>
 #include <set>
 
-#include "diagnosis/base_parameters.h"
+#include "diagnosis/checks/rig_sensors.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "diagnosis/findings/verdict.h"
 #include "diagnosis/kinds/kinds.h"
-#include "diagnosis/rig_sensors.h"
-#include "diagnosis/verdict.h"
-#include "identification/replay.h"
-#include "scenarios/sensor_file.h"
+#include "measurements/replay.h"
+#include "measurements/sensor_file.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
 
@@ -32,8 +32,8 @@ models::ActiveEffect act(const std::string& id, double size = 1.0) {
 }
 
 /// Skim, 25 min at 80 km/h, skim, at 1 Hz.
-scenarios::MeasuredRun plan_skim_run() {
-  scenarios::MeasuredRun run;
+measurements::MeasuredRun plan_skim_run() {
+  measurements::MeasuredRun run;
   run.id = "warm-up";
   run.session = "day";
   run.initial_tire_temperature_K = 298.15;
@@ -51,19 +51,18 @@ scenarios::MeasuredRun plan_skim_run() {
 }
 
 /// Runs of the asset tire on the asset rig with effects on, measured with noise.
-scenarios::MeasurementSet measure(const std::vector<models::ActiveEffect>& effects,
-                                  std::vector<scenarios::MeasuredRun> runs) {
+measurements::MeasurementSet measure(const std::vector<models::ActiveEffect>& effects,
+                                     std::vector<measurements::MeasuredRun> runs) {
   constexpr std::uint64_t kSeed = 1;
-  scenarios::MeasurementSet set;
+  measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
   set.tire = tests::read_asset_tire();
   set.rig = tests::read_asset_rig();
-  set.sensors = scenarios::read_sensor_asset("source");
-  for (scenarios::MeasuredRun& run : runs) {
+  set.sensors = measurements::read_sensor_asset("source");
+  for (measurements::MeasuredRun& run : runs) {
     models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), effects);
-    const auto recording =
-        identification::replay_drum_run<double>(set, run, identification::make_drum_replay(run), corner);
+    const auto recording = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
     set.runs.push_back(std::move(run));
   }
@@ -71,7 +70,7 @@ scenarios::MeasurementSet measure(const std::vector<models::ActiveEffect>& effec
 }
 
 struct Raced {
-  Raced(const scenarios::MeasurementSet& measured, const std::vector<std::string>& effects)
+  Raced(const measurements::MeasurementSet& measured, const std::vector<std::string>& effects)
       : set(measured), base(find_base_parameters(set.source(), set.context())), remainder(set) {
     RaceSettings settings;
     for (const std::string& id : effects) settings.effects.push_back(&models::find_effect(id));
@@ -85,7 +84,7 @@ struct Raced {
   std::vector<NextTest> propose(int threads = 0) const { return propose_tests(set, base, find_open(), threads); }
 
   PreparedSet set;
-  std::vector<identification::FreeParameter> base;
+  std::vector<estimation::FreeParameter> base;
   Remainder remainder;
   Race race;
 };
@@ -180,7 +179,7 @@ TEST_CASE("every test of the menu runs on paper and takes its hours", "[fast]") 
     INFO(test.id);
     ids.insert(test.id);
     double rolling_h = 0.0;
-    for (const scenarios::MeasuredRun& run : test.runs) rolling_h += run.time_s.back() / 3600.0;
+    for (const measurements::MeasuredRun& run : test.runs) rolling_h += run.time_s.back() / 3600.0;
     CHECK(test.hours >= rolling_h + 0.5);  // set-up
     CHECK(test.hours < 24.0);
     CHECK(!predict_outcomes(raced.set, raced.base, make_open(raced, {"none", "bearing_warmup"}), test).empty());
@@ -335,10 +334,10 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
   const Raced& raced = bearings_or_zero();
   const models::Corner<double> corner(raced.set.context(),
                                       {tests::make_active(models::find_effect("torque_gain"), {2.0, -0.3})});
-  scenarios::MeasuredRun run;
+  measurements::MeasuredRun run;
   run.time_s = {0.0, 1.0, 2.0};
   run.columns = {{"load_N", {0.0, 0.0, 0.0}}, {"ambient_degC", {298.15, 298.15, 298.15}}};
-  run.columns[scenarios::kHungTorque] = {0.0, 60.0, 600.0};
+  run.columns[measurements::kHungTorque] = {0.0, 60.0, 600.0};
   sim::Recording<double> recording;
   recording.channels.push_back({"drum_torque_Nm"});
   recording.values = {{0.0, 0.0, 0.0}};
@@ -354,9 +353,9 @@ TEST_CASE("to repeat a run that could not show an effect tells next to nothing o
   raced.race.contenders.clear();  // as an effect that was not refitted
   const std::vector<OpenHypothesis> open = raced.find_open();
   REQUIRE(open.size() == 2);
-  const scenarios::MeasuredRun run = plan_skim_run();
+  const measurements::MeasuredRun run = plan_skim_run();
   PlannedTest again{"again", "again", 1.0, {run}, {}, false};
-  scenarios::MeasuredRun& rows = again.runs.front();
+  measurements::MeasuredRun& rows = again.runs.front();
   rows.time_s.clear();
   rows.columns.clear();
   for (std::size_t row = 0; row < run.time_s.size(); row += static_cast<std::size_t>(kVirtualRow_s)) {
@@ -390,7 +389,7 @@ TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
   const std::vector<NextTest> proposed = before.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().splits.size() >= 2);
-  std::vector<scenarios::MeasuredRun> runs{plan_skim_run()};
+  std::vector<measurements::MeasuredRun> runs{plan_skim_run()};
   for (const PlannedTest& test : make_test_menu(before.set)) {
     if (test.description == proposed.front().test) runs.insert(runs.end(), test.runs.begin(), test.runs.end());
   }

@@ -1,4 +1,4 @@
-#include "diagnosis/plan_files.h"
+#include "diagnosis/next_test/plan_files.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,8 +8,9 @@
 #include <sstream>
 
 #include "diagnosis/kinds/kinds.h"
-#include "scenarios/run_spec.h"
-#include "scenarios/sensor_file.h"
+#include "measurements/sensor_file.h"
+#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/diagnosis/hand_made.h"
 #include "tests/support/drum_fixture.h"
@@ -21,14 +22,14 @@ using namespace rollrig::diagnosis;
 namespace {
 
 /// A set of one short run at 2 Hz; what it measured is of no matter here.
-scenarios::MeasurementSet make_set() {
-  scenarios::MeasurementSet set;
+measurements::MeasurementSet make_set() {
+  measurements::MeasurementSet set;
   set.path = "set.toml";
   set.name = "campaign";
   set.tire = tests::read_asset_tire();
   set.rig = tests::read_asset_rig();
-  set.sensors = scenarios::read_sensor_asset("source");
-  scenarios::MeasuredRun run;
+  set.sensors = measurements::read_sensor_asset("source");
+  measurements::MeasuredRun run;
   run.id = "one";
   run.session = "day";
   run.initial_tire_temperature_K = 298.15;
@@ -58,7 +59,7 @@ Diagnosis propose(const PlannedTest& test) {
 }
 
 /// Value of a column at a time: a load holds, all else goes straight.
-double value_at(const scenarios::MeasuredRun& run, const std::string& column, double time_s) {
+double value_at(const measurements::MeasuredRun& run, const std::string& column, double time_s) {
   const auto next = std::upper_bound(run.time_s.begin(), run.time_s.end(), time_s);
   const auto after = static_cast<std::size_t>(next - run.time_s.begin());
   const std::vector<double>& values = run.columns.at(column);
@@ -70,7 +71,7 @@ double value_at(const scenarios::MeasuredRun& run, const std::string& column, do
 }  // namespace
 
 TEST_CASE("every test of the menu becomes run files whose inputs are the test's", "[fast]") {
-  const scenarios::MeasurementSet set = make_set();
+  const measurements::MeasurementSet set = make_set();
   for (const PlannedTest& test : make_drum_tests(PreparedSet(set))) {
     INFO(test.id);
     const tests::TemporaryFolder folder;
@@ -78,7 +79,7 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
     for (const auto& [name, content] : files) tests::write_file(folder.file(name), content);
     CHECK(files.size() == 3 + 2 * test.runs.size());
     for (std::size_t i = 0; i < test.runs.size(); ++i) {
-      const scenarios::MeasuredRun& wanted = test.runs[i];
+      const measurements::MeasuredRun& wanted = test.runs[i];
       const std::string file = folder.file("run-" + std::to_string(i + 1) + ".toml");
       const scenarios::RunSpec spec = scenarios::read_run_spec(read_config(file), folder.path());
       CHECK_NOTHROW(spec.scenario->check(spec));
@@ -86,7 +87,8 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
       CHECK(spec.sample_interval_s == Approx(0.5));  // the set's own
       CHECK(spec.sensors->size() == set.sensors.size());
       CHECK(spec.tire.name == set.tire.name);
-      const scenarios::MeasuredRun written = scenarios::read_run_inputs(folder.file(wanted.id + ".csv"), set.kind);
+      const measurements::MeasuredRun written =
+          measurements::read_run_inputs(folder.file(wanted.id + ".csv"), set.kind);
       CHECK(written.time_s.size() < 60);  // for a person
       CHECK(written.has("surface_temperature_degC") == wanted.has("surface_temperature_degC"));
       double worst = 0.0;
@@ -107,7 +109,7 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
 }
 
 TEST_CASE("the stages of a plan last as long as its run, changes of speed with what they lead to", "[fast]") {
-  const scenarios::MeasurementSet set = make_set();
+  const measurements::MeasurementSet set = make_set();
   for (const PlannedTest& test : make_drum_tests(PreparedSet(set))) {
     if (test.id != "speed_steps") continue;
     const std::string plan = write_plan(set, propose(test)).at("plan.txt");
@@ -123,7 +125,7 @@ TEST_CASE("the stages of a plan last as long as its run, changes of speed with w
       std::string unit;
       if (words >> minutes >> unit && unit == "min") stages_min += minutes;
     }
-    const scenarios::MeasuredRun& run = test.runs.front();
+    const measurements::MeasuredRun& run = test.runs.front();
     CHECK(stages_min == Approx((run.time_s.back() - run.time_s.front()) / 60.0).margin(0.2));
   }
 }
@@ -134,10 +136,10 @@ TEST_CASE("where no test is proposed there is no plan", "[fast]") {
 
 namespace {
 
-using Visit = std::function<void(const scenarios::MeasurementSet& rehearsed, const scenarios::RunSpec& spec)>;
+using Visit = std::function<void(const measurements::MeasurementSet& rehearsed, const scenarios::RunSpec& spec)>;
 
 /// Every run of the plan of a test, run without errors of sensors and read back as a set; `effect` as of --set.
-void visit_rehearsals(const scenarios::MeasurementSet& set, const PlannedTest& test, const std::string& effect,
+void visit_rehearsals(const measurements::MeasurementSet& set, const PlannedTest& test, const std::string& effect,
                       const Visit& visit) {
   const tests::TemporaryFolder folder;
   for (const auto& [name, content] : write_plan(set, propose(test))) tests::write_file(folder.file(name), content);
@@ -151,12 +153,12 @@ void visit_rehearsals(const scenarios::MeasurementSet& set, const PlannedTest& t
     for (const auto& [name, content] : scenarios::write_measurement_set(spec, spec.scenario->run(spec, {}), "paper")) {
       tests::write_file(written.file(name), content);
     }
-    visit(scenarios::read_measurement_set(written.path()), spec);
+    visit(measurements::read_measurement_set(written.path()), spec);
   }
 }
 
 /// Largest difference of a set's channels from their replay, as a share; `replayed` is the set measured again.
-double find_worst_share(const scenarios::MeasurementSet& set, const scenarios::MeasurementSet& replayed) {
+double find_worst_share(const measurements::MeasurementSet& set, const measurements::MeasurementSet& replayed) {
   double worst = 0.0;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     for (const auto& [channel, sensor] : set.sensors) {
@@ -176,22 +178,22 @@ double find_worst_share(const scenarios::MeasurementSet& set, const scenarios::M
 }  // namespace
 
 TEST_CASE("plans of wheel and vehicle are run as a set whose replay is what was written", "[fast]") {
-  const scenarios::MeasurementSet sets[] = {tests::make_dyno_set({}, 1), tests::make_road_set({}, 1),
-                                            tests::make_road_set({}, 1, models::Baseline::kCombined)};
-  for (const scenarios::MeasurementSet& set : sets) {
-    const bool is_road = set.kind == scenarios::SetKind::kRoad;
+  const measurements::MeasurementSet sets[] = {tests::make_dyno_set({}, 1), tests::make_road_set({}, 1),
+                                               tests::make_road_set({}, 1, models::Baseline::kCombined)};
+  for (const measurements::MeasurementSet& set : sets) {
+    const bool is_road = set.kind == measurements::SetKind::kRoad;
     for (const PlannedTest& test : (is_road ? make_road_tests : make_dyno_tests)(PreparedSet(set))) {
       for (const char* effect : {"", "effects.toe_camber_drag.force_N=20"}) {
         INFO(test.id << " " << effect);
         std::size_t runs = 0;
         visit_rehearsals(set, test, effect,
-                         [&](const scenarios::MeasurementSet& rehearsed, const scenarios::RunSpec& spec) {
+                         [&](const measurements::MeasurementSet& rehearsed, const scenarios::RunSpec& spec) {
                            ++runs;
                            REQUIRE(rehearsed.runs.size() == 1);
                            CHECK(rehearsed.kind == set.kind);
                            CHECK(rehearsed.baseline == set.baseline);
                            CHECK(rehearsed.tire.name == set.tire.name);
-                           scenarios::MeasurementSet replayed = rehearsed;
+                           measurements::MeasurementSet replayed = rehearsed;
                            tests::measure_again(replayed, spec.effects);
                            CHECK(find_worst_share(rehearsed, replayed) < 1e-6);
                            if (spec.effects.empty()) return;
@@ -206,12 +208,13 @@ TEST_CASE("plans of wheel and vehicle are run as a set whose replay is what was 
 
 TEST_CASE("a set and its next test, run with the true effect, are diagnosed together", "[slow]") {
   const std::string effect = "effects.toe_camber_drag.force_N=20";
-  scenarios::MeasurementSet set = tests::make_dyno_set({}, 2, models::Baseline::kCombined, 45.0);
+  measurements::MeasurementSet set = tests::make_dyno_set({}, 2, models::Baseline::kCombined, 45.0);
   const PlannedTest test = make_dyno_tests(PreparedSet(set)).front();
-  visit_rehearsals(set, test, effect, [&](const scenarios::MeasurementSet& rehearsed, const scenarios::RunSpec& spec) {
-    tests::measure_again(set, spec.effects);
-    set.runs.push_back(rehearsed.runs.front());
-  });
+  visit_rehearsals(set, test, effect,
+                   [&](const measurements::MeasurementSet& rehearsed, const scenarios::RunSpec& spec) {
+                     tests::measure_again(set, spec.effects);
+                     set.runs.push_back(rehearsed.runs.front());
+                   });
   REQUIRE(set.runs.size() == 3);
   const Diagnosis diagnosed = diagnose(set, {{}, {"toe_camber_drag", "torque_zero_drift"}, 2});
   REQUIRE_FALSE(diagnosed.causes.empty());
@@ -219,14 +222,14 @@ TEST_CASE("a set and its next test, run with the true effect, are diagnosed toge
 }
 
 TEST_CASE("a plan tells a person of force on the wheel, and of a road without loads", "[fast]") {
-  const scenarios::MeasurementSet dyno = tests::make_dyno_set({}, 1);
+  const measurements::MeasurementSet dyno = tests::make_dyno_set({}, 1);
   for (const PlannedTest& test : make_dyno_tests(PreparedSet(dyno))) {
     if (test.id != "drive_and_brake") continue;
     const std::string plan = write_plan(dyno, propose(test)).at("plan.txt");
     CHECK_THAT(plan, Catch::Contains("5400 N, driving with 1000 N"));
     CHECK_THAT(plan, Catch::Contains("5400 N, braking with 1000 N"));
   }
-  const scenarios::MeasurementSet road = tests::make_road_set({}, 1);
+  const measurements::MeasurementSet road = tests::make_road_set({}, 1);
   const auto files = write_plan(road, propose(make_road_tests(PreparedSet(road)).front()));
   CHECK_THAT(files.at("plan.txt"), Catch::Contains("On the road, in this order"));
   CHECK_THAT(files.at("plan.txt"), !Catch::Contains(" N\n"));

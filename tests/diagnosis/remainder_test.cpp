@@ -1,4 +1,4 @@
-#include "diagnosis/remainder.h"
+#include "diagnosis/comparison/remainder.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -25,7 +25,7 @@ const PreparedSet& two_runs() {
 /// Two runs that are the same but for their name.
 const PreparedSet& twins() {
   static const PreparedSet set([] {
-    scenarios::MeasurementSet same = tests::make_gap_set({}, 1);
+    measurements::MeasurementSet same = tests::make_gap_set({}, 1);
     same.runs.push_back(same.runs.front());
     same.runs.back().id = "run_2";
     return same;

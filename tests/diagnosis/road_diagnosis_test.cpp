@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <iostream>
 
-#include "diagnosis/base_parameters.h"
+#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "diagnosis/comparison/race.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/kinds/measurement_kind.h"
-#include "diagnosis/race.h"
-#include "diagnosis/set_checks.h"
-#include "diagnosis/summary.h"
+#include "diagnosis/output/summary.h"
 #include "sim/core/error.h"
 #include "tests/diagnosis/answers.h"
 #include "tests/diagnosis/driving_sets.h"
@@ -31,7 +31,7 @@ using tests::only;
 namespace {
 
 /// Of a motor that is well logged on a smooth road: effects of some newtons show.
-scenarios::MeasurementSet with_quiet_sensor(scenarios::MeasurementSet set) {
+measurements::MeasurementSet with_quiet_sensor(measurements::MeasurementSet set) {
   set.sensors.at("traction_force_N") = {5.0, 15.0, 13.0, 20.0, 0.0};
   return set;
 }
@@ -71,13 +71,13 @@ TEST_CASE("wind is named where the traction force is well known", "[fast]") {
 }
 
 TEST_CASE("on the road the vehicle's own numbers are found again", "[fast]") {
-  scenarios::MeasurementSet set = make_road_set({}, 6);
+  measurements::MeasurementSet set = make_road_set({}, 6);
   const auto base = diagnosis::find_base_parameters(set, diagnosis::kind_of(set).make_context(set));
   Ids keys;
   for (const auto& one : base) keys.push_back(one.key);
   CHECK(keys ==
         Ids{"tire.constant.rrc_N_per_kN", "vehicle.drag_area_m2", "vehicle.mass_kg", "vehicle.rotating_mass_kg"});
-  scenarios::MeasurementSet heavy = set;
+  measurements::MeasurementSet heavy = set;
   tests::measure_again(heavy, {}, [](models::Context<double>& moved) { moved.vehicle.drag_area_m2 += 0.06; });
   for (std::size_t i = 0; i < set.runs.size(); ++i) {  // empty where the set is
     const auto& was = set.runs[i].columns.at("traction_force_N");
@@ -91,7 +91,7 @@ TEST_CASE("on the road the vehicle's own numbers are found again", "[fast]") {
 }
 
 TEST_CASE("a vehicle that is given by its road load cannot be diagnosed, and the file is named", "[fast]") {
-  scenarios::MeasurementSet set = make_road_set({}, 1);
+  measurements::MeasurementSet set = make_road_set({}, 1);
   set.vehicle->path = "car.toml";
   set.vehicle->road_load = models::RoadLoad<double>{100.0, 0.0, 0.5};
   CHECK_THROWS_AS(diagnosis::diagnose(set, {}), InputError);
@@ -99,8 +99,8 @@ TEST_CASE("a vehicle that is given by its road load cannot be diagnosed, and the
 }
 
 TEST_CASE("units of a road set that cannot be are named", "[fast]") {
-  scenarios::MeasurementSet set = tests::add_noise(make_road_set({}, 2), 9);
-  for (scenarios::MeasuredRun& run : set.runs) {
+  measurements::MeasurementSet set = tests::add_noise(make_road_set({}, 2), 9);
+  for (measurements::MeasuredRun& run : set.runs) {
     for (double& traction : run.columns.at("traction_force_N")) traction /= 1e3;
   }
   const auto checks = diagnosis::check_set(set);
@@ -114,7 +114,7 @@ TEST_CASE("real trips against a constant coefficient", "[slow]") {
     WARN("skipped: no measured data; ROLLRIG_MEASURED_DATA names their folder");
     return;
   }
-  const Diagnosis found = diagnosis::diagnose(scenarios::read_measurement_set(path), {});
+  const Diagnosis found = diagnosis::diagnose(measurements::read_measurement_set(path), {});
   std::cout << diagnosis::format_summary(found);
   // Weather, wind and load of a trip are not known: what is held to is that nothing is claimed beyond what holds up.
   CHECK(found.gap.recalibrated.before > 0.0);

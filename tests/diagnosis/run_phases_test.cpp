@@ -1,4 +1,4 @@
-#include "diagnosis/run_phases.h"
+#include "diagnosis/comparison/run_phases.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -14,7 +14,7 @@ constexpr double kSkimLimit_N = 300.0;
 
 /// A run at 1 Hz, written down piece by piece.
 struct Recorded {
-  scenarios::MeasuredRun run;
+  measurements::MeasuredRun run;
 
   /// Straight to that speed in that time, under that load.
   Recorded& then(int duration_s, double speed_km_h, double load_N) {

@@ -1,5 +1,5 @@
 // Sets that cannot be what they are said to be are met before the race, and sets that can are let through.
-#include "diagnosis/set_checks.h"
+#include "diagnosis/checks/set_checks.h"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
@@ -15,8 +15,8 @@ using Catch::Contains;
 using namespace rollrig;
 using diagnosis::check_set;
 using diagnosis::SetChecks;
-using scenarios::MeasuredRun;
-using scenarios::MeasurementSet;
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
 
 namespace {
 
@@ -379,7 +379,7 @@ TEST_CASE("a drum set with noise is asked for", "[fast]") {
   set.sensors.at("drum_torque_Nm") = {};
   CHECK_THROWS_WITH(check_set(set), Contains("no noise at all") && Contains("[sensors.drum_torque_Nm]"));
   set = short_set();
-  set.kind = scenarios::SetKind::kRoad;
+  set.kind = measurements::SetKind::kRoad;
   CHECK_THROWS_AS(check_set(set), InputError);
 }
 

@@ -1,5 +1,5 @@
 // The ten lines in the terminal: what they say, and that they fit.
-#include "diagnosis/summary.h"
+#include "diagnosis/output/summary.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "diagnosis/verdict.h"
+#include "diagnosis/findings/verdict.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 
 #include "models/ambient_correction.h"
-#include "models/pressure_factor.h"
-#include "models/tire_diameter.h"
+#include "models/tire/pressure_factor.h"
+#include "models/tire/tire_diameter.h"
 
 using namespace rollrig;
 using models::calc_ambient_correction;

@@ -1,8 +1,8 @@
-#include "models/road_load.h"
+#include "models/vehicle/road_load.h"
 
 #include <catch2/catch.hpp>
 
-#include "models/tire.h"
+#include "models/tire/tire.h"
 
 using namespace rollrig;
 using models::RoadLoad;

@@ -1,4 +1,4 @@
-#include "models/rolling_resistance.h"
+#include "models/tire/rolling_resistance.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

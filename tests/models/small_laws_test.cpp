@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "models/drum_curvature.h"
-#include "models/inflation_gas.h"
 #include "models/parasitic_loss.h"
+#include "models/tire/drum_curvature.h"
+#include "models/tire/inflation_gas.h"
 
 using namespace rollrig;
 using models::calc_drum_correction;

@@ -1,4 +1,4 @@
-#include "models/thermal_network.h"
+#include "models/tire/thermal_network.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "models/tire_file.h"
+#include "models/tire/tire_file.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "models/vehicle.h"
+#include "models/vehicle/vehicle.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "models/rolling_resistance.h"
+#include "models/tire/rolling_resistance.h"
 #include "sim/core/schema.h"
 #include "tests/support/drum_fixture.h"
 #include "tools/figure_3_13.h"

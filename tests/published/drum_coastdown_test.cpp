@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "identification/drum_coastdown.h"
+#include "estimation/drum_deceleration/drum_coastdown.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
@@ -19,7 +19,7 @@ std::string find_data() {
   return {};
 }
 
-const identification::SpeedPoint& at(const identification::DrumCoastdownFit& fit, double speed_m_s) {
+const estimation::SpeedPoint& at(const estimation::DrumCoastdownFit& fit, double speed_m_s) {
   for (const auto& point : fit.points) {
     if (std::abs(point.speed_m_s - speed_m_s) < 1e-6) return point;
   }
@@ -31,9 +31,9 @@ const identification::SpeedPoint& at(const identification::DrumCoastdownFit& fit
 TEST_CASE("measured drum coast-downs: pressure exponent, directions, drum alone", "[published]") {
   const std::string data = find_data();
   if (data.empty()) return;
-  const auto set = identification::read_coast_set(ROLLRIG_SOURCE_DIR "/tests/published/drum_coastdown/set.toml", data);
+  const auto set = estimation::read_coast_set(ROLLRIG_SOURCE_DIR "/tests/published/drum_coastdown/set.toml", data);
   REQUIRE(set.runs.size() == 20);
-  const auto fit = identification::fit_drum_coastdown(set);
+  const auto fit = estimation::fit_drum_coastdown(set);
   const auto& point = at(fit, 18.0);
 
   // README of the data: -0.47 to -0.51 at 18 m/s. The interval holds the scatter of the five pressures about the law.
@@ -72,7 +72,7 @@ TEST_CASE("measured drum coast-downs: pressure exponent, directions, drum alone"
   // The resonance near 10 m/s, found in the hardest tire and not with the tire lifted
   bool hardest = false;
   for (const auto& found : fit.resonances) {
-    CHECK(found.state == identification::CoastState::kLoaded);
+    CHECK(found.state == estimation::CoastState::kLoaded);
     CHECK(found.resonance.peak_m_s > 7.0);
     CHECK(found.resonance.peak_m_s < 11.0);
     if (found.pressure_Pa > 540e3) hardest = true;

@@ -5,10 +5,10 @@
 
 #include "report/fit_pages.h"
 #include "sim/core/csv.h"
-#include "tests/proof/bank_folder.h"
 #include "tests/support/coast_study.h"
 #include "tests/support/coastdown_study.h"
 #include "tests/support/run_program.h"
+#include "tests/validation/scoring/bank_folder.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
@@ -121,8 +121,8 @@ TEST_CASE("page of a fitted road load", "[slow]") {
 
 TEST_CASE("page of a drum's coast-downs", "[slow]") {
   const TemporaryFolder folder;
-  const identification::CoastSet set = make_coasts({}, 1);
-  const report::Page page = report::make_drum_coastdown_page(set, identification::fit_drum_coastdown(set));
+  const estimation::CoastSet set = make_coasts({}, 1);
+  const report::Page page = report::make_drum_coastdown_page(set, estimation::fit_drum_coastdown(set));
   write_file(folder.file("page.html"), report::make_html(page));
   check_page(folder.file("page.html"), "--charts 2");
 }

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 
 using namespace rollrig;
 

@@ -2,19 +2,17 @@
 #include <catch2/catch.hpp>
 
 #include "rigs/vehicle_layout.h"
-#include "scenarios/assets.h"
+#include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
 
 using namespace rollrig;
 
 namespace {
 
-rigs::RigFile read_rig(const std::string& name) {
-  return rigs::read_rig(read_config(scenarios::find_asset("rigs", name)));
-}
+rigs::RigFile read_rig(const std::string& name) { return rigs::read_rig(read_config(find_asset("rigs", name))); }
 
 rigs::VehicleFile read_car(rigs::DrivenAxle axle) {
-  rigs::VehicleFile car = rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", "source_car")));
+  rigs::VehicleFile car = rigs::read_vehicle(read_config(find_asset("vehicles", "source_car")));
   car.geometry.front_load_share = 0.6;
   car.driven_axle = axle;
   return car;

@@ -4,7 +4,7 @@
 
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/vehicle_bench.h"
 #include "tests/support/vehicle_fixture.h"
 
 namespace rollrig::tests {

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenarios/scenario.h"
+#include "scenarios/run/scenario.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"
 

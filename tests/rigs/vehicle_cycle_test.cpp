@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenarios/speed_trace.h"
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/speed_trace.h"
+#include "scenarios/common/vehicle_bench.h"
 #include "tests/support/vehicle_fixture.h"
 
 using namespace rollrig;

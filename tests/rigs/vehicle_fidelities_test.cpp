@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "scenarios/scenario.h"
-#include "scenarios/vehicle_bench.h"
+#include "scenarios/common/vehicle_bench.h"
+#include "scenarios/run/scenario.h"
 #include "tests/support/vehicle_fixture.h"
 
 using namespace rollrig;

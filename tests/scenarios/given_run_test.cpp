@@ -1,10 +1,11 @@
 // Runs that a file gives row by row: one wheel on its roller, a vehicle on the road.
-#include "scenarios/given_run.h"
+#include "scenarios/common/given_run.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenarios/wheel_ledger.h"
+#include "measurements/wheel_ledger.h"
+#include "scenarios/common/written_set.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -52,12 +53,12 @@ double value_at(const scenarios::Outcome& outcome, const char* channel, double t
   return outcome.recording.channel(channel)[outcome.recording.row_at(time_s)];
 }
 
-scenarios::MeasurementSet write_and_read(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
+measurements::MeasurementSet write_and_read(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   const TemporaryFolder folder;
   for (const auto& [name, content] : scenarios::write_measurement_set(spec, outcome, "test")) {
     tests::write_file(folder.file(name), content);
   }
-  return scenarios::read_measurement_set(folder.path());
+  return measurements::read_measurement_set(folder.path());
 }
 
 }  // namespace
@@ -116,14 +117,14 @@ TEST_CASE("a set holds no loss force below 20 km/h and no traction where frictio
     const std::string channel = is_road ? "traction_force_N" : "loss_force_N";
     follow.spec.sensors = models::SensorSet{{channel, {}}};
     const auto outcome = follow.run();
-    const scenarios::MeasurementSet set = write_and_read(follow.spec, outcome);
+    const measurements::MeasurementSet set = write_and_read(follow.spec, outcome);
     REQUIRE(set.runs.size() == 1);
-    CHECK(set.kind == (is_road ? scenarios::SetKind::kRoad : scenarios::SetKind::kDyno));
-    const scenarios::MeasuredRun& run = set.runs.front();
+    CHECK(set.kind == (is_road ? measurements::SetKind::kRoad : measurements::SetKind::kDyno));
+    const measurements::MeasuredRun& run = set.runs.front();
     CHECK(run.columns.size() == (is_road ? 4 : 5));
     int empty = 0;
     for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-      const bool expected = is_road ? outcome.recording.channel(scenarios::kFrictionBrake)[row] > 0.0
+      const bool expected = is_road ? outcome.recording.channel(measurements::kFrictionBrake)[row] > 0.0
                                     : outcome.recording.channel("speed_km_h")[row] < 20.0 / 3.6;
       CHECK(std::isnan(run.columns.at(channel)[row]) == expected);
       empty += expected ? 1 : 0;
@@ -135,7 +136,7 @@ TEST_CASE("a set holds no loss force below 20 km/h and no traction where frictio
 
 TEST_CASE("what a set says of its run's beginning is what the settings said", "[fast]") {
   Follow rested = on_roller({"rest_before_min=30", "pressure_kPa=260", "initial_tire_temperature_degC=31"});
-  const scenarios::MeasuredRun run = write_and_read(rested.spec, rested.run()).runs.front();
+  const measurements::MeasuredRun run = write_and_read(rested.spec, rested.run()).runs.front();
   CHECK(run.id == "rows");
   CHECK(*run.rest_before_s == Approx(1800.0));
   CHECK(run.cold_pressure_Pa == Approx(260e3));
@@ -158,7 +159,7 @@ TEST_CASE("the vehicle that a set of the road names is that of the run", "[fast]
 TEST_CASE("sensors of a wheel err by the seed", "[fast]") {
   Follow follow = on_roller();
   const std::vector<double> truth = follow.run().recording.channel("loss_force_N");
-  follow.spec.sensors = scenarios::default_sensors(scenarios::SetKind::kDyno);
+  follow.spec.sensors = measurements::default_sensors(measurements::SetKind::kDyno);
   const std::vector<double> one = follow.run().recording.channel("loss_force_N");
   CHECK(follow.run().recording.channel("loss_force_N") == one);
   follow.spec.seed = 2;

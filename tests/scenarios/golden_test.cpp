@@ -1,4 +1,4 @@
-#include "scenarios/golden.h"
+#include "scenarios/run/golden.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenarios/readings.h"
+#include "scenarios/common/readings.h"
 #include "sim/core/parallel.h"
 #include "tests/support/drum_fixture.h"
 

@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "identification/replay.h"
-#include "scenarios/measurement_set.h"
+#include "measurements/measurement_set.h"
+#include "measurements/replay.h"
+#include "scenarios/common/written_set.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -153,13 +154,12 @@ TEST_CASE("a program written as a set is replayed to the same channels, memory a
   for (const auto& [name, content] : scenarios::write_measurement_set(spec, outcome, "test")) {
     tests::write_file(folder.file(name), content);
   }
-  const scenarios::MeasurementSet set = scenarios::read_measurement_set(folder.path());
+  const measurements::MeasurementSet set = measurements::read_measurement_set(folder.path());
   REQUIRE(set.runs.size() == 1);
-  const scenarios::MeasuredRun& run = set.runs[0];
+  const measurements::MeasuredRun& run = set.runs[0];
   CHECK(run.rest_before_s.has_value());
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), spec.effects);
-  const auto replayed =
-      identification::replay_drum_run<double>(set, run, identification::make_drum_replay(run), corner);
+  const auto replayed = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
   for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC"}) {
     const std::vector<double>& measured = run.columns.at(channel);
     double worst = 0.0;

@@ -1,4 +1,4 @@
-#include "scenarios/range_finder.h"
+#include "scenarios/common/range_finder.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "rigs/vehicle_channels.h"
-#include "scenarios/coastdown_evaluation.h"
+#include "scenarios/common/coastdown_evaluation.h"
 #include "tests/support/drum_fixture.h"
 
 using namespace rollrig;

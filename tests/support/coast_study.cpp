@@ -8,9 +8,9 @@
 namespace rollrig::tests {
 namespace {
 
-using identification::CoastRun;
-using identification::CoastSeries;
-using identification::CoastState;
+using estimation::CoastRun;
+using estimation::CoastSeries;
+using estimation::CoastState;
 
 constexpr double kWay_m = 4.8;  // of the drum's surface from pulse to pulse
 constexpr double kTop_m_s = 27.0;
@@ -64,8 +64,8 @@ double calc_true_net_m_s2(const CoastStudy& study, double pressure_Pa, double v)
   return (0.055 + 0.0015 * v + 0.00001 * v * v) * std::pow(pressure_Pa / 420e3, study.exponent);
 }
 
-identification::CoastSet make_coasts(const CoastStudy& study, std::uint64_t seed) {
-  identification::CoastSet set;
+estimation::CoastSet make_coasts(const CoastStudy& study, std::uint64_t seed) {
+  estimation::CoastSet set;
   set.name = "made up";
   set.drum_diameter_m = 1.5;
   set.drum_pulse_length_m = kWay_m;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "identification/drum_coastdown.h"
+#include "estimation/drum_deceleration/drum_coastdown.h"
 
 namespace rollrig::tests {
 
@@ -29,6 +29,6 @@ double calc_true_drum_m_s2(double speed_m_s);
 double calc_true_wheel_m_s2(double speed_m_s);
 
 /// Two loaded runs (left, right) at each pressure and the lifted ones, spin-up first.
-identification::CoastSet make_coasts(const CoastStudy& study, std::uint64_t seed);
+estimation::CoastSet make_coasts(const CoastStudy& study, std::uint64_t seed);
 
 }  // namespace rollrig::tests

@@ -25,8 +25,8 @@ double force_N(const CoastdownStudy& study, const RunDraw& draw, double v) {
          draw.extra_N + draw.heading * study.mass_kg * kStandardGravity_m_s2 * study.slope;
 }
 
-scenarios::CoastdownRun simulate_run(const CoastdownStudy& study, const RunDraw& draw, RandomStream& random) {
-  scenarios::CoastdownRun run;
+estimation::CoastdownRun simulate_run(const CoastdownStudy& study, const RunDraw& draw, RandomStream& random) {
+  estimation::CoastdownRun run;
   run.heading = draw.heading;
   const double h = study.interval_s;
   double v = study.from_km_h / 3.6;
@@ -49,8 +49,8 @@ scenarios::CoastdownRun simulate_run(const CoastdownStudy& study, const RunDraw&
 
 }  // namespace
 
-scenarios::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::uint64_t seed) {
-  scenarios::CoastdownData data;
+estimation::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::uint64_t seed) {
+  estimation::CoastdownData data;
   RandomStream random(seed, "coastdown");
   const int runs = 2 * study.pairs;
   for (int i = 0; i < runs; ++i) {
@@ -67,7 +67,7 @@ scenarios::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::u
   return data;
 }
 
-std::string write_coastdown_csv(const scenarios::CoastdownData& data) {
+std::string write_coastdown_csv(const estimation::CoastdownData& data) {
   CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
   for (const auto& run : data.runs) {
     for (std::size_t i = 0; i < run.time_s.size(); ++i) {
@@ -83,9 +83,9 @@ std::string write_coastdown_csv(const scenarios::CoastdownData& data) {
   return csv.take();
 }
 
-scenarios::CoastdownData cut_into_bins(const scenarios::CoastdownData& traces, double width_km_h) {
-  scenarios::CoastdownData data = traces;
-  for (scenarios::CoastdownRun& run : data.runs) {
+estimation::CoastdownData cut_into_bins(const estimation::CoastdownData& traces, double width_km_h) {
+  estimation::CoastdownData data = traces;
+  for (estimation::CoastdownRun& run : data.runs) {
     const double width = width_km_h / 3.6;
     double edge = std::floor(run.speed_m_s.front() / width) * width;
     double last_s = -1.0;

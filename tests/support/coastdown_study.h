@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "scenarios/road_load_fit.h"
+#include "estimation/road_load/road_load_fit.h"
 
 namespace rollrig::tests {
 
@@ -31,12 +31,12 @@ struct CoastdownStudy {
 };
 
 /// Runs + and - in turn; the equation of motion by classical Runge-Kutta.
-scenarios::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::uint64_t seed);
+estimation::CoastdownData simulate_coastdowns(const CoastdownStudy& study, std::uint64_t seed);
 
 /// The runs as a file that `rollrig fit road-load` reads, air at 20 degC.
-std::string write_coastdown_csv(const scenarios::CoastdownData& data);
+std::string write_coastdown_csv(const estimation::CoastdownData& data);
 
 /// The passing times of the same runs at every `width_km_h`, without noise.
-scenarios::CoastdownData cut_into_bins(const scenarios::CoastdownData& traces, double width_km_h);
+estimation::CoastdownData cut_into_bins(const estimation::CoastdownData& traces, double width_km_h);
 
 }  // namespace rollrig::tests

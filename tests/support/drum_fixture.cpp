@@ -2,15 +2,15 @@
 
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
-#include "scenarios/assets.h"
+#include "sim/core/assets.h"
 
 namespace rollrig::tests {
 
 models::TireFile read_asset_tire(const std::string& name) {
-  return models::read_tire(read_config(scenarios::find_asset("tires", name)));
+  return models::read_tire(read_config(find_asset("tires", name)));
 }
 
-rigs::RigFile read_asset_rig() { return rigs::read_rig(read_config(scenarios::find_asset("rigs", "drum_2m"))); }
+rigs::RigFile read_asset_rig() { return rigs::read_rig(read_config(find_asset("rigs", "drum_2m"))); }
 
 rigs::DrumStart<double> DrumFixture::start() const {
   rigs::DrumStart<double> at;

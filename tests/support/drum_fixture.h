@@ -7,7 +7,7 @@
 #include "models/corner.h"
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/cvodes_integrator.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenarios/sensor_file.h"
+#include "measurements/sensor_file.h"
 #include "tests/support/drum_fixture.h"
 
 namespace rollrig::tests {
@@ -13,9 +13,9 @@ bool is_measured(const std::string& channel) {
 }
 
 /// One run cut out of a recording. A mean at its ends reaches beyond the cut: no sample there.
-scenarios::MeasuredRun cut_run(const std::string& id, const sim::Recording<double>& recording,
-                               const scenarios::SetRun& cut) {
-  scenarios::MeasuredRun run;
+measurements::MeasuredRun cut_run(const std::string& id, const sim::Recording<double>& recording,
+                                  const scenarios::SetRun& cut) {
+  measurements::MeasuredRun run;
   run.id = id;
   run.file = id + ".csv";
   run.session = "day";
@@ -50,13 +50,13 @@ Campaign make_wide_campaign() {
   return campaign;
 }
 
-scenarios::MeasurementSet simulate_campaign(const Campaign& campaign, std::uint64_t seed) {
-  scenarios::MeasurementSet set;
+measurements::MeasurementSet simulate_campaign(const Campaign& campaign, std::uint64_t seed) {
+  measurements::MeasurementSet set;
   set.path = "simulated/set.toml";
   set.name = "simulated";
   set.tire = read_asset_tire(campaign.tire);
   set.rig = read_asset_rig();
-  set.sensors = scenarios::read_sensor_asset("source");
+  set.sensors = measurements::read_sensor_asset("source");
   for (std::size_t part = 0; part < campaign.parts.size(); ++part) {
     const auto& [scenario, settings] = campaign.parts[part];
     scenarios::RunSpec spec = make_spec(scenario, campaign.tire, settings, "quasi_static");
@@ -66,7 +66,7 @@ scenarios::MeasurementSet simulate_campaign(const Campaign& campaign, std::uint6
       set.runs.push_back(cut_run(std::to_string(part + 1) + "-" + cut.id, outcome.recording, cut));
     }
   }
-  for (scenarios::MeasuredRun& run : set.runs) {
+  for (measurements::MeasuredRun& run : set.runs) {
     for (const auto& [channel, sensor] : set.sensors) {
       models::apply_sensor(sensor, channel, {seed, run.session, run.id}, run.time_s, run.columns.at(channel));
     }

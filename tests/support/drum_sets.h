@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "measurements/measurement_set.h"
 #include "models/effect.h"
-#include "scenarios/measurement_set.h"
 
 namespace rollrig::tests {
 
@@ -27,7 +27,7 @@ Campaign make_short_campaign();
 Campaign make_wide_campaign();
 
 /// The campaign simulated quasi-statically, with noise of a seed; sensors of assets/sensors/source.toml.
-scenarios::MeasurementSet simulate_campaign(const Campaign& campaign, std::uint64_t seed = 1);
+measurements::MeasurementSet simulate_campaign(const Campaign& campaign, std::uint64_t seed = 1);
 
 /// An effect with all parameters at the lower or upper end of their priors, or between (0 to 1).
 models::ActiveEffect make_effect_at(const std::string& id, double between);

@@ -2,19 +2,19 @@
 
 #include <boost/math/distributions/binomial.hpp>
 
-#include "identification/parameters.h"
-#include "scenarios/sensor_file.h"
+#include "estimation/parameters.h"
+#include "measurements/sensor_file.h"
 #include "tests/support/drum_fixture.h"
 
 namespace rollrig::tests {
 namespace {
 
-scenarios::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity) {
+measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity) {
   const scenarios::RunSpec spec = make_spec(
       "warm_up", tire, {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
   const scenarios::Outcome outcome = spec.scenario->run(spec, {});
   const scenarios::SetRun& cut = outcome.set_runs.front();
-  scenarios::MeasuredRun run;
+  measurements::MeasuredRun run;
   run.id = cut.id;
   run.session = "day";
   run.initial_tire_temperature_K = cut.initial_tire_temperature_K;
@@ -33,14 +33,14 @@ scenarios::MeasuredRun make_run(const std::string& tire, double speed_km_h, cons
 
 }  // namespace
 
-scenarios::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
-                                           const std::string& fidelity) {
-  scenarios::MeasurementSet set;
+measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
+                                              const std::string& fidelity) {
+  measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
   set.tire = read_asset_tire(tire);
   set.rig = read_asset_rig();
-  set.sensors = scenarios::read_sensor_asset(sensors);
+  set.sensors = measurements::read_sensor_asset(sensors);
   for (const double speed_km_h : {80.0, 120.0}) {
     set.runs.push_back(make_run(tire, speed_km_h, fidelity));
     if (set.sensors.count("gas_temperature_degC") == 0) set.runs.back().columns.erase("gas_temperature_degC");
@@ -48,9 +48,9 @@ scenarios::MeasurementSet make_warm_up_set(const std::string& tire, const std::s
   return set;
 }
 
-scenarios::MeasurementSet add_noise(const scenarios::MeasurementSet& set, std::uint64_t seed) {
-  scenarios::MeasurementSet noisy = set;
-  for (scenarios::MeasuredRun& run : noisy.runs) {
+measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, std::uint64_t seed) {
+  measurements::MeasurementSet noisy = set;
+  for (measurements::MeasuredRun& run : noisy.runs) {
     for (const auto& [channel, sensor] : set.sensors) {
       models::apply_sensor(sensor, channel, {seed, run.session, run.id}, run.time_s, run.columns.at(channel));
     }
@@ -58,10 +58,10 @@ scenarios::MeasurementSet add_noise(const scenarios::MeasurementSet& set, std::u
   return noisy;
 }
 
-double find_truth(const scenarios::MeasurementSet& set, const std::string& key) {
+double find_truth(const measurements::MeasurementSet& set, const std::string& key) {
   models::Context<double> context = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
   const std::string name = key.substr(key.rfind('.') + 1);
-  return identification::find_parameter(context, key) / unit_of_key(name).factor;
+  return estimation::find_parameter(context, key) / unit_of_key(name).factor;
 }
 
 bool is_rejected(int successes, int trials, double p, double level) {

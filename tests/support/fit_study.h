@@ -3,20 +3,20 @@
 
 #include <string>
 
-#include "identification/fit_tire.h"
+#include "estimation/tire_fit/fit_tire.h"
 
 namespace rollrig::tests {
 
 /// Warm-ups of a tire at 80 and 120 km/h in one session, free of noise, as a measurement set; sensors by
 /// name of an asset.
-scenarios::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
-                                           const std::string& fidelity = "multibody");
+measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
+                                              const std::string& fidelity = "multibody");
 
 /// The set with the errors of its sensors added.
-scenarios::MeasurementSet add_noise(const scenarios::MeasurementSet& set, std::uint64_t seed);
+measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, std::uint64_t seed);
 
 /// The true value of an estimate's key, in the unit of the key.
-double find_truth(const scenarios::MeasurementSet& set, const std::string& key);
+double find_truth(const measurements::MeasurementSet& set, const std::string& key);
 
 /// Whether `successes` of `trials` is rejected by a two-sided binomial test of probability `p` at `level`.
 bool is_rejected(int successes, int trials, double p, double level);

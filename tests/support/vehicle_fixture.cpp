@@ -1,18 +1,14 @@
 #include "tests/support/vehicle_fixture.h"
 
 #include "rigs/trace_effects.h"
-#include "scenarios/assets.h"
+#include "sim/core/assets.h"
 
 namespace rollrig::tests {
 
-rigs::VehicleFile read_asset_vehicle() {
-  return rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", "source_car")));
-}
+rigs::VehicleFile read_asset_vehicle() { return rigs::read_vehicle(read_config(find_asset("vehicles", "source_car"))); }
 
 VehicleFixture::VehicleFixture(const std::string& rig_name, bool is_whole, rigs::QuarterWheel quarter_wheel)
-    : rig(rigs::read_rig(read_config(scenarios::find_asset("rigs", rig_name)))),
-      whole(is_whole),
-      quarter(quarter_wheel) {}
+    : rig(rigs::read_rig(read_config(find_asset("rigs", rig_name)))), whole(is_whole), quarter(quarter_wheel) {}
 
 void VehicleFixture::take_losses_away() {
   baseline = models::Baseline::kConstantRrc;

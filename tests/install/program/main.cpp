@@ -1,7 +1,7 @@
 // A program of somebody else's: an ISO 28580 test through the installed library.
 #include <fmt/format.h>
 
-#include "scenarios/run_spec.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/error.h"
 
 int main() {

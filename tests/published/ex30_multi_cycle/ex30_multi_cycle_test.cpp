@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "rigs/vehicle_file.h"
-#include "scenarios/assets.h"
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "tests/support/page_numbers.h"
 #include "tools/multi_cycle.h"
@@ -31,14 +31,14 @@ TEST_CASE("EX30: one efficiency from two sections gives the others within 3 %, t
   // The cold section: 15 % above the third in the certificate; A, B, C know nothing of it.
   CHECK(certificate[0].per_m() / certificate[4].per_m() == Approx(1.15).margin(0.01));
   CHECK(simulated[0].per_m(efficiency) == Approx(simulated[4].per_m(efficiency)).epsilon(1e-6));
-  const auto vehicle = rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", "volvo_ex30")));
+  const auto vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
   CHECK(vehicle.powertrain.efficiency == Approx(efficiency).margin(5e-4));
 }
 
 TEST_CASE("EX30: at constant speed the wheels need the road load over the distance", "[published]") {
   const auto certificate = read_certificate(kPhases);
   const auto simulated = simulate_multi_cycle({}, certificate);
-  const auto vehicle = rigs::read_vehicle(read_config(scenarios::find_asset("vehicles", "volvo_ex30")));
+  const auto vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
   const double force_N = models::calc_road_load_N(*vehicle.road_load, 65.0 * 0.44704);
   for (const std::size_t i : {3, 7}) {
     CHECK(simulated[i].distance_m == Approx(certificate[i].distance_m).epsilon(1e-4));

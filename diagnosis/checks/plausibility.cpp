@@ -1,0 +1,147 @@
+#include "diagnosis/checks/plausibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/kinds/measurement_kind.h"
+#include "models/corner.h"
+#include "sim/core/error.h"
+#include "sim/core/parallel.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
+
+// Assumed, see RunMisfit.
+constexpr double kTemperature_K = 5.0;
+constexpr double kRiseShare = 0.4;
+constexpr double kPressure_Pa = 15e3;
+constexpr double kPressureShare = 0.4;
+constexpr double kUncompared = 1.05;  // just outside
+
+double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel, std::size_t row,
+                      double simulated) {
+  const MeasurementKind& kind = kind_of(set);
+  if (channel == kind.force_channel(set).name) return kind.calc_force_tolerance(set, simulated);
+  if (channel == "cavity_pressure_kPa") {
+    return kPressure_Pa + kPressureShare * std::abs(simulated - run.cold_pressure_Pa);
+  }
+  return kTemperature_K + kRiseShare * std::abs(simulated - run.columns.at("ambient_degC")[row]);
+}
+
+/// Of one sample, what its sensor makes of its own.
+double calc_noise(const MeasurementSet& set, const std::string& channel) {
+  const auto sensor = set.sensors.find(channel);
+  return sensor == set.sensors.end() ? 0.0 : std::hypot(sensor->second.noise_sd, sensor->second.drift_sd);
+}
+
+ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel,
+                                  const std::vector<double>& simulated) {
+  const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
+  const std::vector<double>& measured = run.columns.at(channel);
+  const Unit unit = unit_of_key(channel);
+  ChannelMisfit misfit{channel, rows.size()};
+  const double noise = calc_noise(set, channel);
+  double squares = 0.0;
+  double noise_squares = 0.0;
+  double measured_sum = 0.0;
+  double simulated_sum = 0.0;
+  for (const std::size_t row : rows) {
+    const double tolerance = calc_tolerance(set, run, channel, row, simulated[row]);
+    const double off = std::abs(measured[row] - simulated[row]) / tolerance;
+    noise_squares += noise * noise / (tolerance * tolerance);
+    const double held = std::isfinite(off) ? std::min(off, kLargestMisfit) : kLargestMisfit;
+    squares += held * held;
+    measured_sum += unit.from_si(measured[row]);
+    simulated_sum += unit.from_si(simulated[row]);
+  }
+  if (rows.empty()) {
+    const bool sampled = std::any_of(measured.begin(), measured.end(), [](double value) { return !std::isnan(value); });
+    misfit.rms = sampled ? kUncompared : 0.0;
+    return misfit;
+  }
+  misfit.rms = std::sqrt(std::max(0.0, squares - noise_squares) / static_cast<double>(rows.size()));
+  misfit.ratio = measured_sum / simulated_sum;
+  return misfit;
+}
+
+}  // namespace
+
+sim::Recording<double> replay_baseline(const MeasurementSet& set, const MeasuredRun& run) {
+  const MeasurementKind& kind = kind_of(set);
+  models::Corner<double> corner(kind.make_context(set), {});
+  sim::Recording<double> recording = kind.make_replay(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
+  for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+    const std::vector<double>& values = recording.values[c];
+    if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
+    throw RunFailure(recording.channels[c].name + " does not stay finite");
+  }
+  return recording;
+}
+
+std::vector<std::size_t> find_compared_rows(const MeasurementSet& set, const MeasuredRun& run,
+                                            const std::string& channel) {
+  if (!run.has(channel)) return {};
+  return kind_of(set).find_compared_rows(run, channel);
+}
+
+double RunMisfit::worst() const {
+  if (!failure.empty()) return kLargestMisfit;
+  double worst = 0.0;
+  for (const ChannelMisfit& channel : channels) worst = std::max(worst, channel.rms);
+  return worst;
+}
+
+double RunMisfit::sum_of_squares() const {
+  if (!failure.empty()) return kLargestMisfit * kLargestMisfit * 4.0;
+  double sum = 0.0;
+  for (const ChannelMisfit& channel : channels) sum += channel.rms * channel.rms;
+  return sum;
+}
+
+RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated) {
+  RunMisfit misfit;
+  for (const std::string& channel : measurements::measured_channels(set.kind)) {
+    if (!run.has(channel)) continue;
+    misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel)));
+  }
+  return misfit;
+}
+
+RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run) {
+  try {
+    return calc_misfit(set, run, replay_baseline(set, run));
+  } catch (const RunFailure& failure) {
+    RunMisfit misfit;
+    misfit.failure = failure.what();
+    return misfit;
+  }
+}
+
+Replays replay_all(const MeasurementSet& set, int threads) {
+  Replays replays{std::vector<sim::Recording<double>>(set.runs.size()), std::vector<RunMisfit>(set.runs.size())};
+  parallel_for(set.runs.size(), threads, [&](std::size_t r) {
+    try {
+      replays.recordings[r] = replay_baseline(set, set.runs[r]);
+      replays.misfits[r] = calc_misfit(set, set.runs[r], replays.recordings[r]);
+    } catch (const RunFailure& failure) {
+      replays.misfits[r].failure = failure.what();
+    }
+  });
+  return replays;
+}
+
+std::string name_runs(const MeasurementSet& set, const std::vector<std::size_t>& runs) {
+  if (runs.size() > 1 && runs.size() == set.runs.size()) return "all runs";
+  std::vector<std::string> ids;
+  for (const std::size_t r : runs) ids.push_back(set.runs[r].id);
+  std::sort(ids.begin(), ids.end());
+  return (ids.size() == 1 ? "run " : "runs ") + fmt::format("{}", fmt::join(ids, ", "));
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,150 @@
+#include "diagnosis/checks/repairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/kinds/measurement_kind.h"
+#include "sim/core/parallel.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
+
+/// Undoes a mistake; false where it cannot have been made in that run.
+using Undo = std::function<bool(MeasuredRun&)>;
+
+struct Mistake {
+  std::string text;
+  Undo undo;
+};
+
+/// Columns of a set, given and measured, in the order of the format.
+std::vector<Field> list_columns(const MeasurementSet& set) {
+  const measurements::SetColumns& all = measurements::columns_of(set.kind);
+  std::vector<Field> fields = all.given;
+  fields.insert(fields.end(), all.optional_given.begin(), all.optional_given.end());
+  fields.insert(fields.end(), all.measured.begin(), all.measured.end());
+  return fields;
+}
+
+bool is_given(const MeasurementSet& set, const std::string& column) {
+  for (const Field& field : measurements::columns_of(set.kind).measured) {
+    if (field.key == column) return false;
+  }
+  return true;
+}
+
+/// The numbers of a file under another heading, in SI units; empty where one is out of that column's range.
+/// An input is needed in every row: gaps take the sample before (or the first).
+std::vector<double> read_as(const std::vector<double>& values, const Unit& from, const Field& field, bool given) {
+  const Unit unit = unit_of_key(field.key);
+  std::vector<double> out;
+  double last = std::nan("");
+  for (const double value : values) {
+    if (!std::isnan(value) && std::isnan(last)) last = from.from_si(value);
+  }
+  for (const double value : values) {
+    const double number = from.from_si(value);
+    if (!std::isnan(number)) last = number;
+    const double read = given ? last : number;
+    if (std::isnan(read) ? given : !field.range.contains(read)) return {};
+    out.push_back(unit.to_si(read));
+  }
+  return out;
+}
+
+Mistake exchange(const MeasurementSet& set, const Field& a, const Field& b) {
+  const auto undo = [a, b, a_given = is_given(set, a.key), b_given = is_given(set, b.key)](MeasuredRun& run) {
+    if (!run.has(a.key) || !run.has(b.key)) return false;
+    std::vector<double> as_a = read_as(run.columns.at(b.key), unit_of_key(b.key), a, a_given);
+    std::vector<double> as_b = read_as(run.columns.at(a.key), unit_of_key(a.key), b, b_given);
+    if (as_a.empty() || as_b.empty()) return false;
+    run.columns[a.key] = std::move(as_a);
+    run.columns[b.key] = std::move(as_b);
+    return true;
+  };
+  return {fmt::format("the columns {} and {} are exchanged", a.key, b.key), undo};
+}
+
+Mistake wrong_unit(const WrongUnit& wrong) {
+  const auto undo = [wrong](MeasuredRun& run) {
+    if (!run.has(wrong.column)) return false;
+    const Unit unit = unit_of_key(wrong.column);
+    for (double& value : run.columns.at(wrong.column)) {
+      value = unit.to_si(wrong.factor * unit.from_si(value) + wrong.offset);
+    }
+    return true;
+  };
+  return {wrong.column + " " + wrong.text, undo};
+}
+
+std::vector<Mistake> list_mistakes(const MeasurementSet& set, Mistakes which) {
+  std::vector<Mistake> mistakes;
+  if (which == Mistakes::kAll) {
+    for (const WrongUnit& wrong : kind_of(set).list_wrong_units()) mistakes.push_back(wrong_unit(wrong));
+  }
+  const std::vector<Field> columns = list_columns(set);
+  for (std::size_t a = 0; a < columns.size(); ++a) {
+    for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
+  }
+  return mistakes;
+}
+
+/// Sum of squares of a run's misfit once the mistake is undone; infinite where a channel stays outside.
+double calc_squares_without(const Mistake& mistake, const MeasurementSet& set, std::size_t r) {
+  MeasuredRun run = set.runs[r];
+  if (!mistake.undo(run)) return std::numeric_limits<double>::infinity();
+  const RunMisfit misfit = calc_misfit(set, run);
+  return misfit.worst() > 1.0 ? std::numeric_limits<double>::infinity() : misfit.sum_of_squares();
+}
+
+}  // namespace
+
+std::vector<WrongUnit> list_common_wrong_units() {
+  constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
+  constexpr double kBar_kPa = 100.0;
+  constexpr double kMile_km = 1.609344;  // exact
+  return {{"speed_km_h", 3.6, 0.0, "holds m/s"},
+          {"speed_km_h", 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
+          {"speed_km_h", kMile_km, 0.0, "holds mph"},
+          {"load_N", kStandardGravity_m_s2, 0.0, "holds kgf"},
+          {"load_N", 1e3, 0.0, "holds kN"},
+          {"cavity_pressure_kPa", 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},
+          {"cavity_pressure_kPa", kBar_kPa, 0.0, "holds bar"},
+          {"cavity_pressure_kPa", kPsi_kPa, 0.0, "holds psi"},
+          {"liner_temperature_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"},
+          {"ambient_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"}};
+}
+
+std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<std::size_t>& odd_runs, Mistakes which,
+                                  int threads) {
+  constexpr double kMuchBetter = 0.1;  // Assumed: of the sum of squares
+  const auto calc_squares = [&set](std::size_t r) { return calc_misfit(set, set.runs[r]).sum_of_squares(); };
+  double before = 0.0;
+  for (const std::size_t r : odd_runs) before += calc_squares(r);
+  const std::vector<Mistake> mistakes = list_mistakes(set, which);
+  std::vector<double> after(mistakes.size(), 0.0);
+  parallel_for(mistakes.size(), threads, [&](std::size_t i) {
+    for (const std::size_t r : odd_runs) {
+      after[i] += calc_squares_without(mistakes[i], set, r);
+      if (!(after[i] <= kMuchBetter * before)) return;
+    }
+  });
+  const auto best = std::min_element(after.begin(), after.end());
+  if (*best > kMuchBetter * before) return std::nullopt;
+  const Mistake& found = mistakes[static_cast<std::size_t>(best - after.begin())];
+  Repair repair{found.text, found.undo, {}};
+  for (std::size_t r = 0; r < set.runs.size(); ++r) {
+    const bool odd = std::find(odd_runs.begin(), odd_runs.end(), r) != odd_runs.end();
+    if (odd || calc_squares_without(found, set, r) <= kMuchBetter * calc_squares(r)) repair.runs.push_back(r);
+  }
+  return repair;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,45 @@
+#pragma once
+/// Sensors that a rig may be given, and what any channel of a simulated run would read.
+
+#include <string>
+#include <vector>
+
+#include "diagnosis/comparison/prepared_set.h"
+#include "models/corner.h"
+#include "sim/recording.h"
+
+namespace rollrig::diagnosis {
+
+/// A sensor that rigs seldom have and whose reading every hypothesis predicts.
+struct RigSensor {
+  const char* channel;  // what it reads, with its unit
+  const char* description;
+  double hours = 0.0;              // to fit it
+  models::SensorParameters error;  // SI
+};
+
+constexpr const char* kRimTemperature = "rim_temperature_degC";
+constexpr const char* kSurfaceReading = "surface_reading_degC";
+
+/// Sensors and their errors are Assumed: offsets of thermometers hold the place in which they sit as well (2 K where
+/// the baseline has nothing that warms: a rim or a surface that takes no heat stays that near to the air).
+/// Not among them: a thermometer in the drum's bearings. They warm under every hypothesis, and only the one whose
+/// friction follows their temperature says how far.
+const std::vector<RigSensor>& all_rig_sensors();
+/// Throws std::invalid_argument where there is none of that channel.
+const RigSensor& find_rig_sensor(const std::string& channel);
+
+using measurements::kHungTorque;
+
+/// A channel of a run as a sensor would read it, a value a row.
+/// Equation  with torque hung on it  y + trace(hung) - trace(0);  in reversed rotation  y - 2 trace(0)
+/// Symbols   y the channel as simulated, trace() what the effects of the port "trace" make of a true force
+/// Validity  while torque is hung next to nothing else turns the sensor; those effects turn over with the force but for
+///           what they make of none; sensors other than a set's channels: full detail
+/// Checked   tests/diagnosis/next_test_test.cpp
+template <class S>
+std::vector<S> read_channel(const PreparedSet& set, const measurements::MeasuredRun& run,
+                            const models::Corner<S>& corner, const sim::Recording<S>& recording,
+                            const std::string& channel);
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,148 @@
+#include "diagnosis/comparison/evidence.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/thresholds.h"
+
+namespace rollrig::diagnosis {
+double log_sum_exp(const std::vector<double>& logs) {
+  const double largest = *std::max_element(logs.begin(), logs.end());
+  if (!std::isfinite(largest)) return largest;
+  double sum = 0.0;
+  for (const double value : logs) sum += std::exp(value - largest);
+  return largest + std::log(sum);
+}
+
+AmplitudePrior near_amplitude(double middle) {
+  AmplitudePrior prior;
+  double sum = 0.0;
+  for (int step = -2; step <= 2; ++step) {
+    prior.amplitudes.push_back(middle * std::exp2(step));
+    prior.weights.push_back(std::exp(-0.5 * step * step));  // standard deviation: a factor of two
+    sum += prior.weights.back();
+  }
+  for (double& weight : prior.weights) weight /= sum;
+  return prior;
+}
+
+AmplitudePrior law_amplitude(double least, double middle) {
+  AmplitudePrior prior = near_amplitude(middle);
+  constexpr double kStep = 4.0;
+  std::vector<double> below;
+  for (double amplitude = prior.amplitudes.front() / kStep; amplitude >= least; amplitude /= kStep) {
+    below.push_back(amplitude);
+  }
+  if (below.empty()) return prior;
+  for (double& weight : prior.weights) weight *= 1.0 - thresholds::kExactLaw;
+  prior.amplitudes.insert(prior.amplitudes.end(), below.begin(), below.end());
+  prior.weights.resize(prior.amplitudes.size(), thresholds::kExactLaw / static_cast<double>(below.size()));
+  return prior;
+}
+
+Evidence::Evidence(const Remainder& remainder, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
+                   const RowMatrix& jacobian)
+    : remainder_(remainder), unknowns_(unknowns) {
+  RowMatrix columns = jacobian;
+  Eigen::VectorXd r = residuals;
+  remainder.whiten_below(columns);
+  remainder.whiten_below(r);
+  log_determinant_below_ = remainder.log_determinant_below();
+  for (const Remainder::Basis& basis : remainder.bases()) {
+    const Eigen::MatrixXd rows = remainder.gather(basis, columns);
+    const Eigen::VectorXd of_basis = remainder.gather(basis, r);
+    parts_.push_back({rows.transpose() * rows, rows.transpose() * of_basis, of_basis.squaredNorm(),
+                      basis.directions.transpose() * rows, basis.directions.transpose() * of_basis});
+  }
+}
+
+Evidence::PerAmplitude Evidence::calc_channel(std::size_t channel, double amplitude) const {
+  const Eigen::Index n = unknowns_.size();
+  PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
+  for (std::size_t b = 0; b < parts_.size(); ++b) {
+    const Remainder::Basis& basis = remainder_.bases()[b];
+    if (basis.channel != channel) continue;
+    const Part& of = parts_[b];
+    const Eigen::ArrayXd scaled = amplitude * amplitude * basis.strengths.array();
+    const Eigen::VectorXd taken = (scaled / (1.0 + scaled)).matrix();
+    sum.curvature += of.curvature - of.along.transpose() * taken.asDiagonal() * of.along;
+    sum.gradient += of.gradient - of.along.transpose() * taken.cwiseProduct(of.along_residual);
+    sum.square += of.square - of.along_residual.cwiseAbs2().dot(taken);
+    sum.log_determinant += (1.0 + scaled).log().sum();
+  }
+  return sum;
+}
+
+Evidence::Term Evidence::solve(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& gradient, double square,
+                               double log_determinant, bool with_covariance) const {
+  const Eigen::Index n = unknowns_.size();
+  const Eigen::MatrixXd m = curvature + Eigen::MatrixXd::Identity(n, n);
+  const Eigen::VectorXd g = gradient + unknowns_;
+  const Eigen::LLT<Eigen::MatrixXd> factor(m);
+  Term term;
+  term.step = -factor.solve(g);
+  term.chi2 = square + unknowns_.squaredNorm() + g.dot(term.step);
+  const double log_m = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  term.log_value = -0.5 * (term.chi2 + log_determinant + log_determinant_below_ + log_m);
+  if (with_covariance) term.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
+  return term;
+}
+
+Evidence::Term Evidence::calc_term(const Amplitudes& amplitudes, bool with_covariance) const {
+  const Eigen::Index n = unknowns_.size();
+  PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
+  for (std::size_t channel = 0; channel < amplitudes.size(); ++channel) {
+    const PerAmplitude one = calc_channel(channel, amplitudes[channel]);
+    sum.curvature += one.curvature;
+    sum.gradient += one.gradient;
+    sum.square += one.square;
+    sum.log_determinant += one.log_determinant;
+  }
+  return solve(sum.curvature, sum.gradient, sum.square, sum.log_determinant, with_covariance);
+}
+
+Evidence::Sum Evidence::integrate(const std::vector<AmplitudePrior>& priors) const {
+  std::vector<std::vector<PerAmplitude>> channels;
+  for (std::size_t channel = 0; channel < priors.size(); ++channel) {
+    channels.emplace_back();
+    for (const double amplitude : priors[channel].amplitudes) {
+      channels.back().push_back(calc_channel(channel, amplitude));
+    }
+  }
+  std::vector<std::size_t> index(priors.size(), 0);
+  std::vector<double> logs;
+  std::vector<Amplitudes> combinations;
+  const Eigen::Index n = unknowns_.size();
+  while (true) {
+    PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
+    double log_weight = 0.0;
+    Amplitudes amplitudes;
+    for (std::size_t channel = 0; channel < priors.size(); ++channel) {
+      const PerAmplitude& one = channels[channel][index[channel]];
+      sum.curvature += one.curvature;
+      sum.gradient += one.gradient;
+      sum.square += one.square;
+      sum.log_determinant += one.log_determinant;
+      log_weight += std::log(priors[channel].weights[index[channel]]);
+      amplitudes.push_back(priors[channel].amplitudes[index[channel]]);
+    }
+    logs.push_back(log_weight + solve(sum.curvature, sum.gradient, sum.square, sum.log_determinant, false).log_value);
+    combinations.push_back(std::move(amplitudes));
+    std::size_t channel = 0;
+    while (channel < priors.size() && ++index[channel] == priors[channel].amplitudes.size()) index[channel++] = 0;
+    if (channel == priors.size()) break;
+  }
+  Sum sum;
+  sum.log_value = log_sum_exp(logs);
+  sum.mean.assign(priors.size(), 0.0);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    for (std::size_t c = 0; c < priors.size(); ++c)
+      sum.mean[c] += std::exp(logs[i] - sum.log_value) * combinations[i][c];
+  }
+  const auto best = std::max_element(logs.begin(), logs.end()) - logs.begin();
+  sum.best = combinations[static_cast<std::size_t>(best)];
+  return sum;
+}
+
+}  // namespace rollrig::diagnosis

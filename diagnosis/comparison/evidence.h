@@ -1,0 +1,79 @@
+#pragma once
+/// How well a hypothesis predicts a set, all its parameters and its model error integrated out.
+
+#include <vector>
+
+#include "diagnosis/comparison/remainder.h"
+
+namespace rollrig::diagnosis {
+
+/// What a hypothesis holds of the remainder's amplitude in one channel: weights, adding to 1, of amplitudes.
+struct AmplitudePrior {
+  std::vector<double> amplitudes;  // noise floors
+  std::vector<double> weights;
+};
+
+/// Log-normal around a middle, on a grid of factors of two.
+AmplitudePrior near_amplitude(double middle);
+
+/// Likewise, and with `kExactLaw` of the weight below it, in factors of four down to `least`: a law may be as wrong as
+/// `middle`, yet of a huge effect that would be much more than a good law leaves.
+AmplitudePrior law_amplitude(double least, double middle);
+
+/// Evidence of a hypothesis linear about an expansion point.
+/// Equation  Z = sum over amplitudes of w |Sigma|^-1/2 |M|^-1/2 exp(-chi2/2),
+///           M = 1 + J^T Sigma^-1 J, g = u + J^T Sigma^-1 r, chi2 = r^T Sigma^-1 r + u^T u - g^T M^-1 g
+/// Symbols   r whitened residual at the unknowns u (prior units), J its derivatives, Sigma of the remainder; constants
+///           that all hypotheses share are left out
+/// Source    Laplace's method with a normal prior of unit variance
+/// Checked   tests/diagnosis/evidence_test.cpp
+class Evidence {
+ public:
+  Evidence(const Remainder& remainder, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
+           const RowMatrix& jacobian);
+
+  /// One combination of amplitudes, one a channel.
+  struct Term {
+    double log_value = 0.0;
+    Eigen::VectorXd step;        // to the best unknowns
+    Eigen::MatrixXd covariance;  // of the unknowns; where asked for
+    double chi2 = 0.0;
+  };
+  Term calc_term(const Amplitudes& amplitudes, bool with_covariance = false) const;
+
+  struct Sum {
+    double log_value = 0.0;
+    Amplitudes mean;  // of the amplitudes, after the measurement
+    Amplitudes best;  // of the likeliest combination
+  };
+  /// Over all combinations of the channels' amplitudes. `without_first`: not that of all the first ones.
+  Sum integrate(const std::vector<AmplitudePrior>& priors) const;
+
+ private:
+  struct PerAmplitude {
+    Eigen::MatrixXd curvature;
+    Eigen::VectorXd gradient;
+    double square = 0.0;
+    double log_determinant = 0.0;
+  };
+  PerAmplitude calc_channel(std::size_t channel, double amplitude) const;
+  Term solve(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& gradient, double square, double log_determinant,
+             bool with_covariance) const;
+
+  const Remainder& remainder_;
+  Eigen::VectorXd unknowns_;
+  double log_determinant_below_ = 0.0;
+  struct Part {                 // of a basis
+    Eigen::MatrixXd curvature;  // J^T J
+    Eigen::VectorXd gradient;   // J^T r
+    double square = 0.0;        // r^T r
+    Eigen::MatrixXd along;      // U^T J
+    Eigen::VectorXd along_residual;
+  };
+  std::vector<Part> parts_;
+};
+
+/// log(sum exp).
+double log_sum_exp(const std::vector<double>& logs);
+
+}  // namespace rollrig::diagnosis

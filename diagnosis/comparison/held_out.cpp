@@ -1,0 +1,70 @@
+#include "diagnosis/comparison/held_out.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <limits>
+
+#include "diagnosis/comparison/bounded_step.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+struct Bounds {
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+};
+
+/// Of all unknowns: own parameters in their ranges, and base parameters less than their own size away, since one step
+/// from a set that is not of this tire may lead out of physics.
+Bounds find_bounds(const Model& model, const std::vector<estimation::FreeParameter>& base) {
+  constexpr double kMostRelative = 0.9;
+  const Eigen::Index n = at(model.unknown_count());
+  const double infinity = std::numeric_limits<double>::infinity();
+  Bounds bounds{Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    bounds.lower[at(i)] = model.own_bounds(i).lower;
+    bounds.upper[at(i)] = model.own_bounds(i).upper;
+  }
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
+    if (most > 0.0) {
+      bounds.lower[at(model.own_count() + i)] = -most;
+      bounds.upper[at(model.own_count() + i)] = most;
+    }
+  }
+  return bounds;
+}
+
+}  // namespace
+
+Prediction predict_without(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                           const Remainder& remainder, const Contender& contender, std::size_t held_out) {
+  RowMatrix jacobian = contender.fit.jacobian;
+  Eigen::VectorXd residuals = contender.fit.residuals;
+  remainder.whiten(contender.amplitudes, jacobian);
+  remainder.whiten(contender.amplitudes, residuals);
+  RowMatrix left_out = RowMatrix::Zero(jacobian.rows(), jacobian.cols());
+  for (const Series& series : set.series()) {
+    if (series.run != held_out) continue;
+    auto rows = jacobian.middleRows(at(series.first_residual), at(series.size()));
+    left_out.middleRows(at(series.first_residual), at(series.size())) = rows;
+    rows.setZero();
+    residuals.segment(at(series.first_residual), at(series.size())).setZero();
+  }
+  const Eigen::Index n = jacobian.cols();
+  const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
+  const Model model(set, base, contender.fit.hypothesis);
+  const Eigen::VectorXd& from = contender.fit.unknowns;
+  const Bounds bounds = find_bounds(model, base);
+  const Eigen::VectorXd unknowns =
+      solve_within(curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals), bounds.lower,
+                   bounds.upper);
+  Prediction prediction;
+  const auto parameters = at(model.parameter_count());  // offsets are taken off anew
+  left_out.rightCols(n - parameters).setZero();
+  prediction.uncertainty = curvature.matrixL().solve(Eigen::MatrixXd(left_out.transpose())).squaredNorm();
+  if (!model.simulate(unknowns, 1, prediction.simulated, nullptr)) prediction.simulated.resize(0);
+  return prediction;
+}
+
+}  // namespace rollrig::diagnosis

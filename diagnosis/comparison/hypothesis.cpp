@@ -1,0 +1,100 @@
+#include "diagnosis/comparison/hypothesis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using models::Prior;
+
+std::size_t place_of(const models::Effect& effect) {
+  const auto& all = models::all_effects();
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), &effect) - all.begin());
+}
+
+struct NormalForm {
+  double middle = 0.0;
+  double half_width = 1.0;
+};
+
+NormalForm normal_form_of(const Prior& prior) {
+  if (prior.scale == Prior::Scale::kLog) {
+    return {0.5 * (std::log(prior.low) + std::log(prior.high)), 0.5 * (std::log(prior.high) - std::log(prior.low))};
+  }
+  return {0.5 * (prior.low + prior.high), 0.5 * (prior.high - prior.low)};
+}
+
+}  // namespace
+
+std::vector<std::string> Hypothesis::ids() const {
+  std::vector<std::string> ids;
+  for (const ActingEffect& on : effects) ids.push_back(on.effect->info.id);
+  return ids;
+}
+
+std::string Hypothesis::name() const { return effects.empty() ? "none" : fmt::format("{}", fmt::join(ids(), " + ")); }
+
+bool Hypothesis::contains(const models::Effect& effect) const {
+  return std::any_of(effects.begin(), effects.end(), [&](const ActingEffect& on) { return on.effect == &effect; });
+}
+
+Hypothesis Hypothesis::with(const ActingEffect& added) const {
+  Hypothesis more = *this;
+  more.effects.push_back(added);
+  std::sort(more.effects.begin(), more.effects.end(),
+            [](const auto& a, const auto& b) { return place_of(*a.effect) < place_of(*b.effect); });
+  return more;
+}
+
+PriorUnits from_prior_units(const models::EffectParameter& parameter, double u, int sign) {
+  const NormalForm form = normal_form_of(parameter.prior);
+  double value = form.middle + form.half_width * u;
+  double derivative = form.half_width;
+  if (parameter.prior.scale == Prior::Scale::kLog) {
+    value = sign * std::exp(value);
+    derivative *= value;
+  } else if (parameter.prior.either_sign) {
+    value *= sign;
+    derivative *= sign;
+  }
+  const double factor = unit_of_key(parameter.key).factor;
+  return {value * factor, derivative * factor, parameter.range.contains(value)};
+}
+
+double to_prior_units(const models::EffectParameter& parameter, double value_SI) {
+  constexpr double kFarthest = 3.0;
+  const NormalForm form = normal_form_of(parameter.prior);
+  constexpr double kInside = 0.01;  // of the range, so that a fit can start there
+  const double margin = kInside * (parameter.prior.high - parameter.prior.low);
+  double value = value_SI / unit_of_key(parameter.key).factor;
+  value = std::clamp(value, parameter.range.lower + margin, parameter.range.upper - margin);
+  if (parameter.prior.either_sign) value = std::abs(value);
+  if (parameter.prior.scale == Prior::Scale::kLog) value = std::log(std::max(value, 1e-300));
+  return std::clamp((value - form.middle) / form.half_width, -kFarthest, kFarthest);
+}
+
+PriorBounds bounds_in_prior_units(const models::EffectParameter& parameter, int sign) {
+  const NormalForm form = normal_form_of(parameter.prior);
+  const bool is_log = parameter.prior.scale == Prior::Scale::kLog;
+  double lower = parameter.range.lower;
+  double upper = parameter.range.upper;
+  if (sign < 0) std::tie(lower, upper) = std::pair(-upper, -lower);
+  const auto place = [&](double value) {
+    return ((is_log ? std::log(std::max(value, 0.0)) : value) - form.middle) / form.half_width;
+  };
+  constexpr double kInside = 1e-9;  // of a prior unit: a bound itself may be open
+  return {place(lower) + kInside, place(upper) - kInside};
+}
+
+std::vector<int> possible_signs(const models::Effect& effect) {
+  if (effect.info.parameters.front().prior.either_sign) return {1, -1};
+  return {1};
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,25 @@
+#include "diagnosis/comparison/linear_fit.h"
+
+namespace rollrig::diagnosis {
+
+LinearFit::LinearFit(const Remainder& remainder_, const Amplitudes& amplitudes_, const Fit& fit)
+    : remainder(remainder_),
+      amplitudes(amplitudes_),
+      jacobian(fit.jacobian),
+      residual(fit.residuals - fit.jacobian * fit.unknowns) {
+  remainder.whiten(amplitudes, jacobian);
+  remainder.whiten(amplitudes, residual);  // of the priors' middles
+  const Eigen::Index n = jacobian.cols();
+  curvature = jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n);
+  factor.compute(curvature);
+  unknowns = -factor.solve(jacobian.transpose() * residual);
+  residual += jacobian * unknowns;
+}
+
+LinearFit::Score LinearFit::calc_score(Eigen::VectorXd difference) const {
+  whiten(difference);
+  const Eigen::VectorXd through = jacobian.transpose() * difference;
+  return {difference.dot(residual), difference.squaredNorm() - through.dot(factor.solve(through))};
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,188 @@
+#include "diagnosis/comparison/model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/checks/rig_sensors.h"
+#include "diagnosis/kinds/measurement_kind.h"
+#include "sim/core/parallel.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+template <class S>
+S make_scalar(double value, double derivative, std::size_t column);
+template <>
+double make_scalar<double>(double value, double, std::size_t) {
+  return value;
+}
+template <>
+Jet make_scalar<Jet>(double value, double derivative, std::size_t column) {
+  Jet jet(value);
+  if (column < static_cast<std::size_t>(kJetWidth)) jet.v[at(column)] = derivative;
+  return jet;
+}
+
+void store_derivatives(double, RowMatrix*, std::size_t, std::size_t, std::size_t) {}
+void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::size_t first, std::size_t count) {
+  for (std::size_t c = 0; c < count; ++c) (*out)(at(row), at(first + c)) = value.v[at(c)];
+}
+
+}  // namespace
+
+Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis,
+             std::optional<std::size_t> held_out)
+    : set_(set), base_(std::move(base)), hypothesis_(std::move(hypothesis)), held_out_(held_out) {
+  if (hypothesis_.base_fixed) base_.clear();
+  for (std::size_t e = 0; e < hypothesis_.effects.size(); ++e) {
+    for (std::size_t i = 0; i < hypothesis_.effects[e].effect->info.parameters.size(); ++i) own_.push_back({e, i});
+  }
+}
+
+const models::EffectParameter& Model::declaration(const OwnParameter& own) const {
+  return hypothesis_.effects[own.effect].effect->info.parameters[own.index];
+}
+
+int Model::sign_of(const OwnParameter& own) const { return own.index == 0 ? hypothesis_.effects[own.effect].sign : 1; }
+
+PriorUnits Model::own_value(std::size_t i, double u) const {
+  return from_prior_units(declaration(own_[i]), u, sign_of(own_[i]));
+}
+
+PriorBounds Model::own_bounds(std::size_t i) const {
+  return bounds_in_prior_units(declaration(own_[i]), sign_of(own_[i]));
+}
+
+bool Model::find_parameters(const Eigen::VectorXd& unknowns, std::vector<Parameter>& parameters) const {
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    const PriorUnits value = own_value(i, unknowns[at(i)]);
+    if (!value.allowed) return false;
+    parameters.push_back({value.value_SI, value.derivative_SI});
+  }
+  for (std::size_t i = 0; i < base_.size(); ++i) {
+    const double sd = base_[i].prior_sd_SI;
+    parameters.push_back({base_[i].start_SI + sd * unknowns[at(own_.size() + i)], sd});
+  }
+  return true;
+}
+
+namespace {
+
+/// Beyond it a simulation has left its domain: the steps were too long for what moves that fast. Assumed: 2000 K,
+/// 1 kbar, 100 kN or kN m.
+double find_most_SI(const std::string& channel) {
+  const Dimension dimension = unit_of_key(channel).dimension;
+  if (dimension == dimension::kTemperature) return 2000.0;
+  return dimension == dimension::kPressure ? 1e8 : 1e5;
+}
+
+}  // namespace
+
+template <class S>
+bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters, std::size_t first_column,
+                         Eigen::VectorXd& values, RowMatrix* derivatives) const {
+  const auto scalar = [&](std::size_t i) {
+    return make_scalar<S>(parameters[i].value_SI, parameters[i].derivative_SI, i - first_column);
+  };
+  models::Context<S> context = models::convert_context<S>(set_.context());
+  for (std::size_t i = 0; i < base_.size(); ++i) {
+    estimation::find_parameter(context, base_[i].key) = scalar(own_.size() + i);
+  }
+  std::vector<models::ActiveEffect> active;
+  for (const ActingEffect& on : hypothesis_.effects) {
+    active.push_back({on.effect, std::vector<double>(on.effect->info.parameters.size(), 0.0)});
+  }
+  models::Corner<S> corner(std::move(context), active);
+  for (std::size_t i = 0; i < own_.size(); ++i) corner.effects()[own_[i].effect].parameters[own_[i].index] = scalar(i);
+  const PreparedRun& run = set_.runs()[r];
+  sim::Recording<S> recording;
+  try {
+    recording = run.replay->simulate(set_.source(), run.measured, corner,
+                                     set_.extra().sensors.empty() ? rigs::Detail::kMeasured : rigs::Detail::kFull);
+  } catch (const RunFailure&) {
+    return false;
+  }
+  const std::size_t count =
+      std::min<std::size_t>(kJetWidth, parameters.size() - std::min(first_column, parameters.size()));
+  for (const Series& series : set_.series()) {
+    if (series.run != r) continue;
+    const double most = find_most_SI(set_.channels()[series.channel]);
+    const std::vector<S> simulated =
+        read_channel(set_, run.measured, corner, recording, set_.channels()[series.channel]);
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const S mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
+      if (!(std::abs(value_of(mean)) < most)) return false;  // NaN too
+      if (first_column == 0) values[at(series.first_residual + k)] = value_of(mean);
+      store_derivatives(mean, derivatives, series.first_residual + k, first_column, count);
+    }
+  }
+  return true;
+}
+
+bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives,
+                     bool with_held_out) const {
+  std::vector<Parameter> parameters;
+  if (!find_parameters(unknowns, parameters)) return false;
+  const std::size_t runs = set_.runs().size();
+  const std::size_t passes = derivatives == nullptr ? 1 : (parameters.size() + kJetWidth - 1) / kJetWidth;
+  values.setZero(at(residual_count()));
+  if (derivatives != nullptr) derivatives->setZero(at(residual_count()), at(parameters.size()));
+  std::vector<char> good(runs * passes, 1);
+  parallel_for(runs * passes, threads, [&](std::size_t job) {
+    const std::size_t run = job / passes;
+    const std::size_t first = (job % passes) * kJetWidth;
+    if (!with_held_out && held_out_ == run) return;
+    const bool done = derivatives == nullptr ? simulate_run<double>(run, parameters, 0, values, nullptr)
+                                             : simulate_run<Jet>(run, parameters, first, values, derivatives);
+    good[job] = done ? 1 : 0;
+  });
+  return std::find(good.begin(), good.end(), 0) == good.end();
+}
+
+Eigen::VectorXd Model::subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const {
+  Eigen::VectorXd difference(at(residual_count()));
+  for (const Series& series : set_.series()) {
+    const double offset = series.offset_sd * unknowns[at(parameter_count() + series.offset)];
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const Eigen::Index row = at(series.first_residual + k);
+      difference[row] = series.measured[k] - simulated[row] - offset;
+    }
+  }
+  return difference;
+}
+
+bool Model::evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& residuals,
+                     RowMatrix* jacobian) const {
+  Eigen::VectorXd simulated;
+  RowMatrix derivatives;
+  if (!simulate(unknowns, threads, simulated, jacobian != nullptr ? &derivatives : nullptr)) return false;
+  residuals = subtract_from_measured(unknowns, simulated);
+  if (jacobian != nullptr) {
+    jacobian->setZero(at(residual_count()), at(unknown_count()));
+    jacobian->leftCols(at(parameter_count())) = -derivatives;
+    for (const Series& series : set_.series()) {
+      jacobian->block(at(series.first_residual), at(parameter_count() + series.offset), at(series.size()), 1)
+          .setConstant(-series.offset_sd);
+    }
+  }
+  for (const Series& series : set_.series()) {
+    if (held_out_ != series.run) continue;
+    residuals.segment(at(series.first_residual), at(series.size())).setZero();
+    if (jacobian != nullptr) jacobian->middleRows(at(series.first_residual), at(series.size())).setZero();
+  }
+  whiten(set_, residuals);
+  if (jacobian != nullptr) whiten(set_, *jacobian);
+  return true;
+}
+
+void whiten(const PreparedSet& set, RowMatrix& columns) {
+  for (const Series& series : set.series()) {
+    series.whitener.apply(columns.row(at(series.first_residual)).data(), static_cast<std::size_t>(columns.cols()));
+  }
+}
+
+void whiten(const PreparedSet& set, Eigen::VectorXd& column) {
+  for (const Series& series : set.series()) series.whitener.apply(column.data() + series.first_residual, 1);
+}
+
+}  // namespace rollrig::diagnosis

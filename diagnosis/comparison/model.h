@@ -1,0 +1,78 @@
+#pragma once
+/// What the sensors of a set would have shown under a hypothesis, as a function of unknowns in prior units.
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "diagnosis/comparison/eigen_index.h"
+#include "diagnosis/comparison/hypothesis.h"
+#include "diagnosis/comparison/prepared_set.h"
+#include "estimation/parameters.h"
+
+namespace rollrig::diagnosis {
+
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Unknowns, each standard normal before the measurement: the effects' own parameters, then the base parameters, then
+/// the sensors' offsets (one a session and channel).
+class Model {
+ public:
+  /// A run that is held out takes no part: its residuals are 0.
+  Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis,
+        std::optional<std::size_t> held_out = std::nullopt);
+
+  const PreparedSet& set() const { return set_; }
+  const Hypothesis& hypothesis() const { return hypothesis_; }
+  std::optional<std::size_t> held_out() const { return held_out_; }
+  const std::vector<estimation::FreeParameter>& base() const { return base_; }
+
+  std::size_t own_count() const { return own_.size(); }
+  std::size_t parameter_count() const { return own_.size() + base_.size(); }
+  std::size_t unknown_count() const { return parameter_count() + set_.offset_count(); }
+  std::size_t residual_count() const { return set_.residual_count(); }
+
+  /// An own parameter: its effect's place in the hypothesis, and its own in the effect.
+  struct OwnParameter {
+    std::size_t effect;
+    std::size_t index;
+  };
+  const std::vector<OwnParameter>& own_parameters() const { return own_; }
+  const models::EffectParameter& declaration(const OwnParameter& own) const;
+  PriorUnits own_value(std::size_t i, double u) const;
+  PriorBounds own_bounds(std::size_t i) const;
+
+  /// Block means of every series, SI units, without offsets; `derivatives` by the parameters may be null. Runs are
+  /// shared out over threads. False where a parameter leaves its range or the simulation its domain.
+  bool simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives,
+                bool with_held_out = false) const;
+
+  /// Whitened residuals (measured - simulated - offset) and their derivatives by the unknowns.
+  bool evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& residuals, RowMatrix* jacobian) const;
+
+  /// Measured less `simulated` less offsets, block means in SI units.
+  Eigen::VectorXd subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const;
+
+ private:
+  int sign_of(const OwnParameter& own) const;
+  struct Parameter {
+    double value_SI = 0.0;
+    double derivative_SI = 0.0;
+  };
+  template <class S>
+  bool simulate_run(std::size_t run, const std::vector<Parameter>& parameters, std::size_t first_column,
+                    Eigen::VectorXd& values, RowMatrix* derivatives) const;
+  bool find_parameters(const Eigen::VectorXd& unknowns, std::vector<Parameter>& parameters) const;
+
+  const PreparedSet& set_;
+  std::vector<estimation::FreeParameter> base_;
+  Hypothesis hypothesis_;
+  std::optional<std::size_t> held_out_;
+  std::vector<OwnParameter> own_;
+};
+
+/// Whitens columns of block values (rows as the residuals of the set), in place.
+void whiten(const PreparedSet& set, RowMatrix& columns);
+void whiten(const PreparedSet& set, Eigen::VectorXd& column);
+
+}  // namespace rollrig::diagnosis

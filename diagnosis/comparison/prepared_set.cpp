@@ -1,0 +1,139 @@
+#include "diagnosis/comparison/prepared_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/kinds/measurement_kind.h"
+#include "measurements/sample_selection.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr double kBlock_s = 10.0;  // design: work on 10 s means
+constexpr double kSlack_s = 1e-6;
+
+void require_sensor_error(const measurements::MeasurementSet& set, const std::string& channel,
+                          const models::SensorParameters& sensor) {
+  if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) return;
+  InputProblem problem;
+  problem.what = "a sensor without any error: what counts as a gap could not be told";
+  problem.file = set.path;
+  problem.key = "[sensors." + channel + "]";
+  problem.value = "noise_sd = drift_sd = resolution = 0";
+  problem.allowed = "one of them above 0";
+  throw InputError(problem);
+}
+
+bool has_sample(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
+}
+
+/// Whether the surface stands still over a row and its neighbours.
+bool stands(const measurements::MeasuredRun& run, std::size_t row) {
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::size_t last = std::min(row + 1, speed_m_s.size() - 1);
+  for (std::size_t i = row > 0 ? row - 1 : 0; i <= last; ++i) {
+    if (speed_m_s[i] != 0.0) return false;
+  }
+  return true;
+}
+
+/// The phase of each row.
+std::vector<std::size_t> phase_by_row(const PreparedRun& run) {
+  std::vector<std::size_t> of(run.measured.time_s.size(), 0);
+  for (std::size_t p = 0; p < run.phases.size(); ++p) {
+    for (std::size_t row = run.phases[p].first; row < run.phases[p].last; ++row) of[row] = p;
+  }
+  return of;
+}
+
+/// Rows at which the surface stands and the force was read, into their places.
+void add_standstill_rows(const measurements::MeasuredRun& run, const std::vector<double>& force,
+                         std::vector<std::size_t>& rows) {
+  for (std::size_t row = 0; row < force.size(); ++row) {
+    if (stands(run, row) && !std::isnan(force[row])) rows.push_back(row);
+  }
+  std::sort(rows.begin(), rows.end());
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+}
+
+/// Blocks of samples: not longer than kBlock_s, in one phase, and without a gap inside that is longer than a block.
+std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::vector<double>& time_s,
+                               const std::vector<std::size_t>& phase) {
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t row = rows[i];
+    const bool fits = !blocks.empty() && phase[row] == phase[rows[blocks.back().first]] &&
+                      time_s[row] < time_s[rows[blocks.back().first]] + kBlock_s - kSlack_s;
+    if (fits) {
+      blocks.back().last = i + 1;
+    } else {
+      blocks.push_back({i, i + 1});
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra)
+    : extra_(std::move(extra)), set_(set), kind_(&kind_of(set)) {
+  std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  for (measurements::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
+  context_ = kind_->make_context(set_);
+  std::vector<std::string> readable = measurements::measured_channels(set_.kind);
+  for (const std::string& channel : extra_.sensors) {
+    if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
+  }
+  for (const std::string& channel : readable) {
+    const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(), [&](const measurements::MeasuredRun& run) {
+      return run.has(channel) && has_sample(run.columns.at(channel));
+    });
+    if (measured) channels_.push_back(channel);
+  }
+  std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
+  for (const measurements::MeasuredRun& run : set_.runs) {
+    runs_.push_back({run, kind_->make_replay(set_, run), kind_->find_phases(set_, run)});
+    for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
+      if (!run.has(channels_[channel])) continue;
+      const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());
+      add_series(runs_.size() - 1, channel, it->second);
+    }
+  }
+  offset_count_ = offsets.size();
+  if (series_.empty()) {
+    throw InputError({"nothing was measured in any run", set_.path, 0, "", "", "samples in one measured channel", ""});
+  }
+}
+
+void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t offset) {
+  const PreparedRun& run = runs_[r];
+  const std::string& name = channels_[channel];
+  const models::SensorParameters& sensor = set_.sensors.at(name);
+  require_sensor_error(set_, name, sensor);
+  const std::vector<double>& values = run.measured.columns.at(name);
+  std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, name);
+  const bool reads_zero = extra_.force_at_standstill || run.measured.force_at_standstill;
+  if (reads_zero && name == kind_->force_channel(set_).name) add_standstill_rows(run.measured, values, rows);
+  if (rows.empty()) return;
+  const std::vector<std::size_t> phases = phase_by_row(run);
+  std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);
+  const Whitener whitener(sensor, measurements::find_times(run.measured, rows), blocks);
+  Series series{r,  channel,  offset, sensor.offset_sd, std::move(rows), std::move(blocks), {}, {},
+                {}, whitener, 0.0,    residual_count_};
+  std::vector<double> floors;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    const Block& block = series.blocks[k];
+    series.time_s.push_back(series.mean_over(block, [&](std::size_t row) { return run.measured.time_s[row]; }));
+    series.measured.push_back(series.mean_over(block, [&](std::size_t row) { return values[row]; }));
+    series.phase.push_back(phases[series.rows[block.first]]);
+    floors.push_back(whitener.standard_deviation(k));
+  }
+  std::nth_element(floors.begin(), floors.begin() + static_cast<std::ptrdiff_t>(floors.size() / 2), floors.end());
+  series.floor = floors[floors.size() / 2];
+  residual_count_ += series.size();
+  series_.push_back(std::move(series));
+}
+
+}  // namespace rollrig::diagnosis

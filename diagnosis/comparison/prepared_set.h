@@ -1,0 +1,90 @@
+#pragma once
+/// A measured set made ready for comparison: runs in a fixed order, blocks of samples, whitening, sensor offsets.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "diagnosis/comparison/run_phases.h"
+#include "measurements/measurement_set.h"
+#include "measurements/whitener.h"
+#include "models/ports.h"
+
+namespace rollrig::diagnosis {
+
+class MeasurementKind;
+class RunReplay;
+
+using measurements::Block;
+using measurements::Whitener;
+
+/// One channel of one run.
+struct Series {
+  std::size_t run = 0;
+  std::size_t channel = 0;  // index into PreparedSet::channels
+  std::size_t offset = 0;   // index of the sensor offset that it shares with its session
+  double offset_sd = 0.0;
+  std::vector<std::size_t> rows;   // samples that are compared
+  std::vector<Block> blocks;       // of those
+  std::vector<double> time_s;      // mean time of each block
+  std::vector<std::size_t> phase;  // of each block, index into the run's phases
+  std::vector<double> measured;    // block means, SI
+  Whitener whitener;
+  double floor = 0.0;              // standard deviation of a full block's mean, without offset
+  std::size_t first_residual = 0;  // index of its first residual
+
+  std::size_t size() const { return blocks.size(); }
+  /// Mean over the samples of a block.
+  template <class Get>
+  auto mean_over(const Block& block, Get&& get) const {
+    auto sum = get(rows[block.first]);
+    for (std::size_t i = block.first + 1; i < block.last; ++i) sum += get(rows[i]);
+    return decltype(sum)(sum / static_cast<double>(block.last - block.first));
+  }
+};
+
+struct PreparedRun {
+  measurements::MeasuredRun measured;
+  std::shared_ptr<const RunReplay> replay;
+  std::vector<RunPhase> phases;
+};
+
+/// What a test may read beyond a measurement set's columns.
+struct ExtraReadings {
+  bool force_at_standstill = false;  // where the surface stands: the sensor's zero
+  std::vector<std::string> sensors;  // channels of sensors that the rig has not (rig_sensors.h)
+};
+
+/// Runs are put in the order of their ids, so that the order in the file does not matter.
+/// Blocks are 10 s long and end where a phase or an averaging gap does. What depends on the kind of the set
+/// (kinds/measurement_kind.h): which rows are compared, the phases, how a run is simulated.
+/// Errors  InputError: no sample in any channel; a sensor without any error; what the set's kind needs is not there
+class PreparedSet {
+ public:
+  explicit PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra = {});
+
+  const measurements::MeasurementSet& source() const { return set_; }
+  const ExtraReadings& extra() const { return extra_; }
+  const MeasurementKind& kind() const { return *kind_; }
+  const models::Context<double>& context() const { return context_; }
+  const std::vector<PreparedRun>& runs() const { return runs_; }
+  const std::vector<std::string>& channels() const { return channels_; }
+  const std::vector<Series>& series() const { return series_; }
+  std::size_t offset_count() const { return offset_count_; }
+  std::size_t residual_count() const { return residual_count_; }
+
+ private:
+  void add_series(std::size_t run, std::size_t channel, std::size_t offset);
+
+  ExtraReadings extra_;
+  measurements::MeasurementSet set_;  // with its runs in order
+  const MeasurementKind* kind_;
+  models::Context<double> context_;
+  std::vector<PreparedRun> runs_;
+  std::vector<std::string> channels_;
+  std::vector<Series> series_;
+  std::size_t offset_count_ = 0;
+  std::size_t residual_count_ = 0;
+};
+
+}  // namespace rollrig::diagnosis

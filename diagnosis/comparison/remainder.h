@@ -1,0 +1,65 @@
+#pragma once
+/// What no named effect explains: flexible functions in every channel, of time in each run or of the conditions.
+
+#include <optional>
+#include <vector>
+
+#include "diagnosis/comparison/model.h"
+
+namespace rollrig::diagnosis {
+
+/// Size of the remainder by channel, in noise floors (standard deviation of a block's mean).
+using Amplitudes = std::vector<double>;
+
+/// A normal process in every channel, of one of two kinds.
+///
+/// Of time: in every run by itself hats of 120 s and of 480 s, a constant in each phase, a constant in the run, each
+/// with a quarter of the variance. It stands for model error, small under every hypothesis, and free for an effect that
+/// follows nothing recorded.
+/// Of conditions: the same in all runs, a sum of functions of speed, of load, of speed times load, of the time in the
+/// run, of the time since the load changed, of acceleration, pressure and start temperature: an unknown effect that
+/// repeats. It stands on top of a small remainder of time.
+///
+/// Equation  covariance of the whitened residual  Sigma = 1 + a^2 B B^T, B the whitened basis in noise floors; with
+///           B = U s V^T: Sigma^-1 = 1 - U diag(a^2 s^2/(1 + a^2 s^2)) U^T, |Sigma| = prod (1 + a^2 s^2)
+/// Checked   tests/diagnosis/remainder_test.cpp
+class Remainder {
+ public:
+  /// Of time.
+  explicit Remainder(const PreparedSet& set);
+  /// Of conditions, on top of a remainder of time of given size.
+  Remainder(const Remainder& of_time, const Amplitudes& amplitudes);
+
+  /// A part of the data in which the process is one: U and s^2, over the blocks of these series, one after the other.
+  struct Basis {
+    std::size_t channel = 0;
+    std::vector<std::size_t> series;
+    Eigen::MatrixXd directions;
+    Eigen::VectorXd strengths;
+  };
+  const std::vector<Basis>& bases() const { return bases_; }
+  const PreparedSet& set() const { return set_; }
+
+  /// Rows of a basis's series, out of columns over the whole set.
+  template <class Columns>
+  Eigen::MatrixXd gather(const Basis& basis, const Columns& columns) const;
+
+  /// Multiplies whitened columns by Sigma^-1/2, in place; what it stands on is not in it.
+  template <class Columns>
+  void whiten(const Amplitudes& amplitudes, Columns& columns) const;
+
+  /// Sigma^-1/2 of the remainder that this one stands on, and log |Sigma| of it; without one, nothing and 0.
+  template <class Columns>
+  void whiten_below(Columns& columns) const;
+  double log_determinant_below() const;
+
+ private:
+  void add_basis(std::size_t channel, std::vector<std::size_t> series, const Eigen::MatrixXd& whitened);
+
+  const PreparedSet& set_;
+  const Remainder* below_ = nullptr;
+  Amplitudes below_amplitudes_;
+  std::vector<Basis> bases_;
+};
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,105 @@
+#include "diagnosis/comparison/screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/comparison/linear_fit.h"
+#include "sim/core/parallel.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Effect& effect,
+                           const Eigen::VectorXd& own) {
+  Eigen::VectorXd unknowns(at(larger.unknown_count()));
+  Eigen::Index from = 0;
+  Eigen::Index next_own = 0;
+  for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    const bool is_new = place < larger.own_count() &&
+                        larger.hypothesis().effects[larger.own_parameters()[place].effect].effect == &effect;
+    unknowns[i] = is_new ? own[next_own++] : fit.unknowns[from++];
+  }
+  return unknowns;
+}
+
+namespace {
+
+/// A size at which an effect is tried: its sign, and where in its prior.
+struct SizeTrial {
+  int sign;
+  double u;
+};
+
+/// The middle of the prior with each sign that it may have; one prior unit to either side where the middle is the
+/// value at which the effect does nothing.
+std::vector<SizeTrial> find_size_trials(const models::Effect& effect) {
+  const models::EffectParameter& size = effect.info.parameters.front();
+  if (size.prior.either_sign) return {{1, 0.0}, {-1, 0.0}};
+  const double middle_off = std::abs(size.prior.centre() - size.off.value_or(0.0));
+  const bool is_two_sided =
+      size.prior.scale == models::Prior::Scale::kLinear && middle_off < 0.25 * (size.prior.high - size.prior.low);
+  if (is_two_sided) return {{1, 1.0}, {1, -1.0}};
+  return {{1, 0.0}};
+}
+
+/// Own parameters at that size, and with each shape moved by one prior unit, one at a time.
+std::vector<Eigen::VectorXd> find_shape_trials(const models::Effect& effect, double size_u) {
+  Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(effect.info.parameters.size()));
+  middle[0] = size_u;
+  std::vector<Eigen::VectorXd> trials{middle};
+  for (Eigen::Index shape = 1; shape < middle.size(); ++shape) {
+    for (const double step : {1.0, -1.0}) {
+      trials.push_back(middle);
+      trials.back()[shape] = step;
+    }
+  }
+  return trials;
+}
+
+/// The size scaled to what the score asks for, in prior units.
+double scale_size(const models::EffectParameter& size, const SizeTrial& trial, double ratio) {
+  const double off_SI = size.off.value_or(0.0) * unit_of_key(size.key).factor;
+  const double tried_SI = from_prior_units(size, trial.u, trial.sign).value_SI;
+  constexpr double kSmallest = 0.05;
+  return to_prior_units(size, off_SI + std::max(ratio, kSmallest) * (tried_SI - off_SI));
+}
+
+}  // namespace
+
+std::vector<Screened> screen(const Model& null, const Remainder& remainder, const Amplitudes& amplitudes,
+                             const Fit& fit, const std::vector<estimation::FreeParameter>& base,
+                             const std::vector<const models::Effect*>& effects, int threads) {
+  const LinearFit linear(remainder, amplitudes, fit);
+  std::vector<std::vector<Screened>> found(effects.size());
+  parallel_for(effects.size(), threads, [&](std::size_t e) {
+    const models::Effect& effect = *effects[e];
+    for (const SizeTrial& size : find_size_trials(effect)) {
+      const ActingEffect acting{&effect, size.sign};
+      const Model larger(null.set(), base, null.hypothesis().with(acting), null.held_out());
+      std::vector<Screened> of_shapes;
+      bool was_simulated = false;
+      for (const Eigen::VectorXd& own : find_shape_trials(effect, size.u)) {
+        Eigen::VectorXd simulated;
+        if (!larger.simulate(insert_own(larger, fit, effect, own), 1, simulated, nullptr, true)) continue;
+        was_simulated = true;
+        const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
+        if (!(variance > 0.0)) continue;
+        Screened one{acting, own, along > 0.0 ? 0.5 * along * along / variance : 0.0, std::sqrt(variance)};
+        one.own[0] = scale_size(effect.info.parameters.front(), size, along / variance);
+        of_shapes.push_back(std::move(one));
+      }
+      const auto best = std::max_element(of_shapes.begin(), of_shapes.end(),
+                                         [](const auto& a, const auto& b) { return a.score < b.score; });
+      if (best != of_shapes.end()) {
+        found[e].push_back(*best);
+      } else if (!was_simulated) {
+        found[e].push_back({acting, find_shape_trials(effect, size.u).front(), 0.0, 0.0, false});
+      }
+    }
+  });
+  std::vector<Screened> all;
+  for (const auto& of : found) all.insert(all.end(), of.begin(), of.end());
+  return all;
+}
+
+}  // namespace rollrig::diagnosis

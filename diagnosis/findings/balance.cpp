@@ -1,0 +1,240 @@
+#include "diagnosis/findings/balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/comparison/linear_fit.h"
+#include "diagnosis/findings/pushes.h"
+#include "sim/core/parallel.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr Eigen::Index kKnots = static_cast<Eigen::Index>(kPushKnots);
+constexpr int kAmplitudes = 10;  // 0.5, 1, 2 .. 256 noise floors
+constexpr double kSignificantOdds = 100.0;
+
+/// Amplitude of each family: 0 for none, else one more than the power of two, of half a noise floor.
+using Choice = std::vector<int>;
+
+double amplitude_of(int chosen) { return chosen == 0 ? 0.0 : 0.25 * std::exp2(chosen); }
+
+/// Largest rms by channel that a constant push of size 1 makes, in noise floors.
+double measure_constant_push(const PreparedSet& set, const RowMatrix& columns) {
+  std::vector<double> squares(set.channels().size(), 0.0);
+  std::vector<double> counts(set.channels().size(), 0.0);
+  for (const Series& series : set.series()) {
+    const auto rows = columns.middleRows(at(series.first_residual), at(series.size()));
+    squares[series.channel] += rows.rowwise().sum().squaredNorm() / (series.floor * series.floor);
+    counts[series.channel] += static_cast<double>(series.size());
+  }
+  double largest = 0.0;
+  for (std::size_t c = 0; c < squares.size(); ++c) {
+    if (counts[c] > 0.0) largest = std::max(largest, squares[c] / counts[c]);
+  }
+  return std::sqrt(largest);
+}
+
+/// The linear model of all pushes, in noise floors, run by run: pushes of two runs meet in the null's unknowns alone.
+class PushModel {
+ public:
+  PushModel(const PreparedSet& set, const LinearFit& null, const std::vector<PushFamily>& families)
+      : null_curvature_(null.curvature), count_(families.size()) {
+    RowMatrix columns(at(set.residual_count()), at(count_) * kKnots);
+    for (std::size_t f = 0; f < count_; ++f) {
+      const double largest = measure_constant_push(set, families[f].columns);
+      columns.middleCols(at(f) * kKnots, kKnots) = families[f].columns / (largest > 0.0 ? largest : 1.0);
+    }
+    null.whiten(columns);
+    const Eigen::Index n = columns.cols();
+    const Eigen::Index unknowns = null.jacobian.cols();
+    runs_.assign(set.runs().size(),
+                 {Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, unknowns), Eigen::VectorXd::Zero(n)});
+    for (const Series& series : set.series()) {
+      const auto rows = columns.middleRows(at(series.first_residual), at(series.size()));
+      OfRun& of = runs_[series.run];
+      of.square += rows.transpose() * rows;
+      of.with_null += rows.transpose() * null.jacobian.middleRows(at(series.first_residual), at(series.size()));
+      of.score += rows.transpose() * null.residual.segment(at(series.first_residual), at(series.size()));
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(null_curvature_);
+    null_log_determinant_ = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  }
+
+  std::size_t family_count() const { return count_; }
+
+  struct Result {
+    double log_gain = 0.0;              // evidence over that of no push
+    std::vector<double> contributions;  // a_f.b_f
+  };
+  Result evaluate(const Choice& choice) const {
+    std::vector<std::size_t> acting;
+    for (std::size_t f = 0; f < count_; ++f) {
+      if (choice[f] > 0) acting.push_back(f);
+    }
+    std::vector<Solved> solved;
+    Eigen::MatrixXd curvature = null_curvature_;
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(curvature.cols());
+    double square = 0.0;
+    double log_determinant = -null_log_determinant_;
+    for (const OfRun& run : runs_) {
+      solved.push_back(solve(run, choice, acting));
+      const Solved& one = solved.back();
+      curvature -= one.half_with_null.transpose() * one.half_with_null;
+      pull -= one.half_with_null.transpose() * one.half_score;
+      square += one.half_score.squaredNorm();
+      log_determinant += 2.0 * one.factor.matrixLLT().diagonal().array().log().sum();
+    }
+    const Eigen::LLT<Eigen::MatrixXd> factor(curvature);
+    log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    const Eigen::VectorXd unknowns = factor.solve(pull);
+    Result result{0.5 * (square + pull.dot(unknowns) - log_determinant), std::vector<double>(count_, 0.0)};
+    for (const Solved& one : solved) {
+      const Eigen::VectorXd sizes = one.factor.matrixU().solve(one.half_score - one.half_with_null * unknowns);
+      for (std::size_t i = 0; i < acting.size(); ++i) {
+        result.contributions[acting[i]] +=
+            sizes.segment(at(i) * kKnots, kKnots).dot(one.score.segment(at(i) * kKnots, kKnots));
+      }
+    }
+    return result;
+  }
+
+ private:
+  struct OfRun {
+    Eigen::MatrixXd square;     // X^T X
+    Eigen::MatrixXd with_null;  // X^T J
+    Eigen::VectorXd score;      // X^T r
+  };
+  /// A run's part under given amplitudes, in units of those: 1 + X^T X = L L^T.
+  struct Solved {
+    Eigen::LLT<Eigen::MatrixXd> factor;
+    Eigen::MatrixXd half_with_null;  // L^-1 X^T J
+    Eigen::VectorXd half_score;      // L^-1 X^T r
+    Eigen::VectorXd score;
+  };
+
+  Solved solve(const OfRun& run, const Choice& choice, const std::vector<std::size_t>& acting) const {
+    const Eigen::Index n = at(acting.size()) * kKnots;
+    Eigen::MatrixXd square = Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd with_null(n, run.with_null.cols());
+    Solved solved;
+    solved.score.resize(n);
+    for (std::size_t i = 0; i < acting.size(); ++i) {
+      const double amplitude = amplitude_of(choice[acting[i]]);
+      const Eigen::Index from = at(acting[i]) * kKnots;
+      for (std::size_t j = 0; j < acting.size(); ++j) {
+        square.block(at(i) * kKnots, at(j) * kKnots, kKnots, kKnots) +=
+            amplitude * amplitude_of(choice[acting[j]]) *
+            run.square.block(from, at(acting[j]) * kKnots, kKnots, kKnots);
+      }
+      with_null.middleRows(at(i) * kKnots, kKnots) = amplitude * run.with_null.middleRows(from, kKnots);
+      solved.score.segment(at(i) * kKnots, kKnots) = amplitude * run.score.segment(from, kKnots);
+    }
+    solved.factor.compute(square);
+    solved.half_with_null = solved.factor.matrixL().solve(with_null);
+    solved.half_score = solved.factor.matrixL().solve(solved.score);
+    return solved;
+  }
+
+  Eigen::MatrixXd null_curvature_;
+  double null_log_determinant_ = 0.0;
+  std::size_t count_;
+  std::vector<OfRun> runs_;
+};
+
+/// Log probability before the measurement, over that of no push: none at all is as likely as any.
+double log_prior_odds(const Choice& choice) {
+  const double absent = std::pow(0.5, 1.0 / static_cast<double>(choice.size()));
+  const double odds = (1.0 - absent) / absent / kAmplitudes;
+  const auto acting = choice.size() - static_cast<std::size_t>(std::count(choice.begin(), choice.end(), 0));
+  return static_cast<double>(acting) * std::log(odds);
+}
+
+/// Choices that differ by one family, one amplitude, or one family in another's stead.
+std::vector<Choice> find_neighbours(const Choice& choice) {
+  std::vector<Choice> neighbours;
+  for (std::size_t f = 0; f < choice.size(); ++f) {
+    for (int amplitude = 0; amplitude <= kAmplitudes; ++amplitude) {
+      if (amplitude == choice[f]) continue;
+      Choice changed = choice;
+      changed[f] = amplitude;
+      neighbours.push_back(changed);
+      if (choice[f] > 0 || amplitude == 0) continue;
+      for (std::size_t other = 0; other < choice.size(); ++other) {
+        if (choice[other] == 0) continue;
+        Choice swapped = changed;
+        swapped[other] = 0;
+        neighbours.push_back(std::move(swapped));
+      }
+    }
+  }
+  return neighbours;
+}
+
+struct Weighed {
+  Choice choice;
+  PushModel::Result result;
+  double log_odds = 0.0;  // over no push, after the measurement
+};
+
+Weighed weigh(const PushModel& model, const Choice& choice) {
+  Weighed weighed{choice, model.evaluate(choice), 0.0};
+  weighed.log_odds = weighed.result.log_gain + log_prior_odds(choice);
+  return weighed;
+}
+
+/// Uphill from no push to a choice better than all its neighbours; that choice and those.
+std::vector<Weighed> search(const PushModel& model, int threads) {
+  Weighed best = weigh(model, Choice(model.family_count(), 0));
+  while (true) {
+    const std::vector<Choice> neighbours = find_neighbours(best.choice);
+    std::vector<Weighed> weighed(neighbours.size());
+    parallel_for(neighbours.size(), threads, [&](std::size_t i) { weighed[i] = weigh(model, neighbours[i]); });
+    const auto top = std::max_element(weighed.begin(), weighed.end(),
+                                      [](const Weighed& a, const Weighed& b) { return a.log_odds < b.log_odds; });
+    if (!(top->log_odds > best.log_odds)) {
+      weighed.push_back(std::move(best));
+      return weighed;
+    }
+    best = std::move(*top);
+  }
+}
+
+std::vector<double> average_shares(const std::vector<Weighed>& all, double log_sum) {
+  std::vector<double> shares(all.front().choice.size(), 0.0);
+  for (const Weighed& one : all) {
+    double whole = 0.0;
+    for (const double part : one.result.contributions) whole += std::max(0.0, part);
+    if (!(whole > 0.0)) continue;
+    const double weight = std::exp(one.log_odds - log_sum);
+    for (std::size_t f = 0; f < shares.size(); ++f) {
+      shares[f] += weight * std::max(0.0, one.result.contributions[f]) / whole;
+    }
+  }
+  return shares;
+}
+
+}  // namespace
+
+std::vector<BalanceShare> find_balance(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                                       const Remainder& remainder, const Contender& null, int threads) {
+  const std::vector<PushFamily> families = calc_pushes(set, base, null.fit.unknowns, threads);
+  const std::vector<Weighed> all =
+      search(PushModel(set, LinearFit(remainder, null.amplitudes, null.fit), families), threads);
+  std::vector<double> logs;
+  for (const Weighed& one : all) logs.push_back(one.log_odds);
+  const double log_sum = log_sum_exp(logs);
+  if (log_sum < std::log(kSignificantOdds)) return {};
+  const std::vector<double> shares = average_shares(all, log_sum);
+  std::vector<BalanceShare> balance;
+  for (std::size_t f = 0; f < families.size(); ++f) {
+    constexpr double kWorthListing_percent = 1.0;
+    const double share_percent = 100.0 * shares[f];
+    if (share_percent >= kWorthListing_percent) balance.push_back({families[f].name, share_percent});
+  }
+  std::stable_sort(balance.begin(), balance.end(),
+                   [](const BalanceShare& a, const BalanceShare& b) { return a.share_percent > b.share_percent; });
+  return balance;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,245 @@
+#include "diagnosis/findings/gap.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnosis/comparison/held_out.h"
+#include "diagnosis/comparison/report_unit.h"
+#include "sim/core/parallel.h"
+#include "sim/core/random.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+/// The noise that a series' differences are expected to hold, once the best offset is taken off them.
+struct OffsetFit {
+  double offset = 0.0;           // SI
+  double offset_variance = 0.0;  // of what stays of it
+};
+
+OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
+  std::vector<double> whitened(series.size());
+  std::vector<double> ones(series.size(), 1.0);
+  for (std::size_t k = 0; k < series.size(); ++k) whitened[k] = difference[at(series.first_residual + k)];
+  series.whitener.apply(whitened.data(), 1);
+  series.whitener.apply(ones.data(), 1);
+  double along = 0.0;
+  double square = 0.0;
+  for (std::size_t k = 0; k < series.size(); ++k) {
+    along += ones[k] * whitened[k];
+    square += ones[k] * ones[k];
+  }
+  const double prior = series.offset_sd > 0.0 ? 1.0 / (series.offset_sd * series.offset_sd) : 1e300;
+  const double offset = along / (square + prior);
+  return {offset, 1.0 / (square + prior)};
+}
+
+/// Sums of squares above the noise, in floors, by stretch: what a resample draws.
+struct Stretch {
+  double above = 0.0;
+  double blocks = 0.0;
+};
+
+struct Measure {
+  std::map<std::pair<std::size_t, std::size_t>, Stretch> stretches;  // by run and phase
+  std::vector<Stretch> channels;                                     // squares in SI
+};
+
+/// Adds the differences of one run (all series of it), its offsets taken off anew.
+void add_run(const PreparedSet& set, std::size_t run, const Eigen::VectorXd& difference, Measure& measure) {
+  measure.channels.resize(set.channels().size());
+  for (const Series& series : set.series()) {
+    if (series.run != run) continue;
+    const OffsetFit fit = fit_offset(series, difference);
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const double d = difference[at(series.first_residual + k)] - fit.offset;
+      const double sd = series.whitener.standard_deviation(k);
+      const double above = d * d - std::max(0.0, sd * sd - fit.offset_variance);
+      Stretch& stretch = measure.stretches[{run, series.phase[k]}];
+      stretch.above += above / (series.floor * series.floor);
+      stretch.blocks += 1.0;
+      measure.channels[series.channel].above += above;
+      measure.channels[series.channel].blocks += 1.0;
+    }
+  }
+}
+
+double gap_of(double above, double blocks) { return blocks > 0.0 ? std::sqrt(std::max(0.0, above / blocks)) : 0.0; }
+
+double gap_of(const Measure& measure) {
+  Stretch sum;
+  for (const auto& [where, stretch] : measure.stretches) {
+    sum.above += stretch.above;
+    sum.blocks += stretch.blocks;
+  }
+  return gap_of(sum.above, sum.blocks);
+}
+
+/// Measured less simulated, without any offset.
+Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& simulated) {
+  Eigen::VectorXd difference(at(set.residual_count()));
+  for (const Series& series : set.series()) {
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const Eigen::Index row = at(series.first_residual + k);
+      difference[row] = series.measured[k] - simulated[row];
+    }
+  }
+  return difference;
+}
+
+/// What the cause changes in a run, whitened, in squares.
+double measure_change(const PreparedSet& set, const Remainder& remainder, const Contender& null, const Contender& cause,
+                      std::size_t run) {
+  Eigen::VectorXd change = null.fit.residuals - cause.fit.residuals;
+  remainder.whiten(cause.amplitudes, change);
+  double sum = 0.0;
+  for (const Series& series : set.series()) {
+    if (series.run == run) sum += change.segment(at(series.first_residual), at(series.size())).squaredNorm();
+  }
+  return sum;
+}
+
+/// The contender with its base parameters at the files' values: only its own parameters and offsets are fitted.
+Measure measure_as_calibrated(const PreparedSet& set, const Remainder& remainder, const Contender& contender) {
+  Contender fixed = contender;
+  const Model model(set, {}, contender.fit.hypothesis);
+  fixed.fit.unknowns.resize(at(model.unknown_count()));
+  const auto own = at(model.own_count());
+  fixed.fit.unknowns.head(own) = contender.fit.unknowns.head(own);
+  fixed.fit.unknowns.tail(at(set.offset_count())) = contender.fit.unknowns.tail(at(set.offset_count()));
+  constexpr int kMost = 6;
+  const Eigen::VectorXd simulated =
+      refit(model, remainder, contender.amplitudes, fixed.fit.unknowns, 1, kMost).simulated;
+  Measure measure;
+  if (simulated.size() == 0) return measure;
+  const Eigen::VectorXd difference = find_difference(set, simulated);
+  for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(set, run, difference, measure);
+  return measure;
+}
+
+struct Shrinkage {
+  double percent = 0.0;
+  std::array<double, 2> ci95_percent{};
+  bool above_noise = false;
+};
+
+double shrink_percent(double before, double after) { return 100.0 * (1.0 - after / before); }
+
+/// Resamples stretches, the same ones before and after.
+Shrinkage resample(const Measure& before, const Measure& after) {
+  constexpr int kResamples = 1000;
+  std::vector<std::pair<Stretch, Stretch>> stretches;
+  for (const auto& [where, stretch] : before.stretches) stretches.emplace_back(stretch, after.stretches.at(where));
+  if (stretches.empty()) return {};  // no run could be simulated
+  RandomStream random(1, "shrinkage");
+  std::vector<double> percents;
+  int not_above = 0;
+  for (int i = 0; i < kResamples; ++i) {
+    Stretch sum_before;
+    Stretch sum_after;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+      const auto drawn = static_cast<std::size_t>(random.uniform() * static_cast<double>(stretches.size()));
+      sum_before.above += stretches[drawn].first.above;
+      sum_before.blocks += stretches[drawn].first.blocks;
+      sum_after.above += stretches[drawn].second.above;
+      sum_after.blocks += stretches[drawn].second.blocks;
+    }
+    const double was = gap_of(sum_before.above, sum_before.blocks);
+    if (was > 0.0) {
+      percents.push_back(shrink_percent(was, gap_of(sum_after.above, sum_after.blocks)));
+    } else {
+      ++not_above;
+    }
+  }
+  Shrinkage result;
+  constexpr double kLow = 0.025;
+  result.above_noise = not_above < kLow * kResamples;
+  if (!result.above_noise) return result;
+  std::sort(percents.begin(), percents.end());
+  const auto quantile = [&](double p) {
+    return percents[static_cast<std::size_t>(p * static_cast<double>(percents.size() - 1))];
+  };
+  result.percent = shrink_percent(gap_of(before), gap_of(after));
+  result.ci95_percent = {quantile(kLow), quantile(1.0 - kLow)};
+  return result;
+}
+
+}  // namespace
+
+Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Remainder& remainder,
+             const Contender& null, const Contender* cause, int threads, const BlackBox& black_box) {
+  const std::size_t runs = set.runs().size();
+  const bool can_leave_out = runs > 1;
+  std::vector<Prediction> before(runs);
+  std::vector<Prediction> after(runs);
+  const std::size_t hypotheses = cause != nullptr ? 2 : 1;
+  parallel_for(runs * hypotheses, threads, [&](std::size_t job) {
+    const std::size_t run = job / hypotheses;
+    const bool is_null = job % hypotheses == 0;
+    const Contender& contender = is_null ? null : *cause;
+    const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
+    (is_null ? before : after)[run] = predict_without(set, base, remainder, contender, held_out);
+  });
+  Measure measured_before;
+  Measure measured_after;
+  Measure measured_black_box;
+  Measure certain_before;
+  Measure certain_after;
+  Gap gap;
+  for (std::size_t run = 0; run < runs; ++run) {
+    const bool lost = before[run].simulated.size() == 0 || (cause != nullptr && after[run].simulated.size() == 0);
+    if (lost) continue;  // no fit without it
+    const auto of_run = [run](const Series& series) { return series.run == run; };
+    if (std::none_of(set.series().begin(), set.series().end(), of_run)) continue;  // it measured nothing
+    const Eigen::VectorXd difference = find_difference(set, before[run].simulated);
+    const Eigen::VectorXd with_cause = cause != nullptr ? find_difference(set, after[run].simulated) : difference;
+    add_run(set, run, difference, measured_before);
+    add_run(set, run, with_cause, measured_after);
+    if (!can_leave_out) continue;
+    add_run(set, run, black_box(set, difference, run), measured_black_box);
+    gap.held_out.push_back(set.runs()[run].measured.id);
+    if (cause == nullptr) continue;
+    const double change = measure_change(set, remainder, null, *cause, run);
+    if (std::max(before[run].uncertainty, after[run].uncertainty) > thresholds::kCertainHeldOut * change) continue;
+    add_run(set, run, difference, certain_before);
+    add_run(set, run, with_cause, certain_after);
+  }
+  if (!certain_before.stretches.empty()) {
+    const Shrinkage certain = resample(certain_before, certain_after);
+    gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
+  }
+  const Measure calibrated = measure_as_calibrated(set, remainder, null);
+  const bool is_judged = !measured_before.stretches.empty();
+  if (!is_judged) {  // no run can be simulated without its own data: retuning is not known to help
+    measured_before = calibrated;
+    measured_after = calibrated;
+  }
+  gap.recalibrated = {gap_of(measured_before), gap_of(measured_after)};
+  gap.as_calibrated.before = gap_of(calibrated);
+  gap.as_calibrated.after =
+      cause != nullptr ? gap_of(measure_as_calibrated(set, remainder, *cause)) : gap.as_calibrated.before;
+  const Shrinkage shrinkage = resample(measured_before, measured_after);
+  if (is_judged && shrinkage.above_noise && cause != nullptr) {
+    gap.shrink_percent = shrinkage.percent;
+    gap.shrink_ci95_percent = shrinkage.ci95_percent;
+  }
+  if (is_judged && gap.as_calibrated.before > 0.0) {
+    gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
+  }
+  if (is_judged && can_leave_out && shrinkage.above_noise) {
+    gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(measured_black_box));
+  }
+  for (std::size_t c = 0; c < set.channels().size(); ++c) {
+    const ReportUnit unit = find_report_unit(set, set.channels()[c]);
+    const auto in_unit = [&](const Measure& measure) {
+      if (measure.channels.empty()) return 0.0;  // no run could be simulated
+      return unit.per_SI * gap_of(measure.channels[c].above, measure.channels[c].blocks);
+    };
+    gap.channels.push_back({set.channels()[c], unit.symbol, in_unit(measured_before), in_unit(measured_after)});
+  }
+  return gap;
+}
+
+}  // namespace rollrig::diagnosis

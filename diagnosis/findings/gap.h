@@ -1,0 +1,30 @@
+#pragma once
+/// How large the gap is, and how far it shrinks on runs that the fit did not see.
+
+#include <functional>
+
+#include "diagnosis/comparison/black_box.h"
+#include "diagnosis/comparison/race.h"
+#include "diagnosis/diagnosis.h"
+
+namespace rollrig::diagnosis {
+
+/// As subtract_black_box().
+using BlackBox =
+    std::function<Eigen::VectorXd(const PreparedSet& set, const Eigen::VectorXd& difference, std::size_t run)>;
+
+/// The gap before and after `cause` is added (null: no cause; then nothing shrinks).
+///
+/// Equation  gap^2 = mean over blocks of (d^2 - expected noise)/floor^2, not below 0;
+///           shrinkage = 1 - after/before, both on the left-out runs, each left out of both fits in turn
+/// Symbols   d measured less simulated, less the best offset within the sensor's; floor: noise of a full block
+/// Interval  2.5 and 97.5 percentiles over 1000 seeded resamples of stretches (a phase of a run, all its channels)
+/// With one run, nothing can be left out: the gap is judged on the run itself, and held_out is empty.
+/// Black box a ridge regression of the discrepancy on speed, load, temperature and time under load, learnt on the other
+///           runs
+/// Checked   tests/diagnosis/gap_test.cpp
+Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Remainder& remainder,
+             const Contender& null, const Contender* cause, int threads,
+             const BlackBox& black_box = subtract_black_box);
+
+}  // namespace rollrig::diagnosis

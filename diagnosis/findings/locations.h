@@ -1,0 +1,32 @@
+#pragma once
+/// Where in the data measurement and recalibrated baseline differ.
+
+#include <vector>
+
+#include "diagnosis/comparison/race.h"
+#include "diagnosis/diagnosis.h"
+
+namespace rollrig::diagnosis {
+
+/// Stretches of a series in which the measurement lies above or below the recalibrated baseline: each phase of each
+/// run, those longer than 900 s cut after 10 min, in each channel. Largest share first.
+///
+/// Significant stretches are put in one by one, the clearest first, each with its own constant, until none that is
+/// left would be significant beside them: one gap that shifts a session's offset is not listed again, with the other
+/// sign, wherever else that offset counts.
+///
+/// Equation  y = baseline + sum_j size_j t_j, t_j = 1 in stretch j: generalised least squares under noise, remainder,
+///           and the priors of base parameters and offsets; z = size over its standard deviation. Listed where
+///           |z| > q(1 - 0.01/(2 n)), q the normal quantile (family-wise 1 %)
+///           share = max(0, sum (d/f)^2 - (s/f)^2) in the stretch over that of all listed, and what the others have
+///           together
+/// Symbols   n stretches tested, d measured - simulated - offset of a block, with base parameters and offsets as they
+///           fit best beside the stretches, s what noise would give it, f the series' noise floor; size in N at the
+///           drum's surface, degC or kPa
+/// Validity  gaps that hold their sign for a good part of a stretch; the null's own unknowns to first order. What base
+///           parameters and offsets can take within their uncertainty does not count as a gap
+/// Source    Bonferroni's inequality; forward selection
+/// Checked   tests/diagnosis/locations_test.cpp
+std::vector<Location> find_locations(const PreparedSet& set, const Remainder& remainder, const Contender& null);
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,31 @@
+#pragma once
+/// Which hypotheses a measured set leaves open.
+
+#include <vector>
+
+#include "diagnosis/comparison/race.h"
+
+namespace rollrig::diagnosis {
+
+/// A hypothesis that may be true, and what is known of its parameters.
+struct OpenHypothesis {
+  Hypothesis hypothesis;
+  Eigen::VectorXd parameters;  // own, then base, prior units
+  Eigen::MatrixXd spread;      // L of their covariance L L^T after the measurement
+  double probability = 0.0;    // all add to 1
+};
+
+/// The likeliest hypothesis with, in this order and at most six in all (nine where it is the baseline),
+/// - unless it is the baseline, those that the set cannot tell from it (verdict.h), all as likely as it: that is the
+///   question to be split,
+/// - the runners-up from a probability of 0.01,
+/// - where that leaves nothing but it, or where it is the baseline: it with one more effect that the set would not have
+///   shown, at the middle of its prior, as uncertain as the set leaves it.
+/// No hypothesis counts for less than a twentieth of the likeliest. One sign of an effect stands for both.
+/// Source  Assumed: six, nine, a twentieth and 0.01, which keep what matters in a named set of at most three
+/// Checked tests/diagnosis/next_test_test.cpp
+std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
+                                                 const std::vector<estimation::FreeParameter>& base,
+                                                 const Remainder& remainder, const Race& race, int threads);
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,270 @@
+#include "diagnosis/findings/pushes.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "diagnosis/kinds/measurement_kind.h"
+#include "models/reference_conditions.h"
+#include "sim/core/parallel.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using models::EffectView;
+using models::Instant;
+
+static_assert(kPushKnots == static_cast<std::size_t>(kJetWidth), "a pass differentiates by one family's pushes");
+
+/// The interval between knots in which a time lies; of two knots at that time, the one after them.
+template <class GetKnot>
+std::size_t find_interval(double elapsed_s, GetKnot&& knot_s) {
+  std::size_t i = 0;
+  while (i + 2 < kPushKnots && knot_s(i + 1) <= elapsed_s) ++i;
+  return i;
+}
+
+/// What all pushes share: the knots, then the push at each, in the family's unit; the time as a state.
+struct TimePush {
+  static models::EffectInfo describe(const char* name) {
+    models::EffectInfo info;
+    info.id = name;
+    info.summary = "A probe of one balance";
+    const models::EffectParameter knot{"knot_s", {}, {}, "time of a knot"};
+    const models::EffectParameter size{"size", {}, {}, "push at a knot", 0.0};
+    info.parameters.assign(kPushKnots, knot);
+    info.parameters.insert(info.parameters.end(), kPushKnots, size);
+    info.states = {{"elapsed_s", 1000.0, "time since the run's start"}};
+    return info;
+  }
+
+  template <class S>
+  static void rates(const EffectView<S>&, const Instant<S>&, S* rates) {
+    rates[0] = S(1.0);
+  }
+
+  /// In proportion to `unit`.
+  template <class S>
+  static S calc(const EffectView<S>& self, const S& unit) {
+    const S& elapsed_s = self.state(0);
+    const std::size_t i =
+        find_interval(value_of(elapsed_s), [&](std::size_t knot) { return value_of(self.parameter(knot)); });
+    const S share = (elapsed_s - self.parameter(i)) / (self.parameter(i + 1) - self.parameter(i));
+    const S& before = self.parameter(kPushKnots + i);
+    const S& after = self.parameter(kPushKnots + i + 1);
+    return (before + share * (after - before)) * unit;
+  }
+};
+
+struct ForcePush : TimePush {
+  static models::EffectInfo info() { return describe("force"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>&, models::ParasiticPort<S>& port) {
+    port.extra_force_N += calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
+struct SlipPush : TimePush {
+  static models::EffectInfo info() { return describe("slip"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
+    const S share = now.recorded.longitudinal_force_N / quantity<S>(1000.0, dimension::kForce);
+    port.extra_force_N += share * share * calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
+struct InertiaPush : TimePush {
+  static models::EffectInfo info() { return describe("inertia"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
+    const S share = now.recorded.acceleration_m_s2 / quantity<S>(1.0, dimension::kAcceleration);
+    port.extra_force_N += share * calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
+struct DragPush : TimePush {
+  static models::EffectInfo info() { return describe("air drag"); }
+  template <class S>
+  static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
+    const S share = now.recorded.speed_m_s / models::get_reference_speed_m_s<S>();
+    port.extra_force_N += share * share * calc(self, quantity<S>(1.0, dimension::kForce));
+  }
+};
+
+struct TireLossPush : TimePush {
+  static models::EffectInfo info() { return describe("tire loss"); }
+  template <class S>
+  static void loss(const EffectView<S>& self, const Instant<S>&, models::LossPort<S>& port) {
+    port.add_heating_force(calc(self, quantity<S>(1.0, dimension::kForce)));
+  }
+};
+
+template <class S>
+S one_watt() {
+  return quantity<S>(1.0, dimension::kForce * dimension::kSpeed);
+}
+
+struct TireHeatPush : TimePush {
+  static models::EffectInfo info() { return describe("tire heat"); }
+  template <class S>
+  static void thermal(const EffectView<S>& self, const Instant<S>&, models::ThermalPort<S>& port) {
+    port.heat_W[models::index_of(models::Node::kRubber)] += calc(self, one_watt<S>());
+  }
+};
+
+struct GasHeatPush : TimePush {
+  static models::EffectInfo info() { return describe("gas heat"); }
+  template <class S>
+  static void thermal(const EffectView<S>& self, const Instant<S>&, models::ThermalPort<S>& port) {
+    port.heat_W[models::index_of(models::Node::kGas)] += calc(self, one_watt<S>());
+  }
+};
+
+struct GasMassPush : TimePush {
+  static models::EffectInfo info() { return describe("gas mass"); }
+  template <class S>
+  static void gas(const EffectView<S>& self, const Instant<S>&, models::GasPort<S>& port) {
+    port.mass_ratio += calc(self, S(1.0));
+  }
+};
+
+struct BoundaryPush : TimePush {
+  static models::EffectInfo info() { return describe("boundary"); }
+  template <class S>
+  static void input(const EffectView<S>& self, const Instant<S>&, models::InputPort<S>& port) {
+    const S rise_K = calc(self, quantity<S>(1.0, dimension::kTemperature));
+    port.ambient_K += rise_K;
+    port.surface_K += rise_K;
+  }
+};
+
+const models::Effect& effect_of(Push push) {
+  static const std::map<Push, models::Effect> effects{
+      {Push::kForce, models::make_effect<ForcePush>()},       {Push::kTireLoss, models::make_effect<TireLossPush>()},
+      {Push::kTireHeat, models::make_effect<TireHeatPush>()}, {Push::kGasHeat, models::make_effect<GasHeatPush>()},
+      {Push::kGasMass, models::make_effect<GasMassPush>()},   {Push::kBoundary, models::make_effect<BoundaryPush>()},
+      {Push::kSlip, models::make_effect<SlipPush>()},         {Push::kInertia, models::make_effect<InertiaPush>()},
+      {Push::kDrag, models::make_effect<DragPush>()}};
+  return effects.at(push);
+}
+
+/// A part of a run in which a push is continuous.
+struct Piece {
+  double start_s;
+  double end_s;
+  std::size_t intervals = 1;
+
+  double length_s() const { return end_s - start_s; }
+  double step_s() const { return length_s() / static_cast<double>(intervals); }
+};
+
+std::vector<Piece> find_pieces(const PreparedRun& run) {
+  const std::vector<double>& time_s = run.measured.time_s;
+  std::vector<Piece> pieces;
+  for (const RunPhase& phase : run.phases) {
+    const std::size_t end = std::min(phase.last, time_s.size() - 1);
+    const Piece piece{time_s[phase.first] - time_s.front(), time_s[end] - time_s.front()};
+    if (piece.length_s() > 0.0) pieces.push_back(piece);
+  }
+  while (2 * pieces.size() > kPushKnots) {
+    const auto shorter = [](const Piece& a, const Piece& b) { return a.length_s() < b.length_s(); };
+    const auto shortest = std::min_element(pieces.begin(), pieces.end(), shorter);
+    const bool is_first = shortest == pieces.begin();
+    const bool into_next = is_first || (shortest + 1 != pieces.end() && shorter(*(shortest + 1), *(shortest - 1)));
+    if (into_next) (shortest + 1)->start_s = shortest->start_s;
+    if (!into_next) (shortest - 1)->end_s = shortest->end_s;
+    pieces.erase(shortest);
+  }
+  return pieces;
+}
+
+/// Simulates a run with one push at size 0, differentiated by its sizes.
+void simulate_push(const PreparedSet& set, const models::Context<double>& context, std::size_t r,
+                   const std::vector<double>& knots_s, PushFamily& family, const models::Effect& push) {
+  const std::size_t parameters = 2 * kPushKnots;
+  models::Corner<Jet> corner(models::convert_context<Jet>(context), {{&push, std::vector<double>(parameters, 0.0)}});
+  for (std::size_t i = 0; i < kPushKnots; ++i) {
+    corner.effects()[0].parameters[i] = Jet(knots_s[i]);
+    corner.effects()[0].parameters[kPushKnots + i] = Jet(0.0, static_cast<int>(i));
+  }
+  const PreparedRun& run = set.runs()[r];
+  const auto recording = run.replay->simulate(set.source(), run.measured, corner, rigs::Detail::kMeasured);
+  for (const Series& series : set.series()) {
+    if (series.run != r) continue;
+    const std::vector<Jet>& simulated = recording.channel(set.channels()[series.channel]);
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const Jet mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
+      family.columns.row(at(series.first_residual + k)) = mean.v.transpose();
+    }
+  }
+}
+
+/// A sensor's own push: it moves its channel alone.
+PushFamily push_sensor(const PreparedSet& set, std::size_t channel, const std::string& name,
+                       const std::vector<std::vector<double>>& knots_s) {
+  PushFamily family{name, RowMatrix::Zero(at(set.residual_count()), at(kPushKnots))};
+  for (const Series& series : set.series()) {
+    if (series.channel != channel) continue;
+    const std::vector<double>& of_run = knots_s[series.run];
+    const double start_s = set.runs()[series.run].measured.time_s.front();
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      const double elapsed_s = series.time_s[k] - start_s;
+      const std::size_t i = find_interval(elapsed_s, [&](std::size_t knot) { return of_run[knot]; });
+      const double share = (elapsed_s - of_run[i]) / (of_run[i + 1] - of_run[i]);
+      family.columns(at(series.first_residual + k), at(i)) = 1.0 - share;
+      family.columns(at(series.first_residual + k), at(i + 1)) = share;
+    }
+  }
+  return family;
+}
+
+}  // namespace
+
+std::vector<double> find_push_knots(const PreparedRun& run) {
+  std::vector<Piece> pieces = find_pieces(run);
+  for (std::size_t knots = 2 * pieces.size(); knots < kPushKnots; ++knots) {
+    const auto coarser = [](const Piece& a, const Piece& b) { return a.step_s() < b.step_s(); };
+    ++std::max_element(pieces.begin(), pieces.end(), coarser)->intervals;
+  }
+  std::vector<double> knots_s;
+  for (const Piece& piece : pieces) {
+    for (std::size_t i = 0; i < piece.intervals; ++i) {
+      knots_s.push_back(piece.start_s + static_cast<double>(i) * piece.step_s());
+    }
+    knots_s.push_back(piece.end_s);
+  }
+  return knots_s;
+}
+
+std::vector<PushFamily> calc_pushes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                                    const Eigen::VectorXd& unknowns, int threads) {
+  models::Context<double> context = set.context();
+  for (std::size_t i = 0; i < base.size(); ++i) {
+    estimation::find_parameter(context, base[i].key) = base[i].start_SI + base[i].prior_sd_SI * unknowns[at(i)];
+  }
+  std::vector<std::vector<double>> knots_s;
+  for (const PreparedRun& run : set.runs()) knots_s.push_back(find_push_knots(run));
+  const std::vector<NamedPush> pushes = set.kind().pushes();
+  std::vector<PushFamily> families;
+  for (const NamedPush& push : pushes) {
+    families.push_back({push.name, RowMatrix::Zero(at(set.residual_count()), at(kPushKnots))});
+  }
+  const std::size_t runs = set.runs().size();
+  parallel_for(runs * pushes.size(), threads, [&](std::size_t job) {
+    const std::size_t run = job / pushes.size();
+    const std::size_t push = job % pushes.size();
+    simulate_push(set, context, run, knots_s[run], families[push], effect_of(pushes[push].push));
+  });
+  constexpr std::array<std::pair<const char*, const char*>, 3> kSensors{
+      {{"liner_temperature_degC", "temperature sensor"},
+       {"cavity_pressure_kPa", "pressure sensor"},
+       {"gas_temperature_degC", "gas temperature sensor"}}};
+  for (std::size_t channel = 0; channel < set.channels().size(); ++channel) {
+    for (const auto& [key, name] : kSensors) {
+      if (set.channels()[channel] == key) families.push_back(push_sensor(set, channel, name, knots_s));
+    }
+  }
+  return families;
+}
+
+}  // namespace rollrig::diagnosis

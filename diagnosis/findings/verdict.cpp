@@ -1,0 +1,266 @@
+#include "diagnosis/findings/verdict.h"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <boost/math/distributions/chi_squared.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr double kNormal95 = 1.959963984540054;
+
+bool was_fitted(const Contender& contender) { return std::isfinite(contender.fit.cost); }
+
+/// How far a fitted size is from the value at which its effect does nothing, in prior units.
+double distance_from_off(const Model& model, const Contender& contender, std::size_t column) {
+  const models::EffectParameter& declared = model.declaration(model.own_parameters()[column]);
+  const PriorUnits value = model.own_value(column, contender.fit.unknowns[at(column)]);
+  const double off_SI = declared.off.value_or(0.0) * unit_of_key(declared.key).factor;
+  return std::abs((value.value_SI - off_SI) / value.derivative_SI);
+}
+
+/// Own parameters with their intervals. The remainder covers a law that is wrong here and there; that it may be wrong
+/// by `size_share` everywhere alike widens the size.
+std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
+                                                   const std::vector<estimation::FreeParameter>& base,
+                                                   const Remainder& remainder, const Contender& contender,
+                                                   double size_share) {
+  const Model model(set, base, contender.fit.hypothesis);
+  const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+  const Eigen::MatrixXd covariance = evidence.calc_term(contender.amplitudes, true).covariance;
+  std::vector<ParameterEstimate> estimates;
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const models::EffectParameter& declared = model.declaration(model.own_parameters()[i]);
+    const models::Effect& effect = *contender.fit.hypothesis.effects[model.own_parameters()[i].effect].effect;
+    const Unit unit = unit_of_key(declared.key);
+    const double u = contender.fit.unknowns[at(i)];
+    const bool is_size = model.own_parameters()[i].index == 0;
+    const double of_law_u = is_size ? size_share * distance_from_off(model, contender, i) : 0.0;
+    const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
+    const auto value_at = [&](double shifted) { return model.own_value(i, shifted).value_SI / unit.factor; };
+    ParameterEstimate estimate;
+    estimate.name = fmt::format("{}.{}", effect.info.id, declared.key);
+    estimate.value = value_at(u);
+    estimate.sd = std::abs(model.own_value(i, u).derivative_SI) / unit.factor * sd_u;
+    const double ends[] = {value_at(u - kNormal95 * sd_u), value_at(u + kNormal95 * sd_u)};
+    estimate.low_95 = std::min(ends[0], ends[1]);
+    estimate.high_95 = std::max(ends[0], ends[1]);
+    estimate.unit = unit.symbol;
+    estimates.push_back(estimate);
+  }
+  return estimates;
+}
+
+/// Whether the size that each run by itself asks for is one: chi2 of the runs' shifts, in prior units, about their
+/// mean. A run's shift is judged by its own residual along the size's derivative, everything else of the fit held,
+/// where it alone says more than the prior and knows the size to within `allowed_u`.
+bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, const Contender& contender,
+                          std::size_t size_column, double allowed_u) {
+  RowMatrix jacobian = contender.fit.jacobian;
+  Eigen::VectorXd residual = contender.fit.residuals;
+  remainder.whiten(contender.amplitudes, jacobian);
+  remainder.whiten(contender.amplitudes, residual);
+  // The size's direction once all other unknowns have taken what they can.
+  const Eigen::Index n = jacobian.cols();
+  const Eigen::VectorXd size = jacobian.col(at(size_column));
+  RowMatrix others = jacobian;
+  others.col(at(size_column)).setZero();
+  const Eigen::LLT<Eigen::MatrixXd> curvature(others.transpose() * others + Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd direction = size - others * curvature.solve(others.transpose() * size);
+  std::vector<double> shifts;
+  std::vector<double> weights;
+  for (std::size_t run = 0; run < set.runs().size(); ++run) {
+    double along = 0.0;
+    double square = 0.0;
+    for (const Series& series : set.series()) {
+      if (series.run != run) continue;
+      const auto d = direction.segment(at(series.first_residual), at(series.size()));
+      along += d.dot(residual.segment(at(series.first_residual), at(series.size())));
+      square += d.squaredNorm();
+    }
+    const bool is_witness = square > 1.0 && square > 1.0 / (allowed_u * allowed_u);  // no vaguer than what is allowed
+    if (!is_witness) continue;
+    shifts.push_back(-along / square);
+    weights.push_back(1.0 / (1.0 / square + allowed_u * allowed_u));
+  }
+  if (shifts.size() < 2) return false;
+  double sum = 0.0;
+  double weight = 0.0;
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    sum += weights[i] * shifts[i];
+    weight += weights[i];
+  }
+  double chi2 = 0.0;
+  for (std::size_t i = 0; i < shifts.size(); ++i) chi2 += weights[i] * std::pow(shifts[i] - sum / weight, 2);
+  const boost::math::chi_squared distribution(static_cast<double>(shifts.size() - 1));
+  return boost::math::cdf(boost::math::complement(distribution, chi2)) < thresholds::kRunSizeChance;
+}
+
+std::vector<std::string> find_objections(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                                         const Remainder& remainder, const Contender& contender) {
+  std::vector<std::string> objections;
+  if (contender.remainder_probability > contender.probability) {
+    constexpr double kBeyondDoubt_nats = 50.0;
+    const double gain_nats = contender.log_remainder - contender.log_evidence;
+    const std::string by =
+        gain_nats < kBeyondDoubt_nats ? fmt::format("{:.0f} nats likelier", gain_nats) : "likelier beyond all doubt";
+    objections.push_back("something else is missing: a free remainder on top of it is " + by);
+  }
+  const Model model(set, base, contender.fit.hypothesis);
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const Model::OwnParameter& own = model.own_parameters()[i];
+    const std::string& id = contender.fit.hypothesis.effects[own.effect].effect->info.id;
+    const double u = contender.fit.unknowns[at(i)];
+    if (std::abs(u) > thresholds::kTail_sd) {
+      objections.push_back(fmt::format(
+          "{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", model.declaration(own).key,
+          id, model.own_value(i, u).value_SI / unit_of_key(model.declaration(own).key).factor, std::abs(u)));
+    }
+    if (own.index == 0 && differs_between_runs(set, remainder, contender, i,
+                                               thresholds::kRunSizeShare * distance_from_off(model, contender, i))) {
+      objections.push_back(fmt::format("its size ({}) differs from run to run", model.declaration(own).key));
+    }
+  }
+  return objections;
+}
+
+/// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
+/// that are most unusual, is told from it already.
+bool is_open_beside(const Contender& lead, const Contender& other) {
+  const auto posterior = [](const Contender& one) { return one.probability + one.remainder_probability; };
+  return posterior(other) >= std::exp(-thresholds::kToldApart_nats) * posterior(lead);
+}
+
+}  // namespace
+
+double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b) {
+  Eigen::VectorXd difference = a.fit.residuals - b.fit.residuals;
+  remainder.whiten(a.amplitudes, difference);
+  return 0.5 * difference.squaredNorm();
+}
+
+std::vector<std::string> find_named_beside(const std::vector<std::string>& lead, double lead_weight,
+                                           std::map<std::string, double> beside) {
+  for (const std::string& id : lead) beside.erase(id);
+  double total = lead_weight;
+  for (const auto& [id, weight] : beside) total += weight;
+  double left_out = 0.0;
+  while (lead.size() + beside.size() > thresholds::kLongSet) {
+    const auto least = std::min_element(beside.begin(), beside.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (beside.empty() || left_out + least->second > thresholds::kLeftOutOfLongSet * total) break;
+    left_out += least->second;
+    beside.erase(least);
+  }
+  std::vector<std::string> ids;
+  for (const auto& [id, weight] : beside) ids.push_back(id);
+  return ids;
+}
+
+std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects) {
+  std::map<std::string, double> probability{{"none", race.null.probability}, {"unknown", race.unknown_probability}};
+  for (const models::Effect* effect : effects) {
+    double& sum = probability[effect->info.id];
+    for (const Contender& contender : race.contenders) {
+      if (contender.fit.hypothesis.contains(*effect)) sum += contender.probability;
+    }
+  }
+  return probability;
+}
+
+std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                               const Remainder& remainder, const Race& race) {
+  std::vector<const Contender*> left;
+  for (const Contender& contender : race.contenders) {
+    if (was_fitted(contender)) left.push_back(&contender);
+  }
+  std::stable_sort(left.begin(), left.end(), [](const Contender* a, const Contender* b) {
+    return a->probability + a->remainder_probability > b->probability + b->remainder_probability;
+  });
+  std::vector<Cause> causes;
+  std::set<const Contender*> taken;
+  for (const Contender* lead : left) {
+    if (taken.count(lead) > 0) continue;
+    if (!causes.empty() && lead->probability + lead->remainder_probability < thresholds::kWorthNaming) break;
+    Cause cause;
+    cause.effects = lead->fit.hypothesis.ids();
+    const auto weight_of = [](const Contender& one) { return one.probability + one.remainder_probability; };
+    std::map<std::string, double> beside;
+    for (const Contender* other : left) {
+      if (taken.count(other) > 0) continue;
+      if (other != lead && expected_log_bayes_factor(remainder, *lead, *other) >= thresholds::kToldApart_nats) continue;
+      taken.insert(other);
+      cause.probability += other->probability;
+      if (other->fit.hypothesis.effects.size() > lead->fit.hypothesis.effects.size()) continue;  // lead, and a trifle
+      if (!is_open_beside(*lead, *other)) continue;
+      for (const std::string& id : other->fit.hypothesis.ids()) beside[id] += weight_of(*other);
+    }
+    cause.indistinguishable_from = find_named_beside(cause.effects, weight_of(*lead), std::move(beside));
+    cause.parameters = estimate_parameters(set, base, remainder, *lead, race.model_error.size_share);
+    if (causes.empty()) cause.objections = find_objections(set, base, remainder, *lead);
+    cause.adequate = cause.objections.empty();
+    causes.push_back(std::move(cause));
+  }
+  std::stable_sort(causes.begin(), causes.end(),
+                   [](const Cause& a, const Cause& b) { return a.probability > b.probability; });
+  return causes;
+}
+
+void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability) {
+  if (causes.empty()) return;
+  Cause& first = causes.front();
+  if (gap.worse_where_certain) {
+    first.objections.push_back("it makes the runs that were left out worse, not better");
+  }
+  first.adequate = first.objections.empty();
+  if (first.adequate) return;
+  const double moved = (1.0 - thresholds::kKeptUnderObjection) * first.probability;
+  first.probability -= moved;
+  probability["unknown"] += moved;
+  for (const auto* ids : {&first.effects, &first.indistinguishable_from}) {
+    for (const std::string& id : *ids) probability[id] -= std::min(probability[id], moved);
+  }
+}
+
+std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
+                                           const std::vector<Cause>& causes) {
+  const std::map<std::string, double> probability = find_probabilities(race, effects);
+  double likeliest = probability.at("none");
+  for (const Cause& cause : causes) likeliest = std::max(likeliest, cause.probability);
+  std::vector<std::string> hidden;
+  for (const models::Effect* effect : effects) {
+    double detectability = 0.0;
+    for (const Screened& one : race.screened) {
+      if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);
+    }
+    const std::string& id = effect->info.id;
+    const bool named =
+        !causes.empty() && (std::count(causes.front().effects.begin(), causes.front().effects.end(), id) +
+                            std::count(causes.front().indistinguishable_from.begin(),
+                                       causes.front().indistinguishable_from.end(), id)) > 0;
+    const bool is_open = probability.at(id) >= std::exp(-thresholds::kToldApart_nats) * likeliest;
+    if ((detectability < thresholds::kDetectableEffect_sd || is_open) && !named) hidden.push_back(id);
+  }
+  return hidden;
+}
+
+Verdict find_verdict(const std::map<std::string, double>& probability, const std::vector<Cause>& causes) {
+  const double none = probability.at("none");
+  const double unknown = probability.at("unknown");
+  const double named = causes.empty() ? 0.0 : causes.front().probability;
+  const bool is_long = !causes.empty() && causes.front().effects.size() + causes.front().indistinguishable_from.size() >
+                                              thresholds::kLongSet;
+  const bool beats_each =
+      std::all_of(probability.begin(), probability.end(), [none](const auto& entry) { return none >= entry.second; });
+  if (none >= unknown && (none >= named || (is_long && beats_each))) return Verdict::kNoGap;
+  if (unknown >= named || !causes.front().adequate) return Verdict::kUnexplained;
+  return Verdict::kExplained;
+}
+
+}  // namespace rollrig::diagnosis

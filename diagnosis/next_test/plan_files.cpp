@@ -1,0 +1,217 @@
+#include "diagnosis/next_test/plan_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/next_test/test_menu.h"
+#include "sim/core/csv.h"
+#include "sim/core/text.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
+
+using measurements::SetKind;
+
+/// What a plan names, by the kind of its set.
+struct PlanWords {
+  const char* scenario;  // that follows a file
+  const char* machine;   // of the run, as key and file
+  const char* occupied;
+  const char* place;
+};
+
+PlanWords find_words(SetKind kind) {
+  switch (kind) {
+    case SetKind::kDrum:
+      return {"program", "rig", "the rig", "At the rig"};
+    case SetKind::kDyno:
+      return {"wheel_program", "rig", "the rig", "At the rig"};
+    case SetKind::kRoad:
+      break;
+  }
+  return {"drive", "vehicle", "the vehicle", "On the road"};
+}
+
+/// Given columns of a run of the kind, as far as it has them.
+std::vector<std::string> find_given_columns(const MeasuredRun& run, SetKind kind) {
+  const measurements::SetColumns& all = measurements::columns_of(kind);
+  std::vector<std::string> columns;
+  for (const auto* fields : {&all.given, &all.optional_given}) {
+    for (const Field& field : *fields) {
+      if (run.has(field.key)) columns.emplace_back(field.key);
+    }
+  }
+  return columns;
+}
+
+/// Whether a row says nothing that its neighbours do not: the load goes on, all else lies on a straight line.
+bool is_between(const MeasuredRun& run, const std::vector<std::string>& columns, std::size_t row) {
+  constexpr double kSame = 1e-9;
+  const double share = (run.time_s[row] - run.time_s[row - 1]) / (run.time_s[row + 1] - run.time_s[row - 1]);
+  return std::all_of(columns.begin(), columns.end(), [&](const std::string& name) {
+    const std::vector<double>& values = run.columns.at(name);
+    const double before = values[row - 1];
+    const double expected = name == "load_N" ? before : before + share * (values[row + 1] - before);
+    return std::abs(values[row] - expected) <= kSame * (1.0 + std::abs(expected));
+  });
+}
+
+std::string write_inputs(const MeasuredRun& run, SetKind kind) {
+  const std::vector<std::string> columns = find_given_columns(run, kind);
+  std::vector<std::string> header{"time_s"};
+  header.insert(header.end(), columns.begin(), columns.end());
+  CsvWriter csv(header);
+  for (std::size_t row = 0; row < run.time_s.size(); ++row) {
+    const bool is_end = row == 0 || row + 1 == run.time_s.size();
+    if (!is_end && is_between(run, columns, row)) continue;
+    csv.begin_row();
+    csv.add(run.time_s[row]);
+    for (const std::string& column : columns) csv.add(unit_of_key(column).from_si(run.columns.at(column)[row]));
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+/// The interval of the set's own rows, as far as a run takes it.
+double find_sample_interval_s(const MeasurementSet& set) {
+  const std::vector<double>& time_s = set.runs.front().time_s;
+  const double mean_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  return std::clamp(std::round(100.0 * mean_s) / 100.0, 0.01, 60.0);
+}
+
+std::string write_run_file(const MeasurementSet& set, const NextTest& test, std::size_t index) {
+  const MeasuredRun& run = test.runs[index];
+  const PlanWords words = find_words(set.kind);
+  const bool is_combined = set.baseline == models::Baseline::kCombined;
+  std::string text = fmt::format(
+      "# Run {0} of {1}: {2}\nformat = \"rollrig-run/1\"\nscenario = \"{3}\"\ntire = \"tire.toml\"\n{4} = "
+      "\"{4}.toml\"\nbaseline = \"{5}\"\nseed = {0}\nsample_interval_s = {6:.10g}\n",
+      index + 1, test.runs.size(), test.test, words.scenario, words.machine, is_combined ? "combined" : "constant_rrc",
+      find_sample_interval_s(set));
+  text += fmt::format(
+      "\n[settings]\nprogram = \"{}.csv\"\npressure_kPa = {:.10g}\ninitial_tire_temperature_degC = {:.10g}\n", run.id,
+      run.cold_pressure_Pa / 1e3, run.initial_tire_temperature_K - kZeroCelsius_K);
+  // A run of the other kinds begins where a soak ends.
+  if (set.kind == SetKind::kDrum) text += fmt::format("soak_h = {:.10g}\n", test.soaked ? kSoak_h : 0.0);
+  if (test.force_at_standstill) text += "force_at_standstill = \"yes\"\n";
+  return text + measurements::write_sensors(set.sensors);
+}
+
+/// One stage of a run: what is held, and how long.
+struct Stage {
+  double speed_m_s = 0.0;
+  double load_N = 0.0;
+  double pull_N = 0.0;  // drive force of the wheel
+  double duration_s = 0.0;
+};
+
+bool holds_same(const Stage& a, const Stage& b) {
+  return a.speed_m_s == b.speed_m_s && a.load_N == b.load_N && a.pull_N == b.pull_N;
+}
+
+/// Stages of constant speed, load and force; changes of speed count to what follows.
+std::vector<Stage> find_stages(const MeasuredRun& run) {
+  const std::vector<double>& load_N = run.columns.at("load_N");
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>* pull_N =
+      run.has("longitudinal_force_N") ? &run.columns.at("longitudinal_force_N") : nullptr;
+  std::vector<Stage> stages;
+  double since_s = run.time_s.front();
+  for (std::size_t row = 0; row + 1 < run.time_s.size(); ++row) {
+    if (speed_m_s[row + 1] != speed_m_s[row]) continue;  // on the way
+    const double end_s = run.time_s[row + 1];
+    const Stage held{speed_m_s[row], load_N[row], pull_N != nullptr ? (*pull_N)[row] : 0.0, end_s - since_s};
+    if (!stages.empty() && holds_same(stages.back(), held) && since_s == run.time_s[row]) {
+      stages.back().duration_s += held.duration_s;
+    } else {
+      stages.push_back(held);
+    }
+    since_s = end_s;
+  }
+  return stages;
+}
+
+/// What a stage asks of the wheel beside its speed; nothing on the road.
+std::string describe_force(const Stage& stage, SetKind kind) {
+  if (kind == SetKind::kRoad) return "";
+  const std::string load = stage.load_N > 0.0 ? fmt::format("  {:.0f} N", stage.load_N) : "  tire lifted";
+  if (stage.pull_N == 0.0) return load;
+  return load + fmt::format(", {} with {:.0f} N", stage.pull_N > 0.0 ? "driving" : "braking", std::abs(stage.pull_N));
+}
+
+std::string describe_stage(const Stage& stage, SetKind kind) {
+  const std::string speed = stage.speed_m_s > 0.0 ? fmt::format("{:.0f} km/h", 3.6 * stage.speed_m_s) : "standstill";
+  const std::string force = describe_force(stage, kind);
+  return fmt::format("     {:6.1f} min   {:<{}}{}\n", stage.duration_s / 60.0, speed, force.empty() ? 0 : 11, force);
+}
+
+std::string describe_run(const NextTest& test, std::size_t index, SetKind kind) {
+  const MeasuredRun& run = test.runs[index];
+  const double ambient_degC = run.columns.at("ambient_degC").front() - kZeroCelsius_K;
+  std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
+                                 (run.time_s.back() - run.time_s.front()) / 60.0);
+  const std::vector<Stage> stages = find_stages(run);
+  const bool is_warmed = !stages.empty() && stages.front().speed_m_s > 0.0;
+  const char* any_start = is_warmed ? "warm or cold, the first stage warms the tire; air" : "warm or cold; air";
+  text += fmt::format("     {} {:.1f} degC, {:.1f} kPa cold\n", test.soaked ? "soak for 3 h at" : any_start,
+                      ambient_degC, run.cold_pressure_Pa / 1e3);
+  for (const Stage& stage : stages) text += describe_stage(stage, kind);
+  return text;
+}
+
+std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
+  const PlanWords words = find_words(set.kind);
+  std::string text = fmt::format("Next test for the set '{}'\n\n{}\n", set.name, wrap(test.test, 2));
+  text += test.splits.empty() ? "  Splits: it narrows down what is open\n"
+                              : wrap(fmt::format("Splits: {}", fmt::join(test.splits, ", ")), 2);
+  text += fmt::format("  Takes {:.1f} h of {}, set-up included; expected {:.2g} bits an hour\n\n", test.hours,
+                      words.occupied, test.expected_bits_per_hour);
+  text += fmt::format("{}, in this order\n\n", words.place);
+  for (std::size_t i = 0; i < test.runs.size(); ++i) text += describe_run(test, i, set.kind) + "\n";
+  for (const std::string& step : test.by_hand) text += wrap(step, 2);
+  if (!test.by_hand.empty()) text += "\n";
+  text += "On paper first: what the simulation without any effect expects, as a set\n\n";
+  for (std::size_t i = 0; i < test.runs.size(); ++i) {
+    text += fmt::format("  rollrig run run-{0}.toml --write-set set-{0}\n", i + 1);
+  }
+  text +=
+      "\n  With --set effects.<id>.<parameter>=... the same with an effect on.\n\nAfterwards: put the runs into the "
+      "set's set.toml and diagnose it again\n";
+  const char* zero = test.force_at_standstill ? "  force_at_standstill = true\n" : "";
+  for (const MeasuredRun& run : test.runs) {
+    text += fmt::format(
+        "\n  [[run]]\n  id = \"{0}\"\n  file = \"{0}_measured.csv\"  # what the rig recorded; {0}.csv is the program\n "
+        " session = \"{1}\"\n  initial_tire_temperature_degC = "
+        "{2:.10g}  # as it was\n  cold_pressure_kPa = {3:.10g}  # as it was\n{4}{5}",
+        run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero,
+        run.reversed ? "  reversed = true\n" : "");
+  }
+  return text;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> write_plan(const MeasurementSet& set, const Diagnosis& diagnosis) {
+  std::map<std::string, std::string> files;
+  if (diagnosis.next_test.empty()) return files;
+  const NextTest& test = diagnosis.next_test.front();
+  for (std::size_t i = 0; i < test.runs.size(); ++i) {
+    files[fmt::format("run-{}.toml", i + 1)] = write_run_file(set, test, i);
+    files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], set.kind);
+  }
+  files["tire.toml"] = set.tire.content.empty() ? models::write_tire(set.tire) : set.tire.content;
+  if (set.kind == SetKind::kRoad) {
+    files["vehicle.toml"] = set.vehicle->content.empty() ? rigs::write_vehicle(*set.vehicle) : set.vehicle->content;
+  } else {
+    files["rig.toml"] = set.rig->content.empty() ? rigs::write_rig(*set.rig) : set.rig->content;
+  }
+  files["plan.txt"] = write_plan_text(set, test);
+  return files;
+}
+
+}  // namespace rollrig::diagnosis

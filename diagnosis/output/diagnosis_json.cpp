@@ -1,0 +1,120 @@
+#include "diagnosis/output/diagnosis_json.h"
+
+#include <cmath>
+
+namespace rollrig::diagnosis {
+namespace {
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json number(const std::optional<double>& value) { return value.has_value() ? number(*value) : Json(nullptr); }
+
+/// A list of what `convert` makes of each item; [] where there is none.
+template <class T, class Convert>
+Json list(const std::vector<T>& items, Convert&& convert) {
+  Json json = Json::array();
+  for (const T& item : items) json.push_back(convert(item));
+  return json;
+}
+
+Json make_parameter(const ParameterEstimate& parameter) {
+  return {{"name", parameter.name},
+          {"value", number(parameter.value)},
+          {"sd", number(parameter.sd)},
+          {"low_95", number(parameter.low_95)},
+          {"high_95", number(parameter.high_95)},
+          {"unit", parameter.unit}};
+}
+
+Json make_cause(const Cause& cause) {
+  return {{"effects", cause.effects},
+          {"probability", number(cause.probability)},
+          {"indistinguishable_from", cause.indistinguishable_from},
+          {"parameters", list(cause.parameters, make_parameter)},
+          {"adequate", cause.adequate},
+          {"objections", cause.objections}};
+}
+
+Json make_view(const GapView& view) { return {{"before", number(view.before)}, {"after", number(view.after)}}; }
+
+Json make_gap(const Gap& gap) {
+  const auto& ci95 = gap.shrink_ci95_percent;
+  return {
+      {"as_calibrated", make_view(gap.as_calibrated)},
+      {"recalibrated", make_view(gap.recalibrated)},
+      {"shrink_percent", number(gap.shrink_percent)},
+      {"shrink_ci95_percent",
+       gap.shrink_percent.has_value() ? Json::array({number(ci95[0]), number(ci95[1])}) : Json(nullptr)},
+      {"recalibration_percent", number(gap.recalibration_percent)},
+      {"black_box_percent", number(gap.black_box_percent)},
+      {"held_out", gap.held_out},
+      {"unit", "noise floors"},
+      {"channels", list(gap.channels, [](const ChannelGap& at) -> Json {
+         return {
+             {"channel", at.channel}, {"unit", at.unit}, {"before", number(at.before)}, {"after", number(at.after)}};
+       })}};
+}
+
+Json make_location(const Location& at) {
+  return {
+      {"channel", at.channel},    {"run", at.run},   {"phase", at.phase}, {"share_percent", number(at.share_percent)},
+      {"size", number(at.size)},  {"unit", at.unit}, {"z", number(at.z)}, {"start_s", number(at.start_s)},
+      {"end_s", number(at.end_s)}};
+}
+
+Json make_lone_run(const std::optional<LoneRun>& lone) {
+  if (!lone.has_value()) return nullptr;
+  return {{"run", lone->run},
+          {"share_percent", number(lone->share_percent)},
+          {"verdict", name_of(lone->verdict)},
+          {"effects", lone->effects},
+          {"probability", number(lone->probability)}};
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNoGap:
+      return "no_gap";
+    case Verdict::kExplained:
+      return "explained";
+    case Verdict::kUnexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+Json make_diagnosis_json(const Diagnosis& diagnosis) {
+  Json probability = Json::object();
+  for (const auto& [name, value] : diagnosis.probability) probability[name] = number(value);
+  const auto make_balance = [](const BalanceShare& share) -> Json {
+    return {{"name", share.name}, {"share_percent", number(share.share_percent)}};
+  };
+  const auto make_next_test = [](const NextTest& next) -> Json {
+    return {{"test", next.test},
+            {"splits", next.splits},
+            {"expected_bits_per_hour", number(next.expected_bits_per_hour)},
+            {"hours", number(next.hours)}};
+  };
+  const auto make_next_sensor = [](const NextSensor& next) -> Json {
+    return {{"sensor", next.sensor},
+            {"splits", next.splits},
+            {"expected_bits", number(next.expected_bits)},
+            {"hours", number(next.hours)}};
+  };
+  return {{"format", "rollrig-diagnosis/1"},
+          {"set", diagnosis.set},
+          {"verdict", name_of(diagnosis.verdict)},
+          {"probability", probability},
+          {"causes", list(diagnosis.causes, make_cause)},
+          {"gap", make_gap(diagnosis.gap)},
+          {"where", list(diagnosis.where, make_location)},
+          {"balance", list(diagnosis.balance, make_balance)},
+          {"next_test", list(diagnosis.next_test, make_next_test)},
+          {"next_sensor", list(diagnosis.next_sensor, make_next_sensor)},
+          {"not_excluded", diagnosis.not_excluded},
+          {"without_run", make_lone_run(diagnosis.without_run)},
+          {"warnings", diagnosis.warnings}};
+}
+
+}  // namespace rollrig::diagnosis

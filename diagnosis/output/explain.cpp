@@ -1,0 +1,130 @@
+#include "diagnosis/output/explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "models/effect.h"
+#include "sim/core/error.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr std::size_t kIndent = 2;
+
+constexpr const char* kNone =
+    "The simulation meets the measurement within the noise of the sensors once the numbers of tire and rig "
+    "files move within their uncertainties (*_sd). Always in the race, with half of the probability before "
+    "the data speak. When it is the likeliest, the verdict is no_gap; the report then says which effects the "
+    "set could not have shown.";
+
+constexpr const char* kUnknown =
+    "There is a gap, and no effect of the catalogue, alone or in a pair, follows it. A flexible remainder "
+    "stands in for what is not modelled: it takes part on top of the baseline and on top of each cause found. "
+    "When it is the likeliest, or when something is left over on top of the likeliest cause, the verdict is "
+    "unexplained.";
+
+constexpr const char* kUnknownNext =
+    "Look at where the gap lies (channel, run, phase; which equation needs a push), check sensors and units "
+    "there, repeat that run, or add an effect (docs/add_an_effect.md).";
+
+std::string join_or(const std::vector<std::string>& words, const char* none) {
+  return words.empty() ? none : fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string list_kinds(const std::vector<models::RigKind>& kinds) {
+  std::vector<std::string> names;
+  // As sets call their kinds: what rigs call flat is the road.
+  for (const models::RigKind kind : kinds) {
+    names.emplace_back(kind == models::RigKind::kFlat ? "road" : models::name_of(kind));
+  }
+  return join_or(names, "none");
+}
+
+std::string section(const std::string& title, const std::string& text) { return title + "\n" + wrap(text, kIndent); }
+
+/// "0.005 to 0.04 1/K, centre 0.0141 (log scale)"
+std::string describe_prior(const models::EffectParameter& parameter) {
+  const models::Prior& prior = parameter.prior;
+  const std::string unit = unit_of_key(parameter.key).symbol;
+  std::string text = fmt::format("{:.4g} to {:.4g}{}", prior.low, prior.high, unit.empty() ? "" : " " + unit);
+  text += fmt::format(", centre {:.4g}", prior.centre());
+  if (prior.scale == models::Prior::Scale::kLog) text += ", on a log scale";
+  if (prior.either_sign) text += ", either sign";
+  if (parameter.off.has_value()) text += fmt::format("; {:.4g} is off", *parameter.off);
+  return text;
+}
+
+/// Each effect that it is confused with, with its own summary, so that one need not look it up.
+std::string describe_confusions(const models::EffectInfo& info) {
+  if (info.confused_with.empty()) return "  none known\n";
+  std::string text;
+  const std::vector<std::string> ids = models::effect_ids();
+  for (const std::string& id : info.confused_with) {
+    const bool known = std::find(ids.begin(), ids.end(), id) != ids.end();
+    text += wrap(known ? id + ": " + models::find_effect(id).info.summary : id, kIndent);
+  }
+  return text;
+}
+
+std::string describe_tests(const models::EffectInfo& info) {
+  if (info.splitting_tests.empty()) return "  none needed\n";
+  std::string text;
+  for (const std::string& test : info.splitting_tests) text += wrap(test, kIndent);
+  return text;
+}
+
+/// Two of the documents that sources name cannot be looked up in docs/.
+std::string describe_source(const models::EffectInfo& info) {
+  std::string text = info.source;
+  for (const char* document : {"effects.md", "baseline.md"}) {
+    if (text.find(document) == std::string::npos) continue;
+    text += fmt::format(". ({}: the specification to which the catalogue was written; not part of rollrig)", document);
+  }
+  return text;
+}
+
+std::string describe(const models::EffectInfo& info) {
+  std::string text = wrap(info.id + ": " + info.summary, 0);
+  text += section("Equation", info.equation) + section("Source", describe_source(info));
+  text += "Own parameters, and where two thirds of the belief lie before any data\n";
+  for (const models::EffectParameter& parameter : info.parameters) {
+    text += wrap(fmt::format("{}: {}", parameter.key, describe_prior(parameter)), kIndent);
+    text += wrap(parameter.doc, 3 * kIndent);
+  }
+  text += section("Acts on", list_kinds(info.acts_on));
+  if (info.only_against.has_value())
+    text += section("Acts only against", "the baseline constant_rrc: the combined one has it");
+  if (!info.faint_on.empty()) text += section("Too faint to be seen on", list_kinds(info.faint_on));
+  text += section("Revealed by", join_or(info.visible_in, "no measured channel"));
+  text += section("Leaves exactly as they are", join_or(info.clean_in, "no measured channel"));
+  text += "Confused with\n" + describe_confusions(info);
+  return text + "Told from those by\n" + describe_tests(info);
+}
+
+}  // namespace
+
+std::vector<std::string> explainable_names() {
+  std::vector<std::string> names = models::effect_ids();
+  names.insert(names.end(), {"none", "unknown"});
+  return names;
+}
+
+std::string explain_effect(const std::string& name) {
+  if (name == "none") return "none: no effect is needed\n" + wrap(kNone, kIndent);
+  if (name == "unknown") {
+    return "unknown: something outside the catalogue\n" + wrap(kUnknown, kIndent) + section("Next", kUnknownNext);
+  }
+  for (const models::Effect* effect : models::all_effects()) {
+    if (effect->info.id == name) return describe(effect->info);
+  }
+  InputProblem problem = unknown_name("effect", name, explainable_names());
+  if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
+  problem.file = "command line";
+  problem.key = "--explain";
+  throw InputError(problem);
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,343 @@
+#include "diagnosis/output/fleet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "diagnosis/output/diagnosis_json.h"
+#include "sim/core/error_text.h"
+#include "sim/core/parallel.h"
+#include "sim/core/text.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPrior = 0.02;
+constexpr double kRecurs = 0.8;
+constexpr double kCertain = 1e-6;  // a race is not surer than this
+
+bool names(const Diagnosis& diagnosis, const std::string& effect) {
+  if (diagnosis.verdict != Verdict::kExplained || diagnosis.causes.empty()) return false;
+  const auto& ids = diagnosis.causes.front().effects;
+  return std::find(ids.begin(), ids.end(), effect) != ids.end();
+}
+
+/// The size of an effect that a set names: the first parameter of its cause that is the effect's.
+std::optional<ParameterEstimate> find_size(const Diagnosis& diagnosis, const std::string& effect) {
+  if (!names(diagnosis, effect)) return std::nullopt;
+  for (const ParameterEstimate& parameter : diagnosis.causes.front().parameters) {
+    if (parameter.name.rfind(effect + ".", 0) == 0) return parameter;
+  }
+  return std::nullopt;
+}
+
+void average_sizes(const std::vector<ParameterEstimate>& sizes, Recurrence& recurrence) {
+  double weight = 0.0;
+  double sum = 0.0;
+  for (const ParameterEstimate& size : sizes) {
+    if (!(size.sd > 0.0)) continue;
+    weight += 1.0 / (size.sd * size.sd);
+    sum += size.value / (size.sd * size.sd);
+  }
+  if (!(weight > 0.0)) return;
+  recurrence.mean_size = sum / weight;
+  recurrence.mean_size_sd = 1.0 / std::sqrt(weight);
+  recurrence.unit = sizes.front().unit;
+  if (sizes.size() < 2) return;
+  double chi2 = 0.0;
+  for (const ParameterEstimate& size : sizes) {
+    if (size.sd > 0.0) chi2 += std::pow((size.value - *recurrence.mean_size) / size.sd, 2);
+  }
+  const boost::math::chi_squared distribution(static_cast<double>(sizes.size() - 1));
+  recurrence.same_size_p = boost::math::cdf(boost::math::complement(distribution, chi2));
+}
+
+struct Group {
+  Shared shared;
+  std::string name;
+  std::vector<const FleetMember*> members;
+};
+
+/// Sets that share a machine, a tire or both, two at least; of groups of the same sets the narrowest.
+std::vector<Group> make_groups(const std::vector<FleetMember>& members) {
+  std::map<std::pair<Shared, std::string>, std::vector<const FleetMember*>> by_name;
+  for (const FleetMember& member : members) {
+    if (!member.diagnosis.has_value() || !member.diagnosis->doubt.empty()) continue;
+    by_name[{Shared::kMachineAndTire, member.tire + " on " + member.machine}].push_back(&member);
+    by_name[{Shared::kMachine, member.machine}].push_back(&member);
+    by_name[{Shared::kTire, member.tire}].push_back(&member);
+  }
+  std::set<std::vector<const FleetMember*>> of_both;
+  for (const auto& [what, sharing] : by_name) {
+    if (what.first == Shared::kMachineAndTire) of_both.insert(sharing);
+  }
+  std::vector<Group> groups;
+  for (const auto& [what, sharing] : by_name) {
+    const bool as_both = what.first != Shared::kMachineAndTire && of_both.count(sharing) > 0;
+    if (sharing.size() >= 2 && !as_both) groups.push_back({what.first, what.second, sharing});
+  }
+  return groups;
+}
+
+/// Effects that one set at least names.
+std::set<std::string> find_named(const std::vector<FleetMember>& members) {
+  std::set<std::string> named;
+  for (const FleetMember& member : members) {
+    if (!member.diagnosis || member.diagnosis->verdict != Verdict::kExplained) continue;
+    for (const std::string& id : member.diagnosis->causes.front().effects) named.insert(id);
+  }
+  return named;
+}
+
+Recurrence judge(const std::string& effect, const Group& group) {
+  Recurrence recurrence;
+  recurrence.effect = effect;
+  recurrence.shared = group.shared;
+  recurrence.name = group.name;
+  std::vector<double> in_sets;
+  std::vector<ParameterEstimate> sizes;
+  for (const FleetMember* member : group.members) {
+    const auto& probability = member->diagnosis->probability;
+    const auto at = probability.find(effect);
+    if (at != probability.end()) in_sets.push_back(at->second);
+    if (const auto size = find_size(*member->diagnosis, effect)) sizes.push_back(*size);
+  }
+  recurrence.sets = in_sets.size();
+  recurrence.named_in = sizes.size();
+  recurrence.probability = calc_recurrence_probability(in_sets, kPrior);
+  average_sizes(sizes, recurrence);
+  return recurrence;
+}
+
+std::string gap_text(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  if (diagnosis.verdict != Verdict::kExplained) return fmt::format("{:.1f}", gap.recalibrated.before);
+  return fmt::format("{:.1f}->{:.1f}", gap.recalibrated.before, gap.recalibrated.after);
+}
+
+/// The set of a member; what is wrong with it goes into the member.
+std::optional<measurements::MeasurementSet> read_member(FleetMember& member) {
+  try {
+    measurements::MeasurementSet set = measurements::read_measurement_set(member.folder);
+    member.machine = set.rig ? set.rig->name : set.vehicle->name;
+    member.tire = set.tire.name;
+    return set;
+  } catch (const InputError& error) {
+    member.failure = error.what();
+    member.problem = error.problem();
+    return std::nullopt;
+  }
+}
+
+std::string name_of(const FleetMember& member) { return fs::path(member.folder).filename().string(); }
+
+/// A failure below the name of its set.
+std::string format_failure(const FleetMember& member) {
+  const std::string start = name_of(member) + ": ";
+  return member.problem ? "  " + format_error(start, *member.problem) : wrap(start + member.failure, 2);
+}
+
+/// What failed, with its reason; which files are in doubt; how many warnings there are of other sets.
+std::string format_troubles(const Fleet& fleet) {
+  std::string failed, doubtful, warned;
+  for (const FleetMember& member : fleet.members) {
+    if (!member.diagnosis) {
+      failed += format_failure(member);
+      continue;
+    }
+    const std::size_t others = member.diagnosis->warnings.size() - (member.diagnosis->doubt.empty() ? 0 : 1);
+    if (!member.diagnosis->doubt.empty()) {
+      doubtful += wrap(fmt::format("{}: {}", name_of(member), member.diagnosis->doubt), 2);
+    }
+    if (others > 0) warned += fmt::format("{}{} {}", warned.empty() ? "" : ", ", name_of(member), others);
+  }
+  std::string text;
+  if (!failed.empty()) text += "\nNot diagnosed\n" + failed;
+  if (!doubtful.empty()) text += "\nFiles in doubt, so no cause is named\n" + doubtful;
+  if (!warned.empty()) text += "\nWarnings, which rollrig diagnose of that set alone tells\n" + wrap(warned, 2);
+  return text;
+}
+
+const char* word_of(Shared shared) {
+  switch (shared) {
+    case Shared::kMachine:
+      return "machine";
+    case Shared::kTire:
+      return "tire";
+    case Shared::kMachineAndTire:
+      return "machine or tire";
+  }
+  return "";
+}
+
+std::string describe(const Recurrence& one) {
+  std::string text =
+      fmt::format("{}: the {}'s ({}), probability {:.0f} % over {}, named in {}", one.effect, word_of(one.shared),
+                  one.name, 100.0 * one.probability, format_count(one.sets, "set"), one.named_in);
+  if (one.mean_size) {
+    text += fmt::format("; mean size {:.3g} +- {:.1g}{}{}", *one.mean_size, one.mean_size_sd,
+                        one.unit.empty() ? "" : " ", one.unit);
+  }
+  constexpr double kDiffer = 0.01;
+  if (one.same_size_p && *one.same_size_p < kDiffer) text += ", but the sizes differ from set to set";
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> find_sets(const std::string& folder) {
+  std::vector<std::string> sets;
+  if (!fs::is_directory(folder) || fs::exists(fs::path(folder) / "set.toml")) return sets;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (fs::exists(entry.path() / "set.toml")) sets.push_back(entry.path().string());
+  }
+  std::sort(sets.begin(), sets.end());
+  return sets;
+}
+
+std::vector<std::string> find_undescribed_folders(const std::string& folder) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory() || fs::exists(entry.path() / "set.toml")) continue;
+    const fs::directory_iterator files(entry.path());
+    const bool has_csv =
+        std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() == ".csv"; });
+    if (has_csv) found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+double calc_recurrence_probability(const std::vector<double>& in_sets, double prior) {
+  const double prior_odds = prior / (1.0 - prior);
+  double log_odds = std::log(prior_odds);
+  for (const double in_set : in_sets) {
+    const double p = std::clamp(in_set, kCertain, 1.0 - kCertain);
+    const double factor = p / (1.0 - p) / prior_odds;
+    log_odds += std::log(factor / (prior * factor + 1.0 - prior));
+  }
+  return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
+std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members) {
+  std::vector<Recurrence> found;
+  const std::vector<Group> groups = make_groups(members);
+  for (const std::string& effect : find_named(members)) {
+    std::optional<Recurrence> widest;
+    for (const Group& group : groups) {
+      const Recurrence one = judge(effect, group);
+      if (one.sets < 2 || one.probability <= kRecurs || one.named_in == 0) continue;
+      const bool wider =
+          !widest || one.sets > widest->sets || (one.sets == widest->sets && one.probability > widest->probability);
+      if (wider) widest = one;
+    }
+    if (widest) found.push_back(*widest);
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Recurrence& a, const Recurrence& b) { return a.probability > b.probability; });
+  return found;
+}
+
+Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
+  require_known_effects(options);
+  Fleet fleet;
+  std::vector<std::optional<measurements::MeasurementSet>> sets;
+  for (const std::string& folder : folders) {
+    fleet.members.push_back({folder, "", "", std::nullopt, "", std::nullopt});
+    sets.push_back(read_member(fleet.members.back()));
+  }
+  if (std::none_of(sets.begin(), sets.end(), [](const auto& set) { return set.has_value(); })) {
+    measurements::read_measurement_set(folders.front());  // says what is wrong with it
+  }
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(folders.size(), options.threads, [&](std::size_t i) {
+    DiagnosisOptions one = options;
+    one.threads = 1;
+    one.progress = {};
+    try {
+      if (sets[i].has_value()) fleet.members[i].diagnosis = diagnose(*sets[i], one);
+    } catch (const RunFailure& failure) {
+      fleet.members[i].failure = failure.what();
+    } catch (const InputError& error) {  // what a diagnosis cannot do with: a sensor without noise, say
+      fleet.members[i].failure = error.what();
+      fleet.members[i].problem = error.problem();
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    ++done;
+    if (options.progress) {
+      options.progress(static_cast<double>(done) / static_cast<double>(folders.size()),
+                       fmt::format("{} of {} sets", done, folders.size()));
+    }
+  });
+  fleet.recurrences = find_recurrences(fleet.members);
+  return fleet;
+}
+
+std::string format_fleet(const Fleet& fleet) {
+  constexpr std::size_t kSet = 22;
+  constexpr std::size_t kVerdict = 12;
+  constexpr std::size_t kCause = 25;
+  const auto row = [&](const std::string& set, const std::string& verdict, const std::string& cause,
+                       const std::string& probability, const std::string& gap) {
+    std::string line = fmt::format("{:<{}} {:<{}}{:<{}} {:>5}  {}", clip(set, kSet), kSet, verdict, kVerdict,
+                                   clip(cause, kCause), kCause, probability, gap);
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + "\n";
+  };
+  std::string text = row("Set", "Verdict", "Cause", "Prob.", "Gap, floors");
+  for (const FleetMember& member : fleet.members) {
+    const std::string name = name_of(member);
+    if (!member.diagnosis) {
+      text += row(name, "failed", "see below", "", "");
+      continue;
+    }
+    const Diagnosis& one = *member.diagnosis;
+    const bool explained = one.verdict == Verdict::kExplained;
+    const double probability = explained                        ? one.causes.front().probability
+                               : one.verdict == Verdict::kNoGap ? one.probability.at("none")
+                                                                : one.probability.at("unknown");
+    text += row(name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
+                explained ? fmt::format("{}", fmt::join(one.causes.front().effects, "+")) : "",
+                one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one));
+  }
+  text += format_troubles(fleet) + "\nComes back from set to set\n";
+  if (fleet.recurrences.empty()) text += "  nothing\n";
+  for (const Recurrence& one : fleet.recurrences) text += wrap(describe(one), 2);
+  return text;
+}
+
+Json make_fleet_json(const Fleet& fleet) {
+  Json json{{"format", "rollrig-fleet/1"}, {"sets", Json::array()}, {"recurring", Json::array()}};
+  for (const FleetMember& member : fleet.members) {
+    json["sets"].push_back({{"folder", member.folder},
+                            {"machine", member.machine},
+                            {"tire", member.tire},
+                            {"failure", member.failure.empty() ? Json(nullptr) : Json(member.failure)},
+                            {"diagnosis", member.diagnosis ? make_diagnosis_json(*member.diagnosis) : Json(nullptr)}});
+  }
+  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  for (const Recurrence& one : fleet.recurrences) {
+    json["recurring"].push_back({{"effect", one.effect},
+                                 {"shared", word_of(one.shared)},
+                                 {"name", one.name},
+                                 {"sets", one.sets},
+                                 {"named_in", one.named_in},
+                                 {"probability", one.probability},
+                                 {"mean_size", or_null(one.mean_size)},
+                                 {"mean_size_sd", one.mean_size ? Json(one.mean_size_sd) : Json(nullptr)},
+                                 {"unit", one.unit},
+                                 {"same_size_p", or_null(one.same_size_p)}});
+  }
+  return json;
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,288 @@
+#include "diagnosis/output/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/output/explain.h"
+#include "models/effect.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::diagnosis {
+namespace {
+
+constexpr std::size_t kColumns = 80;
+constexpr std::size_t kLabelColumns = 13;
+constexpr std::size_t kTextColumns = kColumns - kLabelColumns;
+
+std::string line(const std::string& label, const std::string& text) {
+  return fmt::format("{:<{}}{}\n", label, kLabelColumns, clip(text, kTextColumns));
+}
+
+/// A further point below the ten lines: in full, on as many lines as it needs.
+std::string note(const std::string& label, const std::string& text) {
+  std::string lines = wrap(text, kLabelColumns);
+  return lines.replace(0, label.size(), label);
+}
+
+/// As many items as fit into `width` characters, then how many more there are.
+std::string join_to_fit(const std::vector<std::string>& items, const char* separator, std::size_t width) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string next = (i == 0 ? "" : separator) + items[i];
+    const std::size_t left = items.size() - i - 1;
+    const std::string more = left == 0 ? "" : fmt::format(" and {} more", left);
+    if (i > 0 && count_characters(text + next + more) > width) return text + fmt::format(" and {} more", left + 1);
+    text += next;
+  }
+  return text;
+}
+
+/// A channel in one word: the last of its name, or what has the temperature.
+std::string short_name(const std::string& channel) {
+  if (channel == "liner_temperature_degC") return "liner";
+  if (channel == "gas_temperature_degC") return "gas";
+  const std::string name = plain_name(channel);
+  return name.substr(name.rfind(' ') + 1);
+}
+
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + " " + unit;
+}
+
+std::string verdict_line(const Diagnosis& diagnosis) {
+  const std::string none = show_probability(probability_of(diagnosis, "none"));
+  const std::string unknown = show_probability(probability_of(diagnosis, "unknown"));
+  const bool named = !diagnosis.causes.empty();
+  switch (diagnosis.verdict) {
+    case Verdict::kNoGap:
+      return line("Verdict", "no gap beyond the noise, probability " + none);
+    case Verdict::kExplained: {
+      const std::string own = named ? show_probability(diagnosis.causes.front().probability) : "0 %";
+      const std::string text = fmt::format("explained, probability {} (none {}, unknown {})", own, none, unknown);
+      if (count_characters(text) <= kTextColumns) return line("Verdict", text);
+      return line("Verdict", fmt::format("explained, probability {} (unknown {})", own, unknown));
+    }
+    case Verdict::kUnexplained:
+      if (!diagnosis.doubt.empty()) return line("Verdict", "unexplained: the files are in doubt, before any physics");
+      if (named && !diagnosis.causes.front().adequate) {
+        return line("Verdict", "unexplained: looks like this cause, but something else is missing");
+      }
+      return line("Verdict", fmt::format("unexplained: outside the catalogue, probability {}", unknown));
+  }
+  return {};
+}
+
+/// The first parameter of each effect is its size.
+std::vector<ParameterEstimate> find_sizes(const Cause& cause) {
+  std::vector<ParameterEstimate> sizes;
+  for (const std::string& effect : cause.effects) {
+    const auto first =
+        std::find_if(cause.parameters.begin(), cause.parameters.end(),
+                     [&effect](const ParameterEstimate& at) { return at.name.rfind(effect + ".", 0) == 0; });
+    if (first != cause.parameters.end()) sizes.push_back(*first);
+  }
+  return sizes;
+}
+
+/// "fall 0.0192 1/K"
+std::string describe_size(const ParameterEstimate& size) {
+  const std::string key = size.name.substr(size.name.rfind('.') + 1);
+  return fmt::format("{} {}", plain_name(key), with_unit(fmt::format("{:.3g}", size.value), size.unit));
+}
+
+std::string describe_interval(const ParameterEstimate& size) {
+  return fmt::format("{:.3g} to {:.3g}", size.low_95, size.high_95);
+}
+
+/// An effect with its size and the interval of that, as far as they are known.
+std::string describe_effect(const std::string& effect, const std::vector<ParameterEstimate>& sizes) {
+  for (const ParameterEstimate& size : sizes) {
+    if (size.name.rfind(effect + ".", 0) != 0) continue;
+    return fmt::format("{}: {} (95 %: {})", effect, describe_size(size), describe_interval(size));
+  }
+  return effect;
+}
+
+std::string cause_line(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
+  if (diagnosis.causes.empty()) return line("Cause", "none of the catalogue");
+  const Cause& cause = diagnosis.causes.front();
+  return line("Cause", describe_effect(cause.effects.front(), find_sizes(cause)));
+}
+
+std::string describe_alternatives(const Cause& cause) {
+  const std::string why = " (this set cannot tell)";
+  return join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why;
+}
+
+/// The summary of an effect, where the catalogue has it.
+std::string meaning_of(const std::string& id) {
+  for (const models::Effect* effect : models::all_effects()) {
+    if (effect->info.id == id) return effect->info.summary;
+  }
+  return id;
+}
+
+/// Why the files cannot be right, in full.
+std::string doubt_lines(const Diagnosis& diagnosis) {
+  return line("Cause", "none is named until this is mended:") + note("", diagnosis.doubt);
+}
+
+/// What acts beside the first effect; else what may act in its place; else what it is.
+std::string second_line(const Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::kNoGap) {
+    return line("", "the simulation stands, within the uncertainty of its numbers");
+  }
+  if (diagnosis.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
+  const Cause& cause = diagnosis.causes.front();
+  std::string more;
+  for (std::size_t i = 1; i < cause.effects.size(); ++i) {
+    more += line("  with", describe_effect(cause.effects[i], find_sizes(cause)));
+  }
+  if (!more.empty()) return more;
+  if (!cause.indistinguishable_from.empty()) return line("or as well", describe_alternatives(cause));
+  return line("", meaning_of(cause.effects.front()));
+}
+
+std::string where_line(const Diagnosis& diagnosis) {
+  if (diagnosis.where.empty()) {
+    return line("Where", diagnosis.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
+  }
+  const Location& at = diagnosis.where.front();
+  const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of gap",
+                                       with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
+  const std::string place = fmt::format("{} in {}, {}", short_name(at.channel), at.run, at.phase);
+  return line("Where", clip(place, kTextColumns - count_characters(size)) + size);
+}
+
+std::string equation_line(const Diagnosis& diagnosis) {
+  if (diagnosis.balance.empty())
+    return line("Equation", diagnosis.verdict == Verdict::kNoGap ? "none needs a push" : "none stands out");
+  std::vector<std::string> shares;
+  for (const BalanceShare& share : diagnosis.balance) {
+    shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));
+  }
+  return line("Equation", join_to_fit(shares, ", ", kTextColumns));
+}
+
+/// Two digits, and no more than two behind the point.
+std::string short_number(double value) {
+  return std::abs(value) < 0.995 ? fmt::format("{:.2f}", value) : fmt::format("{:.2g}", value);
+}
+
+/// A whole number of percent, without a sign on zero.
+std::string whole(double percent) { return fmt::format("{:.0f}", std::round(percent) + 0.0); }
+
+std::string gap_lines(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned", gap.as_calibrated.before,
+                                   gap.recalibrated.before);
+  const bool is_caused = !diagnosis.causes.empty() && diagnosis.verdict != Verdict::kNoGap;
+  if (is_caused) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
+  std::vector<std::string> channels;
+  for (const ChannelGap& at : gap.channels) {
+    channels.push_back(
+        fmt::format("{} {}->{} {}", short_name(at.channel), short_number(at.before), short_number(at.after), at.unit));
+  }
+  const std::string units = channels.empty() ? "no channel is compared" : join_to_fit(channels, ", ", kTextColumns);
+  return line("Gap", floors) + line("  in units", units);
+}
+
+/// Whether the lines above say a torque in N.
+bool tells_torque_as_force(const Diagnosis& diagnosis) {
+  const auto is_told = [](const std::string& channel, const std::string& unit) {
+    return short_name(channel) == "torque" && unit == "N";
+  };
+  const std::vector<ChannelGap>& channels = diagnosis.gap.channels;
+  return (!diagnosis.where.empty() && is_told(diagnosis.where.front().channel, diagnosis.where.front().unit)) ||
+         std::any_of(channels.begin(), channels.end(),
+                     [&is_told](const ChannelGap& at) { return is_told(at.channel, at.unit); });
+}
+
+std::string shrinkage_line(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  std::vector<std::string> parts;
+  if (gap.shrink_percent.has_value()) {
+    const std::size_t runs = gap.held_out.size();
+    const std::string on = runs == 0 ? "the fitted data" : format_count(runs, "held-out run");
+    parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
+                                whole(gap.shrink_ci95_percent[1]), on));
+  } else if (diagnosis.verdict == Verdict::kUnexplained && diagnosis.causes.empty()) {
+    parts.emplace_back("no cause to shrink it by");
+  } else {
+    parts.emplace_back("nothing above the noise to shrink");
+  }
+  if (gap.recalibration_percent.has_value()) {
+    parts.push_back("retuning " + whole(*gap.recalibration_percent) + " %");
+  }
+  if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
+  return line("Shrinks by", join_to_fit(parts, ", ", kTextColumns));
+}
+
+std::string next_line(const Diagnosis& diagnosis) {
+  if (diagnosis.next_test.empty()) return line("Next test", "none would tell more");
+  const NextTest& next = diagnosis.next_test.front();
+  const std::string gain = fmt::format(" ({:.1g} bits/h)", next.expected_bits_per_hour);
+  return line("Next test", clip(next.test, kTextColumns - count_characters(gain)) + gain);
+}
+
+std::string describe_rest(const LoneRun& lone) {
+  const std::string probability = ", probability " + show_probability(lone.probability);
+  if (lone.verdict == Verdict::kNoGap) return "no gap beyond the noise" + probability;
+  const std::string verdict = lone.verdict == Verdict::kExplained ? "explained by " : "unexplained, looks like ";
+  if (lone.effects.empty()) return "unexplained as well";
+  return fmt::format("{}{}{}", verdict, fmt::join(lone.effects, " with "), probability);
+}
+
+}  // namespace
+
+std::string show_probability(double probability) {
+  if (probability > 0.99 && probability < 1.0) return "over 99 %";
+  if (probability < 0.01 && probability > 0.0) return "under 1 %";
+  return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+std::string format_summary(const Diagnosis& diagnosis) {
+  const bool in_doubt = !diagnosis.doubt.empty();
+  std::string text =
+      verdict_line(diagnosis) + (in_doubt ? doubt_lines(diagnosis) : cause_line(diagnosis) + second_line(diagnosis)) +
+      where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) + shrinkage_line(diagnosis);
+  text +=
+      line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
+                                                          : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
+  text += next_line(diagnosis);
+  if (tells_torque_as_force(diagnosis)) text += note("Torque", "in N, as force at the drum's surface");
+  if (!diagnosis.causes.empty()) {
+    const Cause& first = diagnosis.causes.front();
+    if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
+      text += note("Or as well", describe_alternatives(first));
+    }
+    if (const std::string open = describe_unconfirmed(diagnosis); !open.empty()) text += note("But", open);
+    for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
+  }
+  if (const auto& lone = diagnosis.without_run) {
+    text += note("Without", fmt::format("run {}, which holds {:.0f} % of the gap: {}", lone->run, lone->share_percent,
+                                        describe_rest(*lone)));
+  }
+  if (!diagnosis.next_sensor.empty()) {
+    const NextSensor& next = diagnosis.next_sensor.front();
+    text += note("Sensor", fmt::format("{} ({:.1g} bits more on an ordinary run, {:.2g} h to fit)", next.sensor,
+                                       next.expected_bits, next.hours));
+  }
+  for (const std::string& warning : diagnosis.warnings) {
+    if (warning != diagnosis.doubt) text += note("Warning", warning);
+  }
+  return text;
+}
+
+std::string describe_unconfirmed(const Diagnosis& diagnosis) {
+  const Gap& gap = diagnosis.gap;
+  const bool is_judged = gap.shrink_percent.has_value() && !gap.held_out.empty();
+  if (diagnosis.verdict != Verdict::kExplained || !is_judged || gap.shrink_ci95_percent[0] > 0.0) return {};
+  return "the runs left out do not confirm it: the interval holds 0 %";
+}
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,180 @@
+#include "estimation/drum_deceleration/coast_set.h"
+
+#include <fmt/format.h>
+#include <boost/math/constants/constants.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+#include "sim/core/csv.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr Range kSpeedRange = between(0.0, 400.0);  // km/h
+constexpr double kDefaultSpeeds_km_h[] = {40.0, 60.0, 80.0, 100.0};
+
+void read_drum(TableReader& top, CoastSet& set) {
+  const ConfigTable* table = top.table("drum");
+  if (table == nullptr) throw top.problem("drum", "the set has no [drum]", "[drum] with diameter_m");
+  TableReader reader(*table, "[drum]");
+  set.drum_diameter_m = reader.number({"diameter_m", positive(), "Diameter"});
+  set.drum_inertia_kg_m2 = reader.number_or_none({"inertia_kg_m2", positive(), "I_D"});
+  if (const auto pulses = reader.number_or_none({"pulses_per_revolution", positive(), ""})) {
+    set.drum_pulse_length_m = boost::math::constants::pi<double>() * set.drum_diameter_m / *pulses;
+  }
+  reader.finish();
+}
+
+void read_wheel(TableReader& top, CoastSet& set) {
+  const ConfigTable* table = top.table("wheel");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[wheel]");
+  set.wheel_inertia_kg_m2 = reader.number_or_none({"inertia_kg_m2", positive(), "I_T"});
+  set.wheel_rolling_radius_m = reader.number_or_none({"rolling_radius_m", positive(), "R_r"});
+  set.wheel_mass_ratio = reader.number_or_none({"mass_ratio", between(0.0, 1.0), "mu"});
+  const auto pulses = reader.number_or_none({"pulses_per_revolution", positive(), ""});
+  if ((set.wheel_inertia_kg_m2.has_value() || pulses.has_value()) && !set.wheel_rolling_radius_m.has_value()) {
+    throw reader.problem("rolling_radius_m", "the wheel's inertia and pulses ask for its rolling radius", "> 0");
+  }
+  if (set.wheel_inertia_kg_m2.has_value() && set.wheel_mass_ratio.has_value()) {
+    throw reader.problem("mass_ratio", "the wheel's share is given twice", "inertia_kg_m2 or mass_ratio");
+  }
+  if (set.wheel_inertia_kg_m2.has_value() && !set.drum_inertia_kg_m2.has_value()) {
+    throw reader.problem("inertia_kg_m2", "the wheel's inertia is given without the drum's",
+                         "[drum] inertia_kg_m2 too, or mass_ratio here");
+  }
+  if (pulses.has_value()) {
+    set.wheel_pulse_length_m = boost::math::constants::two_pi<double>() * *set.wheel_rolling_radius_m / *pulses;
+  }
+  reader.finish();
+}
+
+void read_analysis(TableReader& top, CoastSet& set) {
+  for (const double speed_km_h : kDefaultSpeeds_km_h) set.speeds_m_s.push_back(speed_km_h / 3.6);
+  set.reference_speed_m_s = 80.0 / 3.6;
+  const ConfigTable* table = top.table("analysis");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[analysis]");
+  set.speeds_m_s = reader.numbers_or({"speeds_km_h", between(1.0, 400.0), ""}, set.speeds_m_s);
+  set.reference_speed_m_s = reader.number_or_none({"reference_speed_km_h", between(1.0, 400.0), ""})
+                                .value_or(set.speeds_m_s[set.speeds_m_s.size() / 2]);
+  set.reference_pressure_Pa = reader.number_or_none({"reference_pressure_kPa", positive(), ""});
+  set.half_band_m_s = reader.number_or_none({"half_band_km_h", between(1.0, 100.0), ""}).value_or(set.half_band_m_s);
+  set.find_resonance = reader.flag_or("find_resonance", true);
+  set.leave_out_m_s = reader.numbers_or({"leave_out_km_h", kSpeedRange, ""}, {});
+  if (!set.leave_out_m_s.empty() && (set.leave_out_m_s.size() != 2 || set.leave_out_m_s[0] >= set.leave_out_m_s[1])) {
+    throw reader.problem("leave_out_km_h", "a range of speed has two ends", "[from, to] with from < to");
+  }
+  reader.finish();
+}
+
+InputError bad_row(const std::string& file, std::size_t row, const std::string& key, const std::string& value,
+                   const std::string& what, const std::string& allowed) {
+  return InputError({what, file, static_cast<int>(row) + 2, key, value, allowed, ""});
+}
+
+/// Columns src, t_s, speed_mps: both bodies in one file.
+void read_two_bodies(const CsvTable& csv, CoastRun& run) {
+  csv.require_known({"src", "t_s", "speed_mps"});
+  const std::vector<std::string> src = csv.text("src");
+  const std::vector<double> time_s = csv.numbers({"t_s", any_number(), ""});
+  const std::vector<double> speed_m_s = csv.numbers({"speed_mps", between(0.0, 120.0), ""});
+  for (std::size_t row = 0; row < src.size(); ++row) {
+    if (src[row] != "D" && src[row] != "W") {
+      throw bad_row(run.file, row, "src", src[row], fmt::format("'{}' is no body", src[row]), "D (drum) or W (wheel)");
+    }
+    std::optional<CoastSeries>& body = src[row] == "D" ? run.drum : run.wheel;
+    if (!body.has_value()) body.emplace();
+    if (!body->time_s.empty() && time_s[row] <= body->time_s.back()) {
+      throw bad_row(run.file, row, "t_s", fmt::format("{:g}", time_s[row]),
+                    fmt::format("time does not increase: {:g} after {:g}", time_s[row], body->time_s.back()),
+                    "a later time in each row of a body");
+    }
+    body->time_s.push_back(time_s[row]);
+    body->speed_m_s.push_back(speed_m_s[row]);
+  }
+}
+
+void read_one_body(const CsvTable& csv, CoastBody body, CoastRun& run) {
+  csv.require_known({"time_s", "speed_km_h"});
+  CoastSeries series;
+  series.time_s = csv.increasing_times("time_s");
+  series.speed_m_s = csv.numbers({"speed_km_h", kSpeedRange, ""});
+  (body == CoastBody::kDrum ? run.drum : run.wheel) = std::move(series);
+}
+
+CoastRun read_run(const ConfigTable& table, const std::string& folder) {
+  TableReader reader(table, "[[run]]");
+  CoastRun run;
+  run.id = reader.text("file");
+  run.file = (fs::path(folder) / run.id).string();
+  run.state = reader.text("state", {"loaded", "lifted"}) == "loaded" ? CoastState::kLoaded : CoastState::kLifted;
+  const Field pressure{"pressure_kPa", between(20.0, 2000.0), "gauge"};
+  run.pressure_Pa =
+      run.state == CoastState::kLoaded ? reader.number(pressure) : reader.number_or_none(pressure).value_or(0.0);
+  run.direction = reader.text_or("direction", "");
+  run.load_N = reader.number_or_none({"load_N", positive(), ""});
+  const bool wheel = reader.text_or("body", "drum", {"drum", "wheel"}) == "wheel";
+  reader.finish();
+  const CsvTable csv = CsvTable::read(run.file);
+  if (csv.has("src") || csv.has("t_s") || csv.has("speed_mps")) {
+    read_two_bodies(csv, run);
+  } else {
+    read_one_body(csv, wheel ? CoastBody::kWheel : CoastBody::kDrum, run);
+  }
+  return run;
+}
+
+void require_states(const TableReader& reader, const CoastSet& set) {
+  bool loaded = false;
+  bool lifted = false;
+  for (const CoastRun& run : set.runs) {
+    loaded = loaded || (run.state == CoastState::kLoaded && run.drum.has_value());
+    lifted = lifted || (run.state == CoastState::kLifted && run.drum.has_value());
+  }
+  if (!loaded)
+    throw reader.problem("run", "no run has the tire loaded on the drum", "a [[run]] with state = \"loaded\"");
+  if (!lifted) {
+    throw reader.problem("run", "no run has the drum alone: its own loss cannot be taken off",
+                         "a [[run]] with state = \"lifted\"");
+  }
+}
+
+}  // namespace
+
+std::optional<double> CoastSet::calc_drum_mass_kg() const {
+  if (!drum_inertia_kg_m2.has_value()) return std::nullopt;
+  const double radius_m = drum_diameter_m / 2.0;
+  return *drum_inertia_kg_m2 / (radius_m * radius_m);
+}
+
+double CoastSet::calc_mass_ratio() const {
+  if (wheel_mass_ratio.has_value()) return *wheel_mass_ratio;
+  const std::optional<double> drum_kg = calc_drum_mass_kg();
+  if (!drum_kg.has_value() || !wheel_inertia_kg_m2.has_value()) return 0.0;
+  return *wheel_inertia_kg_m2 / (*wheel_rolling_radius_m * *wheel_rolling_radius_m) / *drum_kg;
+}
+
+bool CoastSet::is_mass_ratio_known() const { return wheel_mass_ratio.has_value() || wheel_inertia_kg_m2.has_value(); }
+
+CoastSet read_coast_set(const std::string& path, const std::string& data_folder) {
+  const ConfigTable config = read_config(path);
+  TableReader reader(config, "");
+  check_format(reader, "rollrig-drum-coastdown", 1);
+  CoastSet set;
+  set.path = path;
+  set.name = reader.text_or("name", fs::path(path).stem().string());
+  read_drum(reader, set);
+  read_wheel(reader, set);
+  read_analysis(reader, set);
+  const std::string folder = data_folder.empty() ? fs::path(path).parent_path().string() : data_folder;
+  for (const ConfigTable* table : reader.tables("run")) set.runs.push_back(read_run(*table, folder));
+  reader.finish();
+  require_states(reader, set);
+  return set;
+}
+
+}  // namespace rollrig::estimation

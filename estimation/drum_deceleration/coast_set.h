@@ -1,0 +1,60 @@
+#pragma once
+/// Coast-downs of a drum as files give them ("rollrig-drum-coastdown/1", docs/formats.md).
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/config.h"
+
+namespace rollrig::estimation {
+
+enum class CoastState { kLoaded, kLifted };
+enum class CoastBody { kDrum, kWheel };
+
+/// Surface speed of one body over time, a row a pulse (or a sample).
+struct CoastSeries {
+  std::vector<double> time_s;
+  std::vector<double> speed_m_s;
+};
+
+struct CoastRun {
+  std::string id;    // as written in the set
+  std::string file;  // path
+  CoastState state = CoastState::kLoaded;
+  double pressure_Pa = 0.0;  // gauge; of loaded runs
+  std::string direction;     // empty where not said
+  std::optional<double> load_N;
+  std::optional<CoastSeries> drum;
+  std::optional<CoastSeries> wheel;
+};
+
+struct CoastSet {
+  std::string path;
+  std::string name;
+  double drum_diameter_m = 0.0;
+  std::optional<double> drum_inertia_kg_m2;
+  std::optional<double> wheel_inertia_kg_m2;
+  std::optional<double> wheel_rolling_radius_m;
+  std::optional<double> wheel_mass_ratio;     // mu where the inertias are not known one by one
+  std::optional<double> drum_pulse_length_m;  // way of the surface from pulse to pulse
+  std::optional<double> wheel_pulse_length_m;
+  std::vector<double> speeds_m_s;  // at which decelerations are asked for
+  double reference_speed_m_s = 0.0;
+  std::optional<double> reference_pressure_Pa;
+  double half_band_m_s = 4.0;  // Assumed: rows used about each speed, this far to both sides
+  bool find_resonance = true;
+  std::vector<double> leave_out_m_s;  // from, to; empty where not said
+  std::vector<CoastRun> runs;
+
+  /// I_D/R^2, the mass that the drum is worth at its surface.
+  std::optional<double> calc_drum_mass_kg() const;
+  /// mu: given, or from both inertias; 0 when neither is known.
+  double calc_mass_ratio() const;
+  bool is_mass_ratio_known() const;
+};
+
+/// Reads a set and its files, which lie beside it or in `data_folder` where that is given. Throws InputError.
+CoastSet read_coast_set(const std::string& path, const std::string& data_folder = "");
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,183 @@
+#include "estimation/drum_deceleration/drum_coastdown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "estimation/drum_deceleration/coast_evaluation.h"
+#include "sim/core/error.h"
+
+namespace rollrig::estimation {
+namespace {
+
+std::vector<CoastAnalysis> find_coasts(const CoastSet& set) {
+  std::vector<CoastAnalysis> analyses;
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    const CoastRun& run = set.runs[i];
+    if (run.drum.has_value()) {
+      analyses.push_back({i, CoastBody::kDrum, find_coast(*run.drum, set.drum_pulse_length_m, run), {}, {}});
+    }
+    if (run.wheel.has_value()) {
+      analyses.push_back({i, CoastBody::kWheel, find_coast(*run.wheel, set.wheel_pulse_length_m, run), {}, {}});
+    }
+  }
+  return analyses;
+}
+
+/// Drum coasts of one kind: lifted, loaded, or loaded at one pressure. A resonance may be the rig's, at one speed
+/// whatever the tire, or one in which the tire is the spring, whose speed moves with pressure.
+struct Kind {
+  CoastState state = CoastState::kLifted;
+  double pressure_Pa = 0.0;  // 0: any
+  bool has(const CoastRun& run) const {
+    constexpr double kSamePressure = 0.01;
+    if (run.state != state) return false;
+    return pressure_Pa == 0.0 || std::abs(run.pressure_Pa / pressure_Pa - 1.0) < kSamePressure;
+  }
+};
+
+std::vector<Kind> list_kinds(const CoastSet& set) {
+  std::vector<Kind> kinds{{CoastState::kLifted, 0.0}, {CoastState::kLoaded, 0.0}};
+  for (const CoastRun& run : set.runs) {
+    if (run.state == CoastState::kLifted) continue;
+    const bool known = std::any_of(kinds.begin() + 2, kinds.end(), [&run](const Kind& kind) { return kind.has(run); });
+    if (!known) kinds.push_back({CoastState::kLoaded, run.pressure_Pa});
+  }
+  return kinds;
+}
+
+bool is_left_out(const std::vector<SpeedRange>& ranges, double speed_m_s) {
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [speed_m_s](const SpeedRange& range) { return range.contains(speed_m_s); });
+}
+
+std::string describe(const FoundResonance& found) {
+  const Resonance& resonance = found.resonance;
+  const std::string which = found.state == CoastState::kLifted ? "with the tire lifted"
+                            : found.pressure_Pa == 0.0
+                                ? "with the tire loaded"
+                                : fmt::format("with the tire loaded at {:.0f} kPa", found.pressure_Pa / 1e3);
+  return fmt::format(
+      "the rig resonates near {:.1f} km/h {}: {:.1f} +- {:.1f} % more deceleration than about it; {:.1f} to {:.1f} "
+      "km/h "
+      "are left out there",
+      3.6 * resonance.peak_m_s, which, 100.0 * resonance.excess, 200.0 * resonance.sd, 3.6 * resonance.range.from_m_s,
+      3.6 * resonance.range.to_m_s);
+}
+
+void find_left_out(const CoastSet& set, DrumCoastdownFit& fit) {
+  for (CoastAnalysis& analysis : fit.analyses) {
+    if (!set.leave_out_m_s.empty()) analysis.left_out.push_back({set.leave_out_m_s[0], set.leave_out_m_s[1]});
+  }
+  if (!set.find_resonance) return;
+  for (const Kind& kind : list_kinds(set)) {
+    std::vector<Coast> coasts;
+    std::vector<SpeedRange> known;
+    for (const CoastAnalysis& analysis : fit.analyses) {
+      if (analysis.body != CoastBody::kDrum || !kind.has(set.runs[analysis.run])) continue;
+      coasts.push_back(analysis.coast);
+      known = analysis.left_out;
+    }
+    for (const Resonance& resonance : find_resonances(coasts)) {
+      if (is_left_out(known, resonance.peak_m_s)) continue;
+      fit.resonances.push_back({kind.state, kind.pressure_Pa, resonance});
+      fit.warnings.push_back(describe(fit.resonances.back()));
+      for (CoastAnalysis& analysis : fit.analyses) {
+        if (kind.has(set.runs[analysis.run])) analysis.left_out.push_back(resonance.range);
+      }
+    }
+  }
+}
+
+void fit_decelerations(const CoastSet& set, DrumCoastdownFit& fit) {
+  for (CoastAnalysis& analysis : fit.analyses) {
+    for (const double speed_m_s : set.speeds_m_s) {
+      analysis.decelerations.push_back(
+          fit_deceleration(analysis.coast, speed_m_s, set.half_band_m_s, analysis.left_out));
+    }
+  }
+}
+
+void mark_left_out(const CoastSet& set, DrumCoastdownFit& fit) {
+  for (const CoastAnalysis& analysis : fit.analyses) {
+    const CoastRun& run = set.runs[analysis.run];
+    for (SpeedPoint& point : fit.points) {
+      if (!is_left_out(analysis.left_out, point.speed_m_s)) continue;
+      for (PressureLevel& level : point.levels) {
+        const Kind kind{CoastState::kLoaded, level.pressure_Pa};
+        if (run.state == CoastState::kLifted || kind.has(run)) level.in_range_left_out = true;
+      }
+    }
+  }
+}
+
+void warn_of_runs(const CoastSet& set, DrumCoastdownFit& fit) {
+  constexpr double kRise_m_s = 0.3;
+  for (const CoastAnalysis& analysis : fit.analyses) {
+    if (analysis.coast.rise_m_s < kRise_m_s) continue;
+    fit.warnings.push_back(fmt::format("{}: the {}'s speed rises again by {:.1f} km/h after the coast began",
+                                       set.runs[analysis.run].id, analysis.body == CoastBody::kDrum ? "drum" : "wheel",
+                                       3.6 * analysis.coast.rise_m_s));
+  }
+}
+
+void warn_of_method(const CoastSet& set, const Tables& tables, DrumCoastdownFit& fit) {
+  if (!set.calc_drum_mass_kg().has_value()) {
+    fit.warnings.push_back("no inertia of the drum is given: net decelerations and ratios, no forces");
+  }
+  if (!set.is_mass_ratio_known()) {
+    fit.warnings.push_back(
+        "the wheel's share of the inertia is not given: its own bearing and air losses stay in the tire's");
+  }
+  if (tables.drum_alone.runs.size() < 2) {
+    fit.warnings.push_back("one lifted run: the scatter from run to run is not known, intervals are too narrow");
+  }
+  const bool repeated = std::any_of(tables.levels.rows.begin(), tables.levels.rows.end(),
+                                    [](const std::vector<Eigen::Index>& rows) { return rows.size() > 1; });
+  if (!repeated) {
+    fit.warnings.push_back(
+        "no pressure was run twice: the scatter from run to run is not known, intervals are too narrow");
+  }
+  for (const SpeedPoint& point : fit.points) {
+    if (point.levels.empty()) {
+      fit.warnings.push_back(
+          fmt::format("{:.1f} km/h: loaded and lifted runs do not both pass", 3.6 * point.speed_m_s));
+    }
+    constexpr double kUnlikely = 0.05;
+    if (point.lack_of_fit_p.value_or(1.0) < kUnlikely) {
+      fit.warnings.push_back(fmt::format(
+          "{:.1f} km/h: pressures scatter about a power law by {:.1f} %, runs at one pressure "
+          "by {:.1f} %: the law is not exact (p = {:.2g}); the exponent's interval holds that",
+          3.6 * point.speed_m_s, 100.0 * *point.level_scatter, 100.0 * point.repeat_scatter, *point.lack_of_fit_p));
+    }
+  }
+}
+
+}  // namespace
+
+DrumCoastdownFit fit_drum_coastdown(const CoastSet& set) {
+  DrumCoastdownFit fit;
+  fit.mass_ratio = set.calc_mass_ratio();
+  fit.analyses = find_coasts(set);
+  warn_of_runs(set, fit);
+  find_left_out(set, fit);
+  fit_decelerations(set, fit);
+  std::set<std::string> directions;
+  for (const CoastRun& run : set.runs) {
+    if (run.state == CoastState::kLoaded && !run.direction.empty()) directions.insert(run.direction);
+  }
+  fit.directions.assign(directions.begin(), directions.end());
+  const Tables tables = make_tables(set, fit);
+  for (std::size_t i = 0; i < set.speeds_m_s.size(); ++i) fit.points.push_back(evaluate_speed(set, tables, fit, i));
+  if (std::all_of(fit.points.begin(), fit.points.end(), [](const SpeedPoint& point) { return point.levels.empty(); })) {
+    throw RunFailure("at none of the speeds asked for do loaded and lifted runs both pass");
+  }
+  add_ratios(set, tables, fit);
+  mark_left_out(set, fit);
+  warn_of_method(set, tables, fit);
+  return fit;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,248 @@
+#include "estimation/road_load/coastdown_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/split.hpp>
+#include <boost/algorithm/string/trim.hpp>
+
+#include "sim/core/csv.h"
+#include "sim/core/text.h"
+
+namespace rollrig::estimation {
+namespace {
+
+const std::vector<std::string> kConditionColumns{"ambient_degC", "ambient_pressure_kPa", "wind_m_s", "crosswind_m_s",
+                                                 "slope"};
+const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "session", "heading"};
+const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "run",
+                                           "use",      "heading",  "session", "start_time"};
+constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
+
+InputError cell_error(const CsvTable& table, std::size_t row, const std::string& column, const std::string& value,
+                      const std::string& what, const std::string& allowed) {
+  return InputError({what, table.path(), table.line_of(row), column, value, allowed, ""});
+}
+
+/// "+" and "-" as they are; degrees against the first heading of the file.
+class HeadingReader {
+ public:
+  int read(const CsvTable& table, std::size_t row, const std::string& cell) {
+    std::string text = boost::algorithm::trim_copy(cell);
+    if (text == "\xE2\x88\x92") text = "-";  // the minus sign of typesetting
+    if (text == "+" || text == "+1") return +1;
+    if (text == "-" || text == "-1") return -1;
+    const std::optional<double> degrees = parse_number(text);
+    if (!degrees.has_value()) {
+      throw cell_error(table, row, "heading", cell, "not a heading", "+ or -, or degrees");
+    }
+    if (!first_deg_.has_value()) first_deg_ = *degrees;
+    return std::cos((*degrees - *first_deg_) * 0.017453292519943295) >= 0.0 ? +1 : -1;
+  }
+
+ private:
+  std::optional<double> first_deg_;
+};
+
+/// "13:29:42.5" or seconds.
+std::optional<double> parse_clock_s(const std::string& text) {
+  std::vector<std::string> parts;
+  boost::algorithm::split(parts, text, [](char c) { return c == ':'; });
+  double seconds = 0.0;
+  for (const std::string& part : parts) {
+    const std::optional<double> number = parse_number(part);
+    if (!number.has_value()) return std::nullopt;
+    seconds = 60.0 * seconds + *number;
+  }
+  return seconds;
+}
+
+/// Cells of an optional column; empty strings where it is absent.
+std::vector<std::string> text_or_empty(const CsvTable& table, const std::string& column) {
+  return table.has(column) ? table.text(column) : std::vector<std::string>(table.row_count());
+}
+
+using ConditionValues = std::map<std::string, std::vector<double>>;
+
+ConditionValues read_conditions(const CsvTable& table) {
+  ConditionValues values;
+  const auto read = [&](const Field& field) {
+    if (table.has(field.key)) values[field.key] = table.numbers(field);
+  };
+  read({"ambient_degC", between(-50.0, 60.0), ""});
+  read({"ambient_pressure_kPa", between(50.0, 110.0), ""});
+  read({"wind_m_s", between(-40.0, 40.0), ""});
+  read({"crosswind_m_s", between(-40.0, 40.0), ""});
+  read({"slope", between(-0.2, 0.2), ""});
+  return values;
+}
+
+void add_conditions(const ConditionValues& values, std::size_t row, CoastdownConditions& to) {
+  const auto add = [&](const char* column, std::vector<double>& list) {
+    const auto it = values.find(column);
+    if (it != values.end()) list.push_back(it->second[row]);
+  };
+  add("ambient_degC", to.ambient_K);
+  add("ambient_pressure_kPa", to.ambient_pressure_Pa);
+  add("wind_m_s", to.wind_m_s);
+  add("crosswind_m_s", to.crosswind_m_s);
+  add("slope", to.slope);
+}
+
+/// Rows sorted into runs, in the order in which the runs begin.
+class RunSorter {
+ public:
+  RunSorter(const CsvTable& table, CoastdownData& data) : table_(table), data_(data) {
+    runs_ = text_or_empty(table, "run");
+    headings_ = text_or_empty(table, "heading");
+    for (const char* column : {"session", "file", "test_date"}) {
+      if (!table.has(column)) continue;
+      sessions_ = table.text(column);
+      break;
+    }
+    sessions_.resize(table.row_count());
+  }
+
+  /// The run of a row; `begins` starts a new one where the file has no `run` column.
+  CoastdownRun& run_of(std::size_t row, bool begins) {
+    if (!table_.has("run") && begins) ++unnamed_;
+    const std::string id = table_.has("run") ? runs_[row] : fmt::format("{}", unnamed_);
+    const auto [it, is_new] = index_.try_emplace({sessions_[row], id}, data_.runs.size());
+    if (is_new) {
+      data_.runs.emplace_back();
+      data_.runs.back().id = id;
+      data_.runs.back().session = sessions_[row];
+    }
+    CoastdownRun& run = data_.runs[it->second];
+    if (!table_.has("heading")) return run;
+    const int heading = heading_.read(table_, row, headings_[row]);
+    if (!is_new && heading != run.heading) {
+      throw cell_error(table_, row, "heading", headings_[row], fmt::format("run '{}' changes its heading", id),
+                       "one heading a run");
+    }
+    run.heading = heading;
+    return run;
+  }
+
+ private:
+  const CsvTable& table_;
+  CoastdownData& data_;
+  std::vector<std::string> runs_, headings_, sessions_;
+  std::map<std::pair<std::string, std::string>, std::size_t> index_;
+  HeadingReader heading_;
+  int unnamed_ = 0;
+};
+
+void require_falling(const CsvTable& table, const CoastdownRun& run) {
+  constexpr double kLeastFall_m_s = 1.0 / 3.6;
+  const auto top = std::max_element(run.speed_m_s.begin(), run.speed_m_s.end());
+  const auto after = std::min_element(top, run.speed_m_s.end());
+  if (*top - *after >= kLeastFall_m_s) return;
+  throw InputError({fmt::format("the speed of run '{}' does not fall", run.id), table.path(), 0, "speed_km_h",
+                    fmt::format("{:.4g} to {:.4g} km/h", 3.6 * run.speed_m_s.front(), 3.6 * run.speed_m_s.back()),
+                    "a coastdown: a speed that falls with time", ""});
+}
+
+void read_trace(const CsvTable& table, CoastdownFile& file) {
+  std::vector<std::string> known = kTraceColumns;
+  known.insert(known.end(), kConditionColumns.begin(), kConditionColumns.end());
+  table.require_known(known);
+  const std::vector<double> times = table.numbers({"time_s", any_number(), ""});
+  const std::vector<double> speeds = table.numbers({"speed_km_h", between(0.0, 500.0), ""});
+  const ConditionValues conditions = read_conditions(table);
+  RunSorter sorter(table, file.data);
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    CoastdownRun& run = sorter.run_of(row, row == 0);
+    if (!run.time_s.empty() && times[row] <= run.time_s.back()) {
+      throw cell_error(
+          table, row, "time_s", fmt::format("{}", times[row]),
+          fmt::format("time does not increase within run '{}': {} after {}", run.id, times[row], run.time_s.back()),
+          fmt::format("more than {}", run.time_s.back()));
+    }
+    run.time_s.push_back(times[row]);
+    run.speed_m_s.push_back(speeds[row]);
+    add_conditions(conditions, row, run.conditions);
+  }
+  bool one_clock = true;
+  for (std::size_t i = 0; i < file.data.runs.size(); ++i) {
+    require_falling(table, file.data.runs[i]);
+    one_clock = one_clock && (i == 0 || file.data.runs[i].time_s.front() > file.data.runs[i - 1].time_s.back());
+  }
+  for (CoastdownRun& run : file.data.runs) {
+    if (one_clock) run.start_s = run.time_s.front();
+  }
+}
+
+void require_order(const CsvTable& table, std::size_t row, const CoastdownRun& run, double high, double low) {
+  if (low >= high) {
+    throw cell_error(table, row, "v_lo_kmh", fmt::format("{:.6g}", low), "the bin does not fall: v_lo_kmh >= v_hi_kmh",
+                     fmt::format("less than v_hi_kmh = {:.6g}", high));
+  }
+  if (!run.bins.empty() && high * kPerKmh > run.bins.back().low_m_s + 1e-6) {
+    throw cell_error(table, row, "v_hi_kmh", fmt::format("{:.6g}", high),
+                     fmt::format("bins of run '{}' overlap or rise", run.id),
+                     fmt::format("at most {:.6g}, the end of the bin before", 3.6 * run.bins.back().low_m_s));
+  }
+}
+
+bool is_on(const CsvTable& table, std::size_t row, const std::string& cell) {
+  const std::string word = boost::algorithm::to_lower_copy(boost::algorithm::trim_copy(cell));
+  if (word == "on" || word == "yes" || word == "1" || word == "true") return true;
+  if (word == "off" || word == "no" || word == "0" || word == "false") return false;
+  throw cell_error(table, row, "use", cell, "not a value of 'use'", "On or Off");
+}
+
+void read_bins(const CsvTable& table, CoastdownFile& file) {
+  const std::vector<double> highs = table.numbers({"v_hi_kmh", between(0.0, 500.0), ""});
+  const std::vector<double> lows = table.numbers({"v_lo_kmh", between(0.0, 500.0), ""});
+  const std::vector<double> durations = table.numbers({"dt_s", positive(), ""});
+  const std::vector<std::string> uses = text_or_empty(table, "use");
+  const std::vector<std::string> starts = text_or_empty(table, "start_time");
+  const ConditionValues conditions = read_conditions(table);
+  for (const std::string& column : table.columns()) {
+    const auto known = [&column](const std::vector<std::string>& list) {
+      return std::find(list.begin(), list.end(), column) != list.end();
+    };
+    if (!known(kBinColumns) && !known(kConditionColumns)) file.ignored_columns.push_back(column);
+  }
+  RunSorter sorter(table, file.data);
+  double last_high = -1.0;
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    const bool begins = last_high < 0.0 || highs[row] >= last_high;
+    last_high = highs[row];
+    if (table.has("use") && !is_on(table, row, uses[row])) {
+      ++file.rows_off;
+      continue;
+    }
+    CoastdownRun& run = sorter.run_of(row, begins);
+    require_order(table, row, run, highs[row], lows[row]);
+    if (!run.start_s.has_value()) run.start_s = parse_clock_s(starts[row]);
+    run.bins.push_back({highs[row] * kPerKmh, lows[row] * kPerKmh, durations[row]});
+    add_conditions(conditions, row, run.conditions);
+  }
+}
+
+}  // namespace
+
+CoastdownFile read_coastdowns(const std::string& path) {
+  const CsvTable table = CsvTable::read(path);
+  CoastdownFile file;
+  file.is_trace = table.has("time_s") || table.has("speed_km_h");
+  if (file.is_trace) {
+    read_trace(table, file);
+    return file;
+  }
+  if (!table.has("v_hi_kmh") && !table.has("v_lo_kmh") && !table.has("dt_s")) {
+    throw InputError({"neither a speed trace nor times through speed bins", path, 1, "", "",
+                      "columns time_s and speed_km_h, or v_hi_kmh, v_lo_kmh and dt_s", ""});
+  }
+  read_bins(table, file);
+  return file;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,315 @@
+#include "estimation/road_load/road_load_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "estimation/road_load/coastdown_problem.h"
+#include "sim/core/error.h"
+#include "sim/core/text.h"
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Least components: a speed resolution far below any sensor's, so that data without noise keep weights.
+VectorXd make_floors() {
+  constexpr double kLeastSpeedSd_m_s = 1e-4;  // Assumed
+  VectorXd floors = VectorXd::Zero(kComponents);
+  floors(kPassing) = kLeastSpeedSd_m_s * kLeastSpeedSd_m_s;
+  return floors;
+}
+
+/// Moves towards `wanted`, less far where the force would not stay positive.
+double step_to(const CoastdownProblem& problem, const VectorXd& wanted, VectorXd& coefficients) {
+  double share = 1.0;
+  while (share > 1e-3 && !all_possible(problem, coefficients + share * (wanted - coefficients))) share *= 0.5;
+  if (share <= 1e-3)
+    throw RunFailure(
+        "the fitted road load is not positive at every speed of the data: was the vehicle braked or driven in part of "
+        "it? Leave that part out (--speed-from, --speed-to)");
+  coefficients += share * (wanted - coefficients);
+  return share;
+}
+
+VectorXd bound(const std::array<double, 3>& values) { return Eigen::Map<const Eigen::Vector3d>(values.data()); }
+
+/// Iterates coefficients and components together; `fixed` components are kept.
+LinearEstimate iterate(const CoastdownProblem& problem, const RoadLoadFitOptions& options, VectorXd& coefficients,
+                       VectorXd& components, bool fixed, int& iterations) {
+  constexpr int kMostIterations = 100;
+  constexpr int kUndampedIterations = 10;
+  constexpr double kStep = 1e-4;  // of a standard deviation, and of a component
+  const VectorXd floors = make_floors();
+  LinearEstimate estimate;
+  for (iterations = 1; iterations <= kMostIterations; ++iterations) {
+    const std::vector<LinearBlock> blocks = linearise_all(problem, coefficients, components);
+    estimate = fixed ? solve_weighted(blocks, components) : step_variance_components(blocks, components, floors);
+    if (options.bounds.has_value()) {
+      apply_bounds(estimate, bound(options.bounds->lower), bound(options.bounds->upper));
+    }
+    // without scatter of passing times the covariance has no inverse: a first guess must not take it all away
+    estimate.components(kPassing) = std::max(estimate.components(kPassing), 0.1 * components(kPassing));
+    const VectorXd before = coefficients;
+    const double share = step_to(problem, estimate.coefficients, coefficients);
+    const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
+    bool settled = share == 1.0;
+    for (Index i = 0; i < coefficients.size(); ++i) {
+      settled = settled && std::abs(coefficients(i) - before(i)) <= kStep * sd(i) + 1e-9 * std::abs(coefficients(i));
+    }
+    const double scale = (components - estimate.components).cwiseAbs().maxCoeff();
+    const bool held = iterations > kMostIterations / 2;
+    for (Index i = 0; i < components.size() && !held; ++i) {
+      const double change = std::abs(estimate.components(i) - components(i));
+      settled = settled && (change <= 10.0 * kStep * std::max(components(i), estimate.components(i)) ||
+                            change <= 1e-12 * scale || estimate.components(i) == floors(i));
+    }
+    // a component that comes and goes across its floor would go on for ever: halve its steps, then hold it
+    if (iterations <= kUndampedIterations) {
+      components = estimate.components;
+    } else if (iterations <= kMostIterations / 2) {
+      components = 0.5 * (components + estimate.components);
+    }
+    if (settled) return estimate;
+  }
+  throw RunFailure(fmt::format("the fit of the road load does not converge within {} iterations", kMostIterations));
+}
+
+RoadLoadEstimate to_estimate(const LinearEstimate& linear) {
+  RoadLoadEstimate estimate;
+  estimate.load = {linear.coefficients(0), linear.coefficients(1), linear.coefficients(2)};
+  estimate.covariance = linear.covariance.topLeftCorner<3, 3>();
+  return estimate;
+}
+
+void put_points(const CoastdownProblem& problem, const VectorXd& coefficients, const VectorXd& components,
+                RoadLoadFit& fit) {
+  for (const FitRun& run : problem.runs) {
+    const LinearBlock block = linearise(problem, run, coefficients, components);
+    const std::vector<double> durations = find_durations_s(problem.model, run, coefficients);
+    for (std::size_t k = 0; k < run.bins.size(); ++k) {
+      const FitBin& bin = run.bins[k];
+      const CoastdownModel::Passage passage = problem.model.pass(run, bin, coefficients);
+      const double impulse = problem.model.mass_kg() * (bin.high_m_s - bin.low_m_s);
+      RoadLoadPoint point{run.index,
+                          bin.high_m_s,
+                          bin.low_m_s,
+                          durations[k],
+                          passage.mean_speed_m_s,
+                          impulse / durations[k],
+                          impulse / passage.duration_s,
+                          0.0,
+                          0.0};
+      point.residual_N = point.force_N - point.fit_N;
+      double variance = 0.0;
+      const auto row = static_cast<Index>(k);
+      for (Index i = 0; i < components.size(); ++i) {
+        variance += components(i) * block.patterns[static_cast<std::size_t>(i)](row, row);
+      }
+      point.sd_N = std::sqrt(variance);
+      fit.points.push_back(point);
+    }
+  }
+}
+
+void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, RoadLoadFit& fit) {
+  const auto sd = [&linear](CoastdownScatter i) -> std::optional<double> {
+    if (!linear.decided[static_cast<std::size_t>(i)]) return std::nullopt;
+    return std::sqrt(linear.components(i));
+  };
+  fit.scatter.speed_sd_m_s = sd(kPassing);
+  fit.scatter.gust_N_sqrt_s = sd(kGust);
+  fit.scatter.run_force_N = sd(kRunForce);
+  fit.scatter.run_speed_N_s_per_m = sd(kRunSpeed);
+  fit.scatter.session_force_N = sd(kSession);
+  if (fit.scatter.run_speed_N_s_per_m.has_value()) *fit.scatter.run_speed_N_s_per_m /= kRunSpeedScale_m_s;
+  double squares = 0.0;
+  double freedom = 0.0;
+  for (const FitRun& run : problem.runs) {
+    for (const SpeedCell& cell : run.cells) {
+      if (cell.samples < 3) continue;
+      squares += cell.scatter_m2_s2;
+      freedom += cell.samples - 2;
+    }
+  }
+  if (freedom > 0.0) fit.scatter.sample_sd_m_s = std::sqrt(squares / freedom);
+}
+
+/// Wind and slope from what differs between the headings.
+void put_wind_and_slope(const CoastdownProblem& problem, const RoadLoadFitOptions& options,
+                        const LinearEstimate& linear, RoadLoadFit& fit) {
+  if (problem.model.count() < 4) return;
+  const double weight_N =
+      (options.mass_kg.has_value() ? *options.mass_kg : fit.effective_mass_kg / kDefaultEffectiveRatio) *
+      kStandardGravity_m_s2;
+  fit.slope = linear.coefficients(3) / weight_N;
+  fit.slope_sd = std::sqrt(linear.covariance(3, 3)) / weight_N;
+  const double drag = given_drag(options).value_or(fit.load.C_N_s2_per_m2);
+  if (drag <= 0.0) return;
+  for (std::size_t i = 0; i < problem.wind_sessions.size(); ++i) {
+    const auto column = static_cast<Index>(4 + i);
+    fit.winds.push_back({problem.wind_sessions[i], linear.coefficients(column) / (2.0 * drag),
+                         std::sqrt(linear.covariance(column, column)) / (2.0 * drag)});
+  }
+}
+
+/// A, B, C of each heading alone, with the scatter of the whole.
+void put_headings(const CoastdownProblem& problem, const RoadLoadFitOptions& options, const VectorXd& coefficients,
+                  const VectorXd& components, RoadLoadFit& fit) {
+  for (const int heading : {+1, -1}) {
+    CoastdownProblem part{{}, CoastdownModel(problem.model.mass_kg(), false, 3, given_drag(options)), {}, {}};
+    for (const FitRun& run : problem.runs) {
+      if (run.heading != heading) continue;
+      part.runs.push_back(run);
+      part.runs.back().wind_column = -1;
+      part.groups.push_back({part.runs.size() - 1});
+    }
+    if (part.runs.empty()) continue;
+    try {
+      VectorXd start = coefficients.head(3);
+      if (!all_possible(part, start)) start = start_coefficients(part);
+      VectorXd kept = components;
+      int iterations = 0;
+      const LinearEstimate linear = iterate(part, options, start, kept, true, iterations);
+      fit.headings.push_back({heading, static_cast<int>(part.runs.size()), to_estimate(linear)});
+    } catch (const RunFailure& failure) {
+      fit.warnings.push_back(fmt::format("heading {} alone: {}", heading > 0 ? "+" : "-", failure.what()));
+    }
+  }
+}
+
+/// The coefficients at the mean weather of the runs.
+models::RoadLoad<double> at_test_weather(const CoastdownProblem& problem, const models::RoadLoad<double>& load) {
+  double rolling = 0.0;
+  double density = 0.0;
+  double bins = 0.0;
+  for (const FitRun& run : problem.runs) {
+    for (const FitBin& bin : run.bins) {
+      rolling += bin.at.rolling;
+      density += bin.at.density;
+      bins += 1.0;
+    }
+  }
+  return {load.A_N * rolling / bins, load.B_N_s_per_m * rolling / bins, load.C_N_s2_per_m2 * density / bins};
+}
+
+void require_enough(const CoastdownProblem& problem, const RoadLoadFitOptions& options) {
+  constexpr std::size_t kLeastBins = 4;  // one more than coefficients
+  std::size_t bins = 0;
+  for (const FitRun& run : problem.runs) bins += run.bins.size();
+  if (bins >= kLeastBins) return;
+  const double from = 3.6 * options.speed_from_m_s;
+  const bool limited = options.speed_to_m_s < 1e8;
+  throw InputError({fmt::format("too few speed bins to fit A, B and C: {} {}", bins,
+                                limited ? fmt::format("from {:.4g} to {:.4g} km/h", from, 3.6 * options.speed_to_m_s)
+                                        : fmt::format("above {:.4g} km/h", from)),
+                    "", 0, "", "", fmt::format("at least {} bins in which the speed falls", kLeastBins), ""});
+}
+
+void put_range(const CoastdownProblem& problem, RoadLoadFit& fit) {
+  fit.low_m_s = std::numeric_limits<double>::infinity();
+  for (const FitRun& run : problem.runs) {
+    const bool trace = !run.cells.empty();
+    fit.high_m_s = std::max(fit.high_m_s, trace ? run.cells.front().high_m_s : run.bins.front().high_m_s);
+    fit.low_m_s = std::min(fit.low_m_s, trace ? run.cells.back().low_m_s : run.bins.back().low_m_s);
+  }
+}
+
+void warn(const CoastdownProblem& problem, const CoastdownData& data, const RoadLoadFitOptions& options,
+          RoadLoadFit& fit) {
+  const std::size_t left_out = data.runs.size() - problem.runs.size();
+  if (left_out > 0)
+    fit.warnings.push_back(fmt::format("without a whole speed bin, and left out: {}", format_count(left_out, "run")));
+  if (problem.model.count() == 3) {
+    fit.warnings.push_back("not both headings: wind and slope are inside A, B and C, and no standard deviation tells");
+  }
+  if (!fit.ambient_corrected) {
+    fit.warnings.push_back("no ambient temperature given: not corrected to reference conditions");
+  }
+  if (!fit.scatter.run_force_N.has_value() || !fit.scatter.run_speed_N_s_per_m.has_value()) {
+    fit.warnings.push_back(
+        "too few runs to tell how they differ from run to run: the standard deviations hold noise along the runs only");
+  }
+  if (fit.scatter.session_force_N.value_or(0.0) > 0.0) {
+    const double middle = 0.5 * (fit.high_m_s + fit.low_m_s);
+    fit.warnings.push_back(fmt::format(
+        "the sessions differ by a standard deviation of {:.1f} % of the force at {:.0f} km/h, more than their noise "
+        "explains; where they cover different speeds this bends the curve",
+        100.0 * *fit.scatter.session_force_N / fit.force_N(middle), 3.6 * middle));
+  }
+  if (!options.mass_kg.has_value()) {
+    fit.warnings.push_back("no mass given: A, B and C are per unit of effective mass");
+  }
+  if (options.bounds.has_value()) {
+    fit.warnings.push_back(
+        "bounds are on: estimates are pushed off where the data alone would put them, and what "
+        "stands on a bound has no standard deviation");
+  }
+}
+
+}  // namespace
+
+RoadLoadBounds not_negative_bounds() {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  return {{0.0, 0.0, 0.0}, {kNone, kNone, kNone}};
+}
+
+double RoadLoadEstimate::sd(int i) const { return std::sqrt(covariance(i, i)); }
+
+double RoadLoadEstimate::force_sd_N(double speed_m_s) const {
+  const Eigen::Vector3d phi(1.0, speed_m_s, speed_m_s * speed_m_s);
+  return std::sqrt(std::max(0.0, phi.dot(covariance * phi)));
+}
+
+std::array<double, 2> RoadLoadFit::interval_95(int i) const {
+  const double freedom = std::min(degrees_freedom[static_cast<std::size_t>(i)], 1e6);
+  const double reach = boost::math::quantile(boost::math::students_t(std::max(freedom, 1.0)), 0.975) * sd(i);
+  const double value = values()[static_cast<std::size_t>(i)];
+  return {value - reach, value + reach};
+}
+
+RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& options) {
+  RoadLoadFit fit;
+  fit.per_mass = !options.mass_kg.has_value();
+  if (!fit.per_mass) {
+    fit.effective_mass_kg =
+        *options.mass_kg + options.rotating_mass_kg.value_or((kDefaultEffectiveRatio - 1.0) * *options.mass_kg);
+  }
+  const CoastdownProblem problem = make_problem(data, options, fit.effective_mass_kg);
+  require_enough(problem, options);
+  VectorXd coefficients = start_coefficients(problem);
+  VectorXd components = VectorXd::Zero(kComponents);
+  components(kPassing) = 1e-4;
+  const LinearEstimate linear = iterate(problem, options, coefficients, components, false, fit.iterations);
+  static_cast<RoadLoadEstimate&>(fit) = to_estimate(linear);
+  std::size_t bins = 0;
+  for (const FitRun& run : problem.runs) bins += run.bins.size();
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    fit.on_bound[at] = linear.covariance(i, i) == 0.0;
+    fit.degrees_freedom[at] = linear.degrees_freedom(i);
+  }
+  fit.chi2_per_dof = linear.chi2 / static_cast<double>(static_cast<Index>(bins) - problem.model.count());
+  const auto measured = [&data](auto member) {
+    return std::any_of(data.runs.begin(), data.runs.end(),
+                       [member](const CoastdownRun& run) { return !(run.conditions.*member).empty(); });
+  };
+  fit.ambient_corrected = measured(&CoastdownConditions::ambient_K);
+  fit.wind_corrected = measured(&CoastdownConditions::wind_m_s);
+  fit.as_tested = at_test_weather(problem, fit.load);
+  put_range(problem, fit);
+  put_scatter(problem, linear, fit);
+  put_wind_and_slope(problem, options, linear, fit);
+  put_points(problem, coefficients, components, fit);
+  warn(problem, data, options, fit);
+  put_headings(problem, options, coefficients, components, fit);
+  return fit;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,208 @@
+#include "estimation/road_load/road_load_report.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "sim/core/csv.h"
+#include "sim/core/units.h"
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr double kToKmh = 3.6;
+
+const char* force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m_s2" : "N"; }
+
+std::string heading_text(int heading) { return heading == 0 ? "" : heading > 0 ? "+" : "-"; }
+
+/// A, B, C with standard deviations; a coefficient on a bound has none.
+Json coefficients_json(const RoadLoadEstimate& estimate, bool per_mass) {
+  Json json = Json::object();
+  for (int i = 0; i < 3; ++i) {
+    const std::string key = road_load_key(i, per_mass);
+    json[key] = road_load_in_file_unit(i, estimate.values()[static_cast<std::size_t>(i)]);
+    const double sd = estimate.sd(i);
+    json[key + "_sd"] = sd > 0.0 ? Json(road_load_in_file_unit(i, sd)) : Json(nullptr);
+  }
+  return json;
+}
+
+Json correlation_json(const RoadLoadEstimate& estimate) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 3; ++j) {
+      const double scale = estimate.sd(i) * estimate.sd(j);
+      row.push_back(scale > 0.0 ? estimate.covariance(i, j) / scale : (i == j ? 1.0 : 0.0));
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json number_or_null(const std::optional<double>& value) { return value.has_value() ? Json(*value) : Json(nullptr); }
+
+Json scatter_json(const RoadLoadFit& fit) {
+  const std::string unit = force_unit(fit);
+  return {{"sample_sd_m_s", number_or_null(fit.scatter.sample_sd_m_s)},
+          {"speed_sd_m_s", number_or_null(fit.scatter.speed_sd_m_s)},
+          {"gust_" + unit + "_sqrt_s", number_or_null(fit.scatter.gust_N_sqrt_s)},
+          {"run_to_run_" + unit, number_or_null(fit.scatter.run_force_N)},
+          {"run_to_run_" + unit + "_s_per_m", number_or_null(fit.scatter.run_speed_N_s_per_m)},
+          {"session_to_session_" + unit, number_or_null(fit.scatter.session_force_N)}};
+}
+
+Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
+  Json json = {{"reference_temperature_degC", options.reference_temperature_K - kZeroCelsius_K},
+               {"reference_pressure_kPa", 1e-3 * options.reference_pressure_Pa},
+               {"rolling_fall_per_K", options.rolling_fall_per_K},
+               {"speed_from_km_h", kToKmh * options.speed_from_m_s},
+               {"bin_width_km_h", kToKmh * options.bin_width_m_s},
+               {"drag_area_m2", number_or_null(options.drag_area_m2)},
+               {"mass_kg", number_or_null(options.mass_kg)}};
+  json["effective_mass_kg"] = fit.per_mass ? Json(nullptr) : Json(fit.effective_mass_kg);
+  json["rotating_mass_assumed"] = !fit.per_mass && !options.rotating_mass_kg.has_value();
+  if (options.speed_to_m_s < 1e8) json["speed_to_km_h"] = kToKmh * options.speed_to_m_s;
+  if (!options.bounds.has_value()) return json;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto edge = [i](double value) {
+      return std::isfinite(value) ? Json(road_load_in_file_unit(i, value)) : Json(nullptr);
+    };
+    json["bounds"][road_load_key(i, fit.per_mass)] = {edge(options.bounds->lower[at]), edge(options.bounds->upper[at])};
+  }
+  return json;
+}
+
+Json points_json(const CoastdownFile& file, const RoadLoadFit& fit) {
+  const std::string unit = force_unit(fit);
+  Json points = Json::array();
+  for (const RoadLoadPoint& point : fit.points) {
+    const CoastdownRun& run = file.data.runs[point.run];
+    points.push_back({{"run", run.id},
+                      {"session", run.session},
+                      {"heading", heading_text(run.heading)},
+                      {"speed_km_h", kToKmh * point.speed_m_s},
+                      {"force_" + unit, point.force_N},
+                      {"fit_" + unit, point.fit_N},
+                      {"residual_" + unit, point.residual_N},
+                      {"weight", 1.0 / (point.sd_N * point.sd_N)}});
+  }
+  return points;
+}
+
+void put_checks(const RoadLoadChecks& checks, Json& json) {
+  json["checks"] = Json::array();
+  for (const RoadLoadCheck& check : checks.checks) {
+    json["checks"].push_back({{"name", check.name},
+                              {"status", name_of(check.status)},
+                              {"found", check.found},
+                              {"limit", check.limit},
+                              {"clause", check.clause}});
+  }
+  json["session_drift"] = Json::array();
+  for (const SessionDrift& drift : checks.drifts) {
+    json["session_drift"].push_back({{"session", drift.session},
+                                     {"runs", drift.runs},
+                                     {"time_change_percent", 100.0 * drift.time_change},
+                                     {"ci95", {100.0 * drift.lower_95, 100.0 * drift.upper_95}},
+                                     {"per_run_percent", 100.0 * drift.per_run}});
+  }
+  json["pair_precision"] = Json::array();
+  for (const PairPrecision& precision : checks.precisions) {
+    json["pair_precision"].push_back({{"speed_km_h", kToKmh * precision.speed_m_s},
+                                      {"pairs", precision.pairs},
+                                      {"mean_time_s", precision.mean_time_s},
+                                      {"precision_percent", 100.0 * precision.precision}});
+  }
+}
+
+}  // namespace
+
+std::string road_load_key(int i, bool per_mass) {
+  constexpr const char* kForce[] = {"A_N", "B_N_per_km_h", "C_N_per_km_h2"};
+  constexpr const char* kPerMass[] = {"A_m_s2", "B_m_s2_per_km_h", "C_m_s2_per_km_h2"};
+  return per_mass ? kPerMass[i] : kForce[i];
+}
+
+double road_load_in_file_unit(int i, double si_value) { return unit_of_key(road_load_key(i, false)).from_si(si_value); }
+
+const char* name_of(CheckStatus status) {
+  switch (status) {
+    case CheckStatus::kPass:
+      return "pass";
+    case CheckStatus::kFail:
+      return "fail";
+    case CheckStatus::kNotChecked:
+      break;
+  }
+  return "not checked";
+}
+
+Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& options, const RoadLoadFit& fit,
+                         const RoadLoadChecks& checks) {
+  Json json = {{"format", "rollrig-road-load/1"}, {"input", file.is_trace ? "trace" : "bins"}};
+  json.update(coefficients_json(fit, fit.per_mass));
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const std::array<double, 2> interval = fit.interval_95(i);
+    const std::string key = road_load_key(i, fit.per_mass);
+    if (fit.on_bound[at]) {
+      json["on_bound"].push_back(key);
+      continue;
+    }
+    json["ci95"][key] = {road_load_in_file_unit(i, interval[0]), road_load_in_file_unit(i, interval[1])};
+    json["degrees_of_freedom"][key] =
+        std::isfinite(fit.degrees_freedom[at]) ? Json(fit.degrees_freedom[at]) : Json(nullptr);
+  }
+  json["correlation"] = correlation_json(fit);
+  json["chi2_per_dof"] = fit.chi2_per_dof;
+  json["as_tested"] = Json::object();
+  const std::array<double, 3> tested{fit.as_tested.A_N, fit.as_tested.B_N_s_per_m, fit.as_tested.C_N_s2_per_m2};
+  for (int i = 0; i < 3; ++i) {
+    json["as_tested"][road_load_key(i, fit.per_mass)] = road_load_in_file_unit(i, tested[static_cast<std::size_t>(i)]);
+  }
+  json["corrected"] = {{"ambient", fit.ambient_corrected}, {"measured_wind", fit.wind_corrected}};
+  json["options"] = options_json(options, fit);
+  json["scatter"] = scatter_json(fit);
+  json["slope"] = number_or_null(fit.slope);
+  if (fit.slope.has_value()) json["slope_sd"] = fit.slope_sd;
+  json["winds"] = Json::array();
+  for (const SessionWind& wind : fit.winds) {
+    json["winds"].push_back({{"session", wind.session}, {"wind_m_s", wind.wind_m_s}, {"wind_m_s_sd", wind.sd_m_s}});
+  }
+  json["headings"] = Json::array();
+  for (const HeadingFit& heading : fit.headings) {
+    Json part = coefficients_json(heading.estimate, fit.per_mass);
+    part["heading"] = heading_text(heading.heading);
+    part["runs"] = heading.runs;
+    json["headings"].push_back(part);
+  }
+  put_checks(checks, json);
+  json["residuals"] = points_json(file, fit);
+  json["warnings"] = fit.warnings;
+  return json;
+}
+
+std::string write_road_load_residuals(const CoastdownFile& file, const RoadLoadFit& fit) {
+  const std::string unit = force_unit(fit);
+  CsvWriter csv({"run", "session", "heading", "v_hi_km_h", "v_lo_km_h", "duration_s", "speed_km_h", "force_" + unit,
+                 "fit_" + unit, "residual_" + unit, "sd_" + unit, "weight"});
+  for (const RoadLoadPoint& point : fit.points) {
+    const CoastdownRun& run = file.data.runs[point.run];
+    csv.begin_row();
+    csv.add(run.id);
+    csv.add(run.session);
+    csv.add(heading_text(run.heading));
+    for (const double value :
+         {kToKmh * point.high_m_s, kToKmh * point.low_m_s, point.duration_s, kToKmh * point.speed_m_s, point.force_N,
+          point.fit_N, point.residual_N, point.sd_N, 1.0 / (point.sd_N * point.sd_N)}) {
+      csv.add(value);
+    }
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+}  // namespace rollrig::estimation

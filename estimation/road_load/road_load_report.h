@@ -1,0 +1,26 @@
+#pragma once
+/// A fitted road load as JSON and as CSV.
+
+#include <string>
+
+#include "estimation/road_load/coastdown_file.h"
+#include "estimation/road_load/road_load_checks.h"
+#include "sim/core/json.h"
+
+namespace rollrig::estimation {
+
+/// Key of A, B or C (i = 0, 1, 2) in files: "B_N_per_km_h", or "B_m_s2_per_km_h" per unit of effective mass.
+std::string road_load_key(int i, bool per_mass);
+/// An SI value of A, B or C in the unit of that key.
+double road_load_in_file_unit(int i, double si_value);
+
+const char* name_of(CheckStatus status);
+
+/// `road_load.json`: see docs/formats.md.
+Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& options, const RoadLoadFit& fit,
+                         const RoadLoadChecks& checks);
+
+/// `residuals.csv`: one row a speed bin and run.
+std::string write_road_load_residuals(const CoastdownFile& file, const RoadLoadFit& fit);
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,140 @@
+#include "estimation/tire_fit/drum_residuals.h"
+
+#include <cmath>
+#include <map>
+
+#include "measurements/replay.h"
+#include "measurements/sample_selection.h"
+#include "sim/core/parallel.h"
+
+namespace rollrig::estimation {
+namespace {
+
+void store_derivatives(double, std::size_t, double*) {}
+void store_derivatives(const Jet& value, std::size_t columns, double* out) {
+  for (std::size_t c = 0; c < columns; ++c) out[c] = value.v[static_cast<Eigen::Index>(c)];
+}
+
+}  // namespace
+
+DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Context<double> context,
+                             std::vector<FreeParameter> parameters, int threads)
+    : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
+  for (const measurements::MeasuredRun& run : set_.runs) replays_.push_back(measurements::make_drum_replay(run));
+  collect_series();
+  std::size_t priors = 0;
+  for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;
+  residual_count_ = sample_count_ + priors + offset_sd_.size();
+}
+
+void DrumResiduals::collect_series() {
+  std::map<std::pair<std::string, std::string>, std::size_t> offsets;  // by session and channel
+  for (std::size_t r = 0; r < set_.runs.size(); ++r) {
+    const measurements::MeasuredRun& run = set_.runs[r];
+    for (const std::string& channel : measurements::measured_channels(set_.kind)) {
+      if (!run.has(channel)) continue;
+      const models::SensorParameters& sensor = set_.sensors.at(channel);
+      std::vector<std::size_t> rows = measurements::find_compared_rows(run, channel);
+      if (rows.empty()) continue;
+      const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offset_sd_.size());
+      if (fresh) offset_sd_.push_back(sensor.offset_sd);
+      measurements::Whitener whitener(sensor, measurements::find_times(run, rows));
+      ComparedSeries series{r, channel, it->second, std::move(rows), std::move(whitener), sample_count_};
+      whitened_ones_.emplace_back(series.rows.size(), 1.0);
+      series.whitener.apply(whitened_ones_.back().data(), 1);
+      sample_count_ += series.rows.size();
+      series_.push_back(std::move(series));
+    }
+  }
+}
+
+std::vector<double> DrumResiduals::start() const {
+  std::vector<double> unknowns(unknown_count(), 0.0);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) unknowns[i] = parameters_[i].start_SI;
+  return unknowns;
+}
+
+template <class S>
+void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, std::size_t first_column,
+                                 std::size_t columns, double* residuals, double* jacobian) const {
+  models::Context<S> context = models::convert_context<S>(context_);
+  for (std::size_t i = 0; i < parameters_.size(); ++i) find_parameter(context, parameters_[i].key) = values[i];
+  models::Corner<S> corner(std::move(context), {});
+  const measurements::MeasuredRun& run = set_.runs[r];
+  const sim::Recording<S> recording = measurements::replay_drum_run<S>(set_, run, replays_[r], corner);
+  for (const ComparedSeries& series : series_) {
+    if (series.run != r) continue;
+    const std::vector<S>& simulated = recording.channel(series.channel);
+    const std::vector<double>& measured = run.columns.at(series.channel);
+    const std::size_t n = series.rows.size();
+    std::vector<double> difference(n);
+    std::vector<double> derivatives(n * columns);
+    for (std::size_t k = 0; k < n; ++k) {
+      const S& at = simulated[series.rows[k]];
+      difference[k] = measured[series.rows[k]] - value_of(at);
+      store_derivatives(at, columns, derivatives.data() + k * columns);
+    }
+    series.whitener.apply(difference.data(), 1);
+    std::copy(difference.begin(), difference.end(), residuals + series.first_residual);
+    if (columns == 0) continue;
+    series.whitener.apply(derivatives.data(), columns);
+    for (std::size_t k = 0; k < n; ++k) {
+      double* row = jacobian + (series.first_residual + k) * unknown_count() + first_column;
+      for (std::size_t c = 0; c < columns; ++c) row[c] = -derivatives[k * columns + c];
+    }
+  }
+}
+
+template <class S>
+void DrumResiduals::evaluate_runs(const std::vector<S>& values, std::size_t first_column, std::size_t columns,
+                                  double* residuals, double* jacobian) const {
+  parallel_for(set_.runs.size(), threads_,
+               [&](std::size_t r) { evaluate_run(r, values, first_column, columns, residuals, jacobian); });
+}
+
+void DrumResiduals::add_offsets_and_priors(const double* unknowns, double* residuals, double* jacobian) const {
+  const std::size_t width = unknown_count();
+  const double* offsets = unknowns + parameters_.size();
+  for (std::size_t s = 0; s < series_.size(); ++s) {
+    const std::size_t offset = series_[s].offset;
+    for (std::size_t k = 0; k < whitened_ones_[s].size(); ++k) {
+      const double per_sd = offset_sd_[offset] * whitened_ones_[s][k];
+      residuals[series_[s].first_residual + k] -= offsets[offset] * per_sd;
+      if (jacobian != nullptr) {
+        jacobian[(series_[s].first_residual + k) * width + parameters_.size() + offset] = -per_sd;
+      }
+    }
+  }
+  std::size_t row = sample_count_;
+  const auto add = [&](std::size_t column, double residual, double derivative) {
+    residuals[row] = residual;
+    if (jacobian != nullptr) jacobian[row * width + column] = derivative;
+    ++row;
+  };
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    const double sd = parameters_[i].prior_sd_SI;
+    if (sd > 0.0) add(i, (unknowns[i] - parameters_[i].start_SI) / sd, 1.0 / sd);
+  }
+  for (std::size_t i = 0; i < offset_sd_.size(); ++i) add(parameters_.size() + i, offsets[i], 1.0);
+}
+
+void DrumResiduals::evaluate(const double* unknowns, double* residuals, double* jacobian) const {
+  const std::size_t p = parameters_.size();
+  if (jacobian == nullptr) {
+    evaluate_runs(std::vector<double>(unknowns, unknowns + p), 0, 0, residuals, nullptr);
+  } else {
+    std::fill(jacobian, jacobian + residual_count_ * unknown_count(), 0.0);
+    for (std::size_t first = 0; first < p; first += kJetWidth) {
+      const std::size_t columns = std::min<std::size_t>(kJetWidth, p - first);
+      std::vector<Jet> values;
+      for (std::size_t i = 0; i < p; ++i) {
+        const bool varied = i >= first && i < first + columns;
+        values.push_back(varied ? Jet(unknowns[i], static_cast<int>(i - first)) : Jet(unknowns[i]));
+      }
+      evaluate_runs(values, first, columns, residuals, jacobian);
+    }
+  }
+  add_offsets_and_priors(unknowns, residuals, jacobian);
+}
+
+}  // namespace rollrig::estimation

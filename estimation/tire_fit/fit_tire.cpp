@@ -1,0 +1,334 @@
+#include "estimation/tire_fit/fit_tire.h"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/tire_fit/drum_residuals.h"
+#include "measurements/sample_selection.h"
+#include "sim/core/error.h"
+
+namespace rollrig::estimation {
+namespace {
+
+/// The residuals as Ceres takes them: one block of unknowns.
+class ResidualFunction : public ceres::CostFunction {
+ public:
+  explicit ResidualFunction(const DrumResiduals& residuals) : residuals_(residuals) {
+    set_num_residuals(static_cast<int>(residuals.residual_count()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(residuals.unknown_count()));
+  }
+  bool Evaluate(double const* const* unknowns, double* out, double** jacobians) const override {
+    try {
+      residuals_.evaluate(unknowns[0], out, jacobians != nullptr ? jacobians[0] : nullptr);
+    } catch (const RunFailure&) {  // no tire: the step that tried it is taken back
+      return false;
+    }
+    return std::all_of(out, out + residuals_.residual_count(), [](double r) { return std::isfinite(r); });
+  }
+
+ private:
+  const DrumResiduals& residuals_;
+};
+
+/// Tells the caller and the log of each iteration.
+class FollowIterations : public ceres::IterationCallback {
+ public:
+  explicit FollowIterations(std::function<void(int)> progress) : progress_(std::move(progress)) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
+    spdlog::debug("fit: iteration {}, half chi2 {:.6g}, largest gradient {:.2g}", at.iteration, at.cost,
+                  at.gradient_max_norm);
+    if (progress_) progress_(at.iteration);
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  std::function<void(int)> progress_;
+};
+
+/// Loads at which the set rolls, each at least a minute; near ones (2 %) are one.
+std::vector<double> find_loads_N(const measurements::MeasurementSet& set) {
+  constexpr double kSameLoad = 0.02;
+  constexpr double kLongEnough_s = 60.0;
+  std::map<double, double> seconds_by_load;
+  for (const measurements::MeasuredRun& run : set.runs) {
+    const std::vector<double>& load_N = run.columns.at("load_N");
+    for (std::size_t row = 0; row + 1 < load_N.size(); ++row) {
+      if (load_N[row] < measurements::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N) continue;
+      seconds_by_load[load_N[row]] += run.time_s[row + 1] - run.time_s[row];
+    }
+  }
+  std::vector<double> loads_N;
+  double group_s = 0.0;
+  for (const auto& [load_N, seconds] : seconds_by_load) {
+    const bool same = !loads_N.empty() && load_N - loads_N.back() <= kSameLoad * load_N;
+    if (!same) {
+      if (!loads_N.empty() && group_s < kLongEnough_s) loads_N.pop_back();
+      loads_N.push_back(load_N);
+      group_s = 0.0;
+    }
+    group_s += seconds;
+  }
+  if (!loads_N.empty() && group_s < kLongEnough_s) loads_N.pop_back();
+  return loads_N;
+}
+
+/// The context from which the fit starts: the files', with the two-step estimate put in.
+models::Context<double> make_start_context(const measurements::MeasurementSet& set, const TwoStepEstimate& start,
+                                           const std::vector<double>& map_loads_N) {
+  models::Context<double> context = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
+  auto& rr = context.tire.rolling_resistance;
+  rr.A0_N = start.A0_N;
+  rr.A1_N_s_per_m = start.A1_N_s_per_m;
+  rr.B0_per_K = start.B0_per_K;
+  rr.B1_s_per_m_K = start.B1_s_per_m_K;
+  context.tire.thermal.z_W_per_K = std::max(0.0, start.z_W_per_K);
+  context.tire.thermal.f_W_s_per_m_K = std::max(0.0, start.f_W_s_per_m_K);
+  if (start.H_gas_W_per_K.has_value()) context.tire.thermal.H_gas_W_per_K = std::max(0.1, *start.H_gas_W_per_K);
+  context.tire.load_map.clear();
+  for (const double load_N : map_loads_N) {
+    const double share = load_N / rr.reference_load_N;
+    context.tire.load_map.push_back({{share * rr.A0_N, share * rr.A1_N_s_per_m, rr.B0_per_K, rr.B1_s_per_m_K}, load_N});
+  }
+  return context;
+}
+
+struct FreeKeys {
+  std::vector<FreeParameter> parameters;
+  std::size_t asked_for = 0;  // the first so many; the others are nuisances
+};
+
+void add_free(FreeKeys& keys, models::Context<double>& context, const std::string& key, double lower_SI, double sd_SI) {
+  keys.parameters.push_back({key, find_parameter(context, key), sd_SI, lower_SI});
+}
+
+/// Nuisances: what the files give with an uncertainty and the fit does not ask for.
+void add_nuisances(const measurements::MeasurementSet& set, bool free_H, models::Context<double>& context,
+                   FreeKeys& keys) {
+  const auto& thermal_sd = set.tire.standard_uncertainties.thermal;
+  const auto add = [&](const std::string& key, double sd) {
+    if (sd > 0.0) add_free(keys, context, key, 0.0, sd);
+  };
+  add("tire.thermal.heat_capacity_J_per_K", thermal_sd.heat_capacity_J_per_K);
+  add("tire.thermal.gas_heat_capacity_J_per_K", thermal_sd.gas_heat_capacity_J_per_K);
+  if (!free_H) add("tire.thermal.H_gas_W_per_K", thermal_sd.H_gas_W_per_K);
+  add("tire.rolling_resistance.pressure_exponent",
+      set.tire.standard_uncertainties.rolling_resistance.pressure_exponent);
+  add("parasitic.c0_N", set.rig->parasitic_uncertainties.c0_N);
+  add("parasitic.c1_N_s_per_m", set.rig->parasitic_uncertainties.c1_N_s_per_m);
+  add("parasitic.c2_N_s2_per_m2", set.rig->parasitic_uncertainties.c2_N_s2_per_m2);
+}
+
+FreeKeys choose_free(const measurements::MeasurementSet& set, bool free_H, models::Context<double>& context) {
+  constexpr double kNoBound = -std::numeric_limits<double>::infinity();
+  FreeKeys keys;
+  std::vector<std::string> tables{"tire.rolling_resistance."};
+  if (!context.tire.load_map.empty()) tables.clear();
+  for (std::size_t i = 0; i < context.tire.load_map.size(); ++i) tables.push_back(fmt::format("tire.load_map.{}.", i));
+  for (const std::string& table : tables) {
+    for (const char* key : {"A0_N", "A1_N_s_per_m", "B0_per_degC", "B1_s_per_m_degC"}) {
+      add_free(keys, context, table + key, kNoBound, 0.0);
+    }
+  }
+  add_free(keys, context, "tire.thermal.z_W_per_K", 0.0, 0.0);
+  add_free(keys, context, "tire.thermal.f_W_s_per_m_K", 0.0, 0.0);
+  if (free_H) add_free(keys, context, "tire.thermal.H_gas_W_per_K", 1e-3, 0.0);
+  keys.asked_for = keys.parameters.size();
+  add_nuisances(set, free_H, context, keys);
+  return keys;
+}
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+void put_estimates(const measurements::MeasurementSet& set, const models::Context<double>& start, const FreeKeys& keys,
+                   const std::vector<double>& unknowns, const Eigen::MatrixXd& covariance, TireFit& fit) {
+  models::Context<double> best = start;
+  models::Context<double> uncertainty;
+  uncertainty.tire.load_map.resize(start.tire.load_map.size());
+  for (std::size_t i = 0; i < keys.parameters.size(); ++i) {
+    const std::string& key = keys.parameters[i].key;
+    const Unit unit = unit_of_key(last_part(key));
+    const double sd = std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
+    find_parameter(best, key) = unknowns[i];
+    find_parameter(uncertainty, key) = sd;
+    fit.estimates.push_back({key, unknowns[i] / unit.factor, sd / unit.factor, i >= keys.asked_for});
+  }
+  const auto n = static_cast<Eigen::Index>(keys.parameters.size());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    fit.correlation.emplace_back();
+    for (Eigen::Index j = 0; j < n; ++j) {
+      fit.correlation.back().push_back(covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)));
+    }
+  }
+  fit.tire = set.tire;
+  fit.tire.values.rolling_resistance = best.tire.rolling_resistance;
+  fit.tire.values.load_map = best.tire.load_map;
+  auto& sd = fit.tire.standard_uncertainties;
+  sd.load_map = uncertainty.tire.load_map;
+  if (best.tire.load_map.empty()) {
+    const auto& from = uncertainty.tire.rolling_resistance;
+    sd.rolling_resistance.A0_N = from.A0_N;
+    sd.rolling_resistance.A1_N_s_per_m = from.A1_N_s_per_m;
+    sd.rolling_resistance.B0_per_K = from.B0_per_K;
+    sd.rolling_resistance.B1_s_per_m_K = from.B1_s_per_m_K;
+  }
+  if (uncertainty.tire.thermal.H_gas_W_per_K > 0.0) {
+    fit.tire.values.thermal.H_gas_W_per_K = best.tire.thermal.H_gas_W_per_K;
+    sd.thermal.H_gas_W_per_K = uncertainty.tire.thermal.H_gas_W_per_K;
+  }
+  // z and f belong to the rig on which they were found (§4.2.3).
+  fit.tire.rig_thermal[set.rig->name] = {best.tire.thermal.z_W_per_K, uncertainty.tire.thermal.z_W_per_K,
+                                         best.tire.thermal.f_W_s_per_m_K, uncertainty.tire.thermal.f_W_s_per_m_K};
+}
+
+void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
+  const std::string from = fmt::format("fitted to set '{}'", set.name);
+  const std::string rig = "thermal.rig." + set.rig->name + ".";
+  for (const Estimate& estimate : fit.estimates) {
+    if (estimate.nuisance) continue;
+    const std::string key = last_part(estimate.key);
+    const bool of_rig = key == "z_W_per_K" || key == "f_W_s_per_m_K";
+    const std::string table = estimate.key.find("load_map") != std::string::npos ? "rolling_resistance.load_map."
+                              : of_rig                                           ? rig
+                              : estimate.key.find("rolling_resistance") != std::string::npos ? "rolling_resistance."
+                                                                                             : "thermal.";
+    fit.notes[table + key] = from;
+  }
+}
+
+/// Rms of each channel's whitened residuals.
+void measure_channels(const measurements::MeasurementSet& set, const DrumResiduals& residuals,
+                      const std::vector<double>& at_best, TireFit& fit) {
+  std::size_t samples = 0;
+  double chi2 = 0.0;
+  for (const std::string& channel : measurements::measured_channels(set.kind)) {
+    ChannelFit of_channel{channel, 0, 0.0};
+    for (const ComparedSeries& series : residuals.series()) {
+      if (series.channel != channel) continue;
+      for (std::size_t k = 0; k < series.rows.size(); ++k) {
+        const double r = at_best[series.first_residual + k];
+        of_channel.whitened_rms += r * r;
+      }
+      of_channel.samples += series.rows.size();
+    }
+    if (of_channel.samples == 0) continue;
+    samples += of_channel.samples;
+    chi2 += of_channel.whitened_rms;
+    of_channel.whitened_rms = std::sqrt(of_channel.whitened_rms / static_cast<double>(of_channel.samples));
+    fit.channels.push_back(of_channel);
+  }
+  fit.chi2_per_sample = chi2 / static_cast<double>(samples);
+}
+
+/// Inverse of J^T J. The columns of J are scaled to unit length first: in SI units a heat capacity's is so much shorter
+/// than the others' that it would pass for a direction that the data do not decide.
+Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vector<double>& unknowns) {
+  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto count = static_cast<Eigen::Index>(residuals.unknown_count());
+  std::vector<double> at_best(residuals.residual_count());
+  RowMatrix jacobian(static_cast<Eigen::Index>(residuals.residual_count()), count);
+  residuals.evaluate(unknowns.data(), at_best.data(), jacobian.data());
+  const Eigen::VectorXd lengths = jacobian.colwise().norm();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  constexpr double kUndecided = 1e-7;  // Assumed: of unit columns, what rounding leaves of a direction without effect
+  qr.setThreshold(kUndecided);
+  if (lengths.minCoeff() > 0.0) qr.compute(jacobian * lengths.cwiseInverse().asDiagonal());
+  if (!(lengths.minCoeff() > 0.0) || !lengths.allFinite() || qr.rank() < count) {
+    throw RunFailure("the fit has no covariance: the data do not decide the parameters");
+  }
+  const Eigen::MatrixXd r = qr.matrixR().topRows(count).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd inverse =
+      qr.colsPermutation() * r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(count, count));
+  const Eigen::MatrixXd scaled = lengths.cwiseInverse().asDiagonal() * inverse;
+  return scaled * scaled.transpose();
+}
+
+void require_drum_set(const measurements::MeasurementSet& set) {
+  if (set.kind == measurements::SetKind::kDrum) return;
+  throw InputError({"a tire is fitted to a drum set", set.path, 0, "rig", "", "a rig with kind = \"drum\"", ""});
+}
+
+}  // namespace
+
+TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& options) {
+  require_drum_set(set);
+  TireFit fit;
+  fit.two_step = estimate_in_two_steps(set);
+  const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {
+    return run.has("gas_temperature_degC");
+  });
+  const bool free_H = options.free_H.value_or(gas_measured);
+  models::Context<double> start =
+      make_start_context(set, fit.two_step, options.load_map ? find_loads_N(set) : std::vector<double>{});
+  const FreeKeys keys = choose_free(set, free_H, start);
+  const DrumResiduals residuals(set, start, keys.parameters, options.threads);
+  std::vector<double> unknowns = residuals.start();
+
+  ceres::Problem problem;
+  problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, unknowns.data());
+  for (std::size_t i = 0; i < keys.parameters.size(); ++i) {
+    if (std::isfinite(keys.parameters[i].lower_SI)) {
+      problem.SetParameterLowerBound(unknowns.data(), static_cast<int>(i), keys.parameters[i].lower_SI);
+    }
+  }
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.max_num_iterations = 100;
+  solver.function_tolerance = 1e-10;
+  solver.logging_type = ceres::SILENT;
+  FollowIterations follow(options.progress);
+  solver.callbacks.push_back(&follow);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  if (summary.termination_type != ceres::CONVERGENCE) throw RunFailure("the fit does not converge: " + summary.message);
+
+  std::vector<double> at_best(residuals.residual_count());
+  residuals.evaluate(unknowns.data(), at_best.data(), nullptr);
+  measure_channels(set, residuals, at_best, fit);
+  put_estimates(set, start, keys, unknowns, find_covariance(residuals, unknowns), fit);
+  write_notes(set, fit);
+  constexpr double kNoiseDoubled = 2.0;
+  if (fit.chi2_per_sample > kNoiseDoubled) {
+    fit.warnings.push_back(
+        fmt::format("what is left is {:.1f} times the noise that the sensors' table says: the model "
+                    "lacks something, or the table is wrong; intervals are too narrow",
+                    std::sqrt(fit.chi2_per_sample)));
+  }
+  return fit;
+}
+
+Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) {
+  Json json = {{"format", "rollrig-fit/1"}, {"set", set.name}, {"tire", set.tire.name}, {"rig", set.rig->name}};
+  json["parameters"] = Json::array();
+  for (const Estimate& estimate : fit.estimates) {
+    json["parameters"].push_back({{"name", estimate.key},
+                                  {"value", estimate.value},
+                                  {"sd", estimate.sd},
+                                  {"ci95", {estimate.lower_95(), estimate.upper_95()}},
+                                  {"unit", unit_of_key(last_part(estimate.key)).symbol},
+                                  {"nuisance", estimate.nuisance}});
+  }
+  json["correlation"] = fit.correlation;
+  json["chi2_per_sample"] = fit.chi2_per_sample;
+  json["channels"] = Json::array();
+  for (const ChannelFit& channel : fit.channels) {
+    json["channels"].push_back(
+        {{"channel", channel.channel}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
+  }
+  const TwoStepEstimate& two_step = fit.two_step;
+  json["two_step"] = {{"A0_N", two_step.A0_N},
+                      {"A1_N_s_per_m", two_step.A1_N_s_per_m},
+                      {"B0_per_degC", two_step.B0_per_K},
+                      {"B1_s_per_m_degC", two_step.B1_s_per_m_K},
+                      {"z_W_per_K", two_step.z_W_per_K},
+                      {"f_W_s_per_m_K", two_step.f_W_s_per_m_K}};
+  if (two_step.H_gas_W_per_K.has_value()) json["two_step"]["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
+  if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
+  return json;
+}
+
+}  // namespace rollrig::estimation

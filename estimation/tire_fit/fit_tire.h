@@ -1,0 +1,63 @@
+#pragma once
+/// A tire from a user's own warm-up data (`rollrig fit tire`).
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimation/tire_fit/two_step.h"
+#include "measurements/measurement_set.h"
+#include "sim/core/json.h"
+
+namespace rollrig::estimation {
+
+struct FitOptions {
+  bool load_map = false;       // A0, A1, B0, B1 at each load of the set (§3.3.1.3)
+  std::optional<bool> free_H;  // default: where the gas temperature was measured (3.16)
+  int threads = 0;
+  std::function<void(int iteration)> progress = {};  // called after each iteration
+};
+
+/// One fitted number, in the unit of its key.
+struct Estimate {
+  std::string key;
+  double value = 0.0;
+  double sd = 0.0;
+  bool nuisance = false;  // held by a prior of the files, not asked for
+
+  double lower_95() const { return value - 1.959963984540054 * sd; }
+  double upper_95() const { return value + 1.959963984540054 * sd; }
+};
+
+/// How well one channel is met.
+struct ChannelFit {
+  std::string channel;
+  std::size_t samples = 0;
+  double whitened_rms = 0.0;  // 1 when the noise is as the sensors say
+};
+
+struct TireFit {
+  std::vector<Estimate> estimates;
+  std::vector<std::vector<double>> correlation;  // of the estimates
+  std::vector<ChannelFit> channels;
+  double chi2_per_sample = 0.0;
+  TwoStepEstimate two_step;
+  models::TireFile tire;                     // with the estimates and their uncertainties put in
+  std::map<std::string, std::string> notes;  // for write_tire
+  std::vector<std::string> warnings;
+};
+
+/// Maximum likelihood over all runs at once, by simulation: A0, A1, B0, B1, z, f (and H) free; heat
+/// capacities, parasitic loss and whatever else the files give with an uncertainty move within it.
+/// Standard deviations from the curvature at the optimum.
+/// Errors  InputError: not a drum set, fewer than two speeds; RunFailure: no convergence, or data that leave a
+///         parameter undecided
+/// Checked tests/estimation/fit_tire_test.cpp, tests/estimation/fit_coverage_test.cpp
+TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& options);
+
+/// The fit as JSON, with both the maximum-likelihood and the two-step numbers.
+Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit);
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,172 @@
+#include "exports/hdf5_file.h"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "exports/names.h"
+#include "sim/core/units.h"
+
+namespace rollrig::exports {
+namespace {
+
+/// The file lies in memory, so that only a fault of this program makes the library refuse.
+template <class Result>
+Result require(Result result) {
+  if (result < 0) throw std::runtime_error("HDF5 refused to write");
+  return result;
+}
+
+/// An identifier of the library with its close function.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(require(id)), close_(close) {}
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: stands for the identifier
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Strings of one length, padded with NUL.
+Handle make_text_type(std::size_t length) {
+  const hid_t type = require(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type, std::max<std::size_t>(length, 1));
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return {type, H5Tclose};
+}
+
+/// As h5py writes a bool.
+Handle make_flag_type() {
+  const hid_t type = require(H5Tenum_create(H5T_STD_I8LE));
+  const signed char no = 0;
+  const signed char yes = 1;
+  require(H5Tenum_insert(type, "FALSE", &no));
+  require(H5Tenum_insert(type, "TRUE", &yes));
+  return {type, H5Tclose};
+}
+
+Handle make_scalar() { return {H5Screate(H5S_SCALAR), H5Sclose}; }
+Handle make_space(std::size_t size) {
+  const hsize_t extent = size;
+  return {H5Screate_simple(1, &extent, nullptr), H5Sclose};
+}
+
+/// No times, so that the same tree gives the same bytes; long data deflated.
+Handle make_data_properties(hid_t space) {
+  constexpr hsize_t kDeflatedFrom = 512;
+  constexpr hsize_t kChunk = 8192;
+  constexpr unsigned kLevel = 6;
+  const hid_t properties = require(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(properties, 0);
+  const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+  if (size >= kDeflatedFrom) {
+    const hsize_t chunk = std::min(size, kChunk);
+    H5Pset_chunk(properties, 1, &chunk);
+    H5Pset_shuffle(properties);
+    H5Pset_deflate(properties, kLevel);
+  }
+  return {properties, H5Pclose};
+}
+
+Handle make_data(hid_t place, const std::string& link, hid_t type, hid_t space) {
+  const Handle properties = make_data_properties(space);
+  return {H5Dcreate2(place, link.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose};
+}
+
+void write_data(hid_t place, const std::string& link, hid_t type, hid_t space, const void* data) {
+  require(H5Dwrite(make_data(place, link, type, space), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+}
+
+void write_numbers(hid_t place, const std::string& link, const std::string& key, hid_t space, const double* values) {
+  const Handle set = make_data(place, link, H5T_IEEE_F64LE, space);
+  require(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+  const std::string unit = unit_of_key(key).symbol;
+  if (unit.empty()) return;
+  const Handle type = make_text_type(unit.size());
+  const Handle attribute(H5Acreate2(set, "unit", type, make_scalar(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  require(H5Awrite(attribute, type, unit.data()));
+}
+
+std::string make_link(const std::string& name) {
+  std::string link = name.empty() || name == "." ? "_" : name;
+  std::replace(link.begin(), link.end(), '/', '_');
+  return link;
+}
+
+void write_members(hid_t place, const Group& group);
+
+/// Writes a value named `key` as `link` into the group `place`.
+struct ValueWriter {
+  hid_t place;
+  const std::string& link;
+  const std::string& key;
+
+  void operator()(double value) const { write_numbers(place, link, key, make_scalar(), &value); }
+  void operator()(const Column& column) const {
+    write_numbers(place, link, key, make_space(column.size()), column.data());
+  }
+  void operator()(bool flag) const {
+    const signed char value = flag ? 1 : 0;
+    write_data(place, link, make_flag_type(), make_scalar(), &value);
+  }
+  void operator()(const std::string& text) const {
+    write_data(place, link, make_text_type(text.size()), make_scalar(), text.c_str());
+  }
+  void operator()(const Texts& texts) const {
+    std::size_t length = 1;
+    for (const std::string& text : texts) length = std::max(length, text.size());
+    std::string cells(length * texts.size(), '\0');
+    for (std::size_t i = 0; i < texts.size(); ++i) texts[i].copy(&cells[i * length], length);
+    write_data(place, link, make_text_type(length), make_space(texts.size()), cells.data());
+  }
+  void operator()(const Group& group) const {
+    const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    H5Pset_link_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+    const Handle made(H5Gcreate2(place, link.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT), H5Gclose);
+    write_members(made, group);
+  }
+  void operator()(const List& list) const {
+    const std::size_t width = fmt::formatted_size("{}", list.items.size());
+    Group group;
+    for (const Node& item : list.items) group.add(fmt::format("{:0{}}", group.members.size(), width), item);
+    (*this)(group);
+  }
+};
+
+void write_members(hid_t place, const Group& group) {
+  Names names;
+  for (const auto& [key, node] : group.members) {
+    const std::string link = names.make_unique(make_link(key));
+    std::visit(ValueWriter{place, link, key}, node.value);
+  }
+}
+
+std::string copy_image(hid_t file) {
+  require(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  const ssize_t size = require(H5Fget_file_image(file, nullptr, 0));
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  require(H5Fget_file_image(file, bytes.data(), bytes.size()));
+  return bytes;
+}
+
+}  // namespace
+
+std::string make_hdf5(const Group& tree) {
+  constexpr std::size_t kGrowth = 1U << 20U;  // bytes
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  require(H5Pset_fapl_core(access, kGrowth, 0));
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  const Handle file(H5Fcreate("in memory", H5F_ACC_TRUNC, creation, access), H5Fclose);
+  write_members(file, tree);
+  return copy_image(file);
+}
+
+}  // namespace rollrig::exports

@@ -1,0 +1,114 @@
+#include "measurements/logs/import.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "measurements/logs/cleaning.h"
+
+namespace rollrig::measurements {
+namespace {
+
+std::size_t find_or_read(const LogForm& form, const std::string& path, const Mapping& mapping, Import& imported) {
+  for (std::size_t i = 0; i < imported.logs.size(); ++i) {
+    if (imported.logs[i].file == path && imported.logs[i].form == form.name) return i;
+  }
+  Log log = read_log(form, path);
+  take_out_spikes(log, mapping.set.sensors, mapping.spike_threshold);
+  imported.logs.push_back(std::move(log));
+  return imported.logs.size() - 1;
+}
+
+std::size_t find_or_estimate(const Log& torque_log, const Log& tire_log, const Mapping& mapping, Import& imported) {
+  for (std::size_t i = 0; i < imported.clocks.size(); ++i) {
+    const ClockEstimate& clock = imported.clocks[i];
+    if (clock.torque_log == torque_log.file && clock.tire_log == tire_log.file) return i;
+  }
+  imported.clocks.push_back(estimate_clock(torque_log, tire_log, mapping));
+  return imported.clocks.size() - 1;
+}
+
+/// A tire log with the times of its rows and marks on the torque log's clock.
+Log put_on_clock(Log log, const Clock& clock) {
+  for (double& time_s : log.time_s) time_s = clock.to_torque(time_s);
+  for (Mark& mark : log.marks) {
+    mark.from_s = clock.to_torque(mark.from_s);
+    mark.to_s = clock.to_torque(mark.to_s);
+  }
+  log.interval_s *= 1.0 + clock.rate;
+  return log;
+}
+
+void import_run(const RunPlan& plan, const Mapping& mapping, Import& imported) {
+  ImportedRun run{plan, {}, std::nullopt};
+  const std::size_t torque_at = find_or_read(mapping.torque_log, plan.torque_log, mapping, imported);
+  std::optional<Log> on_clock;
+  if (!plan.tire_log.empty()) {
+    const std::size_t tire_at = find_or_read(*mapping.tire_log, plan.tire_log, mapping, imported);
+    run.clock = find_or_estimate(imported.logs[torque_at], imported.logs[tire_at], mapping, imported);
+    on_clock = put_on_clock(imported.logs[tire_at], imported.clocks[*run.clock].clock);
+  }
+  const Log& torque = imported.logs[torque_at];
+  const auto read_time = [&](const std::string& text, const char* key, double fallback_s) {
+    return text.empty() ? fallback_s : parse_log_time(mapping.torque_log, torque, text, key, plan.origin);
+  };
+  const double from_s = read_time(plan.from, "from", torque.time_s.front());
+  const double to_s = read_time(plan.to, "to", torque.time_s.back());
+  const double interval_s = mapping.interval_s.value_or(torque.interval_s);
+  run.rows = resample_run(mapping, {&torque, on_clock.has_value() ? &*on_clock : nullptr}, interval_s, from_s, to_s);
+  imported.runs.push_back(std::move(run));
+}
+
+/// Rows are means over samples of the logs: their noise is the smaller, in all runs taken as in the noisiest.
+void average_sensors(const Mapping& mapping, Import& imported) {
+  for (const ImportedRun& run : imported.runs) {
+    for (const auto& [channel, samples] : run.rows.samples_a_row) {
+      const models::SensorParameters averaged = average_sensor(mapping.set.sensors.at(channel), samples);
+      const auto [known, is_new] = imported.sensors.emplace(channel, averaged);
+      if (!is_new && averaged.noise_sd > known->second.noise_sd) known->second = averaged;
+    }
+  }
+}
+
+void add_warnings(Import& imported) {
+  constexpr double kManySpikes = 0.01;  // Assumed: of a log's rows
+  for (const Log& log : imported.logs) {
+    std::map<std::string, std::size_t> spikes;
+    for (const Mark& mark : log.marks) spikes[mark.column] += mark.reason == "spike" ? 1 : 0;
+    for (const auto& [column, count] : spikes) {
+      if (static_cast<double>(count) < kManySpikes * static_cast<double>(log.time_s.size())) continue;
+      imported.warnings.push_back(fmt::format("{} of {} rows of '{}' in {} are spikes: more than a sensor at ease has",
+                                              count, log.time_s.size(), column, log.file));
+    }
+  }
+  for (const ClockEstimate& clock : imported.clocks) {
+    if (clock.method == "response") {
+      imported.warnings.push_back(
+          fmt::format("the shift of {} rests on how the tire's temperature answers to speed and load; a tire that "
+                      "answers late looks like a clock that does (+-{:.3g} s of the uncertainty)",
+                      clock.tire_log, clock.lag_sd_s));
+    } else if (clock.method == "given") {
+      imported.warnings.push_back(
+          fmt::format("the shift of {} is the mapping's own; the logs do not tell it better", clock.tire_log));
+    }
+  }
+  for (const ImportedRun& run : imported.runs) {
+    for (const auto& [column, values] : run.rows.columns) {
+      if (std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); })) continue;
+      imported.warnings.push_back(fmt::format("run '{}' has not one value of '{}'", run.plan.id, column));
+    }
+  }
+}
+
+}  // namespace
+
+Import import_logs(const Mapping& mapping) {
+  Import imported;
+  for (const RunPlan& plan : mapping.runs) import_run(plan, mapping, imported);
+  average_sensors(mapping, imported);
+  add_warnings(imported);
+  return imported;
+}
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,168 @@
+#include <fmt/format.h>
+
+#include "measurements/logs/import.h"
+#include "sim/core/csv.h"
+
+namespace rollrig::measurements {
+namespace {
+
+/// A TOML string; the escapes of JSON are among its own.
+std::string quote(const std::string& text) { return Json(text).dump(); }
+
+std::string make_run_csv(const ResampledRun& run) {
+  std::vector<std::string> header{"time_s"};
+  for (const auto& column : run.columns) header.push_back(column.first);
+  CsvWriter csv(header);
+  for (std::size_t row = 0; row < run.time_s.size(); ++row) {
+    csv.begin_row();
+    csv.add(run.time_s[row]);
+    for (const auto& [name, values] : run.columns) csv.add(unit_of_key(name).from_si(values[row]));
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+std::string make_run_table(const ImportedRun& run) {
+  const RunPlan& plan = run.plan;
+  std::string text = fmt::format(
+      "\n[[run]]\nid = {}\nfile = {}\nsession = {}\ninitial_tire_temperature_degC = {:.10g}\ncold_pressure_kPa = "
+      "{:.10g}\n",
+      quote(plan.id), quote(plan.id + ".csv"), quote(plan.session), plan.initial_tire_temperature_K - kZeroCelsius_K,
+      plan.cold_pressure_Pa / 1e3);
+  if (plan.rest_before_s.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *plan.rest_before_s / 60.0);
+  if (plan.started_warm) text += "tire_state = \"warm\"\n";
+  if (plan.force_at_standstill) text += "force_at_standstill = true\n";
+  return text;
+}
+
+std::string make_set_toml(const Mapping& mapping, const Import& imported) {
+  const bool on_road = mapping.set.kind == measurements::SetKind::kRoad;
+  std::string text = "# Made by rollrig import; import.json says how.\n";
+  for (const ClockEstimate& clock : imported.clocks) {
+    text += fmt::format("# clock of {}: shift {:.3f} +- {:.3f} s (1 sd)\n", quote(clock.tire_log), clock.clock.shift_s,
+                        clock.calc_shift_sd_s());
+  }
+  text += fmt::format("format = \"rollrig-measurements/1\"\nname = {}\ntire = \"tire.toml\"\n{}\nbaseline = {}\n",
+                      quote(mapping.set.name), on_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
+                      quote(mapping.baseline));
+  text += write_sensors(imported.sensors);
+  for (const ImportedRun& run : imported.runs) text += make_run_table(run);
+  return text;
+}
+
+std::string make_marks_csv(const Import& imported) {
+  CsvWriter csv({"log", "line", "column", "from_s", "to_s", "value", "reason"});
+  for (const Log& log : imported.logs) {
+    for (const Mark& mark : log.marks) {
+      csv.begin_row();
+      csv.add(mark.log);
+      csv.add(static_cast<double>(mark.line));
+      csv.add(mark.column);
+      csv.add(mark.from_s, 15);
+      csv.add(mark.to_s, 15);
+      csv.add(mark.value.value_or(std::numeric_limits<double>::quiet_NaN()));
+      csv.add(mark.reason);
+      csv.end_row();
+    }
+  }
+  return csv.take();
+}
+
+Json make_clock_json(const ClockEstimate& clock) {
+  Json json;
+  json["torque_log"] = clock.torque_log;
+  json["tire_log"] = clock.tire_log;
+  json["method"] = clock.method;
+  json["shift_s"] = clock.clock.shift_s;
+  json["shift_sd_s"] = clock.calc_shift_sd_s();
+  json["sd_parts_s"] = {
+      {"statistical", clock.statistical_sd_s}, {"sampling", clock.sampling_sd_s}, {"response_lag", clock.lag_sd_s}};
+  json["at_tire_log_s"] = clock.clock.reference_s;
+  json["rate_ppm"] = 1e6 * clock.clock.rate;
+  json["rate_sd_ppm"] = 1e6 * clock.rate_sd;
+  json["rate_is_decided_by_data"] = clock.rate_is_decided;
+  json["searched_s"] = {clock.searched_from_s, clock.searched_to_s};
+  json["log_likelihood_gain"] = clock.gain;
+  json["log_likelihood_gain_of_next"] = clock.gain_next;
+  json["evidence"] = Json::array();
+  for (const ClockEvidence& evidence : clock.evidence) {
+    json["evidence"].push_back({{"channel", evidence.channel},
+                                {"kind", evidence.is_common ? "common" : "response"},
+                                {"rows", evidence.rows},
+                                {"explained_percent", 100.0 * evidence.explained}});
+  }
+  return json;
+}
+
+/// A value as the log has it, without what the way to SI and back added in the last digits.
+Json as_read(double value) { return std::stod(fmt::format("{:.12g}", value)); }
+
+Json make_log_json(const Log& log) {
+  Json json;
+  json["file"] = log.file;
+  json["form"] = log.form;
+  json["rows"] = log.time_s.size();
+  json["interval_s"] = log.interval_s;
+  json["ignored_columns"] = log.ignored_columns;
+  json["taken_as_zero"] = log.dead_banded;
+  json["marks"] = Json::array();
+  for (const Mark& mark : log.marks) {
+    Json entry{{"line", mark.line},
+               {"column", mark.column.empty() ? Json(nullptr) : Json(mark.column)},
+               {"from_s", mark.from_s},
+               {"to_s", mark.to_s},
+               {"value", mark.value.has_value() ? as_read(*mark.value) : Json(nullptr)},
+               {"reason", mark.reason}};
+    json["marks"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json make_run_json(const ImportedRun& run) {
+  Json json;
+  json["id"] = run.plan.id;
+  json["rows"] = run.rows.time_s.size();
+  json["start_on_torque_log_s"] = run.rows.start_s;
+  json["clock"] = run.clock.has_value() ? Json(*run.clock) : Json(nullptr);
+  json["samples_a_row"] = run.rows.samples_a_row;
+  json["rows_between_samples"] = run.rows.rows_between;
+  json["empty"] = Json::array();
+  for (const EmptyRange& range : run.rows.empty) {
+    json["empty"].push_back({{"column", range.column},
+                             {"from_s", range.from_s},
+                             {"to_s", range.to_s},
+                             {"rows", range.rows},
+                             {"rows_left_out", range.rows_left_out},
+                             {"reason", range.reason}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> make_set_files(const Mapping& mapping, const Import& imported) {
+  std::map<std::string, std::string> files;
+  files["set.toml"] = make_set_toml(mapping, imported);
+  files["tire.toml"] = mapping.set.tire.content;
+  files[mapping.set.kind == measurements::SetKind::kRoad ? "vehicle.toml" : "rig.toml"] = mapping.machine_content;
+  for (const ImportedRun& run : imported.runs) files[run.plan.id + ".csv"] = make_run_csv(run.rows);
+  files["marks.csv"] = make_marks_csv(imported);
+  files["import.json"] = make_import_json(mapping, imported).dump(2) + "\n";
+  return files;
+}
+
+Json make_import_json(const Mapping& mapping, const Import& imported) {
+  Json json;
+  json["format"] = "rollrig-import-report/1";
+  json["set"] = mapping.set.name;
+  json["clocks"] = Json::array();
+  for (const ClockEstimate& clock : imported.clocks) json["clocks"].push_back(make_clock_json(clock));
+  json["runs"] = Json::array();
+  for (const ImportedRun& run : imported.runs) json["runs"].push_back(make_run_json(run));
+  json["logs"] = Json::array();
+  for (const Log& log : imported.logs) json["logs"].push_back(make_log_json(log));
+  json["warnings"] = imported.warnings;
+  return json;
+}
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,287 @@
+#include "measurements/logs/mapping.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <boost/algorithm/string/case_conv.hpp>
+
+#include "measurements/sensor_file.h"
+#include "sim/core/assets.h"
+#include "sim/core/file_io.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::measurements {
+namespace {
+
+std::vector<Field> all_columns(measurements::SetKind kind) {
+  const SetColumns& columns = columns_of(kind);
+  std::vector<Field> fields = columns.given;
+  fields.insert(fields.end(), columns.optional_given.begin(), columns.optional_given.end());
+  fields.insert(fields.end(), columns.measured.begin(), columns.measured.end());
+  return fields;
+}
+
+/// The unit that a text such as "km_h" or "bar" names; it must be one of the target's dimension.
+Unit read_unit(TableReader& reader, const std::string& target) {
+  const Unit wanted = unit_of_key(target);
+  if (!reader.has("unit")) {
+    reader.accept("unit");
+    return wanted;
+  }
+  const std::string text = reader.text("unit");
+  const Unit unit = unit_of_key("value_" + text);
+  if (unit.symbol.empty() || !(unit.dimension == wanted.dimension)) {
+    throw reader.problem("unit", fmt::format("'{}' is no unit of {} that rollrig knows", text, target),
+                         fmt::format("a unit as in the suffix of a key, of the kind of {}; others by factor and "
+                                     "offset (docs/import.md)",
+                                     wanted.symbol));
+  }
+  return unit;
+}
+
+LogColumn read_column(const ConfigTable& columns, const Field& field, const std::string& table_name) {
+  LogColumn column;
+  column.target = field.key;
+  column.allowed = field.range;
+  column.unit = unit_of_key(field.key);
+  const ConfigValue& value = *columns.find(field.key);
+  if (const auto* name = std::get_if<std::string>(&value.data)) {
+    column.column = *name;
+    return column;
+  }
+  TableReader parent(columns, table_name);
+  TableReader reader(*parent.table(field.key), fmt::format("{} {}", table_name, field.key));
+  if (reader.has("value")) {
+    const Field constant{"value", field.range, "constant"};
+    column.constant_SI = unit_of_key(field.key).to_si(reader.number(constant));
+    reader.finish();
+    return column;
+  }
+  column.column = reader.text("column");
+  column.unit = read_unit(reader, field.key);
+  column.factor = reader.number({"factor", any_number(), "", 1.0});
+  if (column.factor == 0.0) throw reader.problem("factor", "a factor of 0 leaves nothing", "any number but 0");
+  column.offset = reader.number({"offset", any_number(), "", 0.0});
+  column.allowed.lower = reader.number({"lowest", field.range, "", field.range.lower});
+  column.allowed.upper = reader.number({"highest", field.range, "", field.range.upper});
+  column.dead_band = reader.number({"dead_band", non_negative(), "", 0.0});
+  reader.finish();
+  return column;
+}
+
+void read_columns(TableReader& log, measurements::SetKind kind, LogForm& form) {
+  const ConfigTable* table = log.table("columns");
+  const std::string name = fmt::format("[{}.columns]", form.name);
+  if (table == nullptr)
+    throw log.problem("columns", "the log has no columns", name + " with <column of the set> = ...");
+  const std::vector<Field> fields = all_columns(kind);
+  TableReader reader(*table, name);
+  for (const Field& field : fields) reader.accept(field.key);
+  reader.finish();
+  for (const Field& field : fields) {
+    if (table->find(field.key) != nullptr) form.columns.push_back(read_column(*table, field, name));
+  }
+}
+
+void read_time(TableReader& log, LogForm& form) {
+  const ConfigTable* table = log.table("time");
+  const std::string name = fmt::format("[{}.time]", form.name);
+  if (table == nullptr) throw log.problem("time", "the log has no time", name + " with column and form");
+  TableReader reader(*table, name);
+  TimeColumn& time = form.time;
+  time.column = reader.text("column");
+  const std::vector<std::string>& names = time_form_names();
+  const auto at = std::find(names.begin(), names.end(), reader.text("form", names)) - names.begin();
+  time.form = static_cast<TimeForm>(at);
+  const std::string unit = reader.text_or("unit", "s", {"s", "ms", "min", "h"});
+  if (unit != "s" && time.form != TimeForm::kSeconds) {
+    throw reader.problem("unit", "only times that are numbers have a unit", "form = \"seconds\"");
+  }
+  time.unit_s = unit_of_key("time_" + unit).factor;
+  time.date_column = reader.text_or("date_column", "");
+  time.date = reader.text_or("date", "");
+  time.date_order = reader.text_or("date_order", "ymd", date_orders());
+  const bool is_clock = time.form == TimeForm::kClock;
+  if (is_clock == (time.date.empty() && time.date_column.empty())) {
+    throw reader.problem("form", is_clock ? "a time of day has no date" : "only times of day need a date",
+                         "date = \"2024-03-05\" or date_column with form = \"clock\", neither with another");
+  }
+  time.utc_offset_s = reader.number_or_none({"utc_offset_h", between(-14.0, 14.0), ""});
+  reader.finish();
+}
+
+LogForm read_log_form(const ConfigTable& table, const std::string& name, measurements::SetKind kind) {
+  LogForm form;
+  form.name = name;
+  TableReader reader(table, fmt::format("[{}]", name));
+  const std::string separator = reader.text_or("separator", "comma", {"comma", "semicolon", "tab"});
+  form.csv.separator = separator == "comma" ? ',' : separator == "semicolon" ? ';' : '\t';
+  form.csv.decimal = reader.text_or("decimal", "point", {"point", "comma"}) == "point" ? '.' : ',';
+  if (form.csv.decimal == form.csv.separator) {
+    throw reader.problem("decimal", "separator and decimal are both a comma", "separator = \"semicolon\" or \"tab\"");
+  }
+  form.csv.elsewise = "separator, decimal, header_line and first_row_line of the mapping say how a log is written";
+  form.csv.header_line = reader.count({"header_line", between(1, 1000), "", 1.0});
+  form.csv.first_row_line =
+      reader.count({"first_row_line", between(2, 1100), "", static_cast<double>(form.csv.header_line + 1)});
+  if (form.csv.first_row_line <= form.csv.header_line) {
+    throw reader.problem("first_row_line", "the first row stands above the header", "more than header_line");
+  }
+  form.missing = {"NaN", "nan", "NAN", "-", "--", "---", "#N/A"};
+  if (const ConfigValue* missing = table.find("missing")) {
+    const ConfigArray* array = missing->as_array();
+    if (array == nullptr) throw reader.problem("missing", "'missing' must be a list", "missing = [\"OVER\", \"NaN\"]");
+    form.missing.clear();
+    for (const ConfigValue& item : *array) {
+      const auto* text = std::get_if<std::string>(&item.data);
+      if (text == nullptr) throw reader.problem("missing", "'missing' must hold strings", "missing = [\"OVER\"]");
+      form.missing.push_back(*text);
+    }
+  }
+  reader.accept("missing");
+  read_time(reader, form);
+  read_columns(reader, kind, form);
+  reader.finish();
+  return form;
+}
+
+void read_clock(TableReader& top, ClockPlan& clock) {
+  const ConfigTable* table = top.table("clock");
+  if (table == nullptr) return;
+  TableReader reader(*table, "[clock]");
+  clock.largest_shift_s = reader.number({"largest_shift_s", between(1.0, 86400.0), "", clock.largest_shift_s});
+  clock.rate_sd = 1e-6 * reader.number({"rate_sd_ppm", between(0.0, 20000.0), "", 1e6 * clock.rate_sd});
+  clock.response_lag_sd_s = reader.number({"response_lag_sd_s", non_negative(), "", clock.response_lag_sd_s});
+  clock.largest_sd_s = reader.number({"largest_sd_s", positive(), "", clock.largest_sd_s});
+  clock.load_changes_at_rows = reader.text_or("load_changes", "between_rows", {"between_rows", "at_rows"}) == "at_rows";
+  clock.shift_s = reader.number_or_none({"shift_s", any_number(), ""});
+  clock.shift_sd_s = reader.number_or_none({"shift_sd_s", positive(), ""});
+  if (clock.shift_s.has_value() != clock.shift_sd_s.has_value()) {
+    throw reader.problem("shift_s", "a shift stands without its uncertainty, or the other way round",
+                         "shift_s and shift_sd_s, both or neither");
+  }
+  reader.finish();
+}
+
+RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapping& mapping) {
+  TableReader reader(table, "[[run]]");
+  RunPlan run;
+  run.origin = table.origin;
+  run.id = reader.text("id");
+  if (run.id.empty() || run.id.find_first_of("/\\\"") != std::string::npos) {
+    throw reader.problem("id", "a run's id names its file", "letters, digits, - and _");
+  }
+  if (boost::algorithm::to_lower_copy(run.id) == "marks") {
+    throw reader.problem("id", "marks.csv is the file of what was not taken over", "another id");
+  }
+  run.session = reader.text("session");
+  run.torque_log = (fs::path(folder) / reader.text("torque_log")).string();
+  const std::string tire_log = mapping.tire_log.has_value() ? reader.text("tire_log") : std::string();
+  if (!tire_log.empty()) run.tire_log = (fs::path(folder) / tire_log).string();
+  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", between(-80.0, 250.0), ""});
+  run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
+  run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
+  run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
+  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
+  run.from = reader.text_or("from", "");
+  run.to = reader.text_or("to", "");
+  reader.finish();
+  return run;
+}
+
+void read_tire_and_machine(TableReader& reader, const std::string& folder, Mapping& mapping) {
+  MeasurementSet& set = mapping.set;
+  const std::string tire = find_asset_of(reader, "tire", folder, "tires", reader.text("tire"));
+  set.tire = models::read_tire(read_config(tire));
+  set.tire.content = read_text_file(tire);
+  mapping.machine_content = read_machine(reader, folder, set);
+}
+
+void read_sensor_tables(TableReader& reader, const std::string& folder, MeasurementSet& set) {
+  const ConfigValue* value = reader.source().find("sensors");
+  if (value != nullptr && value->as_table() == nullptr) {
+    set.sensors = read_sensor_asset(find_asset_of(reader, "sensors", folder, "sensors", reader.text("sensors")));
+    return;
+  }
+  const ConfigTable* table = reader.table("sensors");
+  if (table == nullptr) {
+    throw reader.problem("sensors", "the mapping says nothing of the sensors",
+                         "sensors = a name under assets/sensors or a path, or [sensors.<channel>] tables");
+  }
+  set.sensors = models::read_sensors(*table, measured_channels(set.kind));
+}
+
+bool maps(const LogForm& form, const std::string& target) {
+  return std::any_of(form.columns.begin(), form.columns.end(),
+                     [&target](const LogColumn& column) { return column.target == target; });
+}
+
+/// Each given column must come from somewhere, each measured one from one log only and with a sensor.
+void check_columns(const TableReader& reader, const Mapping& mapping) {
+  const SetColumns& columns = columns_of(mapping.set.kind);
+  for (const Field& field : columns.given) {
+    if (maps(mapping.torque_log, field.key) || (mapping.tire_log.has_value() && maps(*mapping.tire_log, field.key))) {
+      continue;
+    }
+    throw reader.problem("torque_log", fmt::format("no log gives '{}', which every row of the set needs", field.key),
+                         fmt::format("{} = \"<column>\" or {{ value = ... }} under [torque_log.columns]", field.key));
+  }
+  bool any = false;
+  for (const Field& field : columns.measured) {
+    const bool in_torque = maps(mapping.torque_log, field.key);
+    const bool in_tire = mapping.tire_log.has_value() && maps(*mapping.tire_log, field.key);
+    any = any || in_torque || in_tire;
+    if (in_torque && in_tire) {
+      throw reader.problem("tire_log", fmt::format("both logs give '{}'", field.key),
+                           "a measured column from one log only");
+    }
+    if ((in_torque || in_tire) && mapping.set.sensors.count(field.key) == 0) {
+      throw reader.problem(
+          "sensors", fmt::format("'{}' is measured, and no sensor is given for it", field.key),
+          fmt::format("[sensors.{}] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution", field.key));
+    }
+  }
+  if (!any) throw reader.problem("torque_log", "no log gives a measured column", "drum_torque_Nm = \"<column>\", ...");
+}
+
+}  // namespace
+
+Mapping read_mapping(const std::string& path, const std::string& data_folder) {
+  const ConfigTable config = read_config(path);
+  const std::string base = fs::path(path).parent_path().string();
+  TableReader reader(config, "");
+  check_format(reader, "rollrig-import", 1);
+  Mapping mapping;
+  mapping.set.name = reader.text("name");
+  mapping.baseline = reader.text_or("baseline", "combined", {"combined", "constant_rrc"});
+  read_tire_and_machine(reader, base, mapping);
+  read_sensor_tables(reader, base, mapping.set);
+  const ConfigTable* torque_log = reader.table("torque_log");
+  if (torque_log == nullptr) throw reader.problem("torque_log", "the mapping has no [torque_log]", "[torque_log]");
+  mapping.torque_log = read_log_form(*torque_log, "torque_log", mapping.set.kind);
+  if (const ConfigTable* tire_log = reader.table("tire_log")) {
+    mapping.tire_log = read_log_form(*tire_log, "tire_log", mapping.set.kind);
+  }
+  read_clock(reader, mapping.clock);
+  mapping.interval_s = reader.number_or_none({"interval_s", between(0.01, 3600.0), ""});
+  mapping.longest_given_gap_s = reader.number({"longest_given_gap_s", non_negative(), "", mapping.longest_given_gap_s});
+  mapping.spike_threshold = reader.number({"spike_threshold", between(4.0, 1000.0), "", mapping.spike_threshold});
+  const std::string folder = data_folder.empty() ? base : data_folder;
+  for (const ConfigTable* run : reader.tables("run")) mapping.runs.push_back(read_run(*run, folder, mapping));
+  if (mapping.runs.empty()) throw reader.problem("run", "the mapping has no runs", "one [[run]] table at least");
+  for (std::size_t i = 0; i < mapping.runs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (mapping.runs[k].id != mapping.runs[i].id) continue;
+      throw InputError({"two runs have one id", path, mapping.runs[i].origin.line, "[[run]] id", mapping.runs[i].id,
+                        "a different id for every run", ""});
+    }
+  }
+  reader.finish();
+  check_columns(reader, mapping);
+  return mapping;
+}
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,38 @@
+#pragma once
+/// Time stamps of loggers as seconds.
+
+#include <string>
+#include <vector>
+
+namespace rollrig::measurements {
+
+enum class TimeForm { kSeconds, kIso8601, kClock, kSpreadsheetDays };
+
+/// Names of the forms as a mapping file has them, in the order of TimeForm.
+const std::vector<std::string>& time_form_names();
+
+/// Order of year, month and day in a written date: "ymd", "dmy" or "mdy".
+const std::vector<std::string>& date_orders();
+
+/// A written date as days since 1970-01-01. Throws std::invalid_argument, which says what is wrong.
+double parse_date_days(const std::string& text, const std::string& order);
+
+/// "13:29:42.464", "13:29:42,464" or "13:29" as seconds of the day. Throws std::invalid_argument.
+double parse_clock_s(const std::string& text);
+
+struct IsoStamp {
+  double time_s = 0.0;  // since 1970-01-01, as written: in UTC only where the stamp says its offset
+  bool has_offset = false;
+};
+
+/// "2024-03-05T13:29:42.464+01:00"; a blank for the T, Z or an offset or none. An offset is taken off.
+/// Throws std::invalid_argument.
+IsoStamp parse_iso_8601(const std::string& text);
+
+/// Days of a spreadsheet, counted from 1899-12-30, as seconds since 1970-01-01.
+double from_spreadsheet_days(double days);
+
+/// What an example of a form looks like, for messages.
+std::string example_of(TimeForm form);
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,321 @@
+#include "measurements/measurement_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "rigs/drum_channels.h"
+#include "sim/core/assets.h"
+#include "sim/core/csv.h"
+#include "sim/core/file_io.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::measurements {
+namespace {
+
+constexpr Range kTemperatureRange = between(-80.0, 250.0);  // in degC
+constexpr Range kSpeedRange = between(0.0, 400.0);          // in km/h
+
+std::string set_file_of(const std::string& folder) {
+  if (fs::is_directory(folder)) return (fs::path(folder) / "set.toml").string();
+  return folder;
+}
+
+std::string folder_of(const std::string& file) { return fs::path(file).parent_path().string(); }
+
+MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, SetKind kind) {
+  TableReader reader(table, "[[run]]");
+  MeasuredRun run;
+  run.id = reader.text("id");
+  if (run.id.empty()) throw reader.problem("id", "a run needs a name", "a text that is not empty");
+  const std::string file = reader.text("file");
+  if (file.empty()) throw reader.problem("file", "a run needs a file", "a path relative to this file");
+  run.file = (fs::path(folder) / file).string();
+  if (!fs::exists(run.file)) {
+    InputProblem missing =
+        reader.problem("file", fmt::format("no such file '{}'", run.file), "a path relative to this file").problem();
+    missing.nearest = nearest_file(run.file);
+    throw InputError(missing);
+  }
+  run.session = reader.text("session");
+  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", kTemperatureRange, ""});
+  run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
+  run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
+  run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
+  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
+  if (reader.flag_or("reversed", false)) {
+    if (kind != SetKind::kDrum) throw reader.problem("reversed", "only a drum is turned the other way round", "false");
+    run.reversed = true;
+  }
+  reader.finish();
+  return run;
+}
+
+void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
+  CsvForm form;
+  form.elsewise = "rollrig import reads logs of other forms, names and units, and writes such files";
+  const CsvTable csv = CsvTable::read(run.file, form);
+  std::vector<std::string> known{"time_s"};
+  for (const auto* list : {&columns.given, &columns.optional_given, &columns.measured}) {
+    for (const Field& field : *list) known.push_back(field.key);
+  }
+  csv.require_known(known);
+  run.time_s = csv.increasing_times("time_s");
+  if (run.time_s.size() < 2) {
+    throw InputError({"a run needs two rows at least", run.file, 2, "", "", "two or more rows", ""});
+  }
+  constexpr double kLongest_s = 3.0 * 86400.0;  // Assumed: five minutes in milliseconds are longer
+  if (run.time_s.back() - run.time_s.front() > kLongest_s) {
+    throw InputError({"a run of more than three days", run.file, csv.line_of(csv.row_count() - 1), "time_s",
+                      fmt::format("{:.10g}", run.time_s.back()),
+                      "seconds, not milliseconds; of a longer test, several runs", ""});
+  }
+  for (const Field& field : columns.given) run.columns[field.key] = csv.numbers(field);
+  for (const Field& field : columns.optional_given) {
+    if (csv.has(field.key)) run.columns[field.key] = csv.numbers(field);
+  }
+  for (const Field& field : columns.measured) {
+    if (csv.has(field.key)) run.columns[field.key] = csv.numbers(field, true);
+  }
+}
+
+void check_runs(const MeasurementSet& set) {
+  std::set<std::string> ids;
+  for (const MeasuredRun& run : set.runs) {
+    if (!ids.insert(run.id).second) {
+      throw InputError({fmt::format("two runs have the id '{}'", run.id), set.path, 0, "[[run]] id", run.id,
+                        "a different id for every run", ""});
+    }
+    for (const std::string& channel : measured_channels(set.kind)) {
+      if (!run.has(channel) || set.sensors.count(channel) > 0) continue;
+      InputProblem problem;
+      problem.what = fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, channel);
+      problem.file = set.path;
+      problem.key = fmt::format("[sensors.{}]", channel);
+      problem.allowed =
+          "a table [sensors." + channel + "] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution";
+      throw InputError(problem);
+    }
+  }
+}
+
+}  // namespace
+
+bool MeasuredRun::has_samples(const std::string& column) const {
+  const auto at = columns.find(column);
+  return at != columns.end() &&
+         std::any_of(at->second.begin(), at->second.end(), [](double value) { return !std::isnan(value); });
+}
+
+const SetColumns& columns_of(SetKind kind) {
+  static const std::vector<Field> temperatures_and_pressure{
+      {"liner_temperature_degC", kTemperatureRange, "temperature of the inner liner"},
+      {"cavity_pressure_kPa", between(-100.0, 3000.0), "gauge pressure"}};
+  static const auto with = [](Field first) {
+    std::vector<Field> fields{first};
+    fields.insert(fields.end(), temperatures_and_pressure.begin(), temperatures_and_pressure.end());
+    // Beyond the format's list: where the gas temperature was measured, H can be fitted (3.16).
+    fields.push_back({"gas_temperature_degC", kTemperatureRange, "temperature of the inflation gas"});
+    return fields;
+  };
+  static const SetColumns drum{{{"speed_km_h", kSpeedRange, "surface speed"},
+                                {"load_N", between(0.0, 200000.0), "load as the rig reports it"},
+                                {"ambient_degC", kTemperatureRange, "air at the tire"}},
+                               {{"surface_temperature_degC", kTemperatureRange, "drum surface"},
+                                {kHungTorque, any_number(), "known torque on the sensor, by weights on a lever"}},
+                               with({"drum_torque_Nm", any_number(), "motor torque at the drum axle"})};
+  static const SetColumns dyno{{{"speed_km_h", kSpeedRange, "surface speed"},
+                                {"load_N", between(0.0, 200000.0), "load as the rig reports it"},
+                                {"longitudinal_force_N", any_number(), "wheel on roller, positive when it drives"},
+                                {"ambient_degC", kTemperatureRange, "air at the tire"}},
+                               {{"surface_temperature_degC", kTemperatureRange, "roller surface"}},
+                               with({"loss_force_N", any_number(), "loss between hub and roller over surface speed"})};
+  static const SetColumns road{{{"speed_km_h", kSpeedRange, "vehicle speed"},
+                                {"elevation_m", any_number(), "height of the road"},
+                                {"ambient_degC", kTemperatureRange, "air"}},
+                               {},
+                               {{"traction_force_N", any_number(), "force at the wheels"}}};
+  switch (kind) {
+    case SetKind::kDrum:
+      return drum;
+    case SetKind::kDyno:
+      return dyno;
+    case SetKind::kRoad:
+      return road;
+  }
+  throw std::invalid_argument("a kind of set without columns");
+}
+
+std::vector<std::string> measured_channels(SetKind kind) {
+  std::vector<std::string> names;
+  for (const Field& field : columns_of(kind).measured) names.push_back(field.key);
+  return names;
+}
+
+std::vector<std::string> all_measured_channels() {
+  std::vector<std::string> names;
+  for (const SetKind kind : {SetKind::kDrum, SetKind::kDyno, SetKind::kRoad}) {
+    for (const std::string& name : measured_channels(kind)) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+const char* name_of(SetKind kind) {
+  if (kind == SetKind::kRoad) return "road";
+  return kind == SetKind::kDrum ? "drum" : "dyno";
+}
+
+SetKind kind_of(rigs::RigKind kind) {
+  if (kind == rigs::RigKind::kDrum) return SetKind::kDrum;
+  if (kind == rigs::RigKind::kDyno) return SetKind::kDyno;
+  throw std::invalid_argument("a rig on which no sets are measured");
+}
+
+MeasuredRun read_run_inputs(const std::string& file, SetKind kind) {
+  MeasuredRun run;
+  run.id = fs::path(file).stem().string();
+  run.file = file;
+  read_run_columns(columns_of(kind), run);
+  for (const std::string& channel : measured_channels(kind)) run.columns.erase(channel);
+  return run;
+}
+
+std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
+  const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
+  if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
+    set.kind = SetKind::kRoad;
+    const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
+    set.vehicle = rigs::read_vehicle(read_config(path));
+    set.vehicle->content = read_text_file(path);
+    return set.vehicle->content;
+  }
+  const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));
+  set.rig = rigs::read_rig(read_config(path));
+  set.rig->content = read_text_file(path);
+  if (set.rig->kind == rigs::RigKind::kFlat) {
+    throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
+                         "a rig of kind \"drum\" or \"dyno\", or vehicle = ... with kind = \"road\"");
+  }
+  set.kind = kind_of(set.rig->kind);
+  if (!kind.empty() && kind != name_of(set.kind)) {
+    throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),
+                         "the rig's kind");
+  }
+  return set.rig->content;
+}
+
+models::SensorSet default_sensors(SetKind kind) {
+  if (kind == SetKind::kRoad) return {{"traction_force_N", {10.0, 215.0, 13.0, 140.0, 0.0}}};
+  if (kind == SetKind::kDrum) return {};
+  return {{"loss_force_N", {2.0, 1.0, 60.0, 2.0, 0.0}},
+          {"liner_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
+          {"gas_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
+          {"cavity_pressure_kPa", {250.0, 100.0, 120.0, 50.0, 100.0}}};
+}
+
+namespace {
+
+/// Sensors that runs use and the set does not describe.
+void assume_sensors(MeasurementSet& set) {
+  for (const auto& [channel, sensor] : default_sensors(set.kind)) {
+    const std::string& name = channel;
+    const bool used =
+        std::any_of(set.runs.begin(), set.runs.end(), [&](const MeasuredRun& run) { return run.has(name); });
+    if (!used || set.sensors.count(name) > 0) continue;
+    set.sensors[name] = sensor;
+    set.assumed_sensors.push_back(name);
+  }
+}
+
+}  // namespace
+
+MeasurementSet read_measurement_set(const std::string& folder) {
+  MeasurementSet set;
+  set.path = set_file_of(folder);
+  if (fs::is_directory(folder) && !fs::exists(set.path)) {
+    throw InputError({fmt::format("there is no set.toml in '{}'", folder), folder, 0, "", "",
+                      "a folder with set.toml (tire, rig, sensors, a [[run]] for each CSV; docs/formats.md); "
+                      "assets/examples/hidden_effect is one to copy, rollrig import makes one from logs; diagnose and "
+                      "validate also take a folder of such folders",
+                      ""});
+  }
+  const ConfigTable config = read_config(set.path);
+  const std::string base = folder_of(set.path);
+  TableReader reader(config, "");
+  check_format(reader, "rollrig-measurements", 1);
+  set.name = reader.text("name");
+  set.baseline = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined"
+                     ? models::Baseline::kCombined
+                     : models::Baseline::kConstantRrc;
+  const std::string tire_path = find_asset_of(reader, "tire", base, "tires", reader.text("tire"));
+  set.tire = models::read_tire(read_config(tire_path));
+  set.tire.content = read_text_file(tire_path);
+  read_machine(reader, base, set);
+  if (const ConfigTable* sensors = reader.table("sensors")) {
+    set.sensors = models::read_sensors(*sensors, measured_channels(set.kind));
+  }
+  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base, set.kind));
+  reader.finish();
+  if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
+  for (MeasuredRun& run : set.runs) read_run_columns(columns_of(set.kind), run);
+  assume_sensors(set);
+  check_runs(set);
+  return set;
+}
+
+namespace {
+
+/// Whether `next` continues every straight line of `before`, so that the two are one segment.
+bool continues(const sim::Segment& before, const sim::Segment& next) {
+  constexpr double kSame = 1e-7;  // files hold nine digits
+  for (std::size_t i = 0; i < before.inputs.size(); ++i) {
+    const sim::Ramp& a = before.inputs[i];
+    const sim::Ramp& b = next.inputs[i];
+    const double scale = kSame * (1.0 + std::abs(b.start));
+    const bool same_line = std::abs(a.at(before.duration_s) - b.start) <= scale &&
+                           std::abs(a.slope_per_s - b.slope_per_s) * next.duration_s <= scale;
+    if (!same_line) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+sim::Program make_replay(const MeasuredRun& run) {
+  const auto column = [&run](const char* name) -> const std::vector<double>& { return run.columns.at(name); };
+  const bool surface_recorded = run.has("surface_temperature_degC");
+  const std::vector<double>& ambient_K = column("ambient_degC");
+  const std::vector<double>& surface_K = surface_recorded ? column("surface_temperature_degC") : ambient_K;
+  sim::Phase phase;
+  phase.name = run.id;
+  for (std::size_t i = 0; i + 1 < run.time_s.size(); ++i) {
+    const double duration_s = run.time_s[i + 1] - run.time_s[i];
+    const auto line = [&](const std::vector<double>& values) {
+      return sim::Ramp{values[i], (values[i + 1] - values[i]) / duration_s};
+    };
+    sim::Segment segment{duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
+    segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = line(column("speed_km_h"));
+    segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {column("load_N")[i], 0.0};
+    segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = line(ambient_K);
+    segment.inputs[rigs::index_of(rigs::DrumInput::kSurface)] = line(surface_K);
+    if (!phase.segments.empty() && continues(phase.segments.back(), segment)) {
+      phase.segments.back().duration_s += duration_s;
+    } else {
+      phase.segments.push_back(std::move(segment));
+    }
+  }
+  sim::Program program;
+  program.start_time_s = run.time_s.front();
+  program.sample_times_s = run.time_s;
+  program.phases = {std::move(phase)};
+  return program;
+}
+
+}  // namespace rollrig::measurements

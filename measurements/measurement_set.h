@@ -1,0 +1,98 @@
+#pragma once
+/// Measurement sets of formats.md: a folder with set.toml and one CSV a run. Reading, writing, and the
+/// program that replays a run on a rig.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "models/sensor.h"
+#include "rigs/rig_file.h"
+#include "rigs/vehicle_file.h"
+#include "sim/program.h"
+
+namespace rollrig::measurements {
+
+/// Kinds of measurement sets: on a drum, of one wheel on its roller, of a vehicle on the road (formats.md).
+enum class SetKind { kDrum, kDyno, kRoad };
+
+/// Columns of a kind of set.
+struct SetColumns {
+  std::vector<Field> given;           // required in every row
+  std::vector<Field> optional_given;  // required in every row where the column is there
+  std::vector<Field> measured;        // may be absent, and empty in a row
+};
+const SetColumns& columns_of(SetKind kind);
+/// Names of the measured columns of a kind.
+std::vector<std::string> measured_channels(SetKind kind);
+/// Those of all kinds.
+std::vector<std::string> all_measured_channels();
+
+/// Column of a drum run in which more was done than is told by speed and load.
+constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
+
+struct MeasuredRun {
+  std::string id;
+  std::string file;  // path
+  std::string session;
+  double initial_tire_temperature_K = 0.0;
+  double cold_pressure_Pa = 0.0;
+  std::optional<double> rest_before_s;
+  bool started_warm = false;
+  bool reversed = false;  // a drum, turned the other way round
+  bool force_at_standstill =
+      false;  // the force read while the surface stands, nothing holding it, is the sensor's zero
+  std::vector<double> time_s;
+  std::map<std::string, std::vector<double>> columns;  // SI by column name; NaN where there is no sample
+
+  bool has(const std::string& column) const { return columns.count(column) > 0; }
+  /// Whether a column holds anything but empty fields.
+  bool has_samples(const std::string& column) const;
+};
+
+struct MeasurementSet {
+  std::string path;  // of set.toml
+  std::string name;
+  SetKind kind = SetKind::kDrum;
+  models::Baseline baseline = models::Baseline::kCombined;
+  models::TireFile tire;
+  std::optional<rigs::RigFile> rig;          // drum and dyno
+  std::optional<rigs::VehicleFile> vehicle;  // road
+  models::SensorSet sensors;
+  std::vector<std::string> assumed_sensors;  // channels of which the set says nothing: those of default_sensors
+  std::vector<MeasuredRun> runs;
+};
+
+/// Sensors of a dynamometer or of a vehicle on the road, where a set gives none; empty for a drum, whose set has to.
+/// Loss force: 2 N offset over a session, 1 N drift in 60 s, 2 N noise of a sample at 1 Hz, Assumed: 0.1 % of a force
+/// cell of 5 kN and what compensating inertia leaves. Liner and cavity: as assets/sensors/source.toml. Traction force:
+/// 10 N offset, 215 N drift in 13 s (wind, surface and slope), 140 N noise, Assumed: as one car's trips leave over a
+/// fit of the road load (259 N rms, correlated over 13 s).
+models::SensorSet default_sensors(SetKind kind);
+
+/// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
+MeasurementSet read_measurement_set(const std::string& folder);
+
+/// The inputs of a run from a run file of a set, or from one with the given columns alone; measured columns are not
+/// kept. Throws InputError.
+MeasuredRun read_run_inputs(const std::string& file, SetKind kind);
+
+/// The word for a kind in files.
+const char* name_of(SetKind kind);
+
+/// The kind of a rig's sets.
+SetKind kind_of(rigs::RigKind kind);
+
+/// A program that follows the recorded inputs of a drum run: speed, ambient and surface linear between
+/// rows, load held from row to row. Rows are its samples.
+sim::Program make_replay(const MeasuredRun& run);
+
+/// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`; returns the
+/// machine's file as it is. Throws InputError.
+std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set);
+
+/// Tables [sensors.<channel>] of sets and run files.
+std::string write_sensors(const models::SensorSet& sensors);
+
+}  // namespace rollrig::measurements

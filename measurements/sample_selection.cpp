@@ -1,0 +1,57 @@
+#include "measurements/sample_selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollrig::measurements {
+
+bool is_load_change(const MeasuredRun& run, std::size_t row) {
+  constexpr double kSameLoad = 0.01;  // Assumed: load control holds to 1 %
+  if (row == 0) return false;
+  const std::vector<double>& load_N = run.columns.at("load_N");
+  return std::abs(load_N[row] - load_N[row - 1]) > kSameLoad * std::max(load_N[row], load_N[row - 1]);
+}
+
+double find_acceleration(const MeasuredRun& run, std::size_t row) {
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::size_t first = std::min(row, run.time_s.size() - 2);
+  return (speed_m_s[first + 1] - speed_m_s[first]) / (run.time_s[first + 1] - run.time_s[first]);
+}
+
+std::vector<bool> find_settled_rows(const MeasuredRun& run) {
+  constexpr double kKink_m_s2 = 0.1;  // Assumed: change of acceleration that disturbs the torque
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::size_t n = run.time_s.size();
+  std::vector<bool> settled(n, true);
+  double disturbed_s = run.time_s.front() - kSettling_s;  // a run starts in equilibrium
+  for (std::size_t row = 0; row < n; ++row) {
+    if (row > 0) {
+      const bool kinked = std::abs(find_acceleration(run, row) - find_acceleration(run, row - 1)) > kKink_m_s2;
+      if (is_load_change(run, row) || kinked) {
+        disturbed_s = run.time_s[row];
+        settled[row - 1] = false;  // its averaging interval may reach into the change
+      }
+    }
+    settled[row] = run.time_s[row] >= disturbed_s + kSettling_s && speed_m_s[row] >= kTrustedSpeed_m_s;
+  }
+  return settled;
+}
+
+std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) {
+  const std::vector<double>& values = run.columns.at(channel);
+  const bool is_torque = channel == "drum_torque_Nm";
+  const std::vector<bool> settled = is_torque ? find_settled_rows(run) : std::vector<bool>(values.size(), true);
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    if (!std::isnan(values[row]) && settled[row]) rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<double> find_times(const MeasuredRun& run, const std::vector<std::size_t>& rows) {
+  std::vector<double> times_s;
+  for (const std::size_t row : rows) times_s.push_back(run.time_s[row]);
+  return times_s;
+}
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,195 @@
+#pragma once
+/// A tire as a file describes it: the numbers that the equations of models/ take.
+
+#include <vector>
+
+#include "sim/core/scalar.h"
+#include "sim/core/schema.h"
+
+namespace rollrig::models {
+
+/// Geometry and mass. Source: §3.1.1 and Table 3.1 for the diameters.
+template <class S>
+struct TireGeometry {
+  S outer_diameter_m{};
+  S section_width_m{};
+  S rim_diameter_m{};
+  S mass_kg{};
+  S wheel_mass_kg{};
+  S spin_inertia_kg_m2{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"outer_diameter_m", positive(), "Nominal design diameter, unloaded"}, p.outer_diameter_m);
+    visit(Field{"section_width_m", positive(), "Section width"}, p.section_width_m);
+    visit(Field{"rim_diameter_m", positive(), "Rim diameter"}, p.rim_diameter_m);
+    visit(Field{"mass_kg", positive(), "Mass of the tire"}, p.mass_kg);
+    visit(Field{"wheel_mass_kg", positive(), "Mass of the rim and the hub that turn with the tire"}, p.wheel_mass_kg);
+    visit(Field{"spin_inertia_kg_m2", positive(), "Moment of inertia about the spin axis, tire and wheel"},
+          p.spin_inertia_kg_m2);
+  }
+};
+
+/// Stiffness of the tire against the surface.
+template <class S>
+struct TireStiffness {
+  S vertical_N_per_m{};
+  S vertical_damping_N_s_per_m{};
+  S slip_stiffness_N{};
+  S relaxation_length_m{};
+  S friction_coefficient{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"vertical_N_per_m", positive(), "Vertical stiffness dFz/dz"}, p.vertical_N_per_m);
+    visit(Field{"vertical_damping_N_s_per_m", non_negative(), "Vertical damping"}, p.vertical_damping_N_s_per_m);
+    visit(Field{"slip_stiffness_N", positive(), "dFx/dslip at the reference load; acts with slip_loss only"},
+          p.slip_stiffness_N);
+    visit(Field{"relaxation_length_m", positive(), "Longitudinal relaxation length; acts with slip_loss only"},
+          p.relaxation_length_m);
+    visit(Field{"friction_coefficient", positive(), "Fx/Fz at which the contact slides. Assumed: 1 on dry steel", 1.0},
+          p.friction_coefficient);
+  }
+};
+
+/// Coefficients of loss and of its fall with temperature, each a line over speed (source (3.4), (3.6)).
+template <class S>
+struct SpeedLines {
+  S A0_N{};
+  S A1_N_s_per_m{};
+  S B0_per_K{};
+  S B1_s_per_m_K{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"A0_N", any_number(), "Loss at standstill and 0 degC; A is not negative from lowest_speed_km_h up"},
+          p.A0_N);
+    visit(Field{"A1_N_s_per_m", any_number(), "Its rise with speed"}, p.A1_N_s_per_m);
+    visit(Field{"B0_per_degC", any_number(), "Its relative fall with tire temperature at standstill"}, p.B0_per_K);
+    visit(Field{"B1_s_per_m_degC", any_number(), "The rise of that fall with speed"}, p.B1_s_per_m_K);
+  }
+};
+
+/// Parameters of the rolling-resistance law; see models/tire/rolling_resistance.h.
+template <class S>
+struct RollingResistanceParameters : SpeedLines<S> {
+  S reference_load_N{};
+  S reference_pressure_Pa{};  // gauge
+  S reference_drum_diameter_m{};
+  S pressure_exponent{};
+  S lowest_speed_m_s{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"reference_load_N", positive(), "Load at which A0 and A1 hold"}, p.reference_load_N);
+    visit(Field{"reference_pressure_kPa", positive(), "Gauge pressure at which A0 and A1 hold"},
+          p.reference_pressure_Pa);
+    visit(Field{"reference_drum_diameter_m", positive(), "Drum on which A0 and A1 hold"}, p.reference_drum_diameter_m);
+    visit(Field{"pressure_exponent", between(0.0, 2.0), "a of (p/p_ref)^-a"}, p.pressure_exponent);
+    visit(Field{"lowest_speed_km_h", between(0.0, 100.0), "Below it A and B are held at their values there", 0.0},
+          p.lowest_speed_m_s);
+    SpeedLines<S>::visit(p, visit);
+  }
+};
+
+/// Coefficients fitted at one load; a map of them over load is the second load compensation of §3.3.1.3.
+template <class S>
+struct LoadMapEntry : SpeedLines<S> {
+  S load_N{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"load_N", positive(), "Load at which the entry was fitted"}, p.load_N);
+    SpeedLines<S>::visit(p, visit);
+  }
+};
+
+/// One rubber node and one gas node (source §3.3.2.1, (3.17)).
+template <class S>
+struct TireThermalParameters {
+  S heat_capacity_J_per_K{};
+  S gas_heat_capacity_J_per_K{};
+  S H_gas_W_per_K{};
+  S z_W_per_K{};
+  S road_share_of_z{};
+  S f_W_s_per_m_K{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"heat_capacity_J_per_K", positive(), "Heat capacity of the rubber"}, p.heat_capacity_J_per_K);
+    visit(Field{"gas_heat_capacity_J_per_K", positive(), "Heat capacity of the inflation gas"},
+          p.gas_heat_capacity_J_per_K);
+    visit(Field{"H_gas_W_per_K", positive(), "Conductance from rubber to gas"}, p.H_gas_W_per_K);
+    visit(Field{"z_W_per_K", non_negative(), "Speed-independent conductance to air and road"}, p.z_W_per_K);
+    visit(Field{"road_share_of_z", between(0.0, 1.0), "Share of z that goes to the road. Assumed: 0.5", 0.5},
+          p.road_share_of_z);
+    visit(Field{"f_W_s_per_m_K", non_negative(), "Conductance to air per unit of speed"}, p.f_W_s_per_m_K);
+  }
+};
+
+/// The constant-coefficient law that most vehicle simulators have.
+template <class S>
+struct ConstantLossParameters {
+  S rrc{};  // N/N
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"rrc_N_per_kN", non_negative(), "Constant rolling-resistance coefficient"}, p.rrc);
+  }
+};
+
+/// Every number of a tire that enters an equation.
+template <class S>
+struct TireParameters {
+  TireGeometry<S> geometry;
+  TireStiffness<S> stiffness;
+  RollingResistanceParameters<S> rolling_resistance;
+  std::vector<LoadMapEntry<S>> load_map;  // by increasing load; empty = one set of coefficients
+  TireThermalParameters<S> thermal;
+  ConstantLossParameters<S> constant;
+
+  /// Calls visit(table, field, member) for every number outside the load map.
+  template <class Self, class Visit>
+  static void visit_all(Self& p, Visit&& visit) {
+    const auto table = [&visit](const char* name) {
+      return [&visit, name](const Field& field, auto& member) { visit(name, field, member); };
+    };
+    TireGeometry<S>::visit(p.geometry, table("geometry"));
+    TireStiffness<S>::visit(p.stiffness, table("stiffness"));
+    RollingResistanceParameters<S>::visit(p.rolling_resistance, table("rolling_resistance"));
+    TireThermalParameters<S>::visit(p.thermal, table("thermal"));
+    ConstantLossParameters<S>::visit(p.constant, table("constant"));
+  }
+};
+
+/// A visited group in another scalar, field by field. Dimensions come from the units of the keys.
+template <class S, template <class> class Group>
+Group<S> convert(const Group<double>& from) {
+  std::vector<double> values;
+  Group<double>::visit(from, [&values](const Field&, const double& member) { values.push_back(member); });
+  Group<S> to;
+  std::size_t i = 0;
+  Group<S>::visit(
+      to, [&](const Field& field, S& member) { member = quantity<S>(values[i++], unit_of_key(field.key).dimension); });
+  return to;
+}
+
+template <class S>
+TireParameters<S> convert_tire(const TireParameters<double>& from) {
+  TireParameters<S> to;
+  to.geometry = convert<S>(from.geometry);
+  to.stiffness = convert<S>(from.stiffness);
+  to.rolling_resistance = convert<S>(from.rolling_resistance);
+  for (const LoadMapEntry<double>& entry : from.load_map) to.load_map.push_back(convert<S>(entry));
+  to.thermal = convert<S>(from.thermal);
+  to.constant = convert<S>(from.constant);
+  return to;
+}
+
+/// Loaded radius r_l = D/2 - Fz/k_z [m]: also the rolling radius (baseline: "Rig").
+template <class S>
+S calc_loaded_radius_m(const TireParameters<S>& tire, const S& load_N) {
+  return tire.geometry.outer_diameter_m / 2.0 - load_N / tire.stiffness.vertical_N_per_m;
+}
+
+}  // namespace rollrig::models

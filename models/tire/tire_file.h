@@ -1,0 +1,62 @@
+#pragma once
+/// assets/tires/<name>.toml: reading, with every rule of formats.md, and writing.
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "models/ports.h"
+#include "models/tire/tire.h"
+
+namespace rollrig::models {
+
+/// z and f as identified on one rig ([thermal.rig.<name>]); what is absent there is taken from [thermal].
+struct RigThermal {
+  std::optional<double> z_W_per_K;
+  std::optional<double> z_sd_W_per_K;
+  std::optional<double> f_W_s_per_m_K;
+  std::optional<double> f_sd_W_s_per_m_K;
+};
+
+/// [iso_28580]: what the tire's label or a test says, for comparison and as default test conditions.
+struct Iso28580Reference {
+  double rrc = 0.0;  // N/N
+  double load_N = 0.0;
+  double pressure_Pa = 0.0;
+};
+
+struct TireFile {
+  std::string path;
+  std::string content;  // as read, for the manifest's hash
+  std::string name;
+  std::string designation;
+  TireParameters<double> values;
+  TireParameters<double> standard_uncertainties;  // 0 where none was given
+  bool has_stiffness = false;
+  bool has_rolling_resistance = false;
+  bool has_thermal = false;
+  bool has_constant = false;
+  std::map<std::string, RigThermal> rig_thermal;
+  std::optional<Iso28580Reference> iso_28580;
+  std::vector<double> sweep_loads_N;  // [load_sweep] loads_N: the loads of its load sweep; may be empty
+
+  /// The parameters as they hold on a rig of that name. Throws InputError when a table is absent that
+  /// the baseline needs.
+  TireParameters<double> parameters_on(const std::string& rig_name, Baseline baseline) const;
+
+  /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
+  /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,
+  /// H 4 W/K, z 12 W/K, f 1.4 W s/(m K), 220 kN/m, slip stiffness 75 kN, pressure exponent 0.4, the load and the
+  /// pressure given as references. Throws InputError without [constant].
+  /// Source    Assumed: those of the asset tires
+  /// Checked   tests/models/tire_file_test.cpp
+  TireParameters<double> parameters_with_class_values(double load_N, double pressure_Pa) const;
+};
+
+/// Reads a tire from parsed TOML. Throws InputError.
+TireFile read_tire(const ConfigTable& config);
+
+/// The file as TOML. `notes` holds a comment for dotted keys ("rolling_resistance.A0_N").
+std::string write_tire(const TireFile& tire, const std::map<std::string, std::string>& notes = {});
+
+}  // namespace rollrig::models

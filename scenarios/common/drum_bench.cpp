@@ -1,0 +1,54 @@
+#include "scenarios/common/drum_bench.h"
+
+#include "rigs/multibody_drum.h"
+#include "rigs/quasi_static_drum.h"
+#include "rigs/trace_effects.h"
+#include "scenarios/common/virtual_sensors.h"
+#include "scenarios/run/fidelity.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+rigs::DrumStart<double> make_start(const RunSpec& spec, const DrumConditions& conditions) {
+  rigs::DrumStart<double> start;
+  start.tire_temperature_K = *conditions.initial_tire_K;
+  start.cold_pressure_Pa = *conditions.pressure_Pa;
+  start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
+  start.history.soaked = !conditions.started_warm && !conditions.rest_before_s.has_value();
+  start.history.started_warm = conditions.started_warm;
+  start.history.rest_before_s = conditions.rest_before_s.value_or(0.0);
+  return start;
+}
+
+/// A set run starts where the tire is soaked: its temperature, and the pressure at it, are those of the
+/// gas at that time.
+void fill_set_starts(const sim::Recording<double>& recording, std::vector<SetRun>& runs) {
+  for (SetRun& run : runs) {
+    const std::size_t row = recording.row_at(run.start_s);
+    run.initial_tire_temperature_K = recording.channel("gas_temperature_degC")[row];
+    run.cold_pressure_Pa = recording.channel("cavity_pressure_kPa")[row];
+  }
+}
+
+}  // namespace
+
+void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
+                      const sim::Progress& progress, Outcome& outcome) {
+  models::Corner<double> corner(rigs::make_context(spec.tire, spec.rig, spec.baseline), spec.effects);
+  const rigs::DrumStart<double> start = make_start(spec, conditions);
+  if (spec.fidelity == Fidelity::kMultibody) {
+    rigs::MultibodyDrum drum(corner, spec.rig, start, program.surface_recorded());
+    outcome.recording = run_multibody(drum, program.program(), spec, progress, outcome.statistics);
+  } else {
+    rigs::QuasiStaticDrum<double> drum(corner, start, program.surface_recorded(), rigs::Detail::kFull);
+    outcome.recording =
+        run_quasi_static(drum, program.program(), rigs::index_of(rigs::DrumInput::kSpeed), spec, progress);
+  }
+  outcome.recording.audit.require_closed(sim::kAuditLimit);
+  outcome.set_runs = program.set_runs();
+  fill_set_starts(outcome.recording, outcome.set_runs);
+  rigs::apply_trace_effects(corner, outcome.recording);
+  apply_sensors(spec, outcome.recording);
+}
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,146 @@
+#include "scenarios/common/drum_program.h"
+
+#include <algorithm>
+
+namespace rollrig::scenarios {
+namespace {
+
+constexpr double kRowEveryAtRest_s = 60.0;
+constexpr double kMaxStepAtRest_s = 20.0;  // under the gas's time constant of 24 s
+
+}  // namespace
+
+DrumProgram::DrumProgram(const DrumConditions& conditions, const rigs::RigFile& rig, double sample_interval_s)
+    : conditions_(conditions), skim_load_N_(rig.skim.load_N), load_N_(rig.skim.load_N) {
+  program_.sample_interval_s = sample_interval_s;
+}
+
+sim::Phase& DrumProgram::append(const std::string& name, double duration_s, double end_speed_m_s) {
+  sim::Segment segment;
+  segment.duration_s = duration_s;
+  segment.inputs.resize(rigs::kDrumInputCount);
+  const double ambient_K = *conditions_.ambient_K;
+  segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {speed_m_s_, (end_speed_m_s - speed_m_s_) / duration_s};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {load_N_, 0.0};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = {ambient_K, 0.0};
+  segment.inputs[rigs::index_of(rigs::DrumInput::kSurface)] = {conditions_.surface_K.value_or(ambient_K), 0.0};
+  sim::Phase phase;
+  phase.name = name;
+  phase.segments = {segment};
+  program_.phases.push_back(phase);
+  speed_m_s_ = end_speed_m_s;
+  return program_.phases.back();
+}
+
+void DrumProgram::soak_and_inflate(double pressure_Pa) {
+  close_set_run();
+  load_N_ = skim_load_N_;
+  const int row_stride = std::max(1, static_cast<int>(kRowEveryAtRest_s / program_.sample_interval_s));
+  const auto rest = [&](const std::string& name, double duration_s) -> sim::Phase* {
+    if (duration_s <= 0.0) return nullptr;
+    sim::Phase& phase = append(name, duration_s, 0.0);
+    phase.row_stride = row_stride;
+    phase.max_step_s = kMaxStepAtRest_s;
+    return &phase;
+  };
+  rest("soak", conditions_.soak_s);
+  const sim::Command inflate{rigs::kSetPressure, pressure_Pa};
+  // A second at least, so that the pressure has a phase to be set in.
+  sim::Phase* check = rest("pressure check", std::max(1.0, conditions_.pressure_check_s));
+  check->commands = {inflate};
+}
+
+void DrumProgram::begin_test(const std::string& set_run_id, double pressure_Pa, double speed_m_s) {
+  soak_and_inflate(pressure_Pa);
+  open_set_run(set_run_id);
+  change_speed("run-up", conditions_.run_up_s, speed_m_s);
+}
+
+void DrumProgram::begin_test_under(const std::string& set_run_id, double pressure_Pa, double speed_m_s, double load_N) {
+  soak_and_inflate(pressure_Pa);
+  open_set_run(set_run_id);
+  load_N_ = load_N;
+  if (speed_m_s > 0.0) change_speed("run-up", conditions_.run_up_s, speed_m_s);
+}
+
+void DrumProgram::end_test() {
+  close_set_run();
+  load_N_ = skim_load_N_;
+  change_speed("run-down", conditions_.run_up_s, 0.0);
+}
+
+void DrumProgram::change_speed(const std::string& name, double duration_s, double speed_m_s) {
+  append(name, duration_s, speed_m_s);
+}
+
+void DrumProgram::mark_time_zero() {
+  if (!zero_marked_) before_zero_s_ = program_.duration_s();
+  zero_marked_ = true;
+}
+
+void DrumProgram::check_readable(const std::string& name, double duration_s) const {
+  const double sample_s = program_.sample_interval_s;
+  const double window_s = std::min(conditions_.window_s, duration_s - 2.0 * conditions_.margin_s);
+  if (window_s >= 2.0 * sample_s && duration_s >= kShortestRange_s + sample_s) return;
+  InputProblem problem;
+  problem.what = fmt::format("phase '{}' of {} s is too short to be read: margin_s {}, window_s {}, samples every {} s",
+                             name, duration_s, conditions_.margin_s, conditions_.window_s, sample_s);
+  problem.key = "margin_s, window_s, sample_interval_s";
+  problem.allowed = fmt::format("two samples in the window, phases of {} s and a sample at least", kShortestRange_s);
+  throw InputError(problem);
+}
+
+void DrumProgram::roll(const std::string& name, double duration_s, double load_N) {
+  check_readable(name, duration_s);
+  load_N_ = load_N;
+  append(name, duration_s, speed_m_s_);
+}
+
+void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run) {
+  sim::Phase phase = measurements::make_replay(run).phases.front();
+  phase.name = name;
+  program_.phases.push_back(std::move(phase));
+  speed_m_s_ = run.columns.at("speed_km_h").back();
+  load_N_ = run.columns.at("load_N").back();
+}
+
+void DrumProgram::end_at_tire_temperature(double temperature_K) {
+  program_.phases.back().until =
+      sim::StopCondition{rigs::kWatchTireTemperature, temperature_K, sim::StopCondition::Direction::kRising};
+}
+
+void DrumProgram::open_set_run(const std::string& id) {
+  close_set_run();
+  SetRun run;
+  run.id = id;
+  const auto is_taken = [this](const std::string& wanted) {
+    return std::any_of(set_runs_.begin(), set_runs_.end(), [&](const SetRun& other) { return other.id == wanted; });
+  };
+  for (int repeat = 2; is_taken(run.id); ++repeat) run.id = fmt::format("{}-{}", id, repeat);
+  run.start_s = program_.duration_s();
+  set_runs_.push_back(run);
+  set_run_open_ = true;
+}
+
+void DrumProgram::close_set_run() {
+  if (set_run_open_) set_runs_.back().end_s = program_.duration_s();
+  set_run_open_ = false;
+}
+
+sim::Program DrumProgram::program() const {
+  sim::Program program = program_;
+  program.start_time_s = -before_zero_s_;
+  return program;
+}
+
+std::vector<SetRun> DrumProgram::set_runs() const {
+  std::vector<SetRun> runs = set_runs_;
+  if (set_run_open_) runs.back().end_s = program_.duration_s();
+  for (SetRun& run : runs) {
+    run.start_s -= before_zero_s_;
+    run.end_s -= before_zero_s_;
+  }
+  return runs;
+}
+
+}  // namespace rollrig::scenarios

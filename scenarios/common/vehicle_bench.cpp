@@ -1,0 +1,46 @@
+#include "scenarios/common/vehicle_bench.h"
+
+#include "rigs/multibody_vehicle.h"
+#include "rigs/quasi_static_vehicle.h"
+#include "rigs/trace_effects.h"
+#include "scenarios/run/fidelity.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+rigs::VehicleStart<double> make_start(const RunSpec& spec, const VehicleConditions& conditions) {
+  rigs::VehicleStart<double> start;
+  start.tire_temperature_K = *conditions.initial_tire_K;
+  start.cold_pressure_Pa = conditions.pressure_Pa;
+  start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
+  start.history.started_warm = conditions.tire_state.value == "warm";
+  start.history.soaked = !start.history.started_warm && !conditions.rest_before_s.has_value();
+  start.history.rest_before_s = conditions.rest_before_s.value_or(0.0);
+  return start;
+}
+
+}  // namespace
+
+void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, const VehicleProgram& program,
+                      const sim::Progress& progress, Outcome& outcome) {
+  const rigs::VehicleLayout layout = conditions.make_layout(spec);
+  const models::Context<double> context = rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
+  std::vector<models::Corner<double>> corners(layout.wheels.size(), models::Corner<double>(context, spec.effects));
+  const rigs::VehicleStart<double> start = make_start(spec, conditions);
+  if (spec.fidelity == Fidelity::kMultibody) {
+    rigs::MultibodyVehicle vehicle(corners, layout, *spec.vehicle, spec.rig, start, program.surface_recorded());
+    outcome.recording = run_multibody(vehicle, program.program(), spec, progress, outcome.statistics);
+  } else {
+    rigs::QuasiStaticVehicle<double> vehicle(corners, layout, start, program.surface_recorded());
+    outcome.recording =
+        run_quasi_static(vehicle, program.program(), rigs::index_of(rigs::VehicleInput::kSpeed), spec, progress);
+  }
+  outcome.recording.audit.require_closed(kDriveAuditLimit);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    rigs::apply_trace_effects(corners[i], outcome.recording, [&layout, i](const std::string& recorded) {
+      return rigs::name_at_wheel(recorded, layout, i);
+    });
+  }
+}
+
+}  // namespace rollrig::scenarios

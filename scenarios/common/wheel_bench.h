@@ -1,0 +1,35 @@
+#pragma once
+/// Runs a file's rows as the replay of a set's run does: one wheel on its roller, or a vehicle on the road.
+
+#include "measurements/wheel_ledger.h"
+#include "scenarios/common/given_run.h"
+#include "scenarios/run/rig_scenario.h"
+
+namespace rollrig::scenarios {
+
+/// What the equations take of the spec's tire on its roller or on the road. Throws InputError.
+models::Context<double> make_wheel_context(const RunSpec& spec, const measurements::MeasuredRun& rows);
+
+/// Replays `rows`, checks both audits, applies sensors, and puts recording and set run into `outcome`: given columns,
+/// measured ones, then those of the ledger. What is written as a set is replayed to the same values.
+void simulate_rows(const RunSpec& spec, const GivenRun& given, const measurements::MeasuredRun& rows,
+                   const sim::Progress& progress, Outcome& outcome);
+
+/// A scenario whose settings have a GivenRun as `conditions`, for sets of a kind; see rig_scenario.h. Quasi-static
+/// alone: the rows say what moves, so that there are no mechanics to simulate.
+template <class Settings>
+Scenario make_wheel_scenario(ScenarioText text, measurements::SetKind kind,
+                             void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
+  const auto plan = +[](const Settings& settings, const RunSpec& spec) { return settings.conditions.make_rows(spec); };
+  Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_rows,
+                                        [](const RunSpec& spec) { make_wheel_context(spec, {}); });
+  const bool is_road = kind == measurements::SetKind::kRoad;
+  scenario.rig_kinds = {is_road ? rigs::RigKind::kFlat : rigs::RigKind::kDyno};
+  scenario.default_rig = is_road ? "" : "dyno_1m2";
+  scenario.has_vehicle = is_road;
+  scenario.fidelities = {Fidelity::kQuasiStatic};
+  scenario.set_kind = kind;
+  return scenario;
+}
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,109 @@
+// Runs of a scenario as the files of a measurement set.
+#include "scenarios/common/written_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "measurements/measurement_set.h"
+#include "measurements/wheel_ledger.h"
+#include "sim/core/csv.h"
+
+namespace rollrig::scenarios {
+
+namespace {
+
+bool holds(const std::vector<Field>& fields, const std::string& name) {
+  return std::any_of(fields.begin(), fields.end(), [&](const Field& field) { return field.key == name; });
+}
+
+/// Whether a set of the kind has no sample where the recording has one.
+/// Source    formats.md: the loss force is empty below 20 km/h, the traction force where friction brakes act
+bool is_left_empty(measurements::SetKind kind, const sim::Recording<double>& recording, const std::string& column,
+                   std::size_t row) {
+  constexpr double kSlowest_m_s = 20.0 / 3.6;
+  if (kind == measurements::SetKind::kDyno && column == "loss_force_N")
+    return recording.channel("speed_km_h")[row] < kSlowest_m_s;
+  if (kind == measurements::SetKind::kRoad && column == "traction_force_N")
+    return recording.channel(measurements::kFrictionBrake)[row] > 0.0;
+  return false;
+}
+
+/// Rows of one run as CSV, times from its start. Where the run is cut out of a longer recording, a mean at
+/// its first or last row reaches beyond the cut: that field is left empty.
+std::string write_run_csv(measurements::SetKind kind, const sim::Recording<double>& recording, const SetRun& run,
+                          const std::vector<std::string>& columns) {
+  std::vector<std::string> header{"time_s"};
+  header.insert(header.end(), columns.begin(), columns.end());
+  CsvWriter csv(header);
+  constexpr double kSlack_s = 1e-6;
+  for (std::size_t row = 0; row < recording.row_count(); ++row) {
+    const double time_s = recording.time_s[row];
+    if (time_s < run.start_s - kSlack_s || time_s > run.end_s + kSlack_s) continue;
+    const bool cut_before = std::abs(time_s - run.start_s) <= kSlack_s && row > 0;
+    const bool cut_after = std::abs(time_s - run.end_s) <= kSlack_s && row + 1 < recording.row_count();
+    csv.begin_row();
+    csv.add(time_s - run.start_s);
+    for (const std::string& column : columns) {
+      const bool beyond = (cut_before || cut_after) && holds(measurements::columns_of(kind).measured, column);
+      const bool is_empty = beyond || is_left_empty(kind, recording, column, row);
+      csv.add(is_empty ? std::nan("") : unit_of_key(column).from_si(recording.channel(column)[row]));
+    }
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+/// Given columns that were recorded, and measured ones that have a sensor.
+std::vector<std::string> find_columns(measurements::SetKind kind, const sim::Recording<double>& recording,
+                                      const models::SensorSet& sensors) {
+  const measurements::SetColumns& all = measurements::columns_of(kind);
+  std::vector<std::string> columns;
+  for (const sim::Channel& channel : recording.channels) {
+    const bool is_input = holds(all.given, channel.name) || holds(all.optional_given, channel.name);
+    const bool is_read = holds(all.measured, channel.name) && sensors.count(channel.name) > 0;
+    if (is_input || is_read) columns.push_back(channel.name);
+  }
+  return columns;
+}
+
+std::string write_run_table(const SetRun& run) {
+  std::string text = fmt::format(
+      "\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"session\"\n"
+      "initial_tire_temperature_degC = {1:.10g}\ncold_pressure_kPa = {2:.10g}\n",
+      run.id, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3);
+  if (run.rest_before_s.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_s / 60.0);
+  if (run.started_warm) text += "tire_state = \"warm\"\n";
+  if (run.force_at_standstill) text += "force_at_standstill = true\n";
+  return text;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
+                                                         const std::string& name) {
+  if (!spec.scenario->set_kind.has_value()) throw std::invalid_argument("a scenario that writes no set");
+  const measurements::SetKind kind = *spec.scenario->set_kind;
+  const models::SensorSet sensors = spec.sensors.value_or(models::SensorSet{});
+  const std::vector<std::string> columns = find_columns(kind, outcome.recording, sensors);
+  const bool is_road = kind == measurements::SetKind::kRoad;
+  std::map<std::string, std::string> files;
+  std::string set = fmt::format(
+      "format = \"rollrig-measurements/1\"\nname = \"{}\"\n{}tire = \"tire.toml\"\n{}\nbaseline = \"{}\"\n", name,
+      is_road ? "kind = \"road\"\n" : "", is_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
+      spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
+  set += measurements::write_sensors(sensors);
+  for (const SetRun& run : outcome.set_runs) {
+    set += write_run_table(run);
+    files[run.id + ".csv"] = write_run_csv(kind, outcome.recording, run, columns);
+  }
+  files["set.toml"] = set;
+  files["tire.toml"] = models::write_tire(spec.tire);
+  files[is_road ? "vehicle.toml" : "rig.toml"] =
+      is_road ? rigs::write_vehicle(*spec.vehicle) : rigs::write_rig(spec.rig);
+  return files;
+}
+
+}  // namespace rollrig::scenarios

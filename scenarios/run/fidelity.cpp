@@ -1,0 +1,33 @@
+#include "scenarios/run/fidelity.h"
+
+#include <algorithm>
+
+#include "rigs/standstill_grid.h"
+#include "sim/cvodes_integrator.h"
+#include "sim/fixed_grid_integrator.h"
+
+namespace rollrig::scenarios {
+
+sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Program& program, const RunSpec& spec,
+                                     const sim::Progress& progress, Json& statistics) {
+  sim::CvodesOptions options;
+  options.tolerance_factor = spec.tolerance_factor;
+  sim::CvodesIntegrator integrator(rig, options);
+  sim::Recording<double> recording = sim::simulate<double>(rig, integrator, program, progress);
+  const sim::CvodesStatistics counted = integrator.statistics();
+  statistics = {{"steps", counted.steps},
+                {"rate_evaluations", counted.rate_evaluations},
+                {"jacobian_evaluations", counted.jacobian_evaluations},
+                {"error_test_failures", counted.error_test_failures}};
+  return recording;
+}
+
+sim::Recording<double> run_quasi_static(sim::OdeSystem<double>& rig, const sim::Program& program,
+                                        std::size_t speed_input, const RunSpec& spec, const sim::Progress& progress) {
+  sim::FixedGridIntegrator<double> integrator(rig);
+  sim::Program on_grid = rigs::refine_near_standstill(program, speed_input);
+  for (sim::Phase& phase : on_grid.phases) phase.max_step_s *= std::min(1.0, spec.tolerance_factor);
+  return sim::simulate<double>(rig, integrator, on_grid, progress);
+}
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,19 @@
+#pragma once
+/// Runs a program on a rig, whichever it is, in one of the two fidelities.
+
+#include "scenarios/run/scenario.h"
+#include "sim/ode_system.h"
+
+namespace rollrig::scenarios {
+
+/// CVODES on a multibody rig; what it counted goes into `statistics`.
+sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Program& program, const RunSpec& spec,
+                                     const sim::Progress& progress, Json& statistics);
+
+/// The fixed grid on a quasi-static rig, refined near standstill; input `speed_input` of the program is the speed.
+/// A tolerance factor below 1 makes the grid finer; one above 1 changes nothing, since the phases' own steps are the
+/// longest that are stable.
+sim::Recording<double> run_quasi_static(sim::OdeSystem<double>& rig, const sim::Program& program,
+                                        std::size_t speed_input, const RunSpec& spec, const sim::Progress& progress);
+
+}  // namespace rollrig::scenarios

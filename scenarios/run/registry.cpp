@@ -1,0 +1,42 @@
+#include "scenarios/run/scenario.h"
+#include "sim/core/error.h"
+
+namespace rollrig::scenarios {
+
+// Named one by one, since the linker drops objects of a static library that nothing refers to.
+#define ROLLRIG_SCENARIO(name) const Scenario& scenario_##name();
+#include "scenarios/scenarios.def"
+#undef ROLLRIG_SCENARIO
+
+Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) {
+  try {
+    return spec.scenario->run(spec, progress);
+  } catch (const RunFailure& failure) {
+    if (spec.effects.empty()) throw;
+    throw RunFailure(std::string(failure.what()) + "\neffects that were on: " + describe_effects(spec.effects));
+  }
+}
+
+const std::vector<const Scenario*>& all_scenarios() {
+  static const std::vector<const Scenario*> scenarios{
+#define ROLLRIG_SCENARIO(name) &scenario_##name(),
+#include "scenarios/scenarios.def"
+#undef ROLLRIG_SCENARIO
+  };
+  return scenarios;
+}
+
+std::vector<std::string> scenario_names() {
+  std::vector<std::string> names;
+  for (const Scenario* scenario : all_scenarios()) names.push_back(scenario->text.name);
+  return names;
+}
+
+const Scenario& find_scenario(const std::string& name) {
+  for (const Scenario* scenario : all_scenarios()) {
+    if (scenario->text.name == name) return *scenario;
+  }
+  throw InputError(unknown_name("scenario", name, scenario_names()));
+}
+
+}  // namespace rollrig::scenarios

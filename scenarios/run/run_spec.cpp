@@ -1,0 +1,193 @@
+#include "scenarios/run/run_spec.h"
+
+#include <fmt/format.h>
+
+#include "measurements/measurement_set.h"
+#include "measurements/sensor_file.h"
+#include "sim/core/assets.h"
+#include "sim/core/file_io.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+constexpr const char* kFormat = "rollrig-run";
+constexpr int kVersion = 1;
+
+/// Puts every value of `changes` over that of `base`, table by table.
+void merge(ConfigTable& base, const ConfigTable& changes) {
+  for (const auto& [key, value] : changes.entries) {
+    const auto it = base.entries.find(key);
+    const bool both_tables =
+        it != base.entries.end() && it->second.as_table() != nullptr && value.as_table() != nullptr;
+    if (both_tables) {
+      merge(std::get<ConfigTable>(it->second.data), *value.as_table());
+    } else {
+      base.entries[key] = value;
+    }
+  }
+}
+
+/// An asset's document with the overrides of the run.
+ConfigTable read_with_overrides(const std::string& path, const std::string& content, const ConfigTable* overrides) {
+  ConfigTable config = parse_config(content, path);
+  if (overrides != nullptr) merge(config, *overrides);
+  return config;
+}
+
+const ConfigTable* find_override(TableReader& overrides, const char* what) { return overrides.table(what); }
+
+std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std::string& base_folder,
+                                                  const Scenario& scenario) {
+  if (!reader.has("sensors")) {
+    reader.accept("sensors");
+    return std::nullopt;
+  }
+  const ConfigTable* table = reader.source().find("sensors")->as_table();
+  const std::string name = table != nullptr ? "" : reader.text("sensors");
+  if (name == "none") return std::nullopt;
+  if (!scenario.set_kind.has_value()) {
+    throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", scenario.text.name),
+                         "no sensors, or none");
+  }
+  const std::vector<std::string> channels = measurements::measured_channels(*scenario.set_kind);
+  if (table != nullptr) return models::read_sensors(*reader.table("sensors"), channels);
+  return measurements::read_sensor_file(read_config(find_asset_of(reader, "sensors", base_folder, "sensors", name)),
+                                        channels);
+}
+
+void check_rig_kind(const RunSpec& spec) {
+  if (!spec.scenario->has_rig()) return;
+  std::vector<std::string> kinds;
+  for (const rigs::RigKind kind : spec.scenario->rig_kinds) {
+    if (spec.rig.kind == kind) return;
+    kinds.push_back(fmt::format("\"{}\"", name_of(kind)));
+  }
+  throw InputError({fmt::format("scenario '{}' cannot be carried out on rig '{}', which is of kind \"{}\"",
+                                spec.scenario->text.name, spec.rig.name, name_of(spec.rig.kind)),
+                    spec.rig.path, 0, "kind", "", fmt::format("a rig of kind {}", fmt::join(kinds, " or ")), ""});
+}
+
+/// Throws InputError where a run names what its scenario has not.
+void refuse_machine(const TableReader& reader, const TableReader& overrides, const char* machine,
+                    const Scenario& scenario) {
+  for (const TableReader* from : {&reader, &overrides}) {
+    if (!from->has(machine)) continue;
+    throw from->problem(machine, fmt::format("scenario '{}' has no {}", scenario.text.name, machine),
+                        fmt::format("no {}, or another scenario", machine));
+  }
+}
+
+/// The road: standard air over the plane (formats.md names no rig for a vehicle on the road).
+rigs::RigFile make_road() {
+  rigs::RigFile road;
+  road.name = "road";
+  road.kind = rigs::RigKind::kFlat;
+  road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
+  return road;
+}
+
+/// The rig of a scenario that has one.
+void read_run_rig(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
+  if (!spec.scenario->has_rig()) {
+    refuse_machine(reader, overrides, "rig", *spec.scenario);
+    spec.rig = make_road();
+    return;
+  }
+  const std::string path =
+      find_asset_of(reader, "rig", base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
+  const std::string content = read_text_file(path);
+  spec.rig = rigs::read_rig(read_with_overrides(path, content, find_override(overrides, "rig")));
+  spec.rig.content = content;
+}
+
+/// The vehicle of a scenario that has one.
+void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
+  if (!spec.scenario->has_vehicle) {
+    refuse_machine(reader, overrides, "vehicle", *spec.scenario);
+    return;
+  }
+  const std::string path =
+      find_asset_of(reader, "vehicle", base_folder, "vehicles", reader.text_or("vehicle", "source_car"));
+  const std::string content = read_text_file(path);
+  spec.vehicle = rigs::read_vehicle(read_with_overrides(path, content, find_override(overrides, "vehicle")));
+  spec.vehicle->content = content;
+}
+
+Fidelity read_fidelity(TableReader& reader, const Scenario& scenario) {
+  const std::string name =
+      reader.text_or("fidelity", name_of(scenario.fidelities.front()), {"multibody", "quasi_static"});
+  std::vector<std::string> allowed;
+  for (const Fidelity fidelity : scenario.fidelities) {
+    if (name == name_of(fidelity)) return fidelity;
+    allowed.emplace_back(name_of(fidelity));
+  }
+  throw reader.problem("fidelity", fmt::format("scenario '{}' is not simulated {}", scenario.text.name, name),
+                       fmt::format("{}", fmt::join(allowed, " or ")));
+}
+
+}  // namespace
+
+const char* name_of(Fidelity fidelity) { return fidelity == Fidelity::kMultibody ? "multibody" : "quasi_static"; }
+const char* name_of(models::Baseline baseline) {
+  return baseline == models::Baseline::kCombined ? "combined" : "constant_rrc";
+}
+
+ConfigTable make_run_document(const std::string& scenario) {
+  ConfigTable document;
+  document.origin = {"command line", 0};
+  const auto set = [&document](const char* key, const std::string& value) {
+    document.entries[key] = ConfigValue{value, document.origin, value};
+  };
+  set("format", fmt::format("{}/{}", kFormat, kVersion));
+  set("scenario", scenario);
+  return document;
+}
+
+void set_run_value(ConfigTable& document, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError({fmt::format("--set '{}' is not key=value", assignment), "command line", 0, "--set", assignment,
+                      "--set speed_km_h=100, --set tire.thermal.z_W_per_K=12, --set effects.<id>.<parameter>=...", ""});
+  }
+  std::string key = assignment.substr(0, equals);
+  const std::string first = key.substr(0, key.find('.'));
+  const bool has_parts = key.find('.') != std::string::npos;
+  if (has_parts && (first == "tire" || first == "rig" || first == "vehicle")) {
+    key = "override." + key;
+  } else if (!(has_parts && (first == "effects" || first == "sensors" || first == "settings"))) {
+    key = "settings." + key;
+  }
+  set_config_value(document, key, assignment.substr(equals + 1), "--set");
+}
+
+RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folder) {
+  TableReader reader(document, "");
+  check_format(reader, kFormat, kVersion);
+  RunSpec spec;
+  spec.scenario = &find_scenario(reader.text("scenario", scenario_names()));
+  const ConfigTable no_changes;
+  const ConfigTable* override_table = reader.table("override");
+  TableReader overrides(override_table != nullptr ? *override_table : no_changes, "[override]");
+  const std::string tire_path = find_asset_of(reader, "tire", base_folder, "tires", reader.text("tire"));
+  const std::string tire_content = read_text_file(tire_path);
+  spec.tire = models::read_tire(read_with_overrides(tire_path, tire_content, find_override(overrides, "tire")));
+  spec.tire.content = tire_content;
+  read_run_rig(reader, overrides, base_folder, spec);
+  read_run_vehicle(reader, overrides, base_folder, spec);
+  overrides.finish();
+  spec.fidelity = read_fidelity(reader, *spec.scenario);
+  const std::vector<std::string> baselines{"combined", "constant_rrc"};
+  spec.baseline = reader.text_or("baseline", "combined", baselines) == "combined" ? models::Baseline::kCombined
+                                                                                  : models::Baseline::kConstantRrc;
+  spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 2147483647.0), "random seed", 1.0}));
+  spec.sample_interval_s = reader.number({"sample_interval_s", between(0.01, 60.0), "between rows", 1.0});
+  spec.tolerance_factor = reader.number({"tolerance_factor", between(1e-3, 1e3), "on all tolerances", 1.0});
+  spec.sensors = read_run_sensors(reader, base_folder, *spec.scenario);
+  if (const ConfigTable* effects = reader.table("effects")) spec.effects = models::read_effects(*effects);
+  if (const ConfigTable* settings = reader.table("settings")) spec.settings = *settings;
+  reader.finish();
+  check_rig_kind(spec);
+  return spec;
+}
+
+}  // namespace rollrig::scenarios

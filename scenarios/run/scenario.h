@@ -1,0 +1,125 @@
+#pragma once
+/// A scenario: a procedure that is carried out on a rig, and what is reported of it.
+///
+/// A scenario is one file, scenarios/<name>.cpp, and one line in scenarios.def. See docs/add_a_scenario.md.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measurements/measurement_set.h"
+#include "models/effect.h"
+#include "sim/core/json.h"
+#include "sim/recording.h"
+#include "sim/simulate.h"
+
+namespace rollrig::scenarios {
+
+enum class Fidelity { kMultibody, kQuasiStatic };
+
+struct Scenario;
+
+/// Everything that a run is made from, read and checked.
+struct RunSpec {
+  const Scenario* scenario = nullptr;
+  models::TireFile tire;
+  rigs::RigFile rig;
+  std::optional<rigs::VehicleFile> vehicle;  // where the scenario has one
+  Fidelity fidelity = Fidelity::kMultibody;
+  models::Baseline baseline = models::Baseline::kCombined;
+  std::vector<models::ActiveEffect> effects;
+  std::optional<models::SensorSet> sensors;  // absent: what is recorded is what is
+  std::uint64_t seed = 1;
+  double sample_interval_s = 1.0;
+  double tolerance_factor = 1.0;
+  ConfigTable settings;  // [settings], read by the scenario
+};
+
+/// A line of the table that a person reads after a run.
+struct ResultLine {
+  std::string label;
+  std::string value;
+};
+
+/// A table with several columns, for what was measured at several points.
+struct ResultTable {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Part of a run that makes one run of a measurement set: rolling from a soaked tire.
+struct SetRun {
+  std::string id;
+  double start_s = 0.0;
+  double end_s = 0.0;
+  double initial_tire_temperature_K = 0.0;
+  double cold_pressure_Pa = 0.0;  // gauge, at that temperature
+  std::optional<double> rest_before_s;
+  bool started_warm = false;
+  bool force_at_standstill = false;
+};
+
+struct Outcome {
+  Json result = Json::object();    // `result` of result.json
+  Json settings = Json::object();  // every setting as used
+  std::vector<ResultLine> lines;
+  std::vector<ResultTable> tables;
+  std::vector<std::string> warnings;
+  sim::Recording<double> recording;
+  std::vector<SetRun> set_runs;
+  Json statistics = Json::object();  // of the integrator
+};
+
+/// A setting as it is shown by `rollrig describe`.
+struct SettingInfo {
+  std::string key;
+  std::string range;
+  std::string fallback;  // as text, in the unit of the key
+  std::string doc;
+};
+
+/// A quantity of `result`, for the reference page.
+struct ResultInfo {
+  std::string key;
+  std::string doc;
+};
+
+/// What a scenario says of itself.
+struct ScenarioText {
+  std::string name;
+  std::string summary;
+  std::string procedure;  // steps, for a person
+  std::string source;
+  std::vector<ResultInfo> results;
+};
+
+struct Scenario {
+  ScenarioText text;
+  std::vector<rigs::RigKind> rig_kinds{rigs::RigKind::kDrum};  // on which it can be carried out
+  std::string default_rig = "drum_2m";                         // empty: the road, which has no rig
+  bool has_vehicle = false;
+  std::vector<Fidelity> fidelities{Fidelity::kMultibody, Fidelity::kQuasiStatic};  // the first unless asked otherwise
+  std::optional<measurements::SetKind>
+      set_kind;  // of the measurement sets that it writes; none: it records without sensors
+  std::vector<SettingInfo> settings;
+  /// Reads spec.settings and plans, without running. Throws InputError.
+  std::function<void(const RunSpec& spec)> check;
+  /// Reads spec.settings, runs, evaluates: what run_scenario() calls. Throws InputError, RunFailure, Interrupted.
+  std::function<Outcome(const RunSpec& spec, const sim::Progress& progress)> run;
+
+  bool has_rig() const { return !default_rig.empty(); }
+};
+
+/// Runs the scenario of `spec`. A run that fails says which effects were on. Throws InputError, RunFailure,
+/// Interrupted.
+Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress);
+
+/// All scenarios, in the order of scenarios.def.
+const std::vector<const Scenario*>& all_scenarios();
+std::vector<std::string> scenario_names();
+/// Throws InputError with the nearest known name.
+const Scenario& find_scenario(const std::string& name);
+
+}  // namespace rollrig::scenarios

@@ -1,0 +1,100 @@
+#pragma once
+/// Settings of a scenario: declared by a visit() as parameters are, read from [settings], shown by describe.
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <boost/algorithm/string/join.hpp>
+
+#include "scenarios/run/scenario.h"
+
+namespace rollrig::scenarios {
+
+/// A path in a file, relative to that file's folder; on the command line relative to the working folder.
+struct FilePath {
+  std::string path;  // as it is opened
+};
+void read_member(TableReader& reader, const Field& field, FilePath& member);
+
+namespace detail {
+
+inline std::string show_in_unit(const Field& field, double si_value) {
+  return fmt::format("{:.6g}", unit_of_key(field.key).from_si(si_value));
+}
+inline std::string show_default(const Field& field, const double&) {
+  return field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required";
+}
+inline std::string show_default(const Field& field, const int&) {
+  return field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required";
+}
+inline std::string show_default(const Field& field, const std::optional<double>& member) {
+  return member.has_value() ? show_in_unit(field, *member) : "see text";
+}
+inline std::string show_default(const Field&, const FilePath&) { return "required"; }
+inline std::string show_default(const Field&, const Choice& member) {
+  return member.value.empty() ? "see text" : member.value;
+}
+inline std::string show_default(const Field& field, const std::vector<double>& member) {
+  std::vector<std::string> items;
+  for (const double item : member) items.push_back(show_in_unit(field, item));
+  return items.empty() ? "see text" : "[" + boost::algorithm::join(items, ", ") + "]";
+}
+
+template <class Member>
+std::string show_range(const Field& field, const Member&) {
+  return field.range.to_string();
+}
+inline std::string show_range(const Field&, const FilePath&) { return "path"; }
+inline std::string show_range(const Field&, const Choice& member) {
+  return boost::algorithm::join(member.allowed, " or ");
+}
+
+inline Json to_json(const Field& field, double member) { return unit_of_key(field.key).from_si(member); }
+inline Json to_json(const Field&, int member) { return member; }
+inline Json to_json(const Field& field, const std::optional<double>& member) {
+  return member.has_value() ? Json(unit_of_key(field.key).from_si(*member)) : Json();
+}
+inline Json to_json(const Field&, const Choice& member) { return member.value; }
+inline Json to_json(const Field&, const FilePath& member) { return member.path; }
+inline Json to_json(const Field& field, const std::vector<double>& member) {
+  Json list = Json::array();
+  for (const double item : member) list.push_back(unit_of_key(field.key).from_si(item));
+  return list;
+}
+
+}  // namespace detail
+
+template <class Settings>
+std::vector<SettingInfo> list_settings() {
+  std::vector<SettingInfo> list;
+  Settings settings;
+  Settings::visit(settings, [&list](const Field& field, auto& member) {
+    list.push_back({field.key, detail::show_range(field, member), detail::show_default(field, member), field.doc});
+  });
+  return list;
+}
+
+/// Reads a scenario's settings; every key must be known.
+template <class Settings>
+Settings read_settings(const RunSpec& spec) {
+  Settings settings;
+  TableReader reader(spec.settings, "[settings]");
+  read_fields(reader, settings);
+  reader.finish();
+  return settings;
+}
+
+/// What is wrong with a setting: with its file, line and value where it was given, for the caller to throw.
+InputProblem setting_problem(const RunSpec& spec, const char* key, const std::string& what, const std::string& allowed);
+
+/// Every setting as used, in the units of the keys, for the manifest.
+template <class Settings>
+Json settings_to_json(const Settings& settings) {
+  Json json = Json::object();
+  Settings::visit(
+      settings, [&json](const Field& field, const auto& member) { json[field.key] = detail::to_json(field, member); });
+  return json;
+}
+
+}  // namespace rollrig::scenarios

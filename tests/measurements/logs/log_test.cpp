@@ -1,0 +1,121 @@
+#include "measurements/logs/log.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "tests/support/temporary_folder.h"
+
+using namespace rollrig;
+using measurements::Log;
+using measurements::LogForm;
+using measurements::TimeForm;
+
+namespace {
+
+LogForm make_form(TimeForm time_form) {
+  LogForm form;
+  form.name = "torque_log";
+  form.time.column = "t";
+  form.time.form = time_form;
+  form.missing = {"---"};
+  measurements::LogColumn column;
+  column.target = "cavity_pressure_kPa";
+  column.column = "p";
+  column.unit = unit_of_key("value_bar");
+  column.allowed = between(-100.0, 3000.0);
+  form.columns = {column};
+  return form;
+}
+
+Log read(const LogForm& form, const std::string& content) {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("log.csv"), content);
+  return measurements::read_log(form, folder.file("log.csv"));
+}
+
+}  // namespace
+
+TEST_CASE("one moment in four forms of time stamps", "[fast]") {
+  const std::string rest = ",2.5\n";
+  LogForm iso = make_form(TimeForm::kIso8601);
+  const double in_iso = read(iso, "t,p\n2024-03-05T13:29:42.5+01:00" + rest + "2024-03-05T12:29:43Z" + rest +
+                                      "2024-03-05 12:29:44Z" + rest)
+                            .time_s[0];
+  CHECK(in_iso == Approx(1709641782.5).margin(1e-6));
+  LogForm clock = make_form(TimeForm::kClock);
+  clock.time.date = "05.03.2024";
+  clock.time.date_order = "dmy";
+  clock.time.utc_offset_s = 3600.0;
+  clock.csv.separator = ';';
+  clock.csv.decimal = ',';
+  const Log by_clock = read(clock, "t;p\n13:29:42,5;2,5\n13:29:43,5;2,5\n13:29:44,5;2,5\n");
+  CHECK(by_clock.time_s[0] == Approx(in_iso).margin(1e-6));
+  CHECK(by_clock.is_utc);
+  LogForm days = make_form(TimeForm::kSpreadsheetDays);
+  days.time.utc_offset_s = 3600.0;
+  const Log by_days = read(days, "t,p\n45356.562297454,2.5\n45356.562309028,2.5\n45356.562320602,2.5\n");
+  CHECK(by_days.time_s[0] == Approx(in_iso).margin(1e-3));
+  LogForm seconds = make_form(TimeForm::kSeconds);
+  seconds.time.unit_s = 1e-3;
+  CHECK(read(seconds, "t,p\n500,2.5\n1500,2.5\n2500,2.5\n").interval_s == Approx(1.0));
+}
+
+TEST_CASE("a log over midnight goes on into the next day", "[fast]") {
+  LogForm clock = make_form(TimeForm::kClock);
+  clock.time.date = "2024-12-31";
+  const Log log = read(clock, "t,p\n23:59:59,2\n00:00:00,2\n00:00:01,2\n");
+  CHECK(log.time_s[2] - log.time_s[0] == Approx(2.0));
+  LogForm dated = make_form(TimeForm::kClock);
+  dated.time.date_column = "d";
+  dated.time.date_order = "mdy";
+  const Log with_dates = read(dated, "d,t,p\n12/31/2024,23:59:59,2\n01/01/2025,00:00:00,2\n01/01/2025,00:00:01,2\n");
+  CHECK(with_dates.time_s[1] == Approx(log.time_s[1]));
+}
+
+TEST_CASE("units, factor and offset are applied once, what is small is zero where told so", "[fast]") {
+  LogForm form = make_form(TimeForm::kSeconds);
+  CHECK(read(form, "t,p\n0,2.5\n1,2.6\n2,2.7\n").columns.at("cavity_pressure_kPa")[0] == Approx(250e3));
+  form.columns[0].unit = unit_of_key("value_kPa");
+  form.columns[0].factor = 6.894757;  // psi
+  form.columns[0].offset = -101.325;  // absolute
+  form.columns[0].dead_band = 0.5;
+  const Log log = read(form, "t,p\n0,50\n1,14.7\n2,51\n");
+  CHECK(log.columns.at("cavity_pressure_kPa")[0] == Approx(1e3 * (50.0 * 6.894757 - 101.325)));
+  CHECK(log.columns.at("cavity_pressure_kPa")[1] == 0.0);
+  CHECK(log.dead_banded.at("cavity_pressure_kPa") == 1);
+}
+
+TEST_CASE("gaps, empty cells and values out of range are marked with line and reason", "[fast]") {
+  std::string content = "t,p\n";
+  for (int i = 0; i < 300; ++i) {
+    if (i >= 100 && i < 110) continue;
+    content += std::to_string(i) + (i == 50 ? ",---\n" : i == 60 ? ",\n" : i == 70 ? ",99\n" : ",2.5\n");
+  }
+  const Log log = read(make_form(TimeForm::kSeconds), content);
+  REQUIRE(log.marks.size() == 4);
+  CHECK((log.marks[0].line == 52 && log.marks[0].reason == "no value"));
+  CHECK((log.marks[1].line == 62 && log.marks[1].reason == "no value"));
+  CHECK((log.marks[2].line == 72 && log.marks[2].reason == "out of range" && *log.marks[2].value == Approx(9900.0)));
+  CHECK((log.marks[3].reason == "no rows" && log.marks[3].from_s == 99.0 && log.marks[3].to_s == 110.0));
+  for (const std::size_t row : {50U, 60U, 70U}) CHECK(std::isnan(log.columns.at("cavity_pressure_kPa")[row]));
+}
+
+TEST_CASE("dates and times that do not exist are refused with their line", "[fast]") {
+  LogForm iso = make_form(TimeForm::kIso8601);
+  for (const char* stamp :
+       {"2024-02-30T10:00:00", "2024-03-05T25:00:00", "2024-03-05", "05.03.2024 10:00:00", "soon"}) {
+    INFO(stamp);
+    CHECK_THROWS_WITH(read(iso, std::string("t,p\n2024-02-29T10:00:00,2\n") + stamp + ",2\n"),
+                      Catch::Contains("line 3") && Catch::Contains(stamp));
+  }
+}
+
+TEST_CASE("lines above the header and units below it are passed over", "[fast]") {
+  LogForm form = make_form(TimeForm::kSeconds);
+  form.csv.header_line = 3;
+  form.csv.first_row_line = 5;
+  const Log log = read(form, "Logger 4711\n\"serial;17\nt,p\ns,bar\n0,2.5\n1,2.5\n2,2.5\n");
+  CHECK(log.time_s.size() == 3);
+  CHECK(log.line[0] == 5);
+}

@@ -1,0 +1,289 @@
+// Runs of a vehicle simulated again from recorded inputs: on a dynamometer and on the road.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "measurements/wheel_replay.h"
+#include "models/vehicle/vehicle.h"
+#include "tests/diagnosis/driving_sets.h"
+#include "tests/support/drum_fixture.h"
+#include "tests/support/drum_sets.h"
+#include "tests/support/vehicle_fixture.h"
+
+using namespace rollrig;
+using measurements::make_wheel_intervals;
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
+using models::ActiveEffect;
+
+namespace {
+
+sim::Recording<double> replay(const MeasurementSet& set, const MeasuredRun& run,
+                              const std::vector<ActiveEffect>& effects) {
+  models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
+  models::Corner<double> corner(context, effects);
+  return measurements::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
+}
+
+/// The quarter vehicle of the simulator on its roller or on the road, and what it recorded as a run.
+MeasuredRun record(const tests::VehicleFixture& fixture, const sim::Recording<double>& recording) {
+  MeasuredRun run;
+  run.initial_tire_temperature_K = fixture.start().tire_temperature_K;
+  run.cold_pressure_Pa = fixture.cold_pressure_Pa;
+  run.time_s = recording.time_s;
+  run.columns["speed_km_h"] = recording.channel("speed_km_h");
+  run.columns["ambient_degC"] = recording.channel("ambient_degC");
+  run.columns["load_N"] = recording.channel("load_N");
+  run.columns["longitudinal_force_N"].assign(run.time_s.size(), 0.0);
+  return run;
+}
+
+sim::Program driving_program() {
+  const double v50 = 50.0 / 3.6;
+  const double v110 = 110.0 / 3.6;
+  return tests::make_program({tests::driving("up", 40.0, 0.0, v110), tests::driving("fast", 600.0, v110, v110),
+                              tests::driving("down", 30.0, v110, v50), tests::driving("slow", 300.0, v50, v50),
+                              tests::driving("faster", 30.0, v50, v110),
+                              tests::driving("fast again", 300.0, v110, v110)});
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t skip = 0) {
+  REQUIRE(a.size() == b.size());
+  double largest = 0.0;
+  for (std::size_t i = skip; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
+/// A run that is recorded at every `step`-th second.
+MeasuredRun thin_out(const MeasuredRun& run, std::size_t step) {
+  MeasuredRun thin = run;
+  const auto keep = [step](const std::vector<double>& all) {
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < all.size(); i += step) kept.push_back(all[i]);
+    return kept;
+  };
+  thin.time_s = keep(run.time_s);
+  for (auto& [name, values] : thin.columns) values = keep(values);
+  return thin;
+}
+
+}  // namespace
+
+TEST_CASE("a dynamometer run is what the simulator's vehicle shows on its rollers", "[fast]") {
+  tests::VehicleFixture fixture("dyno_1m2");
+  for (const char* id : {"", "driveline_warming", "rim_heat", "tie_down_load", "tread_liner_lag"}) {
+    INFO(id);
+    fixture.effects.clear();
+    if (*id != '\0') fixture.effects = {tests::make_effect_at(id, 0.5)};
+    const sim::Recording<double> simulated = fixture.run_quasi_static(driving_program());
+    const MeasuredRun run = record(fixture, simulated);
+    MeasurementSet set;
+    set.kind = measurements::SetKind::kDyno;
+    set.tire = fixture.tire;
+    set.rig = fixture.rig;
+    const sim::Recording<double> replayed = replay(set, run, fixture.effects);
+    // Next to standstill forces fade within less than a second.
+    CHECK(largest_difference(replayed.channel("loss_force_N"), simulated.channel("loss_force_N"), 3) < 0.3);
+    CHECK(largest_difference(replayed.channel("liner_temperature_degC"), simulated.channel("liner_temperature_degC")) <
+          0.02);
+    CHECK(largest_difference(replayed.channel("cavity_pressure_kPa"), simulated.channel("cavity_pressure_kPa")) < 15.0);
+  }
+}
+
+TEST_CASE("drive and brake force cost slip, by their square, and no more", "[fast]") {
+  MeasurementSet set = tests::make_dyno_set({}, 1);
+  MeasuredRun run = set.runs.front();
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  std::vector<double>& force_N = run.columns.at("longitudinal_force_N");
+  const double compliance_per_N = 1.0 / 100e3;
+  const ActiveEffect slip = tests::make_active(models::find_effect("slip_loss"), {0.01});
+  const std::vector<double> baseline = replay(set, run, {}).channel("loss_force_N");
+  for (const double held_N : {800.0, -800.0}) {
+    std::fill(force_N.begin(), force_N.end(), held_N);
+    const std::vector<double> loss_N = replay(set, run, {slip}).channel("loss_force_N");
+    // At the start the tire is as cold with slip as without.
+    std::size_t row = 0;
+    while (speed_m_s[row] < 5.0) ++row;
+    CHECK(loss_N[row] - baseline[row] == Approx(held_N * held_N * compliance_per_N).epsilon(0.02));
+    CHECK(loss_N.back() < baseline.back() + held_N * held_N * compliance_per_N);  // its heat makes the tire roll easier
+  }
+}
+
+TEST_CASE("no effect makes a replay unstable, wherever a fit usually looks", "[fast]") {
+  MeasurementSet set = tests::make_dyno_set({}, 1);
+  MeasuredRun run = thin_out(set.runs.front(), 2);
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  std::vector<double>& force_N = run.columns.at("longitudinal_force_N");
+  for (std::size_t row = 0; row + 1 < force_N.size(); ++row) {
+    force_N[row] = 450.0 * (speed_m_s[row + 1] - speed_m_s[row]) / (run.time_s[row + 1] - run.time_s[row]);
+    if (row % 50 < 4) force_N[row] = -3000.0;  // hard braking
+  }
+  std::mt19937_64 generator(1);
+  std::uniform_real_distribution<double> within(-2.0, 2.0);  // prior units
+  for (const models::Effect* effect : models::all_effects()) {
+    if (!models::acts_in(effect->info, models::RigKind::kDyno, models::Baseline::kCombined)) continue;
+    for (int draw = 0; draw < 25; ++draw) {
+      std::vector<double> values;
+      for (const models::EffectParameter& parameter : effect->info.parameters) {
+        const models::Prior& prior = parameter.prior;
+        const bool is_log = prior.scale == models::Prior::Scale::kLog;
+        const double low = is_log ? std::log(prior.low) : prior.low;
+        const double high = is_log ? std::log(prior.high) : prior.high;
+        const double drawn = 0.5 * (low + high) + 0.5 * (high - low) * within(generator);
+        const double value = is_log ? std::exp(drawn) : drawn;
+        values.push_back(std::clamp(value, parameter.range.lower, parameter.range.upper));
+      }
+      INFO(effect->info.id << " at " << fmt::format("{}", fmt::join(values, ", ")));
+      const sim::Recording<double> replayed = replay(set, run, {tests::make_active(*effect, values)});
+      const auto largest = [&](const char* channel) {
+        double most = 0.0;
+        for (const double value : replayed.channel(channel))
+          most = std::isfinite(value) ? std::max(most, std::abs(value)) : 1e99;
+        return most;
+      };
+      CHECK(largest("loss_force_N") < 5000.0);
+      CHECK(largest("liner_temperature_degC") < 1000.0);
+      CHECK(largest("cavity_pressure_kPa") < 3e6);
+    }
+  }
+}
+
+TEST_CASE("what is recorded every other second gives nearly the same", "[fast]") {
+  const MeasurementSet set = tests::make_dyno_set({}, 1);
+  const MeasuredRun thin = thin_out(set.runs.front(), 2);
+  const std::vector<double> every = replay(set, set.runs.front(), {}).channel("liner_temperature_degC");
+  const std::vector<double> other = replay(set, thin, {}).channel("liner_temperature_degC");
+  double largest = 0.0;
+  for (std::size_t i = 0; i < other.size(); ++i) largest = std::max(largest, std::abs(other[i] - every[2 * i]));
+  CHECK(largest < 0.1);
+}
+
+TEST_CASE("rows far apart are simulated in parts, so that a steady run does not depend on them", "[fast]") {
+  MeasurementSet set = tests::make_dyno_set({}, 1);
+  MeasuredRun& run = set.runs.front();
+  std::fill(run.columns.at("speed_km_h").begin(), run.columns.at("speed_km_h").end(), 25.0);
+  const std::vector<double> fine = replay(set, run, {}).channel("liner_temperature_degC");
+  const std::vector<double> coarse = replay(set, thin_out(run, 10), {}).channel("liner_temperature_degC");
+  for (std::size_t i = 2; i < coarse.size(); ++i) CHECK(coarse[i] == Approx(fine[10 * i]).margin(0.01));
+}
+
+TEST_CASE("derivatives of a run agree with differences", "[fast]") {
+  const MeasurementSet set = tests::make_dyno_set({}, 1);
+  const MeasuredRun& run = set.runs.front();
+  const models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
+  models::Context<Jet> moved = models::convert_context<Jet>(context);
+  moved.tire.thermal.z_W_per_K = Jet(context.tire.thermal.z_W_per_K, 0);
+  models::Corner<Jet> corner(moved, {});
+  const auto derived = measurements::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
+  const auto at = [&](double z_W_per_K) {
+    models::Context<double> other = context;
+    other.tire.thermal.z_W_per_K = z_W_per_K;
+    models::Corner<double> at_other(other, {});
+    return measurements::replay_dyno_run(set, run, make_wheel_intervals(run), at_other).channel("loss_force_N");
+  };
+  const double step = 0.01;
+  const std::size_t row = run.time_s.size() - 10;
+  const double z = context.tire.thermal.z_W_per_K;
+  const double difference = (at(z + step)[row] - at(z - step)[row]) / (2.0 * step);
+  CHECK(derived.channel("loss_force_N")[row].v[0] == Approx(difference).epsilon(1e-5));
+}
+
+namespace {
+
+/// A run on the road at one speed and slope.
+MeasuredRun steady_run(double km_h, double slope, double acceleration_m_s2 = 0.0, int seconds = 60) {
+  MeasuredRun run;
+  run.id = "steady";
+  run.initial_tire_temperature_K = 293.15;
+  run.cold_pressure_Pa = 250e3;
+  double way_m = 0.0;
+  for (int i = 0; i < seconds; ++i) {
+    const double speed_m_s = km_h / 3.6 + acceleration_m_s2 * i;
+    run.time_s.push_back(i);
+    run.columns["speed_km_h"].push_back(speed_m_s);
+    run.columns["elevation_m"].push_back(slope * way_m);
+    run.columns["ambient_degC"].push_back(293.15);
+    way_m += speed_m_s + 0.5 * acceleration_m_s2;
+  }
+  return run;
+}
+
+double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::vector<ActiveEffect>& effects = {},
+                  std::size_t row = 30) {
+  models::Context<double> context;
+  context.rig_kind = models::RigKind::kFlat;
+  context.baseline = set.baseline;
+  context.vehicle = set.vehicle->body;
+  context.tire = set.tire.parameters_with_class_values(5000.0, 250e3);
+  models::Corner<double> corner(context, effects);
+  return measurements::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N")[row];
+}
+
+}  // namespace
+
+TEST_CASE("on the road the traction force is the sum of its four parts", "[fast]") {
+  const MeasurementSet set = tests::make_road_set({}, 1);
+  const rigs::VehicleBody& body = set.vehicle->body;
+  const double weight_N = body.mass_kg * kStandardGravity_m_s2;
+  const double rolling_N = set.tire.values.constant.rrc * weight_N;
+  const double drag_N = 0.5 * kStandardAtmosphere_Pa / (287.05 * 293.15) * body.drag_area_m2 * std::pow(90.0 / 3.6, 2);
+  const double level_N = traction_N(set, steady_run(90.0, 0.0));
+  CHECK(level_N == Approx(rolling_N + drag_N));
+  CHECK(traction_N(set, steady_run(90.0, 0.02)) - level_N == Approx(0.02 * weight_N).epsilon(1e-3));
+  const double faster_N = traction_N(set, steady_run(90.0 - 3.6 * 15.0, 0.0, 0.5));
+  CHECK(faster_N - level_N == Approx(0.5 * (body.mass_kg + body.rotating_mass_kg)).epsilon(1e-3));
+}
+
+TEST_CASE("a drive right after another starts as warm as steady driving makes the tire", "[fast]") {
+  const MeasurementSet set = tests::make_road_set({}, 1, models::Baseline::kCombined);
+  MeasuredRun run = steady_run(80.0, 0.0, 0.0, 7200);
+  const double cold_N = traction_N(set, run);
+  const double steady_N = traction_N(set, run, {}, 7190);
+  run.started_warm = true;
+  const double warm_N = traction_N(set, run);
+  CHECK(cold_N > 1.05 * steady_N);
+  CHECK(std::abs(warm_N - steady_N) < 0.1 * (cold_N - steady_N));
+}
+
+TEST_CASE("wind, slope and density act as what they are", "[fast]") {
+  const MeasurementSet set = tests::make_road_set({}, 1);
+  const auto with = [](double wind_m_s, double slope_percent, double density_ratio) {
+    return std::vector<ActiveEffect>{
+        tests::make_active(models::find_effect("wind_and_grade"), {wind_m_s, slope_percent, density_ratio})};
+  };
+  const MeasuredRun run = steady_run(72.0, 0.0);
+  CHECK(traction_N(set, run, with(0.0, 0.0, 1.0)) == traction_N(set, run));
+  // Against 5 m/s of wind the air is as at 25 m/s, the road as at 20 m/s.
+  const double drag_at_25_N = traction_N(set, steady_run(90.0, 0.0)) - traction_N(set, steady_run(5.0, 0.0));
+  const double drag_at_20_N = traction_N(set, run) - traction_N(set, steady_run(5.0, 0.0));
+  CHECK(traction_N(set, run, with(5.0, 0.0, 1.0)) - traction_N(set, run) ==
+        Approx(drag_at_25_N - drag_at_20_N).epsilon(0.02));
+  CHECK(traction_N(set, run, with(0.0, 0.5, 1.0)) == Approx(traction_N(set, steady_run(72.0, 0.005))).epsilon(1e-3));
+  const double thin_N = traction_N(set, run) - traction_N(set, run, with(0.0, 0.0, 0.9));
+  CHECK(thin_N == Approx(0.1 * drag_at_20_N).epsilon(0.05));
+}
+
+TEST_CASE("on the road the simulator's vehicle pulls as much", "[fast]") {
+  const tests::VehicleFixture fixture("flat");
+  const sim::Recording<double> simulated = fixture.run_quasi_static(driving_program());
+  MeasuredRun run = record(fixture, simulated);
+  run.columns["elevation_m"].assign(run.time_s.size(), 0.0);
+  MeasurementSet set;
+  set.kind = measurements::SetKind::kRoad;
+  set.vehicle = fixture.vehicle;
+  models::Context<double> context = fixture.context();
+  context.vehicle = fixture.vehicle.body;
+  models::Corner<double> corner(context, {});
+  const auto replayed =
+      measurements::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N");
+  const std::vector<double>& quarter = simulated.channel("traction_force_N");
+  const double density_ratio = 98.21e3 / kStandardAtmosphere_Pa;  // of the rig's air, at the same temperature
+  for (const std::size_t row : {300, 600, 900}) {
+    const double v = run.columns.at("speed_km_h")[row];
+    const double drag_N = 0.5 * kStandardAtmosphere_Pa / (287.05 * 293.15) * fixture.vehicle.body.drag_area_m2 * v * v;
+    CHECK(replayed[row] - (1.0 - density_ratio) * drag_N == Approx(4.0 * quarter[row]).epsilon(2e-3));
+  }
+}

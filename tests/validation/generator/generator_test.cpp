@@ -1,0 +1,362 @@
+// What every set and bank of the foreign generator must be: repeatable, and silent about its cause.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "sim/core/file_io.h"
+#include "tests/support/run_program.h"
+#include "tests/validation/generator/blind_fixture.h"
+#include "validation/scoring/bank.h"
+
+namespace fs = std::filesystem;
+using namespace rollrig;
+using namespace rollrig::tests;
+
+namespace {
+
+std::map<std::string, std::string> read_folder(const std::string& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_file(entry.path().string());
+  }
+  return files;
+}
+
+std::map<std::string, std::string> make_files(const std::string& arguments) {
+  const TemporaryFolder folder;
+  const auto made = run_blind("make " + arguments + " --out " + folder.file("set"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  return read_folder(folder.file("set"));
+}
+
+/// The first columns of a CSV: what rig or vehicle was told, or reports.
+std::string given_columns(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string given;
+  const int columns = csv.find("longitudinal_force_N") < csv.find('\n') ? 5 : 4;
+  for (std::string line; std::getline(in, line);) {
+    std::size_t end = 0;
+    for (int comma = 0; comma < columns; ++comma) end = line.find(',', end + 1);
+    given += line.substr(0, end) + "\n";
+  }
+  return given;
+}
+
+/// Effects that can be made on a kind, as `list` says.
+std::vector<std::string> effect_names(const std::string& kind) {
+  const auto listed = run_blind("list");
+  std::istringstream in(listed.out);
+  std::vector<std::string> names;
+  std::string name;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.empty() && line.front() != ' ') name = line.substr(0, line.find(' '));
+    if (line.rfind("  made on", 0) == 0 && line.find(kind) != std::string::npos) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("the same order gives the same set to the bit, another seed another set", "[fast]") {
+  const auto first = make_files("--effect rim_heat --seed 5");
+  CHECK(make_files("--effect rim_heat --seed 5") == first);
+  CHECK(make_files("--effect rim_heat --seed 6") != first);
+  const auto fewer = make_files("--effect rim_heat --seed 5 --runs 2");
+  for (const auto& [name, content] : fewer) {
+    INFO(name);
+    if (name != "set.toml") CHECK(first.at(name) == content);  // runs do not depend on each other
+  }
+  CHECK(fewer.size() == 5);
+}
+
+TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
+  const std::map<std::string, std::string> options{
+      {"drum", "--kind drum"},
+      {"dyno", "--kind dyno --runs 1"},
+      {"road (combined)", "--kind road --baseline combined --runs 2"},
+      {"road (constant_rrc)", "--kind road --baseline constant_rrc --runs 2"}};
+  for (const auto& [kind, option] : options) {
+    const auto none = make_files(option + " --effect none --seed 11");
+    for (const std::string& effect : effect_names(kind)) {
+      const auto with = make_files(option + " --effect " + effect + " --seed 11");
+      REQUIRE(with.size() == none.size());
+      for (const auto& [name, content] : none) {
+        INFO(kind << ", " << effect << ", " << name);
+        REQUIRE(with.count(name) == 1);
+        if (fs::path(name).extension() == ".csv") {
+          CHECK(given_columns(with.at(name)) == given_columns(content));
+        } else {
+          CHECK(with.at(name) == content);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a bank of each kind has what its kind shows, and effects outside of the catalogue where asked", "[fast]") {
+  for (const std::string kind : {"drum", "dyno", "road"}) {
+    const TemporaryFolder folder;
+    const auto made =
+        run_blind(fmt::format("bank --kind {} --seed 7305 --each 1 --none 1 --pairs 3 --outside 9 --runs 1 "
+                              "--out {}",
+                              kind, folder.file("bank")));
+    INFO(kind << "\n" << made.err);
+    REQUIRE(made.status == 0);
+    const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+    std::set<std::string> effects;
+    for (const auto& [number, set] : truth.at("sets").items()) {
+      for (const Json& effect : set.at("effects")) effects.insert(effect.at("id").get<std::string>());
+      const auto read = measurements::read_measurement_set(folder.file("bank/sets/" + number));
+      CHECK(std::string(kind) == (read.kind == measurements::SetKind::kDrum
+                                      ? "drum"
+                                      : (read.kind == measurements::SetKind::kDyno ? "dyno" : "road")));
+    }
+    CHECK(effects.count("speed_record") == 1);
+    CHECK(effects.count("speed_interference") == 1);
+    CHECK(effects.count("slip_loss") == (kind == "dyno" ? 1 : 0));
+    CHECK(effects.count("wind_and_grade") == (kind == "road" ? 1 : 0));
+    CHECK(effects.count("windage") == (kind == "road" ? 0 : 1));
+  }
+}
+
+TEST_CASE("what a kind does not show is refused, with the kinds that do", "[fast]") {
+  const auto refused = run_blind("make --kind drum --effect wind_and_grade --out nowhere");
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Catch::Contains("road"));
+  CHECK(run_blind("make --kind drums --effect none --out nowhere").status == 2);
+  CHECK(run_blind("make --kind road --baseline combined --effect tire_temperature --out nowhere").status == 2);
+  CHECK(run_blind("make --kind drum --baseline combined --effect none --out nowhere").status == 2);
+  CHECK(run_blind("bank --kind drum --effects brake_heat --each 1 --out nowhere").status == 2);
+  CHECK_FALSE(fs::exists("nowhere"));
+}
+
+TEST_CASE("dyno campaigns: three to five runs of one to two hours, cycles and constant speeds, rests", "[fast]") {
+  std::set<std::string> kinds;
+  bool rests = false;
+  bool brakes = false;
+  bool drives = false;
+  for (int seed = 1; seed <= 8; ++seed) {
+    const BlindSet made = make_blind_set(fmt::format("--kind dyno --effect none --seed {}", seed));
+    kinds.insert(made.truth.at("campaign").get<std::string>());
+    CHECK(made.set.runs.size() >= 3);
+    CHECK(made.set.runs.size() <= 5);
+    for (const measurements::MeasuredRun& run : made.set.runs) {
+      INFO("seed " << seed << ", " << run.id);
+      rests = rests || run.rest_before_s.has_value();
+      CHECK(run.time_s.back() >= 3600.0);
+      CHECK(run.time_s.back() <= 7300.0);
+      const auto& v = run.columns.at("speed_km_h");
+      const auto& loss_N = run.columns.at("loss_force_N");
+      for (std::size_t row = 0; row < v.size(); ++row) {
+        if (v[row] < 20.0 / 3.6 - 1e-9 && !std::isnan(loss_N[row])) FAIL_CHECK("a loss at " << v[row] << " m/s");
+      }
+      const auto& force_N = run.columns.at("longitudinal_force_N");
+      brakes = brakes || *std::min_element(force_N.begin(), force_N.end()) < -300.0;
+      drives = drives || *std::max_element(force_N.begin(), force_N.end()) > 500.0;
+    }
+  }
+  CHECK(kinds.size() >= 3);
+  CHECK(rests);
+  CHECK(brakes);
+  CHECK(drives);
+}
+
+TEST_CASE("road trips: cold and warm starts, hills, traction empty where friction brakes act", "[fast]") {
+  bool warm = false;
+  std::set<models::Baseline> baselines;
+  double coldest_K = 400.0;
+  double hottest_K = 0.0;
+  for (int seed = 1; seed <= 8; ++seed) {
+    const BlindSet made = make_blind_set(fmt::format("--kind road --effect none --seed {} --noise-free", seed));
+    baselines.insert(made.set.baseline);
+    REQUIRE(made.set.vehicle.has_value());
+    CHECK(made.set.vehicle->uncertainties.mass_kg > 0.0);
+    const double mass_kg = made.set.vehicle->body.mass_kg;
+    for (const measurements::MeasuredRun& run : made.set.runs) {
+      INFO("seed " << seed << ", " << run.id);
+      warm = warm || run.started_warm;
+      coldest_K = std::min(coldest_K, run.initial_tire_temperature_K);
+      hottest_K = std::max(hottest_K, run.initial_tire_temperature_K);
+      CHECK(run.time_s.back() > 900.0);
+      CHECK(run.time_s.back() < 5400.0);
+      int empty = 0;
+      const auto& v = run.columns.at("speed_km_h");
+      const auto& force_N = run.columns.at("traction_force_N");
+      for (std::size_t row = 0; row < v.size(); ++row) {
+        empty += std::isnan(force_N[row]) && v[row] > 6.0 ? 1 : 0;
+        if (force_N[row] < -1.1 * mass_kg * made.set.vehicle->powertrain.regeneration_limit_m_s2) {
+          FAIL_CHECK(force_N[row] << " N is more than the motor brakes");
+        }
+      }
+      CHECK(empty < static_cast<int>(v.size()) / 4);
+    }
+  }
+  CHECK(warm);
+  CHECK(baselines.size() == 2);
+  CHECK(coldest_K < 283.0);
+  CHECK(hottest_K > 293.0);
+}
+
+TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") {
+  const TemporaryFolder folder;
+  const auto made = run_blind("make --effect slow_leak,clock_shift --seed 4711 --truth " + folder.file("truth.json") +
+                              " --out " + folder.file("set"));
+  REQUIRE(made.status == 0);
+  CHECK(made.out.empty());
+  const Json truth = Json::parse(read_file(folder.file("truth.json")));
+  CHECK(truth.at("effects").size() == 2);
+  for (const auto& [name, content] : read_folder(folder.file("set"))) {
+    INFO(name);
+    for (const char* word : {"leak", "clock", "effect", "seed", "4711", "truth", "true", "shift"}) {
+      if (std::string(word) == "4711" && fs::path(name).extension() == ".csv") continue;  // a reading may hold it
+      const bool is_said = content.find(word) != std::string::npos;
+      INFO(word);
+      CHECK_FALSE(is_said);
+    }
+    for (const auto& [key, number] : truth.at("base").items()) {
+      if (fs::path(name).extension() != ".toml") continue;
+      CHECK_THAT(content, !Catch::Contains(fmt::format("{:.5g}", number.at("true").get<double>())));
+    }
+  }
+}
+
+TEST_CASE("a bank is shuffled, numbered, repeatable, and its truth has the hash that was printed", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string arguments = "bank --seed 9 --each 3 --none 6 --pairs 2 --effects slow_leak,load_exponent --runs 1";
+  const auto made = run_blind(arguments + " --out " + folder.file("bank"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  const auto files = read_folder(folder.file("bank"));
+  CHECK_THAT(made.out, Catch::Contains(calc_sha256(files.at("truth.json"))));
+  CHECK_THAT(files.at("seal.sha256"), Catch::StartsWith(calc_sha256(files.at("truth.json"))));
+  const Json truth = Json::parse(files.at("truth.json"));
+  REQUIRE(truth.at("sets").size() == 14);
+  std::map<std::size_t, int> by_count;
+  std::string order;
+  std::set<std::string> folders;
+  for (const auto& [number, set] : truth.at("sets").items()) {
+    ++by_count[set.at("effects").size()];
+    order += set.at("effects").empty() ? "-" : set.at("effects").front().at("id").get<std::string>().substr(0, 1);
+    CHECK(fs::is_directory(folder.file("bank/sets/" + number)));
+    CHECK_NOTHROW(measurements::read_measurement_set(folder.file("bank/sets/" + number)));
+    CHECK(set.at("set_sha256") == proof::hash_set(folder.file("bank/sets/" + number)));
+  }
+  CHECK(truth.contains("kind") == false);  // of a drum: as it always was
+  CHECK(by_count == std::map<std::size_t, int>{{0, 6}, {1, 6}, {2, 2}});
+  CHECK(order.find("------") == std::string::npos);  // not as they were listed
+  for (const auto& [name, content] : files) {
+    if (name != "truth.json" && name != "seal.sha256") CHECK(name.rfind("sets/00", 0) == 0);
+  }
+  REQUIRE(run_blind(arguments + " --out " + folder.file("again")).status == 0);
+  CHECK(read_folder(folder.file("again")) == files);
+}
+
+TEST_CASE("campaigns are what was asked for: six runs in sessions, skims, fast running, another pressure", "[fast]") {
+  std::set<std::string> kinds;
+  bool rests = false;
+  for (int seed = 1; seed <= 12; ++seed) {
+    const BlindSet made = make_blind_set(fmt::format("--effect none --seed {}", seed));
+    kinds.insert(made.truth.at("campaign").get<std::string>());
+    REQUIRE(made.set.runs.size() == 6);
+    std::set<std::string> sessions;
+    std::set<double> pressures_Pa;
+    double fastest_m_s = 0.0;
+    int skims = 0;
+    for (const measurements::MeasuredRun& run : made.set.runs) {
+      INFO("seed " << seed << ", " << run.id);
+      sessions.insert(run.session);
+      pressures_Pa.insert(run.cold_pressure_Pa);
+      rests = rests || run.rest_before_s.has_value();
+      CHECK(run.time_s.back() >= 2000.0);
+      CHECK(run.time_s.back() <= 3500.0);
+      CHECK(run.time_s.size() == static_cast<std::size_t>(run.time_s.back()) + 1);
+      const auto& speed_m_s = run.columns.at("speed_km_h");
+      const auto& load_N = run.columns.at("load_N");
+      fastest_m_s = std::max(fastest_m_s, *std::max_element(speed_m_s.begin(), speed_m_s.end()));
+      for (std::size_t row = 1; row < load_N.size(); ++row) skims += load_N[row] < 300.0 && load_N[row - 1] > 300.0;
+    }
+    CHECK(sessions.size() >= 2);
+    CHECK(sessions.size() <= 3);
+    CHECK(pressures_Pa.size() >= 2);
+    CHECK(skims >= 3);
+    CHECK(fastest_m_s > 33.5);
+  }
+  CHECK(kinds.size() >= 4);
+  CHECK(rests);
+}
+
+TEST_CASE("a run that is stopped by a mistake leaves nothing behind", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string inside = folder.file("set/truth.json");
+  const auto made = run_blind("make --effect none --out " + folder.file("set") + " --truth " + inside);
+  CHECK(made.status == 2);
+  CHECK(folder.entry_count() == 0);
+  write_file(folder.file("taken"), "a file");
+  CHECK(run_blind("bank --each 1 --none 0 --out " + folder.file("taken")).status == 2);
+  CHECK(read_file(folder.file("taken")) == "a file");
+  CHECK(folder.entry_count() == 1);
+}
+
+TEST_CASE("a mixed bank has every effect of the catalogue, each size class, and each sort of campaign", "[slow]") {
+  const TemporaryFolder folder;
+  const auto made = run_blind(
+      fmt::format("bank --kind mixed --seed 31 --each 0 --singles 102 --pairs 3 --none 2 --outside 9 --runs 1 --out {}",
+                  folder.file("bank")));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+  std::map<std::string, std::map<std::string, int>> singles;  // by effect, by class
+  std::set<std::string> campaigns;
+  for (const auto& [number, set] : truth.at("sets").items()) {
+    campaigns.insert(set.at("campaign_kind").get<std::string>());
+    if (set.at("effects").size() != 1 || !set.at("effects")[0].contains("size_class")) continue;
+    const Json& effect = set.at("effects")[0];
+    ++singles[effect.at("id").get<std::string>()][effect.at("size_class").get<std::string>()];
+    CHECK_NOTHROW(measurements::read_measurement_set(folder.file("bank/sets/" + number)));
+  }
+  CHECK(campaigns.size() == 6);
+  CHECK(singles.size() == 34);  // each that banks of some kind have, three times
+  for (const auto& [effect, classes] : singles) {
+    INFO(effect);
+    CHECK(classes.size() == 3);
+  }
+}
+
+TEST_CASE("size classes are thirds of what is drawn, by the distance from doing nothing", "[fast]") {
+  const TemporaryFolder folder;
+  const auto made = run_blind(
+      "bank --seed 32 --each 0 --singles 24 --none 0 --effects pressure_exponent,clock_shift --runs 1 --out " +
+      folder.file("bank"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  std::map<std::string, std::map<std::string, std::vector<double>>> strengths;
+  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+  for (const auto& [number, set] : truth.at("sets").items()) {
+    const Json& effect = set.at("effects").at(0);
+    strengths[effect.at("id").get<std::string>()][effect.at("size_class").get<std::string>()].push_back(
+        std::abs(effect.at("size").get<double>() - effect.at("neutral").get<double>()));
+  }
+  for (auto& [effect, of] : strengths) {
+    INFO(effect);
+    const auto largest = [](const std::vector<double>& all) { return *std::max_element(all.begin(), all.end()); };
+    const auto least = [](const std::vector<double>& all) { return *std::min_element(all.begin(), all.end()); };
+    CHECK(largest(of["small"]) < least(of["middle"]));
+    CHECK(largest(of["middle"]) < least(of["large"]));
+    CHECK(of["middle"].size() == 4);
+  }
+}
+
+TEST_CASE("the generator has no symbol of the simulator in it", "[fast]") {
+  const auto symbols = run_other("/usr/bin/nm", std::string("-C --defined-only '") + ROLLRIG_BLIND_PROGRAM + "'");
+  if (symbols.status != 0 || symbols.out.find(" blind::") == std::string::npos) {
+    WARN("skipped: nm is not there, or the program is stripped");
+    return;
+  }
+  CHECK(symbols.out.find(" rollrig::") == std::string::npos);
+}

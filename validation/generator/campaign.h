@@ -1,0 +1,86 @@
+#pragma once
+/// What a laboratory does: runs of speeds and loads in two or three sessions.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "validation/generator/specimen.h"
+
+namespace blind {
+
+/// Part of a run between two events: the speed runs linearly, the load stands. Ends lie on whole seconds. On a dyno
+/// and on the road a leg lasts one second.
+struct Leg {
+  double start_s = 0.0;
+  double duration_s = 0.0;
+  double start_m_s = 0.0;
+  double end_m_s = 0.0;
+  double load_N = 0.0;
+  double start_longitudinal_N = 0.0;  // of one wheel on the roller
+  double end_longitudinal_N = 0.0;
+  double start_elevation_m = 0.0;
+  double end_elevation_m = 0.0;
+  double start_distance_m = 0.0;
+
+  double end_s() const { return start_s + duration_s; }
+  double acceleration_m_s2() const { return (end_m_s - start_m_s) / duration_s; }
+  double mean_m_s() const { return 0.5 * (start_m_s + end_m_s); }
+  /// Rise over way, the same all along.
+  double slope() const;
+};
+
+/// Air at the tire over a run: a slow swing and a slope.
+/// Equation  T = mean + swing sin(2 pi t/period + phase) + slope t
+struct Air {
+  double mean_degC = 25.0;
+  double swing_dK = 0.0;
+  double period_s = 1500.0;
+  double phase = 0.0;
+  double slope_K_per_s = 0.0;
+
+  double at(double time_s) const;
+};
+
+struct RunPlan {
+  std::string id;
+  std::string session;
+  double cold_pressure_kPa = 280.0;
+  double initial_degC = 25.0;
+  std::optional<double> rest_before_min;  // none: soaked
+  bool started_warm = false;              // right after another run
+  Air air;
+  std::vector<Leg> legs;
+  std::optional<double> surface_degC;               // at which drum or roller is held, and recorded; none: as it goes
+  bool reversed = false;                            // turned the other way round
+  std::vector<std::pair<double, double>> hung_Nm;   // from, torque: on the force sensor from then on, besides
+  bool reads_zero = false;                          // the force is logged while the surface stands
+  std::vector<std::pair<double, double>> unread_s;  // from, to: nothing is logged
+
+  std::size_t index = 0;  // in the campaign
+
+  bool is_read(double time_s) const;
+  double hung_at(double time_s) const;
+
+  double end_s() const { return legs.back().end_s(); }
+};
+
+struct Campaign {
+  std::string name;
+  std::vector<RunPlan> runs;
+};
+
+/// One of several kinds of campaign, by seed, with its first `runs` runs. It does not depend on the effect.
+Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs);
+Campaign draw_drum_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs);
+Campaign draw_road_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+
+/// Slow swing and slope of the air about `mean_degC`, within a degree or so.
+Air draw_air(Draws& draws, double mean_degC);
+
+constexpr int kMostRuns = 6;
+
+}  // namespace blind

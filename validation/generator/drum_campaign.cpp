@@ -1,0 +1,235 @@
+#include "validation/generator/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace blind {
+namespace {
+
+/// Builds the legs of a run from what an operator would do.
+class Course {
+ public:
+  explicit Course(double load_N) : load_N_(load_N) {}
+
+  double now_s() const { return legs_.empty() ? 0.0 : legs_.back().end_s(); }
+  void load(double load_N) { load_N_ = load_N; }
+  void hold(double seconds) { add(seconds, speed_m_s_); }
+  void hold_until(double time_s) { hold(std::max(60.0, time_s - now_s())); }
+  void speed(double speed_km_h, double rate_m_s2) {
+    const double target_m_s = speed_km_h / 3.6;
+    if (target_m_s == speed_m_s_) return;
+    add(std::ceil(std::abs(target_m_s - speed_m_s_) / rate_m_s2), target_m_s);
+  }
+  std::vector<Leg> take() { return std::move(legs_); }
+
+ private:
+  void add(double seconds, double end_m_s) {
+    legs_.push_back({now_s(), std::round(seconds), speed_m_s_, end_m_s, load_N_});
+    speed_m_s_ = end_m_s;
+  }
+
+  double load_N_;
+  double speed_m_s_ = 0.0;
+  std::vector<Leg> legs_;
+};
+
+/// What one laboratory does in the same way in each run.
+struct Habits {
+  double load_N = 5400.0;
+  double skim_N = 200.0;
+  double rate_m_s2 = 0.5;
+  double skim_s = 180.0;
+  bool skims_first = false;
+  bool skims_last = true;
+};
+
+using Legs = std::vector<Leg>;
+
+void skim(Course& course, const Habits& habits, double seconds) {
+  course.load(habits.skim_N);
+  course.hold(seconds);
+  course.load(habits.load_N);
+}
+
+Legs warm_up(Draws& draws, const Habits& habits, double speed_km_h) {
+  Course course(habits.skims_first ? habits.skim_N : habits.load_N);
+  course.speed(speed_km_h, habits.rate_m_s2);
+  if (habits.skims_first) skim(course, habits, habits.skim_s);
+  course.hold(10.0 * draws.whole(180, 260));
+  if (habits.skims_last) skim(course, habits, habits.skim_s);
+  course.hold_until(2000.0);
+  return course.take();
+}
+
+/// Steps of speed in a drawn order, the fastest among them.
+Legs speed_steps(Draws& draws, const Habits& habits) {
+  Course course(habits.load_N);
+  course.speed(80.0, habits.rate_m_s2);
+  course.hold(10.0 * draws.whole(80, 120));
+  std::vector<double> speeds{40.0, 100.0, 120.0, 5.0 * draws.whole(25, 27)};
+  if (draws.happens(0.5)) speeds.push_back(60.0);
+  for (std::size_t i = speeds.size() - 1; i > 0; --i) {
+    std::swap(speeds[i], speeds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(i)))]);
+  }
+  if (draws.happens(0.4)) std::sort(speeds.begin(), speeds.end());
+  for (const double speed_km_h : speeds) {
+    course.speed(speed_km_h, habits.rate_m_s2);
+    course.hold(10.0 * draws.whole(28, 42));
+  }
+  course.speed(80.0, habits.rate_m_s2);
+  if (habits.skims_last) {
+    course.hold(60.0);
+    skim(course, habits, habits.skim_s);
+  }
+  course.hold_until(2100.0);
+  return course.take();
+}
+
+Legs load_sweep(Draws& draws, const Habits& habits) {
+  Course course(habits.skim_N);
+  course.speed(80.0, habits.rate_m_s2);
+  skim(course, habits, habits.skim_s);
+  course.hold(10.0 * draws.whole(80, 110));
+  std::vector<double> shares{0.55, 0.8, 1.2};
+  if (draws.happens(0.5)) std::reverse(shares.begin(), shares.end());
+  if (draws.happens(0.4)) shares.push_back(1.0);
+  for (const double share : shares) {
+    course.load(std::round(habits.load_N * share / 50.0) * 50.0);
+    course.hold(10.0 * draws.whole(32, 45));
+  }
+  skim(course, habits, habits.skim_s + 60.0);
+  course.hold_until(2000.0);
+  return course.take();
+}
+
+Legs transient_skim(Draws& draws, const Habits& habits) {
+  Course course(habits.load_N);
+  course.speed(80.0, habits.rate_m_s2);
+  course.hold(10.0 * draws.whole(70, 110));
+  const int skims = draws.whole(2, 3);
+  for (int i = 0; i < skims; ++i) {
+    skim(course, habits, 10.0 * draws.whole(18, 30));
+    course.hold(10.0 * draws.whole(38, 50));
+  }
+  course.hold_until(2000.0);
+  return course.take();
+}
+
+/// Speed up and down between two speeds, as in a coarse drive cycle.
+Legs up_and_down(Draws& draws, const Habits& habits) {
+  Course course(habits.load_N);
+  const double low_km_h = 10.0 * draws.whole(4, 6);
+  for (int i = 0; i < 4; ++i) {
+    course.speed(i % 2 == 0 ? low_km_h : 120.0, habits.rate_m_s2);
+    course.hold(10.0 * draws.whole(38, 52));
+  }
+  course.speed(80.0, habits.rate_m_s2);
+  if (habits.skims_last) skim(course, habits, habits.skim_s);
+  course.hold_until(2200.0);
+  return course.take();
+}
+
+struct RunKind {
+  const char* kind;  // as in the function names, with the speed for a warm-up
+  const char* session;
+  double pressure_kPa;     // 0: the usual one
+  double rest_before_min;  // 0: soaked
+};
+
+struct CampaignKind {
+  const char* name;
+  std::vector<RunKind> runs;
+};
+
+/// Each has warm-ups, fast running, a load sweep, skims within a run, and a run at another pressure.
+const std::vector<CampaignKind>& campaign_kinds() {
+  static const std::vector<CampaignKind> kinds{{"tire maker",
+                                                {{"warm-up 80", "day-1", 0, 0},
+                                                 {"transient skim", "day-1", 0, 0},
+                                                 {"speed steps", "day-1", 0, 0},
+                                                 {"load sweep", "day-2", 0, 0},
+                                                 {"warm-up 120", "day-2", 0, 0},
+                                                 {"warm-up 80", "day-2", 220, 0}}},
+                                               {"university",
+                                                {{"warm-up 120", "day-1", 0, 0},
+                                                 {"load sweep", "day-1", 0, 240},
+                                                 {"warm-up 40", "day-2", 0, 0},
+                                                 {"transient skim", "day-2", 320, 0},
+                                                 {"up and down", "day-3", 0, 0},
+                                                 {"speed steps", "day-3", 0, 180}}},
+                                               {"car maker",
+                                                {{"speed steps", "day-1", 0, 0},
+                                                 {"transient skim", "day-1", 0, 120},
+                                                 {"load sweep", "day-1", 0, 0},
+                                                 {"warm-up 80", "day-2", 0, 0},
+                                                 {"speed steps", "day-2", 240, 0},
+                                                 {"warm-up 120", "day-2", 0, 150}}},
+                                               {"test house",
+                                                {{"warm-up 80", "day-1", 0, 0},
+                                                 {"load sweep", "day-1", 0, 0},
+                                                 {"load sweep", "day-2", 230, 0},
+                                                 {"speed steps", "day-2", 0, 0},
+                                                 {"transient skim", "day-3", 0, 0},
+                                                 {"warm-up 130", "day-3", 0, 0}}},
+                                               {"institute",
+                                                {{"up and down", "day-1", 0, 0},
+                                                 {"warm-up 80", "day-1", 310, 0},
+                                                 {"transient skim", "day-1", 0, 200},
+                                                 {"speed steps", "day-2", 0, 0},
+                                                 {"load sweep", "day-2", 0, 0},
+                                                 {"transient skim", "day-2", 250, 0}}}};
+  return kinds;
+}
+
+Legs draw_legs(Draws& draws, const Habits& habits, const std::string& kind) {
+  if (kind == "speed steps") return speed_steps(draws, habits);
+  if (kind == "load sweep") return load_sweep(draws, habits);
+  if (kind == "transient skim") return transient_skim(draws, habits);
+  if (kind == "up and down") return up_and_down(draws, habits);
+  return warm_up(draws, habits, std::stod(kind.substr(kind.find(' '))));
+}
+
+Habits draw_habits(Draws& draws, const Specimen& specimen) {
+  Habits habits;
+  habits.load_N = 100.0 * draws.whole(50, 58);
+  habits.skim_N = specimen.skim_load_N;
+  habits.rate_m_s2 = draws.uniform(0.35, 0.9);
+  habits.skim_s = 10.0 * draws.whole(15, 24);
+  habits.skims_first = draws.happens(0.35);
+  habits.skims_last = draws.happens(0.75);
+  return habits;
+}
+
+}  // namespace
+
+Campaign draw_drum_campaign(std::uint64_t seed, const Specimen& specimen, int runs) {
+  Draws draws(seed, "campaign");
+  const auto& kinds = campaign_kinds();
+  const CampaignKind& kind = kinds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(kinds.size()) - 1))];
+  const Habits habits = draw_habits(draws, specimen);
+  Campaign campaign{kind.name, {}};
+  for (int i = 0; i < runs; ++i) {
+    const RunKind& what = kind.runs[static_cast<std::size_t>(i)];
+    Draws own(seed, fmt::format("run/{}", i));
+    RunPlan run;
+    run.id = fmt::format("{}-{}", i + 1, what.kind);
+    std::replace(run.id.begin(), run.id.end(), ' ', '-');
+    run.index = static_cast<std::size_t>(i);
+    run.session = what.session;
+    run.cold_pressure_kPa = what.pressure_kPa > 0.0 ? what.pressure_kPa : specimen.reference_pressure_kPa;
+    run.air = draw_air(own, specimen.ambient_degC);
+    double warm_dK = 0.0;
+    if (what.rest_before_min > 0.0) {
+      run.rest_before_min = std::round(what.rest_before_min * own.uniform(0.7, 1.3));
+      warm_dK = own.uniform(8.0, 14.0) * std::exp(-*run.rest_before_min / 60.0);  // Assumed: cools over an hour
+    }
+    run.initial_degC = std::round(10.0 * (run.air.at(0.0) + warm_dK)) / 10.0;
+    run.legs = draw_legs(own, habits, what.kind);
+    campaign.runs.push_back(std::move(run));
+  }
+  return campaign;
+}
+
+}  // namespace blind

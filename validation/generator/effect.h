@@ -1,0 +1,145 @@
+#pragma once
+/// What an effect is to the generator: one file in validation/generator/effects, one line in validation/generator/effects.def.
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "validation/generator/draws.h"
+#include "validation/generator/kind.h"
+#include "validation/generator/specimen.h"
+
+namespace blind {
+
+struct Wall;
+struct RunRecord;
+
+/// State of rig or vehicle at one instant; forces are those of one wheel. The first part is given, the second what
+/// enter() may change beside load and air, the third what act() may change, the last what rates() may read.
+struct Instant {
+  double time_s = 0.0;
+  double speed_m_s = 0.0;
+  double load_N = 0.0;
+  double ambient_degC = 0.0;  // air at the tire
+  double rubber_degC = 0.0;   // mean of the wall
+  double liner_degC = 0.0;
+  double gas_degC = 0.0;
+  double pressure_kPa = 0.0;  // gauge
+  double gas_mol = 0.0;
+  const Specimen* specimen = nullptr;
+  double target_load_N = 0.0;  // where the load is to settle
+  double acceleration_m_s2 = 0.0;
+  double longitudinal_N = 0.0;  // wheel on surface, positive when it drives; not on a drum
+  double brake_N = 0.0;         // of this wheel's friction brake
+  double distance_m = 0.0;      // from the start of a trip on the road
+  double curvature_factor = 1.0;
+
+  double volume_factor = 1.0;  // of the cavity
+  double volume_rate_per_s = 0.0;
+
+  double loss_factor = 1.0;      // on the tire's rolling resistance
+  double heating_force_N = 0.0;  // further force that heats the rubber
+  double bearing_factor = 1.0;   // on c0 + c1 v
+  double rig_force_N = 0.0;      // further force of the rig
+  double liner_heat_W = 0.0;     // into the layer at the liner
+  double gas_heat_W = 0.0;
+  double leak_mol_s = 0.0;
+  double tread_heat_W = 0.0;  // into the outermost layer
+  double surface_rise_dK = 0.0;
+  double air_speed_m_s = 0.0;  // that cools the tire
+  double gas_link_factor = 1.0;
+  double body_force_N = 0.0;  // on the whole vehicle
+  double wind_m_s = 0.0;      // against the vehicle
+  double drag_factor = 1.0;
+
+  double bearing_N = 0.0;  // force of the bearings
+  double rolling_N = 0.0;  // all that heats the rubber
+};
+
+/// How a run starts for the states of an effect.
+struct RunStart {
+  double initial_degC = 25.0;
+  double ambient_degC = 25.0;
+  double cold_pressure_kPa = 280.0;
+  std::optional<double> rest_before_min;  // none: soaked; 0: right after another run
+  std::size_t index = 0;                  // of the run in its campaign
+  double first_load_N = 0.0;
+};
+
+/// Heat of a warm tire at 80 km/h and the reference load: what effects driven by heat are measured by.
+double warm_heating_W(const Specimen& specimen);
+
+using Shape = std::vector<std::pair<std::string, double>>;
+
+/// One hidden cause with its size and shape.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  virtual void lay_out(Wall&) const {}
+  virtual std::size_t state_count() const { return 0; }
+  virtual void start(const RunStart&, double* /*state*/) const {}
+  /// The speed that there is where `recorded_m_s` is recorded.
+  virtual double true_speed_m_s(double recorded_m_s) const { return recorded_m_s; }
+  /// What really acts where load and air are recorded, and the cavity; before everything else.
+  virtual void enter(const double* /*state*/, Instant&) const {}
+  virtual void act(const double* /*state*/, Instant&) const {}
+  virtual void rates(const double* /*state*/, const Instant&, double* /*rates*/) const {}
+  /// What instruments and clocks do to the channels of a run.
+  virtual void trace(RunRecord&) const {}
+
+  Shape shape;  // everything drawn beside the size
+};
+
+/// One functional form of an effect. In all forms of an effect the size means the same.
+struct Form {
+  const char* name;
+  const char* law;
+  std::unique_ptr<Effect> (*make)(double size, Draws& shape, const Specimen& specimen);
+};
+
+template <class Law>
+std::unique_ptr<Effect> make_law(double size, Draws& shape, [[maybe_unused]] const Specimen& specimen) {
+  if constexpr (std::is_constructible_v<Law, double, Draws&, const Specimen&>) {
+    return std::make_unique<Law>(size, shape, specimen);
+  } else {
+    return std::make_unique<Law>(size, shape);
+  }
+}
+
+/// An effect before its size is known.
+struct EffectKind {
+  const char* id;
+  const char* unit;     // of the size
+  const char* meaning;  // of the size
+  double neutral;       // size at which it does nothing
+  double lowest;        // sizes that may be asked for
+  double highest;
+  Spread size;
+  bool either_sign;             // the size is drawn positive, then given a sign
+  double gap;                   // sizes nearer to the neutral one than this are drawn again: they would be no effect
+  std::vector<Form> forms;      // drawn evenly
+  Grounds acts = kRigGrounds;   // where it can be made
+  Grounds drawn = kRigGrounds;  // where banks have it: the others hardly change with it
+  bool outside = false;         // of the catalogue
+};
+
+const std::vector<const EffectKind*>& effect_kinds();
+const EffectKind* find_effect_kind(const std::string& id);
+/// None where the effect has no form of that name.
+const Form* find_form(const EffectKind& kind, const std::string& name);
+double draw_size(const EffectKind& kind, Draws& draws);
+
+/// Thirds of the sizes that are drawn, by how far they are from doing nothing.
+enum class SizeClass { kSmall, kMiddle, kLarge };
+constexpr std::array<const char*, 3> kSizeClassNames{"small", "middle", "large"};
+/// A size of one class: sizes of the three classes in equal numbers are as those of draw_size().
+double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws);
+/// The middle of a class.
+double typical_size(const EffectKind& kind, SizeClass wanted);
+
+}  // namespace blind

@@ -1,0 +1,67 @@
+/// The load acts a little along the way of the drum, by a fixed angle or more so as the frame gives way.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/generator/effect.h"
+#include "validation/generator/recorder.h"
+
+namespace blind {
+namespace {
+
+/// Angle d (1 - b + b sqrt(x)), x the load over the reference load: seats that close give way less and less.
+class LoadCrossTalk : public Effect {
+ public:
+  LoadCrossTalk(double angle_mrad, Draws& draws) : angle_(1e-3 * angle_mrad) {
+    bending_ = draws.uniform(0.0, 0.5);
+    shape = {{"bending_share", bending_}};
+  }
+
+  void trace(RunRecord& record) const override {
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      const double load_N = record.load_N[row];
+      const double gives_way = std::sqrt(std::max(0.0, load_N) / record.specimen->reference_load_N);
+      const double angle = angle_ * (1.0 - bending_ + bending_ * gives_way);
+      record.force[row] += record.lever * load_N * std::sin(angle);
+    }
+  }
+
+ private:
+  double angle_;
+  double bending_ = 0.0;
+};
+
+/// One angle at every load.
+class FixedAngle : public Effect {
+ public:
+  FixedAngle(double angle_mrad, Draws&) : sine_(std::sin(1e-3 * angle_mrad)) {}
+
+  void trace(RunRecord& record) const override {
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+      record.force[row] += record.lever * record.load_N[row] * sine_;
+    }
+  }
+
+ private:
+  double sine_;
+};
+
+}  // namespace
+
+extern const EffectKind kind_load_cross_talk;
+const EffectKind kind_load_cross_talk{
+    "load_cross_talk",
+    "mrad",
+    "angle of the load off the vertical at the reference load",
+    0.0,
+    -5.0,
+    5.0,
+    log_normal(0.08, 0.5, 0.05, 0.8),
+    true,
+    0.0,
+    {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the root of the load",
+      make_law<LoadCrossTalk>},
+     {"fixed", "Fz sin(d) with a fixed angle", make_law<FixedAngle>}},
+    kRigGrounds,
+    kDrumGround};
+
+}  // namespace blind

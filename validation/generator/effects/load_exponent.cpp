@@ -1,0 +1,64 @@
+/// Loss over load as a mixture of two powers, or with a coefficient that is a straight line of the load.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/generator/effect.h"
+
+namespace blind {
+namespace {
+
+class LoadExponent : public Effect {
+ public:
+  LoadExponent(double exponent, Draws& draws) : excess_(exponent - 1.0) {
+    spread_ = draws.uniform(0.2, 0.8);
+    shape = {{"spread_over_excess", spread_}};
+  }
+
+  void act(const double*, Instant& now) const override {
+    const double load = std::max(1.0, now.load_N) / now.specimen->reference_load_N;
+    const double apart = spread_ * excess_;
+    now.loss_factor *= 0.5 * (std::pow(load, excess_ + apart) + std::pow(load, excess_ - apart));
+  }
+
+ private:
+  double excess_;
+  double spread_ = 0.0;
+};
+
+/// Coefficient that is a straight line of the load, with the slope that the power b - 1 has at the reference load.
+class StraightCoefficient : public Effect {
+ public:
+  StraightCoefficient(double exponent, Draws&) : excess_(exponent - 1.0) {}
+
+  void act(const double*, Instant& now) const override {
+    const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
+    now.loss_factor *= std::max(kLeast, 1.0 + excess_ * (load - 1.0));
+  }
+
+ private:
+  static constexpr double kLeast = 0.1;  // out of reach of the sizes that are drawn
+
+  double excess_;
+};
+
+}  // namespace
+
+extern const EffectKind kind_load_exponent;
+const EffectKind kind_load_exponent{
+    "load_exponent",
+    "1",
+    "exponent of the loss over load at the reference load",
+    1.0,
+    0.3,
+    2.0,
+    normal(0.85, 1.15, 0.7, 1.3),
+    false,
+    0.02,
+    {{"two_powers",
+      "mean of two powers of the load, b + d and b - d, so that the exponent moves with load and is b at the reference",
+      make_law<LoadExponent>},
+     {"straight",
+      "the coefficient is a straight line of the load, 1 + (b - 1)(x - 1), as in the regression of SAE J1269",
+      make_law<StraightCoefficient>}}};
+
+}  // namespace blind

@@ -1,0 +1,55 @@
+/// Outside of the catalogue: the load cylinder sticks short of where it is sent.
+#include <algorithm>
+#include <cmath>
+
+#include "validation/generator/effect.h"
+
+namespace blind {
+namespace {
+
+class LoadStiction : public Effect {
+ public:
+  LoadStiction(double band_N, Draws& draws) : band_N_(band_N) {
+    follows_s_ = draws.uniform(0.5, 2.0);
+    shape = {{"follows_s", follows_s_}};
+  }
+
+  std::size_t state_count() const override { return 1; }
+
+  void start(const RunStart& start, double* piston_N) const override { piston_N[0] = start.first_load_N - band_N_; }
+
+  void enter(const double* piston_N, Instant& now) const override {
+    now.load_N += std::clamp(piston_N[0] - now.target_load_N, -band_N_, band_N_);
+  }
+
+  void rates(const double* piston_N, const Instant& now, double* rates) const override {
+    const double apart_N = now.target_load_N - piston_N[0];
+    const double beyond_N = std::max(0.0, std::abs(apart_N) - band_N_);
+    rates[0] = std::copysign(beyond_N, apart_N) / follows_s_;
+  }
+
+ private:
+  double band_N_;
+  double follows_s_ = 1.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_load_stiction;
+const EffectKind kind_load_stiction{
+    "load_stiction",
+    "N",
+    "half of the width of the hysteresis",
+    0.0,
+    0.0,
+    1000.0,
+    log_normal(50.0, 160.0, 40.0, 180.0),
+    false,
+    0.0,
+    {{"only", "play: the load stays short by the size after a rise and above by it after a fall",
+      make_law<LoadStiction>}},
+    kDrumGround,
+    kDrumGround,
+    true};
+
+}  // namespace blind

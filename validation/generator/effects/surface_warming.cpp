@@ -1,0 +1,97 @@
+/// The surface warms under the tire: skin and body, or one body that is cooled faster with speed.
+#include <cmath>
+
+#include "validation/generator/effect.h"
+
+namespace blind {
+namespace {
+
+class SurfaceWarming : public Effect {
+ public:
+  SurfaceWarming(double rise_dK, Draws& draws, const Specimen& specimen)
+      : rise_dK_(rise_dK), reference_W_(warm_heating_W(specimen)) {
+    skin_s_ = 60.0 * draws.uniform(2.0, 7.0);
+    body_s_ = 60.0 * draws.from(log_normal(12.0, 45.0, 9.0, 60.0));
+    skin_share_ = draws.uniform(0.1, 0.4);
+    shape = {{"skin_min", skin_s_ / 60.0}, {"body_min", body_s_ / 60.0}, {"skin_share", skin_share_}};
+  }
+
+  std::size_t state_count() const override { return 2; }
+
+  void start(const RunStart& start, double* state) const override {
+    if (!start.rest_before_min.has_value()) return;
+    state[0] = std::exp(-60.0 * *start.rest_before_min / skin_s_);
+    state[1] = std::exp(-60.0 * *start.rest_before_min / body_s_);
+  }
+
+  void act(const double* state, Instant& now) const override {
+    now.surface_rise_dK += rise_dK_ * (skin_share_ * state[0] + (1.0 - skin_share_) * state[1]);
+  }
+
+  void rates(const double* state, const Instant& now, double* rates) const override {
+    const double heat = now.rolling_N * now.speed_m_s / reference_W_;
+    rates[0] = (heat - state[0]) / skin_s_;
+    rates[1] = (heat - state[1]) / body_s_;
+  }
+
+ private:
+  double rise_dK_;
+  double reference_W_;
+  double skin_s_ = 1.0;
+  double body_s_ = 1.0;
+  double skin_share_ = 0.0;
+};
+
+/// One body, theta' = (q - (s + (1 - s) x^0.8) theta)/tau, x = v/(80 km/h).
+class CooledBody : public Effect {
+ public:
+  CooledBody(double rise_dK, Draws& draws, const Specimen& specimen)
+      : rise_dK_(rise_dK), reference_W_(warm_heating_W(specimen)) {
+    time_s_ = 60.0 * draws.from(log_normal(10.0, 40.0, 8.0, 55.0));
+    still_share_ = draws.uniform(0.2, 0.7);
+    shape = {{"time_constant_min", time_s_ / 60.0}, {"still_share", still_share_}};
+  }
+
+  std::size_t state_count() const override { return 1; }
+
+  void start(const RunStart& start, double* rise) const override {
+    if (!start.rest_before_min.has_value()) return;
+    rise[0] = std::exp(-60.0 * *start.rest_before_min * still_share_ / time_s_);
+  }
+
+  void act(const double* rise, Instant& now) const override { now.surface_rise_dK += rise_dK_ * rise[0]; }
+
+  void rates(const double* rise, const Instant& now, double* rates) const override {
+    const double heat = now.rolling_N * now.speed_m_s / reference_W_;
+    const double cooling = still_share_ + (1.0 - still_share_) * std::pow(now.speed_m_s / kSpeed80_m_s, 0.8);
+    rates[0] = (heat - cooling * rise[0]) / time_s_;
+  }
+
+ private:
+  double rise_dK_;
+  double reference_W_;
+  double time_s_ = 1.0;
+  double still_share_ = 0.0;
+};
+
+}  // namespace
+
+extern const EffectKind kind_surface_warming;
+const EffectKind kind_surface_warming{
+    "surface_warming",
+    "K",
+    "rise after long running at 80 km/h and the reference load",
+    0.0,
+    -30.0,
+    60.0,
+    log_normal(2.0, 15.0, 1.3, 20.0),
+    false,
+    0.0,
+    {{"skin_and_body", "skin and body, each of first order, driven by the heat of the tire instead of speed and load",
+      make_law<SurfaceWarming>},
+     {"cooled_body", "one body, driven by the heat of the tire, that the air cools faster with speed",
+      make_law<CooledBody>}},
+    kRigGrounds,
+    kRigGrounds};
+
+}  // namespace blind

@@ -1,0 +1,111 @@
+#include "validation/generator/laboratory.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace blind {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The form of effect `i` of an order: a stream of its own, so that size and shape do not change with it.
+const Form& choose_form(const SetOrder& order, std::size_t i) {
+  const EffectKind& kind = *find_effect_kind(order.effects[i]);
+  if (!order.forms.empty()) return *find_form(kind, order.forms[i]);
+  Draws draws(order.seed, fmt::format("form/{}", kind.id));
+  return kind.forms[static_cast<std::size_t>(draws.whole(0, static_cast<int>(kind.forms.size()) - 1))];
+}
+
+/// Which law a road set is to be judged against.
+bool draw_constant_rrc(const SetOrder& order) {
+  if (order.kind != Kind::kRoad) return false;
+  Draws draws(order.seed, "baseline");
+  const bool drawn = draws.happens(0.5);
+  const Grounds grounds = find_common_grounds(order.effects, order.kind, false);
+  if ((grounds & kConstantGround) == 0) return false;
+  if ((grounds & kRoadGround) == 0) return true;
+  return order.constant_rrc.value_or(drawn);
+}
+
+}  // namespace
+
+Laboratory draw_laboratory(const SetOrder& order) {
+  Laboratory lab;
+  lab.kind = order.kind;
+  lab.specimen = draw_specimen({order.seed, order.kind, draw_constant_rrc(order), order.nominal_base});
+  lab.campaign = draw_campaign(order.seed, lab.specimen, order.runs, order.dyno_runs);
+  lab.sensors = draw_sensors(order.seed, order.kind);
+  return lab;
+}
+
+Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& described) {
+  Effects effects;
+  for (std::size_t i = 0; i < order.effects.size(); ++i) {
+    const EffectKind& kind = *find_effect_kind(order.effects[i]);
+    Draws sizes(order.seed, fmt::format("size/{}", kind.id));
+    Draws shapes(order.seed, fmt::format("shape/{}", kind.id));
+    const bool has_class = !order.size_classes.empty();
+    const double drawn = has_class ? draw_size(kind, order.size_classes[i], sizes) : draw_size(kind, sizes);
+    const double size = order.sizes[i].value_or(drawn);
+    const Form& form = choose_form(order, i);
+    effects.push_back(form.make(size, shapes, specimen));
+    Json shape = Json::object();
+    for (const auto& [name, value] : effects.back()->shape) shape[name] = value;
+    described.push_back({{"id", kind.id},
+                         {"size", size},
+                         {"unit", kind.unit},
+                         {"size_is", kind.meaning},
+                         {"neutral", kind.neutral},
+                         {"form", form.name},
+                         {"shape", shape},
+                         {"law", form.law}});
+    if (has_class) described.back()["size_class"] = kSizeClassNames[static_cast<std::size_t>(order.size_classes[i])];
+  }
+  return effects;
+}
+
+std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& campaign, const Effects& effects) {
+  std::vector<RunRecord> records;
+  for (const RunPlan& run : campaign.runs) records.push_back(record_run(specimen, effects, run));
+  return records;
+}
+
+Columns columns_of(const RunRecord& record) {
+  Columns columns{record.force};
+  if (record.specimen->kind != Kind::kRoad) {
+    columns.push_back(record.liner_degC);
+    columns.push_back(record.pressure_kPa);
+  }
+  return columns;
+}
+
+Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, const RunRecord& record,
+                bool noise_free) {
+  Columns columns = columns_of(record);
+  for (std::size_t i = 0; i < columns.size() && !noise_free; ++i) {
+    const Channel& channel = channels_of(lab.kind)[i];
+    apply_sensor(lab.sensors[i], seed, run.session, run.id, channel, record.time_s, columns[i]);
+    drop_samples(seed, run.id, channel, columns[i]);
+  }
+  for (std::size_t row = 0; row < record.time_s.size(); ++row) {
+    const bool reads_zero = run.reads_zero && record.speed_km_h[row] == 0.0;
+    if (record.speed_km_h[row] < kLeastForceSpeed_km_h && !reads_zero) columns[0][row] = std::nan("");
+    if (run.is_read(record.time_s[row])) continue;
+    for (std::vector<double>& column : columns) column[row] = std::nan("");
+  }
+  return columns;
+}
+
+std::vector<bool> find_settled_rows(const RunRecord& record) {
+  constexpr double kSettling_s = 30.0;
+  std::vector<bool> settled(record.time_s.size());
+  double changed_s = -kSettling_s;
+  for (std::size_t row = 0; row < settled.size(); ++row) {
+    if (row > 0 && record.load_N[row] != record.load_N[row - 1]) changed_s = record.time_s[row];
+    settled[row] = record.time_s[row] >= changed_s + kSettling_s;
+  }
+  return settled;
+}
+
+}  // namespace blind

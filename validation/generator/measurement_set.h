@@ -1,0 +1,50 @@
+#pragma once
+/// One measurement set with its hidden cause.
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/generator/campaign.h"
+#include "validation/generator/effect.h"
+
+namespace blind {
+
+/// What is wanted.
+struct SetOrder {
+  std::vector<std::string> effects;          // none: the baseline
+  std::vector<std::optional<double>> sizes;  // one an effect; none: drawn
+  std::uint64_t seed = 1;
+  std::vector<std::string> forms;       // one an effect; none: drawn
+  std::vector<SizeClass> size_classes;  // one an effect; none: sizes from all that are drawn
+  Kind kind = Kind::kDrum;
+  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+  std::optional<bool> constant_rrc;  // of a road set; none: drawn among what the effects allow
+  int runs = kMostRuns;
+  bool noise_free = false;
+  bool nominal_base = false;
+  std::string name = "campaign";
+};
+
+using Files = std::map<std::string, std::string>;  // contents by name
+
+struct MadeSet {
+  Files files;
+  Files counterfactual;  // the same without effect and without noise
+  nlohmann::ordered_json truth;
+};
+
+/// Where all of `effects` are to be found together; with `drawn`, where banks have them.
+Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, bool drawn);
+
+/// Makes a set. Its files are a function of the order and nothing else.
+MadeSet make_set(const SetOrder& order, bool with_counterfactual);
+
+/// The files of the same set with further runs after its own: same specimen, effects, sensors. Streams of random
+/// numbers go by session and run, so that its own runs are the same to the bit.
+Files follow_up(const SetOrder& order, std::vector<RunPlan> further);
+
+}  // namespace blind

@@ -1,0 +1,106 @@
+#include "validation/generator/sensors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/generator/draws.h"
+
+namespace blind {
+namespace {
+
+double round_to_step(double value, double step) { return std::round(value / step) * step; }
+
+}  // namespace
+
+const std::vector<Channel>& channels_of(Kind kind) {
+  static const std::vector<Channel> drum{
+      {"drum_torque_Nm", "torque"}, {"liner_temperature_degC", "tire"}, {"cavity_pressure_kPa", "tire"}};
+  static const std::vector<Channel> dyno{
+      {"loss_force_N", "torque"}, {"liner_temperature_degC", "tire"}, {"cavity_pressure_kPa", "tire"}};
+  static const std::vector<Channel> road{{"traction_force_N", "vehicle"}};
+  if (kind == Kind::kDrum) return drum;
+  return kind == Kind::kDyno ? dyno : road;
+}
+
+double Sensor::floor() const {
+  constexpr int kSamples = 10;
+  double shared = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    for (int j = 0; j < kSamples; ++j) shared += std::exp(-std::abs(i - j) / drift_time_s);
+  }
+  const double white = noise_sd * noise_sd + resolution * resolution / 12.0;
+  return std::sqrt(drift_sd * drift_sd * shared / (kSamples * kSamples) + white / kSamples);
+}
+
+Sensors draw_sensors(std::uint64_t seed, Kind kind) {
+  Draws draws(seed, "sensors");
+  const auto draw = [&draws](const Sensor& typical) {
+    const auto varied = [&draws](double value) { return round_to_step(value * draws.uniform(0.75, 1.3), 0.001); };
+    Sensor sensor;
+    sensor.offset_sd = varied(typical.offset_sd);
+    sensor.drift_sd = varied(typical.drift_sd);
+    sensor.drift_time_s = std::round(typical.drift_time_s * draws.uniform(0.75, 1.3));
+    sensor.noise_sd = varied(typical.noise_sd);
+    sensor.resolution = typical.resolution;
+    return sensor;
+  };
+  // Assumed: a force on the road has unevenness, gusts and gear noise in it, less than a trip in traffic has.
+  if (kind == Kind::kRoad) return {draw({8.0, 40.0, 13.0, 60.0, 0.0})};
+  // Assumed: a loss is the difference of two torques, so it is noisier than a drum's torque.
+  const Sensor force = kind == Kind::kDrum ? Sensor{0.45, 0.10, 60.0, 0.25, 0.0} : Sensor{0.6, 0.25, 60.0, 1.0, 0.0};
+  Sensors sensors{draw(force)};
+  sensors.push_back(draw({0.25, 0.05, 60.0, 0.1, 0.1}));
+  sensors.push_back(draw({0.25, 0.10, 120.0, 0.05, 0.1}));
+  return sensors;
+}
+
+std::string write_sensors(Kind kind, const Sensors& sensors) {
+  std::string text;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const Sensor& sensor = sensors[i];
+    text += fmt::format(
+        "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
+        "resolution = {:.10g}\n",
+        channels_of(kind)[i].name, sensor.offset_sd, sensor.drift_sd, sensor.drift_time_s, sensor.noise_sd,
+        sensor.resolution);
+  }
+  return text;
+}
+
+void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& session, const std::string& run,
+                  const Channel& channel, const std::vector<double>& time_s, std::vector<double>& values) {
+  Draws offsets(seed, fmt::format("offset/{}/{}", session, channel.name));
+  Draws drifts(seed, fmt::format("drift/{}/{}", run, channel.name));
+  Draws noises(seed, fmt::format("noise/{}/{}", run, channel.name));
+  const double offset = sensor.offset_sd * offsets.normal();
+  double drift = sensor.drift_sd * drifts.normal();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) {
+      const double kept = std::exp(-(time_s[i] - time_s[i - 1]) / sensor.drift_time_s);
+      drift = kept * drift + sensor.drift_sd * std::sqrt(1.0 - kept * kept) * drifts.normal();
+    }
+    values[i] += offset + drift + sensor.noise_sd * noises.normal();
+    if (sensor.resolution > 0.0) values[i] = round_to_step(values[i], sensor.resolution);
+  }
+}
+
+void drop_samples(std::uint64_t seed, const std::string& run, const Channel& channel, std::vector<double>& values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  Draws singles(seed, fmt::format("dropped/{}/{}", run, channel.name));
+  for (double& value : values) {
+    if (singles.happens(0.003)) value = kNone;
+  }
+  Draws gaps(seed, fmt::format("gaps/{}/{}", run, channel.logger));
+  const int count = gaps.whole(0, 3);
+  const int last = static_cast<int>(values.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    const int first = gaps.whole(0, last);
+    const int length = gaps.whole(3, 60);
+    for (int row = first; row <= std::min(last, first + length); ++row) values[static_cast<std::size_t>(row)] = kNone;
+  }
+}
+
+}  // namespace blind

@@ -1,0 +1,47 @@
+#pragma once
+/// Emulated sensors: session offset, drift, noise, rounding, drop-outs (formats.md, "Sensors").
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "validation/generator/kind.h"
+
+namespace blind {
+
+/// A measured column and the logger that takes it.
+struct Channel {
+  const char* name;
+  const char* logger;
+};
+
+/// The first of them is the force.
+const std::vector<Channel>& channels_of(Kind kind);
+
+/// Error sizes of one channel, in its unit.
+struct Sensor {
+  double offset_sd = 0.0;
+  double drift_sd = 0.0;
+  double drift_time_s = 60.0;
+  double noise_sd = 0.0;
+  double resolution = 0.0;
+
+  /// Standard deviation of a mean over 10 samples at 1 Hz: drift, noise and rounding, without the offset.
+  /// Equation  var = sd_drift^2 sum_ij exp(-|i - j| dt/tau)/n^2 + (sd_noise^2 + q^2/12)/n
+  double floor() const;
+};
+
+using Sensors = std::vector<Sensor>;  // one a channel
+
+Sensors draw_sensors(std::uint64_t seed, Kind kind);
+std::string write_sensors(Kind kind, const Sensors& sensors);
+
+/// Adds what the sensor makes of the true values, then takes samples away (NaN).
+/// Drift starts stationary in every run and channel and goes on through missing samples; rounding comes last.
+void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& session, const std::string& run,
+                  const Channel& channel, const std::vector<double>& time_s, std::vector<double>& values);
+
+/// Takes samples away: single ones, and gaps that temperature and pressure share, since one logger takes both.
+void drop_samples(std::uint64_t seed, const std::string& run, const Channel& channel, std::vector<double>& values);
+
+}  // namespace blind

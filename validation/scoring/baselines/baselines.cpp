@@ -1,0 +1,93 @@
+#include "validation/scoring/baselines/baselines.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "validation/scoring/baselines/gaussian_process.h"
+#include "validation/scoring/baselines/linearised_set.h"
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::at;
+using diagnosis::Diagnosis;
+using diagnosis::Verdict;
+
+Diagnosis shrink_by_gaussian_process(const LinearisedSet& set) {
+  Diagnosis diagnosis;
+  diagnosis.verdict = Verdict::kUnexplained;
+  diagnosis.probability = {{"none", 0.0}, {"unknown", 1.0}};
+  diagnosis.gap = set.find_gap({}, subtract_gaussian_process);
+  diagnosis::Gap& gap = diagnosis.gap;
+  gap.shrink_percent = gap.black_box_percent;
+  gap.recalibrated.after = (1.0 - gap.shrink_percent.value_or(0.0) / 100.0) * gap.recalibrated.before;
+  return diagnosis;
+}
+
+/// The chosen effects, at the amplitudes of least squares.
+std::vector<ChosenEffect> find_amplitudes(const std::vector<TriedEffect>& tried, const LinearData& data,
+                                          const std::vector<std::size_t>& columns) {
+  const LeastSquares::Fit fit = LeastSquares(data).fit(columns);
+  std::vector<ChosenEffect> chosen;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    chosen.push_back({tried[columns[i]], fit.amplitudes[at(i)], fit.sd[at(i)]});
+  }
+  return chosen;
+}
+
+diagnosis::Cause make_cause(const Naming& naming, const LinearData& data, const std::vector<ChosenEffect>& chosen) {
+  diagnosis::Cause cause;
+  cause.effects = find_named(data, naming.chosen);
+  cause.probability = naming.named_probability;
+  for (const std::string& effect : cause.effects) {
+    const auto of = std::find_if(chosen.begin(), chosen.end(), [&effect](const ChosenEffect& one) {
+      return one.tried.effect.effect->info.id == effect;
+    });
+    cause.parameters.push_back(estimate_size(*of));
+  }
+  return cause;
+}
+
+Diagnosis name_effects(const BaselineMethod& method, const LinearisedSet& set) {
+  const std::vector<TriedEffect> tried = set.try_effects();
+  const LinearData data = set.project(tried);
+  const Naming naming = method.name(data);
+  Diagnosis diagnosis;
+  diagnosis.probability = naming.probability;
+  if (naming.chosen.empty()) {
+    diagnosis.gap = set.find_gap({});
+    return diagnosis;
+  }
+  const std::vector<ChosenEffect> chosen = find_amplitudes(tried, data, naming.chosen);
+  diagnosis.verdict = Verdict::kExplained;
+  diagnosis.causes = {make_cause(naming, data, chosen)};
+  diagnosis.gap = set.find_gap(chosen);
+  return diagnosis;
+}
+
+}  // namespace
+
+const std::vector<BaselineMethod>& all_baselines() {
+  static const std::vector<BaselineMethod> methods{
+      {"nearest", "nearest signature", name_by_nearest_signature},
+      {"aic", "forward, AIC", name_by_aic},
+      {"bic", "forward, BIC", name_by_bic},
+      {"sparse", "LASSO", name_by_sparse_regression},
+      {"gp", "Gaussian process", nullptr},
+  };
+  return methods;
+}
+
+std::string baseline_folder(const std::string& bank, const BaselineMethod& method) {
+  return (std::filesystem::path(bank) / ("answers-" + std::string(method.id))).string();
+}
+
+Diagnosis diagnose_by(const BaselineMethod& method, const measurements::MeasurementSet& measured,
+                      const Settings& settings) {
+  const LinearisedSet set(measured, settings);
+  Diagnosis diagnosis = method.name == nullptr ? shrink_by_gaussian_process(set) : name_effects(method, set);
+  diagnosis.set = measured.name;
+  return diagnosis;
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,30 @@
+#pragma once
+/// Methods that a diagnosis has to beat, on the same sets, with answers of the same form (docs/blind.md, "Baselines").
+
+#include <string>
+#include <vector>
+
+#include "validation/scoring/answer.h"
+#include "validation/scoring/baselines/naming.h"
+
+namespace rollrig::proof {
+
+struct BaselineMethod {
+  const char* id;  // of its folder, answers-<id>
+  const char* label;
+  Naming (*name)(const LinearData&);  // none: names nothing, shrinks only
+};
+
+const std::vector<BaselineMethod>& all_baselines();
+
+/// <bank>/answers-<id>.
+std::string baseline_folder(const std::string& bank, const BaselineMethod& method);
+
+/// A set by one method: verdict, probabilities, one cause at most, sizes, and how far it shrinks the gap on runs left
+/// out. A method that names nothing has an unexplained set.
+/// Errors   as LinearisedSet
+/// Checked  tests/validation/scoring/baselines_of_sets_test.cpp
+diagnosis::Diagnosis diagnose_by(const BaselineMethod& method, const measurements::MeasurementSet& set,
+                                 const Settings& settings);
+
+}  // namespace rollrig::proof

@@ -1,0 +1,17 @@
+#pragma once
+/// The baselines' figures beside those of the diagnosis.
+
+#include "validation/scoring/score.h"
+
+namespace rollrig::proof {
+
+/// Figures of each baseline whose folder is in the bank, by the same truth, oracle and ceiling; none where the truth
+/// was left out of the race. A method that names nothing is judged by its shrinkage alone.
+/// Errors   InputError: as read_cases()
+std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreOptions& options);
+
+/// Into the score, with the best value of each figure.
+/// Checked  tests/validation/scoring/score_test.cpp
+void put_beside(std::vector<BaselineScore> baselines, Score& score);
+
+}  // namespace rollrig::proof

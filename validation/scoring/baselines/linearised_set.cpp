@@ -1,0 +1,160 @@
+#include "validation/scoring/baselines/linearised_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/comparison/base_parameters.h"
+#include "diagnosis/comparison/screen.h"
+#include "diagnosis/kinds/measurement_kind.h"
+#include "sim/core/error.h"
+#include "sim/core/units.h"
+
+namespace rollrig::proof {
+
+using diagnosis::at;
+using models::EffectParameter;
+
+namespace {
+
+bool holds(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+/// As in the diagnosis: effects that act on the rig and can be seen there, less those left out.
+std::vector<const models::Effect*> choose_effects(const measurements::MeasurementSet& set, const Settings& settings) {
+  std::vector<const models::Effect*> effects;
+  const models::RigKind kind = diagnosis::kind_of(set).rig_kind();
+  for (const models::Effect* effect : models::all_effects()) {
+    const models::EffectInfo& info = effect->info;
+    const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();
+    const bool in_race = settings.only.empty() || holds(settings.only, info.id);
+    if (models::acts_in(info, kind, set.baseline) && !faint && in_race && !holds(settings.without, info.id)) {
+      effects.push_back(effect);
+    }
+  }
+  return effects;
+}
+
+const EffectParameter& size_of(const TriedEffect& tried) { return tried.effect.effect->info.parameters.front(); }
+
+struct Size {
+  double off = 0.0;
+  double tried = 0.0;
+};
+
+/// In the unit of the key.
+Size find_size(const TriedEffect& tried) {
+  const EffectParameter& size = size_of(tried);
+  const double factor = unit_of_key(size.key).factor;
+  return {size.off.value_or(0.0), diagnosis::from_prior_units(size, tried.own[0], tried.effect.sign).value_SI / factor};
+}
+
+/// Own parameters with the size at its amplitude.
+Eigen::VectorXd scale_own(const ChosenEffect& chosen) {
+  const Size size = find_size(chosen.tried);
+  const double factor = unit_of_key(size_of(chosen.tried).key).factor;
+  Eigen::VectorXd own = chosen.tried.own;
+  own[0] = diagnosis::to_prior_units(size_of(chosen.tried),
+                                     factor * (size.off + chosen.amplitude * (size.tried - size.off)));
+  return own;
+}
+
+}  // namespace
+
+LinearisedSet::LinearisedSet(const measurements::MeasurementSet& measured, const Settings& settings)
+    : set_(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).left_out)),
+      base_(diagnosis::find_base_parameters(measured, set_.context())),
+      remainder_(set_),
+      effects_(choose_effects(measured, settings)),
+      null_(expand({})) {
+  if (null_.fit.jacobian.size() == 0) throw RunFailure("the baseline as calibrated cannot be simulated");
+}
+
+std::vector<TriedEffect> LinearisedSet::try_effects() const {
+  const diagnosis::Model null(set_, base_, {});
+  std::vector<TriedEffect> all;
+  for (diagnosis::Screened& screened :
+       diagnosis::screen(null, remainder_, null_.amplitudes, null_.fit, base_, effects_, 1)) {
+    TriedEffect tried{screened.effect, std::move(screened.own), {}};
+    const diagnosis::Model model(set_, base_, diagnosis::Hypothesis{}.with(tried.effect));
+    const auto simulate = [&] {
+      const Eigen::VectorXd unknowns = diagnosis::insert_own(model, null_.fit, *tried.effect.effect, tried.own);
+      return model.simulate(unknowns, 1, tried.change, nullptr);
+    };
+    bool done = simulate();
+    if (!done) {
+      tried.own[0] = 0.0;  // the middle of its prior
+      done = simulate();
+    }
+    if (!done) continue;
+    tried.change -= null_.fit.simulated;
+    diagnosis::whiten(set_, tried.change);
+    all.push_back(std::move(tried));
+  }
+  return all;
+}
+
+LinearData LinearisedSet::project(const std::vector<TriedEffect>& tried) const {
+  const BaseProjection projection(null_.fit.jacobian);
+  LinearData data;
+  Eigen::MatrixXd changes(null_.fit.residuals.size(), at(tried.size()));
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    changes.col(at(i)) = tried[i].change;
+    data.effects.push_back(tried[i].effect.effect->info.id);
+  }
+  data.residual = projection.apply(null_.fit.residuals);
+  data.signatures = projection.apply(changes);
+  return data;
+}
+
+/// Without derivatives where it cannot be simulated.
+diagnosis::Contender LinearisedSet::expand(const std::vector<ChosenEffect>& chosen) const {
+  std::vector<const ChosenEffect*> acting;
+  diagnosis::Contender contender;
+  for (const ChosenEffect& one : chosen) {
+    if (contender.fit.hypothesis.contains(*one.tried.effect.effect)) continue;
+    contender.fit.hypothesis = contender.fit.hypothesis.with(one.tried.effect);
+    acting.push_back(&one);
+  }
+  const diagnosis::Model model(set_, base_, contender.fit.hypothesis);
+  diagnosis::Fit& fit = contender.fit;
+  fit.unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const diagnosis::Model::OwnParameter& own = model.own_parameters()[i];
+    const models::Effect* effect = fit.hypothesis.effects[own.effect].effect;
+    const auto of = std::find_if(acting.begin(), acting.end(),
+                                 [&](const ChosenEffect* one) { return one->tried.effect.effect == effect; });
+    const diagnosis::PriorBounds bounds = model.own_bounds(i);
+    fit.unknowns[at(i)] = std::clamp(scale_own(**of)[at(own.index)], bounds.lower, bounds.upper);
+  }
+  contender.amplitudes.assign(set_.channels().size(), 0.0);
+  const bool done = model.evaluate(fit.unknowns, 1, fit.residuals, &fit.jacobian) &&
+                    model.simulate(fit.unknowns, 1, fit.simulated, nullptr);
+  if (!done) fit.jacobian.resize(0, 0);
+  return contender;
+}
+
+diagnosis::Gap LinearisedSet::find_gap(const std::vector<ChosenEffect>& chosen,
+                                       const diagnosis::BlackBox& black_box) const {
+  const diagnosis::Contender cause = expand(chosen);
+  const bool is_cause = !chosen.empty() && cause.fit.jacobian.size() > 0;
+  return diagnosis::find_gap(set_, base_, remainder_, null_, is_cause ? &cause : nullptr, 1, black_box);
+}
+
+diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen) {
+  constexpr double kNormal95 = 1.959963984540054;
+  const EffectParameter& declared = size_of(chosen.tried);
+  const Size size = find_size(chosen.tried);
+  diagnosis::ParameterEstimate estimate;
+  estimate.name = fmt::format("{}.{}", chosen.tried.effect.effect->info.id, declared.key);
+  estimate.unit = unit_of_key(declared.key).symbol;
+  estimate.value = size.off + chosen.amplitude * (size.tried - size.off);
+  estimate.sd = chosen.sd * std::abs(size.tried - size.off);
+  estimate.low_95 = estimate.value - kNormal95 * estimate.sd;
+  estimate.high_95 = estimate.value + kNormal95 * estimate.sd;
+  return estimate;
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,126 @@
+#include "validation/scoring/case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::Verdict;
+
+using Conversion = double (*)(double value, double neutral);
+
+/// What makes the generator's size of an effect's own, where they are not the same number (docs/blind.md, "Effects").
+const std::map<std::string, Conversion>& size_conversions() {
+  static const std::map<std::string, Conversion> conversions{
+      {"convection_law", [](double deficit, double neutral) { return neutral - deficit; }},
+      {"pressure_exponent", [](double shift, double neutral) { return neutral + shift; }},
+      {"slip_loss", [](double compliance, double) { return 1.0 / compliance; }},
+      {"torque_zero_drift", [](double per_hour, double) { return per_hour / 6.0; }},  // per 10 min
+  };
+  return conversions;
+}
+
+/// Effects whose size means something else in the generator's law, so that nothing can be compared.
+const std::set<std::string>& sizes_apart() {
+  static const std::set<std::string> ids{"bearing_warmup", "gas_heat_transfer", "tire_temperature", "tread_liner_lag"};
+  return ids;
+}
+
+bool holds(const std::vector<std::string>& all, const std::string& one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+}  // namespace
+
+std::vector<std::string> Case::named_set() const {
+  return has_cause() ? list_named(answer.diagnosis) : std::vector<std::string>{};
+}
+
+bool Case::is_split_by(const FollowUp& test) const {
+  if (!test.answer.has_value()) return false;
+  Case after;
+  after.truth = truth;
+  after.answer = *test.answer;
+  return after.is_named() && after.named_set().size() < test.plan.named.size();
+}
+
+bool Case::names_truth() const {
+  if (truth.effects.empty()) return false;
+  const std::vector<std::string> all = named_set();
+  return all.size() <= kLargestNamedSet &&
+         std::all_of(truth.effects.begin(), truth.effects.end(),
+                     [&all](const TrueEffect& effect) { return holds(all, effect.id); });
+}
+
+bool Case::is_exact() const {
+  if (!is(Verdict::kExplained) || !has_cause() || cause().effects.size() != truth.effects.size()) return false;
+  return std::all_of(truth.effects.begin(), truth.effects.end(),
+                     [this](const TrueEffect& effect) { return holds(cause().effects, effect.id); });
+}
+
+bool Case::names_one_of_two() const {
+  if (!is_pair() || !has_cause() || cause().effects.size() != 1) return false;
+  return std::any_of(truth.effects.begin(), truth.effects.end(),
+                     [this](const TrueEffect& effect) { return effect.id == cause().effects.front(); });
+}
+
+bool Case::is_wrong_above(double probability) const {
+  return has_cause() && cause().probability > probability && !names_truth();
+}
+
+bool Case::is_right_above(double probability) const {
+  return has_cause() && cause().probability > probability && names_truth();
+}
+
+std::size_t Case::rank_of_truth() const {
+  const std::string& id = truth.effects.front().id;
+  const double own = probability_of(answer.diagnosis, id);
+  std::size_t rank = 0;
+  for (const auto& [name, probability] : answer.diagnosis.probability) {
+    if (name != "none" && name != "unknown" && name != id && probability >= own) ++rank;
+  }
+  return rank;
+}
+
+bool Case::is_right() const {
+  if (!answer.failure.empty()) return false;
+  if (is_clean()) return is(Verdict::kNoGap);
+  return truth.outside ? is(Verdict::kUnexplained) : is_named();
+}
+
+Stated Case::stated() const {
+  if (is(Verdict::kExplained) && has_cause()) return {cause().probability, is_right()};
+  return {probability_of(answer.diagnosis, is(Verdict::kNoGap) ? "none" : "unknown"), is_right()};
+}
+
+std::string Case::said() const {
+  if (!answer.failure.empty()) return "failed";
+  if (is(Verdict::kNoGap)) return "no gap";
+  if (is(Verdict::kUnexplained) || !has_cause()) return "unexplained";
+  return is_named() ? truth.name() : fmt::format("{}", fmt::join(cause().effects, "+"));
+}
+
+std::optional<SizeCheck> Case::check_size() const {
+  if (!is_single() || !has_cause() || !is_exact()) return std::nullopt;
+  const TrueEffect& effect = truth.effects.front();
+  if (sizes_apart().count(effect.id) > 0 || std::isnan(effect.size)) return std::nullopt;
+  const auto known = size_conversions().find(effect.id);
+  const auto convert = [&](double value) {
+    return known == size_conversions().end() ? value : known->second(value, effect.neutral);
+  };
+  for (const diagnosis::ParameterEstimate& parameter : cause().parameters) {
+    if (parameter.name.rfind(effect.id + ".", 0) != 0) continue;  // the first of an effect's parameters is its size
+    const auto [low, high] = std::minmax({convert(parameter.low_95), convert(parameter.high_95)});
+    const double whole = std::isfinite(effect.neutral) ? std::abs(effect.size - effect.neutral) : std::abs(effect.size);
+    return SizeCheck{std::abs(convert(parameter.value) - effect.size) / whole,
+                     low <= effect.size && effect.size <= high};
+  }
+  return std::nullopt;
+}
+
+}  // namespace rollrig::proof

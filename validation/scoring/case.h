@@ -1,0 +1,65 @@
+#pragma once
+/// A set of a bank with its opened truth and the answer to it.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/scoring/answer.h"
+#include "validation/scoring/bank.h"
+#include "validation/scoring/follow_up.h"
+#include "validation/scoring/statistics.h"
+
+namespace rollrig::proof {
+
+constexpr double kConfident = 0.9;           // from here on a wrong cause counts as stated with confidence
+constexpr std::size_t kLargestNamedSet = 3;  // a larger one names nothing
+
+/// A stated size beside the true one, where both laws mean the same by it.
+struct SizeCheck {
+  double error = 0.0;  // relative to what the size differs from doing nothing
+  bool covered = false;
+};
+
+struct Case {
+  Truth truth;
+  Answer answer;
+  std::optional<double> oracle_shrink_percent;  // with the true effect alone in the race
+  std::optional<double> d_prime;                // of the ideal observer
+  std::optional<bool> identifiable;             // likewise: whether its data tell the effect from all others
+  std::vector<double> log_bayes_factors;        // likewise: expected, of the truth over each other effect; may be empty
+  std::optional<FollowUp> next_test;            // that the answer proposes; none where it leaves nothing open
+  std::optional<FollowUp> drawn_test;           // drawn from the menu instead
+
+  bool is(diagnosis::Verdict verdict) const { return answer.failure.empty() && answer.diagnosis.verdict == verdict; }
+  bool has_cause() const { return answer.failure.empty() && !answer.diagnosis.causes.empty(); }
+  const diagnosis::Cause& cause() const { return answer.diagnosis.causes.front(); }
+  /// The first cause's effects and all that it cannot be told from.
+  std::vector<std::string> named_set() const;
+  /// Whether the true effects stand in a named set of at most three.
+  bool names_truth() const;
+  /// Likewise, and the verdict is that the gap is explained.
+  bool is_named() const { return is(diagnosis::Verdict::kExplained) && names_truth(); }
+  bool is_exact() const;
+  /// Whether the first cause is one effect, which is one of the two true ones.
+  bool names_one_of_two() const;
+  bool is_wrong_above(double probability) const;
+  bool is_right_above(double probability) const;
+  /// How many effects are as likely as the true one or likelier.
+  std::size_t rank_of_truth() const;
+  /// What a careful reader takes home: no gap, a cause, or that it is unexplained.
+  bool is_right() const;
+  /// The probability stated for that.
+  Stated stated() const;
+  std::string said() const;
+
+  bool is_clean() const { return truth.effects.empty(); }
+  bool is_single() const { return truth.effects.size() == 1 && !truth.outside; }
+  bool is_pair() const { return truth.effects.size() == 2 && !truth.outside; }
+  std::optional<SizeCheck> check_size() const;
+  /// Whether a test that was done has split the named set: with its runs the verdict is explained, the new named set
+  /// holds the truth and at most three effects, and fewer than before.
+  bool is_split_by(const FollowUp& test) const;
+};
+
+}  // namespace rollrig::proof

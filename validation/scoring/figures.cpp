@@ -1,0 +1,246 @@
+#include "validation/scoring/figures.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "validation/scoring/ideal_observer.h"
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::Verdict;
+using Cases = std::vector<Case>;
+using Is = std::function<bool(const Case&)>;
+
+constexpr std::size_t kTop = 3;  // places of "top-3"
+constexpr double kMedian = 0.5;
+constexpr double kTenth = 0.1;
+
+Cases only(const Cases& cases, const Is& wanted) {
+  Cases some;
+  std::copy_if(cases.begin(), cases.end(), std::back_inserter(some), wanted);
+  return some;
+}
+
+Figure make_share(const char* id, const char* label, const Cases& of, const Is& counts, double target,
+                  bool more_is_better = true) {
+  Figure figure{id, label};
+  figure.n = of.size();
+  figure.k = static_cast<std::size_t>(std::count_if(of.begin(), of.end(), counts));
+  figure.target = target;
+  figure.more_is_better = more_is_better;
+  if (figure.n > 0) {
+    figure.value = static_cast<double>(figure.k) / static_cast<double>(figure.n);
+    figure.interval = calc_wilson_95(figure.k, figure.n);
+  } else {
+    figure.note = "no such set";
+  }
+  return figure;
+}
+
+Figure make_number(const char* id, const char* label, std::optional<double> value, std::size_t n, Unit unit,
+                   std::optional<double> target, bool more_is_better = false) {
+  Figure figure{id, label, value};
+  figure.n = n;
+  figure.unit = unit;
+  figure.target = target;
+  figure.more_is_better = more_is_better;
+  if (!value.has_value()) figure.note = "no such set";
+  return figure;
+}
+
+std::optional<double> quantile(const std::vector<double>& values, double share) {
+  if (values.empty()) return std::nullopt;
+  return calc_quantile(values, share);
+}
+
+bool is_detectable(const Case& one, const ScoreOptions& options) {
+  if (one.d_prime.has_value()) return *one.d_prime >= options.detectable_d_prime;
+  return one.truth.signal_floors >= options.detectable_floors;
+}
+
+void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
+  const Cases singles = only(cases, [](const Case& one) { return one.is_single(); });
+  const Cases detectable = only(singles, [&](const Case& one) { return is_detectable(one, options); });
+  // Without any ceiling all count; with d' alone none is known to be.
+  const Cases identifiable =
+      only(detectable, [](const Case& one) { return one.identifiable.value_or(!one.d_prime.has_value()); });
+  figures.push_back(make_share(
+      "detection", "detection, detectable singles", detectable,
+      [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); }, 0.99));
+  figures.back().ceiling = find_mean_chance(detectable, find_chance_of_detection);
+  figures.push_back(make_share(
+      "false_alarms", "false alarms, no effect", only(cases, [](const Case& one) { return one.is_clean(); }),
+      [](const Case& one) { return !one.is(Verdict::kNoGap); }, 0.01, false));
+  figures.back().floor = 0.02;
+  figures.push_back(make_share(
+      "top1_set_aware", "top-1 set-aware, detectable", detectable, [](const Case& one) { return one.is_named(); },
+      0.97));
+  figures.back().floor = 0.92;
+  figures.back().ceiling = find_mean_chance(detectable, find_chance_of_small_set);
+  figures.push_back(make_share(
+      "top1_exact", "top-1 exact, identifiable", identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
+  figures.push_back(make_share(
+      "top3", "top-3, all singles", singles,
+      [](const Case& one) { return one.answer.failure.empty() && one.rank_of_truth() < kTop; }, 0.98));
+  figures.back().floor = 0.95;
+  const Cases pairs = only(cases, [](const Case& one) { return one.is_pair(); });
+  figures.push_back(make_share(
+      "pairs", "pairs, both named", pairs, [](const Case& one) { return one.is_named(); }, 0.90));
+  figures.back().ceiling =
+      find_mean_chance(pairs, [&](const Case& one) { return find_chance_of_pair(one, options.detectable_d_prime); });
+  // Only a computed ceiling tells that the second effect can be seen beside the first.
+  figures.push_back(make_share(
+      "pairs_identifiable", "  of those that can be told",
+      only(cases,
+           [&](const Case& one) {
+             return one.is_pair() && one.d_prime.has_value() && is_detectable(one, options) &&
+                    one.identifiable.value_or(false);
+           }),
+      [](const Case& one) { return one.is_named(); }, 0.90));
+}
+
+/// A part of the row above it, for which section 5 has no target.
+Figure make_part(const char* id, const char* label, const Cases& of, const Is& counts) {
+  Figure figure = make_share(id, label, of, counts, 0.0, false);
+  figure.target.reset();
+  return figure;
+}
+
+std::vector<Stated> list_stated(const Cases& cases) {
+  std::vector<Stated> stated;
+  for (const Case& one : cases) {
+    if (one.answer.failure.empty()) stated.push_back(one.stated());
+  }
+  return stated;
+}
+
+std::optional<double> calc_ece_of(const Cases& cases) {
+  const std::vector<Stated> stated = list_stated(cases);
+  return stated.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(stated)));
+}
+
+void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
+  const Cases inside = only(cases, [](const Case& one) { return one.is_single() || one.is_pair(); });
+  const Cases outside = only(cases, [](const Case& one) { return one.truth.outside; });
+  const auto wrong = [](const Case& one) { return one.is_wrong_above(kConfident); };
+  figures.push_back(make_share("wrong_above_inside", "wrong above 0.9, in the catalogue", inside, wrong, 0.01, false));
+  figures.back().floor = 0.02;
+  figures.push_back(make_part("wrong_above_half", "  with one of two named, alone", inside,
+                              [&](const Case& one) { return wrong(one) && one.names_one_of_two(); }));
+  figures.push_back(make_share(
+      "wrong_above_of_calls", "  of what is stated above 0.9",
+      only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); }), wrong, 0.01, false));
+  figures.push_back(make_share("wrong_above_outside", "wrong above 0.9, outside of it", outside, wrong, 0.05, false));
+  figures.back().floor = 0.08;
+  figures.push_back(make_share(
+      "abstention", "abstention, outside of it", outside,
+      [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kExplained); }, 0.90));
+  const std::vector<Stated> stated = list_stated(cases);
+  const bool any = !stated.empty();
+  figures.push_back(make_number("ece", "calibration, ECE", calc_ece_of(cases), stated.size(), Unit::kNumber, 0.02));
+  const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
+  figures.push_back(make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(),
+                                Unit::kNumber, std::nullopt));
+  figures.push_back(make_number("brier", "calibration, Brier score",
+                                any ? std::optional<double>(calc_brier(stated)) : std::nullopt, stated.size(),
+                                Unit::kNumber, 0.08));
+}
+
+void add_sizes(const Cases& cases, std::vector<Figure>& figures) {
+  std::vector<double> errors;
+  std::size_t covered = 0;
+  for (const Case& one : cases) {
+    const std::optional<SizeCheck> check = one.check_size();
+    if (!check) continue;
+    errors.push_back(check->error);
+    covered += check->covered ? 1 : 0;
+  }
+  figures.push_back(
+      make_number("size_error", "size, median error", quantile(errors, kMedian), errors.size(), Unit::kPercent, 0.05));
+  Figure coverage{"size_coverage", "size, held by its 95 % interval"};
+  coverage.k = covered;
+  coverage.n = errors.size();
+  if (coverage.n > 0) {
+    coverage.value = static_cast<double>(covered) / static_cast<double>(coverage.n);
+    coverage.interval = calc_wilson_95(covered, coverage.n);
+  } else {
+    coverage.note = "no such set";
+  }
+  figures.push_back(coverage);
+}
+
+void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
+  std::vector<double> ratios;
+  for (const Case& one : cases) {
+    if (!one.oracle_shrink_percent.has_value() || *one.oracle_shrink_percent <= 0.0) continue;
+    if (!one.is_single() && !one.is_pair()) continue;
+    ratios.push_back(one.answer.diagnosis.gap.shrink_percent.value_or(0.0) / *one.oracle_shrink_percent);
+  }
+  figures.push_back(make_number("shrinkage_median", "shrinkage over oracle's, median", quantile(ratios, kMedian),
+                                ratios.size(), Unit::kNumber, 0.97, true));
+  figures.push_back(make_number("shrinkage_tenth", "  10th percentile", quantile(ratios, kTenth), ratios.size(),
+                                Unit::kNumber, 0.8, true));
+  if (ratios.empty()) {
+    figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig blind oracle <bank> answers it";
+  }
+}
+
+/// Of the sets with an effect of the catalogue whose next test was done: in how many it splits what was named.
+void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
+  const auto add = [&](const char* id, const char* label, std::optional<FollowUp> Case::*test, const char* how) {
+    const Cases done = only(cases, [test](const Case& one) {
+      return (one.is_single() || one.is_pair()) && (one.*test).has_value() && (one.*test)->answer.has_value();
+    });
+    figures.push_back(make_share(
+        id, label, done, [test](const Case& one) { return one.is_split_by(*(one.*test)); }, 0.90));
+    const bool any =
+        std::any_of(cases.begin(), cases.end(), [test](const Case& one) { return (one.*test).has_value(); });
+    if (!any) figures.back().note = how;
+  };
+  add("next_test", "next test splits the set", &Case::next_test, "not measured: rollrig blind plan");
+  const Cases promised = only(cases, [](const Case& one) {
+    return (one.is_single() || one.is_pair()) && one.next_test.has_value() && one.next_test->answer.has_value() &&
+           one.next_test->is_promised(one.answer);
+  });
+  figures.push_back(make_share(
+      "promised_test", "  where it is said to", promised,
+      [](const Case& one) { return one.is_split_by(*one.next_test); }, 0.90));
+  figures.back().target.reset();
+  if (promised.empty()) figures.back().note = figures.end()[-2].value ? "no such set" : figures.end()[-2].note;
+  add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig blind plan --drawn");
+  figures.back().target.reset();  // what there is to beat
+}
+
+void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
+  Tally all;
+  std::vector<double> seconds;
+  for (const Case& one : cases) {
+    if (one.is_single() || one.is_pair()) all.add(one);
+    seconds.push_back(one.answer.cpu_seconds);
+  }
+  const std::size_t explained = all.named + all.named_wrong;
+  add_next_tests(cases, figures);
+  figures.push_back(make_number("named_set", "mean size of the named set",
+                                explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained,
+                                Unit::kNumber, 1.3));
+  figures.back().floor = 1.5;
+  figures.push_back(make_number("time_median", "CPU time of a set, median", quantile(seconds, kMedian), seconds.size(),
+                                Unit::kSeconds, std::nullopt));
+  figures.push_back(
+      make_number("time_largest", "  largest", quantile(seconds, 1.0), seconds.size(), Unit::kSeconds, 30.0));
+}
+
+}  // namespace
+
+std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
+  std::vector<Figure> figures;
+  add_names(cases, options, figures);
+  add_confidence(cases, options, figures);
+  add_sizes(cases, figures);
+  add_shrinkage(cases, figures);
+  add_the_rest(cases, figures);
+  return figures;
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,261 @@
+#include "validation/scoring/follow_up.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "diagnosis/next_test/plan_files.h"
+#include "diagnosis/next_test/test_menu.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "sim/core/random.h"
+#include "sim/core/units.h"
+#include "validation/scoring/bank.h"
+#include "validation/scoring/case.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::PlannedTest;
+using measurements::MeasuredRun;
+using measurements::MeasurementSet;
+
+constexpr const char* kPlansFormat = "rollrig-blind-plans/1";
+constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
+
+const char* flag_of(Choice choice) { return choice == Choice::kDrawn ? " --drawn" : ""; }
+
+/// Why no measurement set can hold what a test reads; empty where it can.
+std::string find_obstacle(const PlannedTest& test) {
+  if (!test.extra.sensors.empty()) return "a further sensor: a set has no column for it";
+  if (test.clock_pulse) return "a common pulse: a set does not hold when it came";
+  return "";
+}
+
+/// Spans in which nothing is to be read.
+Json list_unread_s(const MeasuredRun& run, measurements::SetKind kind) {
+  std::vector<std::string> channels = measurements::measured_channels(kind);
+  const auto is_read = [&](std::size_t row) {
+    return std::any_of(channels.begin(), channels.end(), [&](const std::string& channel) {
+      return run.has(channel) && !std::isnan(run.columns.at(channel)[row]);
+    });
+  };
+  Json spans = Json::array();
+  for (std::size_t row = 0; row + 1 < run.time_s.size(); ++row) {
+    if (is_read(row)) continue;
+    if (!spans.empty() && spans.back()[1] == run.time_s[row]) {
+      spans.back()[1] = run.time_s[row + 1];
+    } else {
+      spans.push_back({run.time_s[row], run.time_s[row + 1]});
+    }
+  }
+  return spans;
+}
+
+/// What the generator needs of a test beside the inputs of its runs.
+Json make_plan_json(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test) {
+  Json runs = Json::array();
+  for (const MeasuredRun& run : test.runs) {
+    runs.push_back({{"id", run.id},
+                    {"file", run.id + ".csv"},
+                    {"session", run.session},
+                    {"cold_pressure_kPa", run.cold_pressure_Pa / 1e3},
+                    {"initial_tire_temperature_degC", run.initial_tire_temperature_K - kZeroCelsius_K},
+                    {"force_at_standstill", test.extra.force_at_standstill},
+                    {"reversed", run.reversed},
+                    {"not_read_s", list_unread_s(run, set.kind)}});
+  }
+  return {{"format", kPlanFormat},
+          {"set", plan.set},
+          {"set_sha256", plan.set_sha256},
+          {"kind", measurements::name_of(set.kind)},
+          {"test", test.description},
+          {"soaked", test.soaked},
+          {"soak_h", test.soaked ? diagnosis::kSoak_h : 0.0},
+          {"by_hand", test.by_hand},
+          {"runs", runs}};
+}
+
+PlannedTest find_test(std::vector<PlannedTest> menu, const FollowUpPlan& plan, const std::string& file) {
+  const auto at = std::find_if(menu.begin(), menu.end(),
+                               [&plan](const PlannedTest& test) { return test.description == plan.test; });
+  if (at != menu.end()) return *at;
+  throw InputError({fmt::format("no test of the menu is the one proposed for set {}", plan.set), file, 0, "next_test",
+                    plan.test, "an answer by this version of rollrig", ""});
+}
+
+PlannedTest draw_test(std::vector<PlannedTest> menu, std::uint64_t seed, const std::string& set) {
+  menu.erase(
+      std::remove_if(menu.begin(), menu.end(), [](const PlannedTest& one) { return !find_obstacle(one).empty(); }),
+      menu.end());
+  RandomStream draws(seed, "next test/" + set);
+  return menu.at(static_cast<std::size_t>(draws.uniform() * static_cast<double>(menu.size())));
+}
+
+class Planning {
+ public:
+  explicit Planning(const PlanOrder& order)
+      : order_(order), folder_((fs::path(order.bank) / folder_of(order.choice)).string()), out_(folder_, true) {
+    if (!fs::exists(folder_) || fs::is_empty(folder_)) return;
+    throw InputError({fmt::format("'{}' is there already", folder_), order.bank, 0, "bank", order.bank,
+                      fmt::format("a bank without '{}': remove it to plan anew", folder_of(order.choice)), ""});
+  }
+
+  std::vector<FollowUpPlan> run() {
+    const std::vector<Answer> answers = read_answers();
+    for (const Answer& answer : answers) {
+      if (leaves_open(answer)) plan(answer);
+      if (order_.progress) order_.progress(++done_, answers.size());
+    }
+    Json sets = Json::array();
+    for (const FollowUpPlan& one : plans_) {
+      sets.push_back({{"set", one.set},
+                      {"set_sha256", one.set_sha256},
+                      {"named", one.named},
+                      {"test", one.test},
+                      {"not_made", one.not_made}});
+    }
+    const Json all = {{"format", kPlansFormat}, {"choice", folder_of(order_.choice)}, {"sets", sets}};
+    out_.add("plans.json", all.dump(1) + "\n");
+    out_.commit();
+    return plans_;
+  }
+
+ private:
+  std::vector<Answer> read_answers() const {
+    std::vector<Answer> answers;
+    const std::vector<std::string> sets = list_sets(order_.bank);
+    for (const std::string& set : sets) {
+      std::optional<Answer> answer = find_answer_to(order_.bank, order_.answers, set);
+      if (answer.has_value()) answers.push_back(*std::move(answer));
+    }
+    require_answers(sets.size() - answers.size(), sets.size(), order_.answers, "rollrig blind run " + order_.bank);
+    return answers;
+  }
+
+  void plan(const Answer& answer) {
+    FollowUpPlan one{answer.set, answer.set_sha256, list_named(answer.diagnosis), "", ""};
+    const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
+    const MeasurementSet set = measurements::read_measurement_set(set_folder(order_.bank, one.set));
+    if (order_.choice == Choice::kProposed && proposed.empty()) {
+      one.not_made = "no test is proposed";
+    } else {
+      std::vector<PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
+      if (order_.choice == Choice::kProposed) one.test = proposed.front().test;
+      const PlannedTest test = order_.choice == Choice::kDrawn
+                                   ? draw_test(std::move(menu), order_.seed, one.set)
+                                   : find_test(std::move(menu), one, answer_file(order_.answers, one.set));
+      one.test = test.description;
+      one.not_made = find_obstacle(test);
+      if (one.not_made.empty()) write(one, set, test);
+    }
+    plans_.push_back(std::move(one));
+  }
+
+  void write(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test) {
+    diagnosis::Diagnosis of;
+    of.next_test = {
+        {test.description, {}, 0.0, test.hours, test.soaked, test.extra.force_at_standstill, test.by_hand, test.runs}};
+    const std::string folder = "plans/" + plan.set + "/";
+    for (auto& [name, content] : diagnosis::write_plan(set, of)) {
+      if (fs::path(name).extension() == ".csv") out_.add(folder + name, content);
+    }
+    out_.add(folder + "plan.json", make_plan_json(plan, set, test).dump(1) + "\n");
+  }
+
+  const PlanOrder& order_;
+  std::string folder_;
+  OutputFolder out_;
+  std::vector<FollowUpPlan> plans_;
+  std::size_t done_ = 0;
+};
+
+std::vector<FollowUpPlan> read_plans(const std::string& folder) {
+  const std::string file = (fs::path(folder) / "plans.json").string();
+  std::vector<FollowUpPlan> plans;
+  try {
+    const Json json = Json::parse(read_text_file(file));
+    if (json.at("format") != kPlansFormat) {
+      throw InputError({"not the plans of a bank", file, 0, "format", json.at("format").dump(), kPlansFormat, ""});
+    }
+    for (const Json& one : json.at("sets")) {
+      plans.push_back({one.at("set").get<std::string>(), one.at("set_sha256").get<std::string>(),
+                       one.at("named").get<std::vector<std::string>>(), one.at("test").get<std::string>(),
+                       one.at("not_made").get<std::string>()});
+    }
+  } catch (const Json::exception& error) {
+    throw InputError({fmt::format("not the plans of a bank: {}", error.what()), file, 0, "sets", "", kPlansFormat, ""});
+  }
+  return plans;
+}
+
+/// Whether a plan was made for this answer.
+bool is_for(const FollowUpPlan& plan, const Answer& answer, Choice choice) {
+  const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
+  const bool is_its_test =
+      choice == Choice::kDrawn || plan.test == (proposed.empty() ? std::string() : proposed.front().test);
+  return plan.set_sha256 == answer.set_sha256 && plan.named == list_named(answer.diagnosis) && is_its_test;
+}
+
+}  // namespace
+
+const char* folder_of(Choice choice) { return choice == Choice::kDrawn ? "followup-drawn" : "followup"; }
+
+std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis) {
+  if (diagnosis.causes.empty()) return {};
+  std::vector<std::string> all = diagnosis.causes.front().effects;
+  const std::vector<std::string>& others = diagnosis.causes.front().indistinguishable_from;
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+bool leaves_open(const Answer& answer) {
+  const diagnosis::Diagnosis& said = answer.diagnosis;
+  return answer.failure.empty() && said.verdict == diagnosis::Verdict::kExplained && !said.causes.empty() &&
+         !said.causes.front().indistinguishable_from.empty();
+}
+
+bool FollowUp::is_promised(const Answer& before) const {
+  if (before.diagnosis.next_test.empty()) return false;
+  const std::vector<std::string>& splits = before.diagnosis.next_test.front().splits;
+  const auto said = std::count_if(plan.named.begin(), plan.named.end(), [&](const std::string& id) {
+    return std::find(splits.begin(), splits.end(), id) != splits.end();
+  });
+  return said >= 2;
+}
+
+std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) { return Planning(order).run(); }
+
+void read_follow_ups(const std::string& bank, Choice choice, const std::string& folder, std::vector<Case>& cases) {
+  if (folder.empty()) return;
+  const std::vector<FollowUpPlan> plans = read_plans(folder);
+  const std::string answers = (fs::path(folder) / "answers").string();
+  std::size_t lacking = 0;
+  for (Case& one : cases) {
+    if (!leaves_open(one.answer)) continue;
+    const auto plan =
+        std::find_if(plans.begin(), plans.end(), [&one](const FollowUpPlan& of) { return of.set == one.truth.set; });
+    if (plan == plans.end() || !is_for(*plan, one.answer, choice)) {
+      throw InputError({fmt::format("these are no plans for the answer to set {}", one.truth.set), folder, 0, "set",
+                        one.truth.set,
+                        fmt::format("without that folder: rollrig blind plan {}{}", bank, flag_of(choice)), ""});
+    }
+    FollowUp follow_up{*plan, {}};
+    if (plan->not_made.empty()) {
+      const bool is_done = fs::is_directory(set_folder(folder, plan->set));
+      if (is_done) follow_up.answer = find_answer_to(folder, answers, plan->set);
+      lacking += follow_up.answer.has_value() ? 0 : 1;
+    }
+    (choice == Choice::kDrawn ? one.drawn_test : one.next_test) = std::move(follow_up);
+  }
+  if (lacking == 0) return;
+  throw InputError(
+      {fmt::format("{} sets have no answer to their next test", lacking), folder, 0, "answers", "",
+       fmt::format("first: rollrig_blind followup {}{}, rollrig blind run {}", bank, flag_of(choice), folder), ""});
+}
+
+}  // namespace rollrig::proof

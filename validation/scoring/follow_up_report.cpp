@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sim/core/text.h"
+#include "validation/scoring/report.h"
+
+namespace rollrig::proof {
+namespace {
+
+Case answered_after(const Case& one, const FollowUp& test) {
+  Case after;
+  after.truth = one.truth;
+  if (test.answer.has_value()) after.answer = *test.answer;
+  return after;
+}
+
+/// Whether the truth is among what is named, however much that is.
+bool holds_truth(const std::vector<std::string>& named, const Case& one) {
+  const std::vector<std::string> truth = one.truth.ids();
+  return !truth.empty() && std::all_of(truth.begin(), truth.end(), [&named](const std::string& id) {
+    return std::find(named.begin(), named.end(), id) != named.end();
+  });
+}
+
+/// What became of a named set, in a few words.
+std::string judge(const Case& one, const FollowUp& test) {
+  if (!test.answer.has_value()) return "not made, " + test.plan.not_made;
+  if (one.is_split_by(test)) return "split";
+  const Case after = answered_after(one, test);
+  if (!after.is(diagnosis::Verdict::kExplained)) return after.said();
+  if (!holds_truth(after.named_set(), one)) {
+    return holds_truth(test.plan.named, one) ? "the truth lost" : "the truth in neither";
+  }
+  return after.named_set().size() < test.plan.named.size() ? "more than three left" : "not smaller";
+}
+
+struct Counts {
+  std::size_t open = 0, done = 0, split = 0;
+};
+
+Counts count(const Score& score, std::optional<FollowUp> Case::*test) {
+  Counts counts;
+  for (const Case& one : score.followed_up) {
+    const std::optional<FollowUp>& of = one.*test;
+    counts.open += of.has_value() ? 1 : 0;
+    counts.done += of.has_value() && of->answer.has_value() ? 1 : 0;
+    counts.split += of.has_value() && one.is_split_by(*of) ? 1 : 0;
+  }
+  return counts;
+}
+
+std::string summarise(const Score& score, std::optional<FollowUp> Case::*test, const char* what) {
+  const Counts counts = count(score, test);
+  if (counts.open == 0) return "";
+  return fmt::format("{}: {} sets whose cause could not be told from others, {} followed up, {} split", what,
+                     counts.open, counts.done, counts.split);
+}
+
+Json make_follow_up(const Case& one, const std::optional<FollowUp>& test) {
+  if (!test.has_value()) return nullptr;
+  const Case after = answered_after(one, *test);
+  const bool is_done = test->answer.has_value();
+  return {{"test", test->plan.test},
+          {"not_made", test->plan.not_made.empty() ? Json(nullptr) : Json(test->plan.not_made)},
+          {"said", is_done ? Json(after.said()) : Json(nullptr)},
+          {"named", is_done ? Json(after.named_set()) : Json(nullptr)},
+          {"outcome", judge(one, *test)},
+          {"split", one.is_split_by(*test)}};
+}
+
+}  // namespace
+
+std::string describe_follow_up(const Case& one, const FollowUp& test) {
+  std::string text = fmt::format("{} {}, {}: {}", one.truth.set, one.truth.campaign, one.truth.name(),
+                                 fmt::join(test.plan.named, ", "));
+  if (!test.plan.test.empty()) text += fmt::format("; {}", test.plan.test);
+  if (test.answer.has_value()) text += fmt::format("; {}", fmt::join(answered_after(one, test).named_set(), ", "));
+  return text + ": " + judge(one, test);
+}
+
+std::string format_follow_ups(const Score& score) {
+  std::string text;
+  for (const auto& [test, what] :
+       {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
+    const std::string summary = summarise(score, test, what);
+    if (summary.empty()) continue;
+    text += "\n" + wrap(summary, 0);
+    for (const Case& one : score.followed_up) {
+      if ((one.*test).has_value()) text += wrap(describe_follow_up(one, *(one.*test)), 2);
+    }
+  }
+  return text;
+}
+
+std::string write_follow_ups(const Score& score) {
+  std::string text;
+  for (const auto& [test, what] :
+       {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
+    const std::string summary = summarise(score, test, what);
+    if (summary.empty()) continue;
+    text += fmt::format("\n{}.\n\n| set | true | named before | test | named after | |\n|---|---|---|---|---|---|\n",
+                        summary);
+    for (const Case& one : score.followed_up) {
+      const std::optional<FollowUp>& of = one.*test;
+      if (!of.has_value()) continue;
+      text += fmt::format("| {} {} | {} | {} | {} | {} | {} |\n", one.truth.set, one.truth.campaign, one.truth.name(),
+                          fmt::join(of->plan.named, ", "), of->plan.test,
+                          fmt::join(answered_after(one, *of).named_set(), ", "), judge(one, *of));
+    }
+  }
+  return text;
+}
+
+Json make_follow_ups_json(const Score& score) {
+  Json all = Json::array();
+  for (const Case& one : score.followed_up) {
+    all.push_back({{"set", one.truth.set},
+                   {"campaign", one.truth.campaign},
+                   {"effects", one.truth.ids()},
+                   {"named", one.named_set()},
+                   {"next_test", make_follow_up(one, one.next_test)},
+                   {"drawn_test", make_follow_up(one, one.drawn_test)}});
+  }
+  return all;
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,44 @@
+#include "validation/scoring/ideal_observer.h"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+
+#include "diagnosis/thresholds.h"
+
+namespace rollrig::proof {
+namespace {
+
+double calc_normal_share_below(double deviations) { return cdf(boost::math::normal(), deviations); }
+
+}  // namespace
+
+std::optional<double> find_chance_of_detection(const Case& one) {
+  constexpr double kOneInHundred = 2.326;  // quantile of the normal distribution
+  if (!one.d_prime.has_value()) return std::nullopt;
+  return calc_normal_share_below(*one.d_prime - kOneInHundred);
+}
+
+std::optional<double> find_chance_of_small_set(const Case& one) {
+  if (one.log_bayes_factors.empty()) return std::nullopt;
+  const auto twins = std::count_if(one.log_bayes_factors.begin(), one.log_bayes_factors.end(),
+                                   [](double nats) { return nats < diagnosis::thresholds::kToldApart_nats; });
+  return static_cast<std::size_t>(twins) < kLargestNamedSet ? 1.0 : 0.0;
+}
+
+std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_prime) {
+  if (!one.d_prime.has_value() || !one.identifiable.has_value()) return std::nullopt;
+  return *one.d_prime >= detectable_d_prime && *one.identifiable ? 1.0 : 0.0;
+}
+
+std::optional<double> find_mean_chance(const std::vector<Case>& cases, const Chance& chance) {
+  if (cases.empty()) return std::nullopt;
+  double sum = 0.0;
+  for (const Case& one : cases) {
+    const std::optional<double> of_one = chance(one);
+    if (!of_one.has_value()) return std::nullopt;
+    sum += *of_one;
+  }
+  return sum / static_cast<double>(cases.size());
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,67 @@
+#include "validation/scoring/ranks.h"
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+
+#ifdef ROLLRIG_MPI
+#include <mpi.h>
+
+#include <cstdlib>
+#endif
+
+namespace rollrig::proof {
+
+#ifdef ROLLRIG_MPI
+namespace {
+
+/// Whether a launcher of Open MPI, MPICH or SLURM started this process: alone it needs no MPI.
+bool is_launched() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"}) {
+    if (std::getenv(name) != nullptr) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Ranks::Ranks() : exceptions_(std::uncaught_exceptions()) {
+  if (!is_launched()) return;
+  int provided = 0;
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+  started_ = true;
+  int rank = 0;
+  int count = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  rank_ = static_cast<std::size_t>(rank);
+  count_ = static_cast<std::size_t>(count);
+  MPI_Comm here = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+  int beside = 1;
+  MPI_Comm_size(here, &beside);
+  MPI_Comm_free(&here);
+  threads_ = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / beside);
+}
+
+Ranks::~Ranks() {
+  if (!started_) return;
+  // After an exception the others may wait for this process: they are ended instead.
+  if (std::uncaught_exceptions() > exceptions_) return;
+  MPI_Finalize();
+}
+
+std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) const {
+  if (!started_) return numbers;
+  std::vector<unsigned long long> own(numbers.begin(), numbers.end());
+  std::vector<unsigned long long> all(own.size());
+  MPI_Allreduce(own.data(), all.data(), static_cast<int>(own.size()), MPI_UNSIGNED_LONG_LONG, MPI_SUM, MPI_COMM_WORLD);
+  return {all.begin(), all.end()};
+}
+#else
+Ranks::Ranks() = default;
+Ranks::~Ranks() = default;
+std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) const { return numbers; }
+#endif
+
+}  // namespace rollrig::proof

@@ -1,0 +1,155 @@
+#include "validation/scoring/score.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "sim/core/json.h"
+#include "validation/scoring/figures.h"
+
+namespace fs = std::filesystem;
+
+namespace rollrig::proof {
+namespace {
+
+using diagnosis::Verdict;
+
+/// What an ideal observer makes of the sets: rollrig-blind-ceiling/1, `sets` with `d_prime`, `identifiable`,
+/// `log_bayes_factors`.
+void read_ceiling(const std::string& bank, const std::string& file, std::vector<Case>& cases) {
+  if (file.empty()) return;
+  try {
+    const Json json = Json::parse(read_text_file(file));
+    const bool is_of_another =
+        json.contains("truth_sha256") && json["truth_sha256"] != calc_sha256(read_text_file(bank + "/truth.json"));
+    if (is_of_another) {
+      throw InputError({"the ceiling is of another bank's truth", file, 0, "truth_sha256", json["truth_sha256"].dump(),
+                        "rollrig_blind ceiling " + bank + " makes this bank's own", ""});
+    }
+    for (Case& one : cases) {
+      const auto at = json.at("sets").find(one.truth.set);
+      if (at == json.at("sets").end()) continue;
+      if (at->contains("d_prime")) one.d_prime = at->at("d_prime").get<double>();
+      if (one.d_prime.has_value() && !(*one.d_prime >= 0.0)) {
+        throw InputError({"a d' below zero", file, 0, one.truth.set + " d_prime", fmt::format("{}", *one.d_prime),
+                          "0 or more, as rollrig_blind ceiling writes it", ""});
+      }
+      const Json nats_by_effect = at->value("log_bayes_factors", Json::object());
+      for (const Json& nats : nats_by_effect) one.log_bayes_factors.push_back(nats.get<double>());
+      if (at->contains("identifiable")) one.identifiable = at->at("identifiable").get<bool>();
+    }
+  } catch (const Json::exception& error) {
+    throw InputError({fmt::format("not a ceiling of a bank: {}", error.what()), file, 0, "--ceiling", file,
+                      "rollrig-blind-ceiling/1", ""});
+  }
+}
+
+std::string how_to_answer(const ScoreOrder& order) {
+  if (order.by_baseline) return fmt::format("rollrig blind baselines {}", order.bank);
+  const bool is_oracle = order.truth_was_left_out;
+  return fmt::format("rollrig blind {} {}{} --out {}", is_oracle ? "oracle" : "run", order.bank,
+                     is_oracle ? " --race left_out" : "", order.answers);
+}
+
+}  // namespace
+
+bool Figure::meets(const std::optional<double>& bar) const {
+  if (!bar.has_value() || !value.has_value()) return false;
+  return more_is_better ? *value >= *bar : *value <= *bar;
+}
+
+void Tally::add(const Case& one) {
+  ++sets;
+  failed += one.answer.failure.empty() ? 0 : 1;
+  no_gap += one.is(Verdict::kNoGap) ? 1 : 0;
+  unexplained += one.is(Verdict::kUnexplained) ? 1 : 0;
+  if (one.is(Verdict::kExplained)) {
+    (one.is_named() ? named : named_wrong) += 1;
+    named_effects += one.named_set().size();
+  }
+  right_above += one.is_right_above(kConfident) ? 1 : 0;
+  wrong_above += one.is_wrong_above(kConfident) ? 1 : 0;
+}
+
+double Tally::mean_named_set() const {
+  return static_cast<double>(named_effects) / static_cast<double>(std::max<std::size_t>(1, named + named_wrong));
+}
+
+Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
+  Score score;
+  score.sets = cases.size();
+  score.figures = find_figures(cases, options);
+  std::vector<Stated> stated;
+  std::set<std::string> programs;
+  for (const Case& one : cases) {
+    score.by_effect[one.truth.effects.size() > 1 ? "pairs" : one.truth.name()].add(one);
+    score.by_campaign[one.truth.campaign].add(one);
+    if (!one.is_clean()) score.all_effects.add(one);
+    if (one.is_single() && !one.truth.effects.front().size_class.empty()) {
+      score.by_size_class[one.truth.effects.front().size_class].add(one);
+    }
+    ++score.confusion[one.truth.name()][one.said()];
+    if (one.answer.failure.empty()) stated.push_back(one.stated());
+    if (!one.is_right()) score.missed.push_back(one);
+    if (one.next_test.has_value() || one.drawn_test.has_value()) score.followed_up.push_back(one);
+    programs.insert(one.answer.settings.program_sha256);
+  }
+  score.reliability = find_reliability(stated);
+  const auto lacks_d_prime = [](const Case& one) {
+    return (one.is_single() || one.is_pair()) && !one.d_prime.has_value();
+  };
+  const auto lacking = std::count_if(cases.begin(), cases.end(), lacks_d_prime);
+  const bool any_known =
+      std::any_of(cases.begin(), cases.end(), [](const Case& one) { return one.d_prime.has_value(); });
+  if (lacking > 0 && any_known) {
+    score.warnings.push_back(
+        fmt::format("the ceiling lacks {} of the sets: of these a signal of {:.2g} noise floors counts as detectable",
+                    lacking, options.detectable_floors));
+  }
+  if (programs.size() > 1) {
+    score.warnings.push_back(fmt::format("the answers are of {} different programs", programs.size()));
+  }
+  const bool has_d_prime = std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.d_prime.has_value(); });
+  if (!has_d_prime) {
+    score.warnings.push_back(
+        fmt::format("no d' is known: \"detectable\" is a signal of {:g} noise floors or more in one channel, before "
+                    "calibration, and takes all these effects for identifiable",
+                    options.detectable_floors));
+  }
+  return score;
+}
+
+std::vector<Case> read_cases(const ScoreOrder& order) {
+  std::vector<Case> cases;
+  std::size_t lacking = 0;
+  std::size_t all = 0;
+  for (Truth& truth : open_truth(order.bank, order.seal)) {
+    if (order.truth_was_left_out && truth.effects.empty()) continue;
+    ++all;
+    std::optional<Answer> answer = find_answer_to(order.bank, order.answers, truth.set);
+    if (!answer.has_value()) {
+      ++lacking;
+      continue;
+    }
+    truth.outside = truth.outside || order.truth_was_left_out;
+    Case one;
+    one.truth = std::move(truth);
+    one.answer = *std::move(answer);
+    const auto oracle = order.oracle.empty() ? std::nullopt : find_answer(order.oracle, one.truth.set);
+    if (oracle && oracle->set_sha256 == one.answer.set_sha256) {
+      one.oracle_shrink_percent = oracle->diagnosis.gap.shrink_percent;
+    }
+    cases.push_back(std::move(one));
+  }
+  require_answers(lacking, all, order.answers, how_to_answer(order));
+  read_ceiling(order.bank, order.ceiling, cases);
+  read_follow_ups(order.bank, Choice::kProposed, order.next_tests, cases);
+  read_follow_ups(order.bank, Choice::kDrawn, order.drawn_tests, cases);
+  return cases;
+}
+
+}  // namespace rollrig::proof

@@ -1,0 +1,92 @@
+#pragma once
+/// The score of a bank: each figure beside its target, tables by effect, campaign and size, and what was missed.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/scoring/case.h"
+
+namespace rollrig::proof {
+
+enum class Unit { kPercent, kNumber, kSeconds };
+
+/// A line of the table of targets.
+struct Figure {
+  std::string id;
+  std::string label;
+  std::optional<double> value = {};  // none where there was no case, or it was not measured
+  std::optional<Interval> interval = {};
+  std::size_t k = 0;  // of n cases
+  std::size_t n = 0;
+  Unit unit = Unit::kPercent;
+  std::optional<double> target = {};
+  std::optional<double> floor = {};  // the least that is asked for
+  bool more_is_better = true;
+  std::optional<double> best_baseline = {};
+  std::string best_baseline_id = {};   // of that method
+  std::optional<double> ceiling = {};  // what an ideal observer would reach; none where it is not known
+  std::string note = {};               // where there is no value: why
+
+  bool meets(const std::optional<double>& bar) const;
+};
+
+/// How the sets of one cause, campaign or size were answered.
+struct Tally {
+  std::size_t sets = 0, named = 0, named_wrong = 0, no_gap = 0, unexplained = 0, failed = 0;
+  std::size_t right_above = 0, wrong_above = 0;
+  std::size_t named_effects = 0;  // in the sets that are named, right or wrong
+
+  void add(const Case& one);
+  double mean_named_set() const;
+};
+
+using Tallies = std::map<std::string, Tally>;
+using Confusion = std::map<std::string, std::map<std::string, std::size_t>>;  // truth, what was said
+
+struct ScoreOptions {
+  double detectable_d_prime = 5.0;  // from here on an effect is to be found: design of the proof
+  double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
+};
+
+/// The same figures of a baseline's answers.
+struct BaselineScore {
+  std::string id;
+  std::string label;
+  std::map<std::string, double> values;  // by a figure's id, of those that the method is judged by
+};
+
+struct Score {
+  std::vector<Figure> figures;
+  std::vector<BaselineScore> baselines;
+  Tallies by_effect, by_campaign, by_size_class;
+  Tally all_effects;
+  Confusion confusion;
+  Reliability reliability{};
+  std::vector<Case> missed;
+  std::vector<Case> followed_up;  // whose next test was planned
+  std::size_t sets = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Checked  tests/validation/scoring/score_test.cpp
+Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options);
+
+struct ScoreOrder {
+  std::string bank;
+  std::string seal;                 // empty: what seal.sha256 says
+  std::string answers;              // folder
+  std::string oracle;               // folder of answers with the true effect alone in the race; empty: none
+  std::string ceiling;              // file with d' of the sets; empty: none
+  std::string next_tests;           // folder of rollrig blind plan with the proposed tests, done; empty: none
+  std::string drawn_tests;          // likewise with tests drawn from the menu
+  bool truth_was_left_out = false;  // the true effects were not in the race: none is in the catalogue
+  bool by_baseline = false;         // the answers are of rollrig blind baselines
+};
+
+/// Opens the seal and puts truths and answers together.
+/// Errors  InputError: as open_truth(); answers that lack or are of other files
+std::vector<Case> read_cases(const ScoreOrder& order);
+
+}  // namespace rollrig::proof
