@@ -12,8 +12,8 @@
 #include "cli/command.h"
 #include "cli/command_blind_plan.h"
 #include "cli/command_blind_score.h"
+#include "cli/comparison_options.h"
 #include "cli/progress.h"
-#include "cli/race_options.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "validation/scoring/bank.h"
@@ -174,7 +174,7 @@ void add_make(CLI::App& blind, Action& action) {
   command->add_option("--singles", options->singles, "Sets of one effect, small, middle and large in turn [200]");
   command->add_option("--pairs", options->pairs, "Sets of two effects [30]");
   command->add_option("--none", options->none, "Sets without effect [40]");
-  command->add_option("--outside", options->outside, "Sets with an effect outside of the catalogue [30]");
+  command->add_option("--outside", options->outside, "Sets with an effect outside of the catalog [30]");
   command->add_option("--effects", options->effects, "Effects, as a,b,c [all that the kind shows]");
   command->add_flag("--counterfactual", options->counterfactual, "Also each set without effect and without noise");
   command->callback([options, &action] { action = [options] { return make_command(*options); }; });
@@ -221,7 +221,7 @@ void add_oracle(CLI::App& blind, Action& action) {
   command->add_option("--race", options->kind, "alone or left_out [alone]")
       ->check(CLI::IsMember({"alone", "left_out"}));
   command->add_flag("--confusable", options->confusable,
-                    "With left_out: without all that the catalogue calls confusable with the truth, too");
+                    "With left_out: without all that the catalog calls confusable with the truth, too");
   command->add_option("--seal", options->seal, "SHA-256 of truth.json [what seal.sha256 says]");
   command->add_option("--out", options->out, "Folder of the answers [answers-alone or answers-left-out in the bank]");
   command->add_option("--only", options->race.only, "Effects in the race, the true ones left out: a,b")->delimiter(',');

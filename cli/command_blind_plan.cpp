@@ -24,7 +24,7 @@ struct Options {
 };
 
 /// How many sets leave something open, and why some of them are not followed up.
-std::string summarise(const std::vector<proof::FollowUpPlan>& plans, const std::string& folder) {
+std::string summarize(const std::vector<proof::FollowUpPlan>& plans, const std::string& folder) {
   std::map<std::string, std::size_t> reasons;
   std::size_t planned = 0;
   for (const proof::FollowUpPlan& plan : plans) {
@@ -52,7 +52,7 @@ int plan_command(Options options) {
   };
   const std::vector<proof::FollowUpPlan> plans = proof::plan_follow_ups(order);
   if (!options.quiet) {
-    std::cout << summarise(plans, (fs::path(order.bank) / proof::folder_of(order.choice)).string());
+    std::cout << summarize(plans, (fs::path(order.bank) / proof::folder_of(order.choice)).string());
   }
   return kDone;
 }

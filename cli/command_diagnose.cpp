@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/comparison_options.h"
 #include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "cli/race_options.h"
 #include "diagnosis/next_test/plan_files.h"
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/explain.h"
@@ -30,7 +30,7 @@ struct Options {
   HtmlOption html;
   std::string plan;
   bool force = false;
-  RaceOptions race;
+  RaceOptions comparison;
   int threads = 0;
   bool quiet = false;
 };
@@ -47,14 +47,14 @@ void require_consistent(const Options& options) {
   if (!options.plan.empty() && options.set.empty()) {
     throw usage("there is no test to plan without a set", "--plan", options.plan, "a set beside it");
   }
-  options.race.check();
+  options.comparison.check();
 }
 
 /// Calls `diagnose` with what the options ask for, and shows how far it is.
 template <class Diagnose>
 auto with_progress(const Options& options, const Diagnose& diagnose) {
   ProgressLine progress("diagnose", options.quiet);
-  diagnosis::DiagnosisOptions how{options.race.without, options.race.only, options.threads};
+  diagnosis::DiagnosisOptions how{options.comparison.without, options.comparison.only, options.threads};
   how.progress = [&progress](double done, const std::string& stage) {
     progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
   };
@@ -141,7 +141,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_option("--plan", options->plan,
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
-  options->race.add_to(*command);
+  options->comparison.add_to(*command);
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");

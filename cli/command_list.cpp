@@ -73,7 +73,7 @@ void describe_effect(const models::EffectInfo& info) {
   std::cout << fmt::format("Parameters ([effects.{}])\n", info.id);
   for (const models::EffectParameter& parameter : info.parameters) {
     const std::string off = parameter.off.has_value() ? fmt::format(", off at {}", *parameter.off) : "";
-    std::cout << fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]\n", parameter.key, parameter.prior.centre(),
+    std::cout << fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]\n", parameter.key, parameter.prior.center(),
                              parameter.prior.low, parameter.prior.high,
                              parameter.prior.either_sign ? ", either sign" : "", parameter.range.to_string(), off)
               << wrap(parameter.doc, 6);

@@ -6,7 +6,7 @@
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/base_parameters.h"
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/findings/balance.h"
 #include "diagnosis/findings/gap.h"
 #include "diagnosis/findings/locations.h"
@@ -19,7 +19,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// Effects in the race: those that act on the rig and can be seen there, less those left out. Throws InputError.
+/// Effects in the comparison: those that act on the rig and can be seen there, less those left out. Throws InputError.
 std::vector<const models::Effect*> choose_effects(const measurements::MeasurementSet& set,
                                                   const DiagnosisOptions& options) {
   const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
@@ -36,18 +36,18 @@ std::vector<const models::Effect*> choose_effects(const measurements::Measuremen
     effects.push_back(effect);
   }
   if (effects.empty() && !options.only.empty()) {
-    throw InputError({"none of the effects that are to race can be seen on such a set", set.path, 0, "--only",
+    throw InputError({"none of the effects that are to be compared can be seen on such a set", set.path, 0, "--only",
                       fmt::format("{}", fmt::join(options.only, ",")),
                       "effects that act there; --explain NAME says where one does", ""});
   }
   return effects;
 }
 
-/// The contender of the first cause, where something beyond noise is there.
-const Contender* find_lead(const Race& race, const std::vector<Cause>& causes) {
+/// The candidate of the first cause, where something beyond noise is there.
+const Candidate* find_lead(const Comparison& comparison, const std::vector<Cause>& causes) {
   if (causes.empty()) return nullptr;
-  for (const Contender& contender : race.contenders) {
-    if (contender.fit.hypothesis.ids() == causes.front().effects) return &contender;
+  for (const Candidate& candidate : comparison.candidates) {
+    if (candidate.fit.hypothesis.ids() == causes.front().effects) return &candidate;
   }
   return nullptr;
 }
@@ -67,7 +67,7 @@ std::vector<double> find_fitted(const PreparedSet& set, const std::vector<estima
   return values;
 }
 
-/// A set that cannot be what it is said to be has no cause in the catalogue, whatever comes near.
+/// A set that cannot be what it is said to be has no cause in the catalog, whatever comes near.
 void forbid_causes(Diagnosis& diagnosis) {
   for (auto& [hypothesis, probability] : diagnosis.probability) probability = hypothesis == "unknown" ? 1.0 : 0.0;
   diagnosis.causes.clear();
@@ -76,42 +76,42 @@ void forbid_causes(Diagnosis& diagnosis) {
 Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const DiagnosisOptions& options) {
   const SetChecks checks = check_set(measured, options.threads);
   const PreparedSet set(leave_out(measured, checks.left_out));
-  const Remainder remainder(set);
+  const Discrepancy discrepancy(set);
   const std::vector<estimation::FreeParameter> base = find_base_parameters(measured, set.context());
-  RaceSettings settings;
+  ComparisonSettings settings;
   settings.effects = choose_effects(measured, options);
   settings.threads = options.threads;
   const auto report = [&options](double done, const std::string& stage) {
     if (options.progress) options.progress(done, stage);
   };
   settings.progress = [&report](double done, const std::string& stage) { report(0.7 * done, stage); };
-  const Race race = run_race(set, base, remainder, settings);
+  const Comparison comparison = compare_models(set, base, discrepancy, settings);
 
   Diagnosis diagnosis;
   diagnosis.set = measured.name;
-  diagnosis.probability = find_probabilities(race, settings.effects);
-  diagnosis.causes = find_causes(set, base, remainder, race);
+  diagnosis.probability = find_probabilities(comparison, settings.effects);
+  diagnosis.causes = find_causes(set, base, discrepancy, comparison);
   diagnosis.warnings = checks.warnings;
   diagnosis.doubt = checks.doubt;
   if (checks.is_implausible()) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   const bool is_named = diagnosis.verdict != Verdict::kNoGap;
   diagnosis.not_excluded =
-      find_not_excluded(race, settings.effects, is_named ? diagnosis.causes : std::vector<Cause>{});
+      find_not_excluded(comparison, settings.effects, is_named ? diagnosis.causes : std::vector<Cause>{});
   report(0.7, "where and what");
-  diagnosis.where = find_locations(set, remainder, race.null);
-  diagnosis.balance = find_balance(set, base, remainder, race.null, options.threads);
+  diagnosis.where = find_locations(set, discrepancy, comparison.null);
+  diagnosis.balance = find_balance(set, base, discrepancy, comparison.null, options.threads);
   report(0.8, "next test");
   if (!checks.is_implausible()) {
-    const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, remainder, race, options.threads);
+    const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, discrepancy, comparison, options.threads);
     diagnosis.next_test = propose_tests(set, base, open, options.threads);
     diagnosis.next_sensor = propose_sensors(set, base, open);
   }
   report(0.9, "runs left out");
-  const Contender* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(race, diagnosis.causes);
-  diagnosis.gap = find_gap(set, base, remainder, race.null, lead, options.threads);
+  const Candidate* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(comparison, diagnosis.causes);
+  diagnosis.gap = find_gap(set, base, discrepancy, comparison.null, lead, options.threads);
   const bool is_whole = checks.left_out.empty();
-  if (is_whole) diagnosis.fitted.recalibrated = find_fitted(set, base, race.null.fit);
+  if (is_whole) diagnosis.fitted.recalibrated = find_fitted(set, base, comparison.null.fit);
   if (lead != nullptr) {
     if (is_whole) diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);
     weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);

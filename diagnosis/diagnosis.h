@@ -1,5 +1,5 @@
 #pragma once
-/// Why a measurement and the simulation differ: where, by which unmodelled effect, and how far the gap
+/// Why a measurement and the simulation differ: where, by which unmodeled effect, and how far the gap
 /// shrinks once that effect is added.
 
 #include <array>
@@ -76,7 +76,7 @@ struct Location {
   double end_s = 0.0;
 };
 
-/// An equation that needs a push for the simulation to meet the measurement.
+/// An equation that needs a perturbation for the simulation to meet the measurement.
 struct BalanceShare {
   std::string name;
   double share_percent = 0.0;
@@ -121,7 +121,7 @@ struct FittedSet {
 struct Diagnosis {
   std::string set;
   Verdict verdict = Verdict::kNoGap;
-  std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the race
+  std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the comparison
   std::vector<Cause> causes;                  // the likeliest first
   Gap gap;
   std::vector<Location> where;  // the largest share first
@@ -135,12 +135,12 @@ struct Diagnosis {
   FittedSet fitted;
 };
 
-/// Probability of "none", "unknown" or an effect; 0 where it was not in the race.
+/// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.
 double probability_of(const Diagnosis& diagnosis, const std::string& name);
 
 struct DiagnosisOptions {
-  std::vector<std::string> without;  // effects left out of the race
-  std::vector<std::string> only;     // where not empty, the effects in the race
+  std::vector<std::string> without;  // effects left out of the comparison
+  std::vector<std::string> only;     // where not empty, the effects in the comparison
   int threads = 0;                   // 0: as many as the machine has
   std::function<void(double done, const std::string& stage)> progress = {};
 };

@@ -49,14 +49,14 @@ constexpr std::size_t kSecondsOfPairs = 3;  // and how many of these
 constexpr std::size_t kFirstsOfTriples = 1;  // likewise pairs and third effects
 constexpr std::size_t kSecondsOfTriples = 2;
 
-// Remainder: a smooth unknown function of time.
-constexpr double kRemainderScales_s[] = {120.0, 480.0};  // Assumed: shorter is noise, longer is a phase
+// Discrepancy: a smooth unknown function of time.
+constexpr double kDiscrepancyScales_s[] = {120.0, 480.0};  // Assumed: shorter is noise, longer is a phase
 
 // Verdict.
 constexpr double kToldApart_nats = 3.0;       // design: below it hypotheses are named together
 constexpr double kTail_sd = 3.0;              // design: a parameter so far out in its prior is an objection
 constexpr double kRunSizeChance = 1e-3;       // Assumed: of the test whether the size is one in all runs ...
-constexpr double kRunSizeShare = 0.3;         // ... by which a law's idealisation may change it from run to run
+constexpr double kRunSizeShare = 0.3;         // ... by which a law's idealization may change it from run to run
 constexpr double kKeptUnderObjection = 0.05;  // Assumed: of a cause's probability, the rest goes to "unknown"
 constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a run left out is judged
 constexpr double kDetectableEffect_sd = 5.0;  // named then in 19 of 20 sets, against the priors above

@@ -7,7 +7,7 @@
 namespace rollrig::measurements {
 namespace {
 
-constexpr std::size_t kSide = 3;  // neighbours to each side
+constexpr std::size_t kSide = 3;  // neighbors to each side
 
 double take_median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -17,7 +17,7 @@ double take_median(std::vector<double> values) {
 }
 
 /// The values about rows [i, i + length) of those that are there.
-std::vector<double> find_neighbours(const std::vector<double>& values, std::size_t i, std::size_t length) {
+std::vector<double> find_neighbors(const std::vector<double>& values, std::size_t i, std::size_t length) {
   std::vector<double> found;
   for (std::size_t k = i > kSide ? i - kSide : 0; k < std::min(values.size(), i + length + kSide); ++k) {
     if (k < i || k >= i + length) found.push_back(values[k]);
@@ -26,17 +26,17 @@ std::vector<double> find_neighbours(const std::vector<double>& values, std::size
 }
 
 struct Departure {
-  double size = 0.0;    // from the neighbours' median
+  double size = 0.0;    // from the neighbors' median
   double beyond = 0.0;  // their range, towards it
   double range = 0.0;
 };
 
 Departure calc_departure(const std::vector<double>& values, std::size_t i, std::size_t length) {
-  const std::vector<double> neighbours = find_neighbours(values, i, length);
-  const auto [low, high] = std::minmax_element(neighbours.begin(), neighbours.end());
+  const std::vector<double> neighbors = find_neighbors(values, i, length);
+  const auto [low, high] = std::minmax_element(neighbors.begin(), neighbors.end());
   double weakest = std::numeric_limits<double>::infinity();
   double beyond = std::numeric_limits<double>::infinity();
-  const double median = take_median(neighbours);
+  const double median = take_median(neighbors);
   bool up = true, down = true;
   for (std::size_t k = i; k < i + length; ++k) {
     weakest = std::min(weakest, std::abs(values[k] - median));

@@ -8,10 +8,10 @@
 
 namespace rollrig::measurements {
 
-/// Rows of `values` that stand out of their neighbours: one or two rows that leave and come back.
+/// Rows of `values` that stand out of their neighbors: one or two rows that leave and come back.
 ///
 /// Equation  d_i = y_i - median of the three values to each side (of those beyond i's pair, for two rows);
-///           spike where |d_i| > k s, and y_i lies outside the range of these neighbours by more than that range and
+///           spike where |d_i| > k s, and y_i lies outside the range of these neighbors by more than that range and
 ///           by more than k s; s = max(1.4826 median|d|, floor)
 /// Symbols   k threshold, floor what s is not less than (noise and rounding of the sensor)
 /// Validity  NaN is passed over. `is_judged` false: the row is not judged, as where the inputs jump

@@ -43,15 +43,15 @@ void ContactForceElement::apply_inputs(const State& state, Instant<double>& now)
 }
 
 /// Where the tire touches, and the directions there.
-void ContactForceElement::find_surface(const Vec3& wheel_centre_m, const Vec3& surface_origin_m,
+void ContactForceElement::find_surface(const Vec3& wheel_center_m, const Vec3& surface_origin_m,
                                        ContactEvaluation& out) const {
   const double curvature_per_m = corner_.context().surface_curvature_per_m;
-  const Vec3 between_m = wheel_centre_m - surface_origin_m;
+  const Vec3 between_m = wheel_center_m - surface_origin_m;
   out.axis = Vec3(0, 0, 1);
   if (curvature_per_m == 0.0) {
     out.normal = Vec3(0, 1, 0);
     out.loaded_radius_m = between_m[1];
-    out.contact_point_m = wheel_centre_m - out.loaded_radius_m * out.normal;
+    out.contact_point_m = wheel_center_m - out.loaded_radius_m * out.normal;
   } else {
     const double radius_m = 1.0 / curvature_per_m;
     const double distance_m = between_m.norm();
@@ -65,8 +65,8 @@ void ContactForceElement::find_surface(const Vec3& wheel_centre_m, const Vec3& s
 void ContactForceElement::find_geometry(const State& state, ContactEvaluation& out) const {
   const SimTK::MobilizedBody& wheel = matter_.getMobilizedBody(bodies_.wheel);
   const SimTK::MobilizedBody& surface = matter_.getMobilizedBody(bodies_.surface);
-  const Vec3& drum_centre_m = surface.getBodyOriginLocation(state);
-  find_surface(wheel.getBodyOriginLocation(state), drum_centre_m, out);
+  const Vec3& drum_center_m = surface.getBodyOriginLocation(state);
+  find_surface(wheel.getBodyOriginLocation(state), drum_center_m, out);
   out.deflection_m = corner_.context().tire.geometry.outer_diameter_m / 2.0 - out.loaded_radius_m;
 
   const SpatialVec& wheel_velocity = wheel.getBodyVelocity(state);
@@ -74,7 +74,7 @@ void ContactForceElement::find_geometry(const State& state, ContactEvaluation& o
   out.surface_speed_rad_s = SimTK::dot(surface_velocity[0], out.axis);
   out.wheel_speed_rad_s = -SimTK::dot(wheel_velocity[0], out.axis);
   const Vec3 surface_point_m_s =
-      surface_velocity[1] + SimTK::cross(surface_velocity[0], out.contact_point_m - drum_centre_m);
+      surface_velocity[1] + SimTK::cross(surface_velocity[0], out.contact_point_m - drum_center_m);
   const Vec3 past_wheel_m_s = surface_point_m_s - wheel_velocity[1];
   out.now.motion.speed_m_s = SimTK::dot(past_wheel_m_s, out.tangent);
   out.deflection_rate_m_s = SimTK::dot(past_wheel_m_s, out.normal);
@@ -108,12 +108,12 @@ void ContactForceElement::calcForce(const State& state, SimTK::Vector_<SpatialVe
   evaluate(state, at);
   const Vec3 on_wheel_N = at.normal_N * at.normal + at.slip.force_N * at.tangent;
   const Vec3 couple_on_surface_Nm = -at.couple_Nm * at.axis;
-  const Vec3& wheel_centre_m = matter_.getMobilizedBody(bodies_.wheel).getBodyOriginLocation(state);
-  const Vec3& drum_centre_m = matter_.getMobilizedBody(bodies_.surface).getBodyOriginLocation(state);
+  const Vec3& wheel_center_m = matter_.getMobilizedBody(bodies_.wheel).getBodyOriginLocation(state);
+  const Vec3& drum_center_m = matter_.getMobilizedBody(bodies_.surface).getBodyOriginLocation(state);
   body_forces[bodies_.wheel] +=
-      SpatialVec(SimTK::cross(at.contact_point_m - wheel_centre_m, on_wheel_N) - couple_on_surface_Nm, on_wheel_N);
+      SpatialVec(SimTK::cross(at.contact_point_m - wheel_center_m, on_wheel_N) - couple_on_surface_Nm, on_wheel_N);
   body_forces[bodies_.surface] +=
-      SpatialVec(SimTK::cross(at.contact_point_m - drum_centre_m, -on_wheel_N) + couple_on_surface_Nm, -on_wheel_N);
+      SpatialVec(SimTK::cross(at.contact_point_m - drum_center_m, -on_wheel_N) + couple_on_surface_Nm, -on_wheel_N);
   const double curvature_per_m = corner_.context().surface_curvature_per_m;
   if (curvature_per_m > 0.0) {
     body_forces[bodies_.surface][0] -= at.now.parasitic_N / curvature_per_m * at.axis;

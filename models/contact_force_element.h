@@ -82,7 +82,7 @@ class ContactForceElement : public SimTK::Force::Custom::Implementation {
 
  private:
   void find_geometry(const SimTK::State& state, ContactEvaluation& out) const;
-  void find_surface(const SimTK::Vec3& wheel_centre_m, const SimTK::Vec3& surface_origin_m,
+  void find_surface(const SimTK::Vec3& wheel_center_m, const SimTK::Vec3& surface_origin_m,
                     ContactEvaluation& out) const;
   const double* z_of(const SimTK::State& state) const;
   ContactEvaluation& upd_evaluation(const SimTK::State& state) const;

@@ -9,7 +9,7 @@
 
 namespace rollrig::models {
 
-double Prior::centre() const { return scale == Scale::kLog ? std::sqrt(low * high) : 0.5 * (low + high); }
+double Prior::center() const { return scale == Scale::kLog ? std::sqrt(low * high) : 0.5 * (low + high); }
 
 const char* name_of(RigKind kind) {
   switch (kind) {
@@ -61,7 +61,7 @@ std::vector<ActiveEffect> read_effects(const ConfigTable& effects) {
     TableReader own(*table, fmt::format("[effects.{}]", effect->info.id));
     ActiveEffect on{effect, {}};
     for (const EffectParameter& parameter : effect->info.parameters) {
-      on.parameters.push_back(own.number({parameter.key, parameter.range, parameter.doc, parameter.prior.centre()}));
+      on.parameters.push_back(own.number({parameter.key, parameter.range, parameter.doc, parameter.prior.center()}));
     }
     own.finish();
     active.push_back(std::move(on));

@@ -23,7 +23,7 @@ struct Prior {
   Scale scale = Scale::kLinear;
   bool either_sign = false;  // low and high are of the magnitude; the sign is as likely minus as plus
 
-  double centre() const;
+  double center() const;
 };
 
 struct EffectParameter {
@@ -189,7 +189,7 @@ std::vector<std::string> effect_ids();
 /// Throws InputError with the nearest known id.
 const Effect& find_effect(const std::string& id);
 
-/// Reads [effects.<id>] tables: parameters left out take the centre of their prior. Throws InputError.
+/// Reads [effects.<id>] tables: parameters left out take the center of their prior. Throws InputError.
 std::vector<ActiveEffect> read_effects(const ConfigTable& effects);
 
 /// For a person: "<id> (<key> = <value in the unit of the key>, ...)", one after the other.

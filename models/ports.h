@@ -52,7 +52,7 @@ struct InputPort {
   S air_density_ratio{};     // to the reference density; 1 in the baseline
 };
 
-/// What the record shows of a true speed where that of the programme is not followed, as while a rig coasts.
+/// What the record shows of a true speed where that of the program is not followed, as while a rig coasts.
 template <class S>
 S calc_recorded_speed_m_s(const S& true_m_s, const InputPort<S>& recorded, const InputPort<S>& acting) {
   if (value_of(acting.speed_m_s) == value_of(recorded.speed_m_s)) return true_m_s;

@@ -23,7 +23,7 @@ SensorParameters read_sensor(TableReader& reader, const std::string& channel) {
   sensor.drift_sd = in_channel_unit("drift_sd", "first-order autoregressive drift");
   sensor.drift_time_s = reader.number({"drift_time_s", positive(), "its time constant"});
   sensor.noise_sd = in_channel_unit("noise_sd", "white, per sample");
-  sensor.resolution = in_channel_unit("resolution", "quantisation step, 0 for none");
+  sensor.resolution = in_channel_unit("resolution", "quantization step, 0 for none");
   reader.finish();
   return sensor;
 }

@@ -19,7 +19,7 @@ using diagnosis::Cause;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
-/// The cause's effects at their fitted size; those without an estimate at the centre of their prior.
+/// The cause's effects at their fitted size; those without an estimate at the center of their prior.
 std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
   std::vector<models::ActiveEffect> active;
   for (const std::string& id : cause.effects) {
@@ -29,7 +29,7 @@ std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
       const std::string name = id + "." + parameter.key;
       const auto at = std::find_if(cause.parameters.begin(), cause.parameters.end(),
                                    [&name](const diagnosis::ParameterEstimate& each) { return each.name == name; });
-      const double value = at != cause.parameters.end() ? at->value : parameter.prior.centre();
+      const double value = at != cause.parameters.end() ? at->value : parameter.prior.center();
       one.parameters.push_back(unit_of_key(parameter.key).to_si(value));
     }
     active.push_back(std::move(one));

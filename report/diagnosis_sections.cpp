@@ -24,7 +24,7 @@ constexpr double kListed = 0.005;  // probability from which an effect has a bar
 
 std::string summary_of(const std::string& id) {
   if (id == "none") return "no effect is needed";
-  if (id == "unknown") return "something outside the catalogue";
+  if (id == "unknown") return "something outside the catalog";
   const std::vector<std::string> known = models::effect_ids();
   const bool is_known = std::find(known.begin(), known.end(), id) != known.end();
   return is_known ? models::find_effect(id).info.summary : id;
@@ -136,7 +136,7 @@ std::string describe_verdict(const Diagnosis& diagnosis) {
     const std::string like = has_cause ? fmt::format("; it looks most like {}, but that does not explain it",
                                                      fmt::join(diagnosis.causes.front().effects, " with "))
                                        : "";
-    return fmt::format("Unexplained: there is a gap that no effect of the catalogue follows (probability {}){}.",
+    return fmt::format("Unexplained: there is a gap that no effect of the catalog follows (probability {}){}.",
                        show_probability(probability_of(diagnosis, "unknown")), like);
   }
   const Cause& cause = diagnosis.causes.front();
@@ -221,7 +221,7 @@ Block make_balance(const Diagnosis& diagnosis) {
                     {"text", fmt::format("{:.0f} %", share.share_percent)}});
   }
   return {{"type", "shares"},
-          {"caption", "Which equation needs a push for the simulation to meet the measurement"},
+          {"caption", "Which equation needs a perturbation for the simulation to meet the measurement"},
           {"columns", {"equation", "share of the gap"}},
           {"rows", rows}};
 }

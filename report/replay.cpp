@@ -31,7 +31,7 @@ const Column* find_channel(const Recording& recording, const std::string& name) 
   return nullptr;
 }
 
-/// Way at the recorded speed, in metres.
+/// Way at the recorded speed, in meters.
 Column integrate_speed(const Recording& recording) {
   const Column& speed_m_s = recording.channel("speed_km_h");
   Column way_m(speed_m_s.size(), 0.0);
@@ -201,8 +201,8 @@ Block make_replay(const RunSpec& spec, const Recording& recording) {
                                        : "The vehicle on its rollers";
   Block block = {{"type", "replay"},
                  {"machine", machine},
-                 {"label", what + " at the slider's time; the tire is coloured by its temperature"},
-                 {"caption", std::string(of) + " The tire has the colour of its liner temperature."},
+                 {"label", what + " at the slider's time; the tire is colored by its temperature"},
+                 {"caption", std::string(of) + " The tire has the color of its liner temperature."},
                  {"tire", scene.make_tire()},
                  {"temperature_degC", scene.temperature_range_degC()},
                  {"speed_km_h", scene.series(recording.channel("speed_km_h"), "speed_km_h")},

@@ -34,7 +34,7 @@ constexpr std::size_t kRuleCount = std::size(kRules);
 
 constexpr const char* kWheels[]{"front_left", "front_right", "rear_left", "rear_right"};
 
-std::string capitalised(std::string text) {
+std::string capitalized(std::string text) {
   if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
   return text;
 }
@@ -50,7 +50,7 @@ Place find_place(const std::string& channel) {
   const std::string quantity = name_without_unit(without_wheel(channel));
   const std::string wheel = find_wheel(channel);
   const std::string unit = unit_of_key(channel).symbol;
-  Place place{kRuleCount, capitalised(plain_name(quantity)), plain_name(quantity)};
+  Place place{kRuleCount, capitalized(plain_name(quantity)), plain_name(quantity)};
   for (std::size_t i = 0; i < kRuleCount; ++i) {
     if (quantity != kRules[i].quantity) continue;
     place.order = i;

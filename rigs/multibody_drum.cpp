@@ -188,7 +188,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
   }
 
  private:
-  static constexpr double kDrumMass_kg = 1000.0;  // no motion depends on it: the drum turns about its centre
+  static constexpr double kDrumMass_kg = 1000.0;  // no motion depends on it: the drum turns about its center
   static constexpr std::size_t kSpeeds = 3;       // after three angles and positions
   static constexpr std::size_t kSlipState = 6;
 

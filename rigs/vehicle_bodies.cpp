@@ -28,7 +28,7 @@ SimTK::Body::Rigid make_point(double mass_kg) {
   return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, Vec3(0), SimTK::Inertia(mass_kg)));
 }
 
-/// The sprung mass: its centre where the suspensions' preloads balance, its pitch inertia that of masses
+/// The sprung mass: its center where the suspensions' preloads balance, its pitch inertia that of masses
 /// over the axles (m a b, usual of passenger cars). Assumed.
 SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& bodies, double missing_kg) {
   double weight_N = 0.0;
@@ -43,9 +43,9 @@ SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& 
     wheel.ballast_N = missing_kg * kStandardGravity_m_s2 * wheel.preload_N / weight_N;
   }
   const double mass_kg = weight_N / kStandardGravity_m_s2 - missing_kg;
-  const Vec3 centre_m(moment_Nm / weight_N, 0, 0);
+  const Vec3 center_m(moment_Nm / weight_N, 0, 0);
   const SimTK::Inertia central(mass_kg * spread_m2);
-  return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, centre_m, central.shiftFromMassCenter(centre_m, mass_kg)));
+  return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, center_m, central.shiftFromMassCenter(center_m, mass_kg)));
 }
 
 /// What moves along the road with the vehicle and is in no other body; negative where those have more.

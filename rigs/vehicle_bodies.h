@@ -35,7 +35,7 @@ VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const Ve
                                  const VehicleFile& vehicle, const RigFile& rig,
                                  const models::TireParameters<double>& tire, double mass_factor);
 
-/// Height of the body's origin, the centre of gravity, above rollers or road when all coordinates are 0 [m].
+/// Height of the body's origin, the center of gravity, above rollers or road when all coordinates are 0 [m].
 double calc_body_height_m(const VehicleFile& vehicle);
 
 }  // namespace rollrig::rigs

@@ -78,7 +78,7 @@ void VehicleDrive::find_demand(const State& state, DriveEvaluation& at) const {
 void VehicleDrive::find_suspension(const State& state, std::size_t i, DriveEvaluation& at) const {
   const SimTK::MobilizedBody& upright = matter_.getMobilizedBody(bodies_.wheels[i].upright);
   DriveEvaluation::Wheel& out = at.wheels[i];
-  // The slider moves the upright upwards against the body; the spring pushes it downwards.
+  // The slider moves the upright upwards against the body; the spring perturbations it downwards.
   out.suspension_N = bodies_.wheels[i].preload_N + suspension_.stiffness_N_per_m * upright.getOneQ(state, 0);
   out.suspension_damper_N = suspension_.damping_N_s_per_m * upright.getOneU(state, 0);
 }

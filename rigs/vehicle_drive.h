@@ -1,5 +1,5 @@
 #pragma once
-/// Everything that pushes a multibody vehicle but its tires: driver, motor, brakes, rollers, drag, suspension
+/// Everything that perturbations a multibody vehicle but its tires: driver, motor, brakes, rollers, drag, suspension
 /// and tie-downs, as one force element of Simbody.
 
 #include <Simbody.h>

@@ -19,7 +19,7 @@ struct WheelPlace {
   double static_load_N = 0.0;
   double motor_share = 0.0;     // of the motor's force
   double friction_share = 0.0;  // of the friction brakes' force
-  double axle_x_m = 0.0;        // from the centre of gravity, forwards
+  double axle_x_m = 0.0;        // from the center of gravity, forwards
 };
 
 /// The whole vehicle on its wheels, or a quarter: one wheel with its share of the mass (a half of it where only

@@ -30,7 +30,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
     if (std::abs(settings.skim_loads_N[i] - former_N) >= kDistinct * former_N) continue;
     throw TableReader(spec.settings, "[settings]")
         .problem("skim_loads_N", "a load follows one that it cannot be told from",
-                 "neighbours that differ by 2 %, from the warm-up's load on");
+                 "neighbors that differ by 2 %, from the warm-up's load on");
   }
   if (settings.skim_loads_N.size() < 2) {
     throw TableReader(spec.settings, "[settings]")

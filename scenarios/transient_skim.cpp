@@ -70,7 +70,7 @@ const Scenario& scenario_transient_skim() {
        {{"cycles", "every load with its skim test"},
         {"parasitic_fall_N", "first skim reading less the last"},
         {"rolling_resistance_fall_N", "first F_r less the last"},
-        {"uncertainty_N", "expanded (k = 2), of one F_r, offset cancelled"}}},
+        {"uncertainty_N", "expanded (k = 2), of one F_r, offset canceled"}}},
       &plan, &evaluate);
   return scenario;
 }

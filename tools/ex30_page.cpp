@@ -81,7 +81,7 @@ std::string make_cold_table(const Certificate& certificate, double efficiency) {
   const double excess = certificate[kColdCity].per_m() / certificate[kThirdCity].per_m() - 1.0;
   const double second = certificate[kColdCity].per_m() / certificate[kSecondCity].per_m() - 1.0;
   std::string text = fmt::format(
-      "\nThe certificate's first city section takes {:.1f} % more over a kilometre than the third, {:.1f} % more than "
+      "\nThe certificate's first city section takes {:.1f} % more over a kilometer than the third, {:.1f} % more than "
       "the "
       "second.\n\n| tires, RRc of the ISO test | driveline, cold, of one wheel | simulated excess over the third % | "
       "share "

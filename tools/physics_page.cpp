@@ -143,7 +143,7 @@ std::string make_physics_page(const std::string& root) {
   std::string page =
       "# Physics\n\nGenerated from the program's own comments and declarations (`ninja docs_pages`); a test holds the "
       "page to them.\n\n\"The source\" is the thesis that rollrig implements ([CITATION.cff](../CITATION.cff)); "
-      "`effects.md` and `baseline.md` are the specification of the catalogue and of the baseline that it was written "
+      "`effects.md` and `baseline.md` are the specification of the catalog and of the baseline that it was written "
       "to. Neither is part of rollrig: what they say stands here.\n\n[Equations](#equations), [effects](#effects), "
       "[what is assumed](#what-is-assumed)\n\n"
       "## Equations\n\n";

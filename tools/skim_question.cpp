@@ -100,7 +100,7 @@ std::vector<SkimAnswer> ask_all() {
     const models::EffectParameter& size = models::find_effect(questions[i].effect).info.parameters.front();
     const double value = questions[i].of_range == 0.0   ? size.prior.low
                          : questions[i].of_range == 1.0 ? size.prior.high
-                                                        : size.prior.centre();
+                                                        : size.prior.center();
     answers[i] = ask(questions[i].tire, questions[i].effect, size.key, value);
   });
   return answers;

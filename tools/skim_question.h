@@ -19,7 +19,7 @@ struct SkimAnswer {
 };
 
 /// Simulates the test on the source's drum with its sensors (one log a second, seed 1), and diagnoses it with the whole
-/// catalogue in the race.
+/// catalog in the race.
 SkimAnswer ask(const std::string& tire, const std::string& effect, const std::string& parameter, double size);
 
 /// Every tire at the middle of both priors, and a50 at both ends of each.

@@ -343,10 +343,10 @@ Written by `source_gap_page`, not by hand; `tests/published/source_gap_test.cpp`
 
 ## Table 4.3: rolling power on the dynamometer
 
-Mean error between modelled and measured rolling power of an undriven front tire, printed without sign:
+Mean error between modeled and measured rolling power of an undriven front tire, printed without sign:
 
 {table}
-Which unmodelled effect would make this pattern? Each effect that acts on a dynamometer is added to the drive of §3.4.4
+Which unmodeled effect would make this pattern? Each effect that acts on a dynamometer is added to the drive of §3.4.4
 (quarter load, 5400 N, 280 kPa, 23 degC, the tires of assets/tires) at sizes from -3 to 6 units of its prior, its shapes
 at the middle of theirs; the error is the mean over samples above 20 km/h of (model - measured)/measured, the measured
 power being the model's and what the effect adds to the loss between hub and roller. That Table 4.3 is this mean is
@@ -369,7 +369,7 @@ Likeliest: {below_likely}.
 
 The source saw it fall in a transient skim test and had no data to decide. Its own test, simulated on its rig with its
 sensors and a log of one sample a second, with one of the two causes at work at the middle and at both ends of its
-prior, diagnosed with the whole catalogue in the race:
+prior, diagnosed with the whole catalog in the comparison:
 
 {skim}
 )";

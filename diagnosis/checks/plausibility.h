@@ -27,7 +27,7 @@ struct ChannelMisfit {
 constexpr double kLargestMisfit = 10.0;
 
 /// How far a run lies from its simulation, in units of what uncertain parameters and effects of the
-/// catalogue can make.
+/// catalog can make.
 /// Equation  u = (y - h)/tolerance; tolerance of a force as the set's kind has it (of a drum's torque 20 N R + 0.3
 /// |h|), of a
 ///           temperature 5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|

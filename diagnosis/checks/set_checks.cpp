@@ -282,7 +282,7 @@ void check_plausibility(const MeasurementSet& kept, const Replays& replays, int 
   const std::string outside = describe_misfit(kept, odd, misfits);
   if (outside.empty()) return;
   checks.suspicion = fmt::format(
-      "further from the simulation than any effect of the catalogue: {}. Check tire, rig, columns and units", outside);
+      "further from the simulation than any effect of the catalog: {}. Check tire, rig, columns and units", outside);
   checks.doubt = checks.suspicion + "; no cause is named";
   checks.warnings.push_back(checks.doubt);
 }

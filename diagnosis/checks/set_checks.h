@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of a measurement set before and beside the race: what cannot be diagnosed, what is doubtful, what
+/// Checks of a measurement set before and beside the comparison: what cannot be diagnosed, what is doubtful, what
 /// cannot be true.
 
 #include <cstddef>
@@ -31,7 +31,7 @@ constexpr std::size_t kFewSamples = 30;  // Assumed: half a minute at 1 Hz; any 
 /// one run alone, the same samples in two runs, and what tire_checks.h says. Marks rows of stuck sensors
 /// (stuck_sensors.h) and samples that stand alone (measurements/spikes.h, 20 standard deviations). Marks a set
 /// implausible when one mistake with columns or units, undone, takes nine tenths of what is odd in it (repairs.h), or
-/// when a channel of a run lies far outside what uncertain parameters and effects of the catalogue can make
+/// when a channel of a run lies far outside what uncertain parameters and effects of the catalog can make
 /// (plausibility.h).
 /// Validity  a wrong tire of the same class is warned of at most: its loss lies within what an effect can make
 /// Errors    InputError: nothing measured; a sensor without any noise; every sensor stuck;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Eigen::Index kFeatures = 13;
 
-/// Features of every block of a series, before standardising.
+/// Features of every block of a series, before standardizing.
 Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
   const PreparedRun& run = set.runs()[series.run];
   const double start_s = run.measured.time_s.front();

@@ -41,17 +41,17 @@ AmplitudePrior law_amplitude(double least, double middle) {
   return prior;
 }
 
-Evidence::Evidence(const Remainder& remainder, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
+Evidence::Evidence(const Discrepancy& discrepancy, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
                    const RowMatrix& jacobian)
-    : remainder_(remainder), unknowns_(unknowns) {
+    : discrepancy_(discrepancy), unknowns_(unknowns) {
   RowMatrix columns = jacobian;
   Eigen::VectorXd r = residuals;
-  remainder.whiten_below(columns);
-  remainder.whiten_below(r);
-  log_determinant_below_ = remainder.log_determinant_below();
-  for (const Remainder::Basis& basis : remainder.bases()) {
-    const Eigen::MatrixXd rows = remainder.gather(basis, columns);
-    const Eigen::VectorXd of_basis = remainder.gather(basis, r);
+  discrepancy.whiten_below(columns);
+  discrepancy.whiten_below(r);
+  log_determinant_below_ = discrepancy.log_determinant_below();
+  for (const Discrepancy::Basis& basis : discrepancy.bases()) {
+    const Eigen::MatrixXd rows = discrepancy.gather(basis, columns);
+    const Eigen::VectorXd of_basis = discrepancy.gather(basis, r);
     parts_.push_back({rows.transpose() * rows, rows.transpose() * of_basis, of_basis.squaredNorm(),
                       basis.directions.transpose() * rows, basis.directions.transpose() * of_basis});
   }
@@ -61,7 +61,7 @@ Evidence::PerAmplitude Evidence::calc_channel(std::size_t channel, double amplit
   const Eigen::Index n = unknowns_.size();
   PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
   for (std::size_t b = 0; b < parts_.size(); ++b) {
-    const Remainder::Basis& basis = remainder_.bases()[b];
+    const Discrepancy::Basis& basis = discrepancy_.bases()[b];
     if (basis.channel != channel) continue;
     const Part& of = parts_[b];
     const Eigen::ArrayXd scaled = amplitude * amplitude * basis.strengths.array();

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-#include "diagnosis/comparison/remainder.h"
+#include "diagnosis/comparison/discrepancy.h"
 
 namespace rollrig::diagnosis {
 
-/// What a hypothesis holds of the remainder's amplitude in one channel: weights, adding to 1, of amplitudes.
+/// What a hypothesis holds of the discrepancy's amplitude in one channel: weights, adding to 1, of amplitudes.
 struct AmplitudePrior {
   std::vector<double> amplitudes;  // noise floors
   std::vector<double> weights;
@@ -23,13 +23,14 @@ AmplitudePrior law_amplitude(double least, double middle);
 /// Evidence of a hypothesis linear about an expansion point.
 /// Equation  Z = sum over amplitudes of w |Sigma|^-1/2 |M|^-1/2 exp(-chi2/2),
 ///           M = 1 + J^T Sigma^-1 J, g = u + J^T Sigma^-1 r, chi2 = r^T Sigma^-1 r + u^T u - g^T M^-1 g
-/// Symbols   r whitened residual at the unknowns u (prior units), J its derivatives, Sigma of the remainder; constants
+/// Symbols   r whitened residual at the unknowns u (prior units), J its derivatives, Sigma of the discrepancy;
+/// constants
 ///           that all hypotheses share are left out
 /// Source    Laplace's method with a normal prior of unit variance
 /// Checked   tests/diagnosis/evidence_test.cpp
 class Evidence {
  public:
-  Evidence(const Remainder& remainder, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
+  Evidence(const Discrepancy& discrepancy, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
            const RowMatrix& jacobian);
 
   /// One combination of amplitudes, one a channel.
@@ -60,7 +61,7 @@ class Evidence {
   Term solve(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& gradient, double square, double log_determinant,
              bool with_covariance) const;
 
-  const Remainder& remainder_;
+  const Discrepancy& discrepancy_;
   Eigen::VectorXd unknowns_;
   double log_determinant_below_ = 0.0;
   struct Part {                 // of a basis

@@ -38,11 +38,11 @@ Bounds find_bounds(const Model& model, const std::vector<estimation::FreeParamet
 }  // namespace
 
 Prediction predict_without(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                           const Remainder& remainder, const Contender& contender, std::size_t held_out) {
-  RowMatrix jacobian = contender.fit.jacobian;
-  Eigen::VectorXd residuals = contender.fit.residuals;
-  remainder.whiten(contender.amplitudes, jacobian);
-  remainder.whiten(contender.amplitudes, residuals);
+                           const Discrepancy& discrepancy, const Candidate& candidate, std::size_t held_out) {
+  RowMatrix jacobian = candidate.fit.jacobian;
+  Eigen::VectorXd residuals = candidate.fit.residuals;
+  discrepancy.whiten(candidate.amplitudes, jacobian);
+  discrepancy.whiten(candidate.amplitudes, residuals);
   RowMatrix left_out = RowMatrix::Zero(jacobian.rows(), jacobian.cols());
   for (const Series& series : set.series()) {
     if (series.run != held_out) continue;
@@ -53,8 +53,8 @@ Prediction predict_without(const PreparedSet& set, const std::vector<estimation:
   }
   const Eigen::Index n = jacobian.cols();
   const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
-  const Model model(set, base, contender.fit.hypothesis);
-  const Eigen::VectorXd& from = contender.fit.unknowns;
+  const Model model(set, base, candidate.fit.hypothesis);
+  const Eigen::VectorXd& from = candidate.fit.unknowns;
   const Bounds bounds = find_bounds(model, base);
   const Eigen::VectorXd unknowns =
       solve_within(curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals), bounds.lower,

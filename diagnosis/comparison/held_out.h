@@ -1,7 +1,7 @@
 #pragma once
 /// What a hypothesis says of a run that its fit did not see.
 
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 
 namespace rollrig::diagnosis {
 
@@ -17,6 +17,6 @@ struct Prediction {
 /// Symbols   r whitened residuals of the fit to all runs at its unknowns u_0, J their derivatives, u in prior units
 /// Checked   tests/diagnosis/gap_test.cpp
 Prediction predict_without(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                           const Remainder& remainder, const Contender& contender, std::size_t held_out);
+                           const Discrepancy& discrepancy, const Candidate& candidate, std::size_t held_out);
 
 }  // namespace rollrig::diagnosis

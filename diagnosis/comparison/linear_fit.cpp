@@ -2,13 +2,13 @@
 
 namespace rollrig::diagnosis {
 
-LinearFit::LinearFit(const Remainder& remainder_, const Amplitudes& amplitudes_, const Fit& fit)
-    : remainder(remainder_),
+LinearFit::LinearFit(const Discrepancy& discrepancy_, const Amplitudes& amplitudes_, const Fit& fit)
+    : discrepancy(discrepancy_),
       amplitudes(amplitudes_),
       jacobian(fit.jacobian),
       residual(fit.residuals - fit.jacobian * fit.unknowns) {
-  remainder.whiten(amplitudes, jacobian);
-  remainder.whiten(amplitudes, residual);  // of the priors' middles
+  discrepancy.whiten(amplitudes, jacobian);
+  discrepancy.whiten(amplitudes, residual);  // of the priors' middles
   const Eigen::Index n = jacobian.cols();
   curvature = jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n);
   factor.compute(curvature);

@@ -7,20 +7,20 @@
 
 namespace rollrig::diagnosis {
 
-/// Whitened by sensors and remainder: what a fit leaves at its best unknowns, and how those could still move.
+/// Whitened by sensors and discrepancy: what a fit leaves at its best unknowns, and how those could still move.
 /// Equation  residual = (1 - J M^-1 J^T) r, unknowns = -M^-1 J^T r, M = 1 + J^T J; a column x of unit size has the
 ///           score x.residual, whose variance is |x|^2 - (J^T x)^T M^-1 (J^T x)
 /// Symbols   r whitened residual at the priors' middles, J its derivatives by the fit's unknowns, in prior units
-/// Source    generalised least squares with normal priors
+/// Source    generalized least squares with normal priors
 /// Checked   tests/diagnosis/locations_test.cpp
 struct LinearFit {
-  LinearFit(const Remainder& remainder, const Amplitudes& amplitudes, const Fit& fit);
+  LinearFit(const Discrepancy& discrepancy, const Amplitudes& amplitudes, const Fit& fit);
 
   /// Whitens block values in SI units, in place.
   template <class Columns>
   void whiten(Columns& columns) const {
-    diagnosis::whiten(remainder.set(), columns);
-    remainder.whiten(amplitudes, columns);
+    diagnosis::whiten(discrepancy.set(), columns);
+    discrepancy.whiten(amplitudes, columns);
   }
 
   /// How an added difference of block means (SI units) of unit size agrees with what is left.
@@ -30,7 +30,7 @@ struct LinearFit {
   };
   Score calc_score(Eigen::VectorXd difference) const;
 
-  const Remainder& remainder;
+  const Discrepancy& discrepancy;
   Amplitudes amplitudes;
   RowMatrix jacobian;
   Eigen::MatrixXd curvature;  // M

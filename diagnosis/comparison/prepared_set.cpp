@@ -29,7 +29,7 @@ bool has_sample(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
 }
 
-/// Whether the surface stands still over a row and its neighbours.
+/// Whether the surface stands still over a row and its neighbors.
 bool stands(const measurements::MeasuredRun& run, std::size_t row) {
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
   const std::size_t last = std::min(row + 1, speed_m_s.size() - 1);

@@ -13,8 +13,8 @@ namespace {
 /// Whitened residuals, then the unknowns themselves, whose priors are standard normal.
 class WhitenedResiduals : public ceres::CostFunction {
  public:
-  WhitenedResiduals(const Model& model, const Remainder& remainder, const Amplitudes& amplitudes, int threads)
-      : model_(model), remainder_(remainder), amplitudes_(amplitudes), threads_(threads) {
+  WhitenedResiduals(const Model& model, const Discrepancy& discrepancy, const Amplitudes& amplitudes, int threads)
+      : model_(model), discrepancy_(discrepancy), amplitudes_(amplitudes), threads_(threads) {
     set_num_residuals(static_cast<int>(model.residual_count() + model.unknown_count()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(model.unknown_count()));
   }
@@ -28,12 +28,12 @@ class WhitenedResiduals : public ceres::CostFunction {
     RowMatrix jacobian;
     if (!model_.evaluate(u, threads_, residuals, derive ? &jacobian : nullptr)) return false;
     const Eigen::VectorXd whitened = residuals;
-    remainder_.whiten(amplitudes_, residuals);
+    discrepancy_.whiten(amplitudes_, residuals);
     Eigen::Map<Eigen::VectorXd>(out, rows) = residuals;
     Eigen::Map<Eigen::VectorXd>(out + rows, unknowns) = u;
     if (derive) {
       last_ = {u, whitened, jacobian};
-      remainder_.whiten(amplitudes_, jacobian);
+      discrepancy_.whiten(amplitudes_, jacobian);
       Eigen::Map<RowMatrix> all(jacobians[0], rows + unknowns, unknowns);
       all.topRows(rows) = jacobian;
       all.bottomRows(unknowns).setIdentity();
@@ -51,7 +51,7 @@ class WhitenedResiduals : public ceres::CostFunction {
 
  private:
   const Model& model_;
-  const Remainder& remainder_;
+  const Discrepancy& discrepancy_;
   const Amplitudes& amplitudes_;
   int threads_;
   mutable Derived last_;
@@ -59,14 +59,14 @@ class WhitenedResiduals : public ceres::CostFunction {
 
 }  // namespace
 
-Fit refit(const Model& model, const Remainder& remainder, const Amplitudes& amplitudes, const Eigen::VectorXd& start,
-          int threads, int most_iterations) {
+Fit refit(const Model& model, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
+          const Eigen::VectorXd& start, int threads, int most_iterations) {
   Fit fit;
   fit.hypothesis = model.hypothesis();
   fit.unknowns = start;
   fit.cost = std::numeric_limits<double>::infinity();
   ceres::Problem problem;
-  auto* residuals = new WhitenedResiduals(model, remainder, amplitudes, threads);  // the problem's own
+  auto* residuals = new WhitenedResiduals(model, discrepancy, amplitudes, threads);  // the problem's own
   problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds bounds = model.own_bounds(i);

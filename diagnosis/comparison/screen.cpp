@@ -35,7 +35,7 @@ struct SizeTrial {
 std::vector<SizeTrial> find_size_trials(const models::Effect& effect) {
   const models::EffectParameter& size = effect.info.parameters.front();
   if (size.prior.either_sign) return {{1, 0.0}, {-1, 0.0}};
-  const double middle_off = std::abs(size.prior.centre() - size.off.value_or(0.0));
+  const double middle_off = std::abs(size.prior.center() - size.off.value_or(0.0));
   const bool is_two_sided =
       size.prior.scale == models::Prior::Scale::kLinear && middle_off < 0.25 * (size.prior.high - size.prior.low);
   if (is_two_sided) return {{1, 1.0}, {1, -1.0}};
@@ -66,10 +66,10 @@ double scale_size(const models::EffectParameter& size, const SizeTrial& trial, d
 
 }  // namespace
 
-std::vector<Screened> screen(const Model& null, const Remainder& remainder, const Amplitudes& amplitudes,
+std::vector<Screened> screen(const Model& null, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
                              const Fit& fit, const std::vector<estimation::FreeParameter>& base,
                              const std::vector<const models::Effect*>& effects, int threads) {
-  const LinearFit linear(remainder, amplitudes, fit);
+  const LinearFit linear(discrepancy, amplitudes, fit);
   std::vector<std::vector<Screened>> found(effects.size());
   parallel_for(effects.size(), threads, [&](std::size_t e) {
     const models::Effect& effect = *effects[e];

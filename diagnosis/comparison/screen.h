@@ -24,7 +24,7 @@ Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Ef
 /// Equation  z = s/sqrt(V), best size = s/V middles, s and V score and variance of g (linear_fit.h); score = z^2/2
 ///           where the sign is one that the effect may have; d' = sqrt(V)
 /// An effect that cannot be simulated on top of the fit at all is listed without a score
-std::vector<Screened> screen(const Model& null, const Remainder& remainder, const Amplitudes& amplitudes,
+std::vector<Screened> screen(const Model& null, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
                              const Fit& fit, const std::vector<estimation::FreeParameter>& base,
                              const std::vector<const models::Effect*>& effects, int threads);
 

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "diagnosis/comparison/linear_fit.h"
-#include "diagnosis/findings/pushes.h"
+#include "diagnosis/findings/perturbations.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr Eigen::Index kKnots = static_cast<Eigen::Index>(kPushKnots);
+constexpr Eigen::Index kKnots = static_cast<Eigen::Index>(kPerturbationKnots);
 constexpr int kAmplitudes = 10;  // 0.5, 1, 2 .. 256 noise floors
 constexpr double kSignificantOdds = 100.0;
 
@@ -19,7 +19,7 @@ using Choice = std::vector<int>;
 
 double amplitude_of(int chosen) { return chosen == 0 ? 0.0 : 0.25 * std::exp2(chosen); }
 
-/// Largest rms by channel that a constant push of size 1 makes, in noise floors.
+/// Largest rms by channel that a constant perturbation of size 1 makes, in noise floors.
 double measure_constant_push(const PreparedSet& set, const RowMatrix& columns) {
   std::vector<double> squares(set.channels().size(), 0.0);
   std::vector<double> counts(set.channels().size(), 0.0);
@@ -35,10 +35,11 @@ double measure_constant_push(const PreparedSet& set, const RowMatrix& columns) {
   return std::sqrt(largest);
 }
 
-/// The linear model of all pushes, in noise floors, run by run: pushes of two runs meet in the null's unknowns alone.
-class PushModel {
+/// The linear model of all perturbations, in noise floors, run by run: perturbations of two runs meet in the null's
+/// unknowns alone.
+class PerturbationModel {
  public:
-  PushModel(const PreparedSet& set, const LinearFit& null, const std::vector<PushFamily>& families)
+  PerturbationModel(const PreparedSet& set, const LinearFit& null, const std::vector<PerturbationFamily>& families)
       : null_curvature_(null.curvature), count_(families.size()) {
     RowMatrix columns(at(set.residual_count()), at(count_) * kKnots);
     for (std::size_t f = 0; f < count_; ++f) {
@@ -64,7 +65,7 @@ class PushModel {
   std::size_t family_count() const { return count_; }
 
   struct Result {
-    double log_gain = 0.0;              // evidence over that of no push
+    double log_gain = 0.0;              // evidence over that of no perturbation
     std::vector<double> contributions;  // a_f.b_f
   };
   Result evaluate(const Choice& choice) const {
@@ -142,7 +143,7 @@ class PushModel {
   std::vector<OfRun> runs_;
 };
 
-/// Log probability before the measurement, over that of no push: none at all is as likely as any.
+/// Log probability before the measurement, over that of no perturbation: none at all is as likely as any.
 double log_prior_odds(const Choice& choice) {
   const double absent = std::pow(0.5, 1.0 / static_cast<double>(choice.size()));
   const double odds = (1.0 - absent) / absent / kAmplitudes;
@@ -151,45 +152,45 @@ double log_prior_odds(const Choice& choice) {
 }
 
 /// Choices that differ by one family, one amplitude, or one family in another's stead.
-std::vector<Choice> find_neighbours(const Choice& choice) {
-  std::vector<Choice> neighbours;
+std::vector<Choice> find_neighbors(const Choice& choice) {
+  std::vector<Choice> neighbors;
   for (std::size_t f = 0; f < choice.size(); ++f) {
     for (int amplitude = 0; amplitude <= kAmplitudes; ++amplitude) {
       if (amplitude == choice[f]) continue;
       Choice changed = choice;
       changed[f] = amplitude;
-      neighbours.push_back(changed);
+      neighbors.push_back(changed);
       if (choice[f] > 0 || amplitude == 0) continue;
       for (std::size_t other = 0; other < choice.size(); ++other) {
         if (choice[other] == 0) continue;
         Choice swapped = changed;
         swapped[other] = 0;
-        neighbours.push_back(std::move(swapped));
+        neighbors.push_back(std::move(swapped));
       }
     }
   }
-  return neighbours;
+  return neighbors;
 }
 
 struct Weighed {
   Choice choice;
-  PushModel::Result result;
-  double log_odds = 0.0;  // over no push, after the measurement
+  PerturbationModel::Result result;
+  double log_odds = 0.0;  // over no perturbation, after the measurement
 };
 
-Weighed weigh(const PushModel& model, const Choice& choice) {
+Weighed weigh(const PerturbationModel& model, const Choice& choice) {
   Weighed weighed{choice, model.evaluate(choice), 0.0};
   weighed.log_odds = weighed.result.log_gain + log_prior_odds(choice);
   return weighed;
 }
 
-/// Uphill from no push to a choice better than all its neighbours; that choice and those.
-std::vector<Weighed> search(const PushModel& model, int threads) {
+/// Uphill from no perturbation to a choice better than all its neighbors; that choice and those.
+std::vector<Weighed> search(const PerturbationModel& model, int threads) {
   Weighed best = weigh(model, Choice(model.family_count(), 0));
   while (true) {
-    const std::vector<Choice> neighbours = find_neighbours(best.choice);
-    std::vector<Weighed> weighed(neighbours.size());
-    parallel_for(neighbours.size(), threads, [&](std::size_t i) { weighed[i] = weigh(model, neighbours[i]); });
+    const std::vector<Choice> neighbors = find_neighbors(best.choice);
+    std::vector<Weighed> weighed(neighbors.size());
+    parallel_for(neighbors.size(), threads, [&](std::size_t i) { weighed[i] = weigh(model, neighbors[i]); });
     const auto top = std::max_element(weighed.begin(), weighed.end(),
                                       [](const Weighed& a, const Weighed& b) { return a.log_odds < b.log_odds; });
     if (!(top->log_odds > best.log_odds)) {
@@ -217,10 +218,10 @@ std::vector<double> average_shares(const std::vector<Weighed>& all, double log_s
 }  // namespace
 
 std::vector<BalanceShare> find_balance(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                       const Remainder& remainder, const Contender& null, int threads) {
-  const std::vector<PushFamily> families = calc_pushes(set, base, null.fit.unknowns, threads);
+                                       const Discrepancy& discrepancy, const Candidate& null, int threads) {
+  const std::vector<PerturbationFamily> families = calc_perturbations(set, base, null.fit.unknowns, threads);
   const std::vector<Weighed> all =
-      search(PushModel(set, LinearFit(remainder, null.amplitudes, null.fit), families), threads);
+      search(PerturbationModel(set, LinearFit(discrepancy, null.amplitudes, null.fit), families), threads);
   std::vector<double> logs;
   for (const Weighed& one : all) logs.push_back(one.log_odds);
   const double log_sum = log_sum_exp(logs);

@@ -90,10 +90,10 @@ Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& s
 }
 
 /// What the cause changes in a run, whitened, in squares.
-double measure_change(const PreparedSet& set, const Remainder& remainder, const Contender& null, const Contender& cause,
-                      std::size_t run) {
+double measure_change(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& null,
+                      const Candidate& cause, std::size_t run) {
   Eigen::VectorXd change = null.fit.residuals - cause.fit.residuals;
-  remainder.whiten(cause.amplitudes, change);
+  discrepancy.whiten(cause.amplitudes, change);
   double sum = 0.0;
   for (const Series& series : set.series()) {
     if (series.run == run) sum += change.segment(at(series.first_residual), at(series.size())).squaredNorm();
@@ -101,17 +101,17 @@ double measure_change(const PreparedSet& set, const Remainder& remainder, const 
   return sum;
 }
 
-/// The contender with its base parameters at the files' values: only its own parameters and offsets are fitted.
-Measure measure_as_calibrated(const PreparedSet& set, const Remainder& remainder, const Contender& contender) {
-  Contender fixed = contender;
-  const Model model(set, {}, contender.fit.hypothesis);
+/// The candidate with its base parameters at the files' values: only its own parameters and offsets are fitted.
+Measure measure_as_calibrated(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& candidate) {
+  Candidate fixed = candidate;
+  const Model model(set, {}, candidate.fit.hypothesis);
   fixed.fit.unknowns.resize(at(model.unknown_count()));
   const auto own = at(model.own_count());
-  fixed.fit.unknowns.head(own) = contender.fit.unknowns.head(own);
-  fixed.fit.unknowns.tail(at(set.offset_count())) = contender.fit.unknowns.tail(at(set.offset_count()));
+  fixed.fit.unknowns.head(own) = candidate.fit.unknowns.head(own);
+  fixed.fit.unknowns.tail(at(set.offset_count())) = candidate.fit.unknowns.tail(at(set.offset_count()));
   constexpr int kMost = 6;
   const Eigen::VectorXd simulated =
-      refit(model, remainder, contender.amplitudes, fixed.fit.unknowns, 1, kMost).simulated;
+      refit(model, discrepancy, candidate.amplitudes, fixed.fit.unknowns, 1, kMost).simulated;
   Measure measure;
   if (simulated.size() == 0) return measure;
   const Eigen::VectorXd difference = find_difference(set, simulated);
@@ -168,8 +168,8 @@ Shrinkage resample(const Measure& before, const Measure& after) {
 
 }  // namespace
 
-Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Remainder& remainder,
-             const Contender& null, const Contender* cause, int threads, const BlackBox& black_box) {
+Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Discrepancy& discrepancy,
+             const Candidate& null, const Candidate* cause, int threads, const BlackBox& black_box) {
   const std::size_t runs = set.runs().size();
   const bool can_leave_out = runs > 1;
   std::vector<Prediction> before(runs);
@@ -178,9 +178,9 @@ Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter
   parallel_for(runs * hypotheses, threads, [&](std::size_t job) {
     const std::size_t run = job / hypotheses;
     const bool is_null = job % hypotheses == 0;
-    const Contender& contender = is_null ? null : *cause;
+    const Candidate& candidate = is_null ? null : *cause;
     const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
-    (is_null ? before : after)[run] = predict_without(set, base, remainder, contender, held_out);
+    (is_null ? before : after)[run] = predict_without(set, base, discrepancy, candidate, held_out);
   });
   Measure measured_before;
   Measure measured_after;
@@ -201,7 +201,7 @@ Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter
     add_run(set, run, black_box(set, difference, run), measured_black_box);
     gap.held_out.push_back(set.runs()[run].measured.id);
     if (cause == nullptr) continue;
-    const double change = measure_change(set, remainder, null, *cause, run);
+    const double change = measure_change(set, discrepancy, null, *cause, run);
     if (std::max(before[run].uncertainty, after[run].uncertainty) > thresholds::kCertainHeldOut * change) continue;
     add_run(set, run, difference, certain_before);
     add_run(set, run, with_cause, certain_after);
@@ -210,7 +210,7 @@ Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter
     const Shrinkage certain = resample(certain_before, certain_after);
     gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
   }
-  const Measure calibrated = measure_as_calibrated(set, remainder, null);
+  const Measure calibrated = measure_as_calibrated(set, discrepancy, null);
   const bool is_judged = !measured_before.stretches.empty();
   if (!is_judged) {  // no run can be simulated without its own data: retuning is not known to help
     measured_before = calibrated;
@@ -219,7 +219,7 @@ Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter
   gap.recalibrated = {gap_of(measured_before), gap_of(measured_after)};
   gap.as_calibrated.before = gap_of(calibrated);
   gap.as_calibrated.after =
-      cause != nullptr ? gap_of(measure_as_calibrated(set, remainder, *cause)) : gap.as_calibrated.before;
+      cause != nullptr ? gap_of(measure_as_calibrated(set, discrepancy, *cause)) : gap.as_calibrated.before;
   const Shrinkage shrinkage = resample(measured_before, measured_after);
   if (is_judged && shrinkage.above_noise && cause != nullptr) {
     gap.shrink_percent = shrinkage.percent;

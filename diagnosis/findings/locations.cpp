@@ -190,12 +190,12 @@ Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& s
 
 }  // namespace
 
-std::vector<Location> find_locations(const PreparedSet& set, const Remainder& remainder, const Contender& null) {
+std::vector<Location> find_locations(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& null) {
   std::vector<Stretch> stretches;
   for (const Series& series : set.series()) add_stretches(set, series, stretches);
   const double tail = kFamilyWise / (2.0 * static_cast<double>(stretches.size()));
   const double critical = boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
-  const LinearFit linear(remainder, null.amplitudes, null.fit);
+  const LinearFit linear(discrepancy, null.amplitudes, null.fit);
   const Scores scores = calc_scores(linear, stretches);
   const std::vector<Sized> listed = size_jointly(scores, select_forward(scores, critical), critical);
   if (listed.empty()) return {};

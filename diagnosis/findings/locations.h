@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
 
 namespace rollrig::diagnosis {
@@ -15,7 +15,7 @@ namespace rollrig::diagnosis {
 /// left would be significant beside them: one gap that shifts a session's offset is not listed again, with the other
 /// sign, wherever else that offset counts.
 ///
-/// Equation  y = baseline + sum_j size_j t_j, t_j = 1 in stretch j: generalised least squares under noise, remainder,
+/// Equation  y = baseline + sum_j size_j t_j, t_j = 1 in stretch j: generalized least squares under noise, discrepancy,
 ///           and the priors of base parameters and offsets; z = size over its standard deviation. Listed where
 ///           |z| > q(1 - 0.01/(2 n)), q the normal quantile (family-wise 1 %)
 ///           share = max(0, sum (d/f)^2 - (s/f)^2) in the stretch over that of all listed, and what the others have
@@ -27,6 +27,6 @@ namespace rollrig::diagnosis {
 ///           parameters and offsets can take within their uncertainty does not count as a gap
 /// Source    Bonferroni's inequality; forward selection
 /// Checked   tests/diagnosis/locations_test.cpp
-std::vector<Location> find_locations(const PreparedSet& set, const Remainder& remainder, const Contender& null);
+std::vector<Location> find_locations(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& null);
 
 }  // namespace rollrig::diagnosis

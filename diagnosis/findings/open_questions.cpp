@@ -16,19 +16,19 @@ constexpr double kRunnerUp = 0.01;
 constexpr double kLeastShare = 0.05;
 constexpr double kDetectable = 3.0;  // as for what is not excluded (verdict.cpp)
 
-double probability_of(const Contender& contender) { return contender.probability + contender.remainder_probability; }
+double probability_of(const Candidate& candidate) { return candidate.probability + candidate.discrepancy_probability; }
 
 /// Fitted hypotheses, the likeliest first, one sign of each.
-std::vector<const Contender*> rank(const Race& race) {
-  std::vector<const Contender*> all{&race.null};
-  for (const Contender& contender : race.contenders) {
-    if (std::isfinite(contender.fit.cost)) all.push_back(&contender);
+std::vector<const Candidate*> rank(const Comparison& comparison) {
+  std::vector<const Candidate*> all{&comparison.null};
+  for (const Candidate& candidate : comparison.candidates) {
+    if (std::isfinite(candidate.fit.cost)) all.push_back(&candidate);
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Contender* a, const Contender* b) { return probability_of(*a) > probability_of(*b); });
-  std::vector<const Contender*> ranked;
-  for (const Contender* one : all) {
-    const bool seen = std::any_of(ranked.begin(), ranked.end(), [&](const Contender* other) {
+                   [](const Candidate* a, const Candidate* b) { return probability_of(*a) > probability_of(*b); });
+  std::vector<const Candidate*> ranked;
+  for (const Candidate* one : all) {
+    const bool seen = std::any_of(ranked.begin(), ranked.end(), [&](const Candidate* other) {
       return other->fit.hypothesis.ids() == one->fit.hypothesis.ids();
     });
     if (!seen) ranked.push_back(one);
@@ -36,15 +36,15 @@ std::vector<const Contender*> rank(const Race& race) {
   return ranked;
 }
 
-OpenHypothesis describe(const Remainder& remainder, const Contender& contender, double weight) {
-  const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
-  const Eigen::MatrixXd covariance = evidence.calc_term(contender.amplitudes, true).covariance;
-  const Eigen::Index count = contender.fit.unknowns.size() - at(remainder.set().offset_count());
-  return {contender.fit.hypothesis, contender.fit.unknowns.head(count),
+OpenHypothesis describe(const Discrepancy& discrepancy, const Candidate& candidate, double weight) {
+  const Evidence evidence(discrepancy, candidate.fit.unknowns, candidate.fit.residuals, candidate.fit.jacobian);
+  const Eigen::MatrixXd covariance = evidence.calc_term(candidate.amplitudes, true).covariance;
+  const Eigen::Index count = candidate.fit.unknowns.size() - at(discrepancy.set().offset_count());
+  return {candidate.fit.hypothesis, candidate.fit.unknowns.head(count),
           covariance.topLeftCorner(count, count).llt().matrixL(), weight};
 }
 
-bool is_lead_and_a_trifle(const Contender& lead, const Contender& other) {
+bool is_lead_and_a_trifle(const Candidate& lead, const Candidate& other) {
   return other.fit.hypothesis.effects.size() > lead.fit.hypothesis.effects.size();
 }
 
@@ -68,7 +68,7 @@ Eigen::VectorXd move_to_likeliest(const Eigen::VectorXd& unknowns, const Evidenc
 /// `lead` with one more effect at the middle of its prior, everything else moved so as to make up for it, and all as
 /// uncertain as the set leaves it. None where it cannot be simulated there.
 std::optional<OpenHypothesis> add_unseen(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                         const Remainder& remainder, const Contender& lead,
+                                         const Discrepancy& discrepancy, const Candidate& lead,
                                          const models::Effect& effect, double weight, int threads) {
   const Model larger(set, base, lead.fit.hypothesis.with({&effect, 1}));
   const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(effect.info.parameters.size()));
@@ -76,7 +76,7 @@ std::optional<OpenHypothesis> add_unseen(const PreparedSet& set, const std::vect
   Eigen::VectorXd residuals;
   RowMatrix jacobian;
   if (!larger.evaluate(unknowns, threads, residuals, &jacobian)) return std::nullopt;
-  const Evidence::Term term = Evidence(remainder, unknowns, residuals, jacobian).calc_term(lead.amplitudes, true);
+  const Evidence::Term term = Evidence(discrepancy, unknowns, residuals, jacobian).calc_term(lead.amplitudes, true);
   std::vector<Eigen::Index> added;
   for (std::size_t i = 0; i < larger.own_count(); ++i) {
     if (larger.hypothesis().effects[larger.own_parameters()[i].effect].effect == &effect) added.push_back(at(i));
@@ -92,11 +92,11 @@ std::optional<OpenHypothesis> add_unseen(const PreparedSet& set, const std::vect
 }
 
 /// Effects that the set would not have shown, the best hidden first.
-std::vector<const models::Effect*> find_hidden(const Race& race) {
+std::vector<const models::Effect*> find_hidden(const Comparison& comparison) {
   std::vector<std::pair<double, const models::Effect*>> hidden;
-  for (const models::Effect* effect : race.effects) {
+  for (const models::Effect* effect : comparison.effects) {
     double detectability = 0.0;  // where no trial of it changes anything
-    for (const Screened& one : race.screened) {
+    for (const Screened& one : comparison.screened) {
       if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);
     }
     if (detectability < kDetectable) hidden.emplace_back(detectability, effect);
@@ -111,31 +111,32 @@ std::vector<const models::Effect*> find_hidden(const Race& race) {
 
 std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
                                                  const std::vector<estimation::FreeParameter>& base,
-                                                 const Remainder& remainder, const Race& race, int threads) {
-  const std::vector<const Contender*> ranked = rank(race);
-  const Contender& lead = *ranked.front();
-  const bool is_baseline = &lead == &race.null;
+                                                 const Discrepancy& discrepancy, const Comparison& comparison,
+                                                 int threads) {
+  const std::vector<const Candidate*> ranked = rank(comparison);
+  const Candidate& lead = *ranked.front();
+  const bool is_baseline = &lead == &comparison.null;
   const double most = probability_of(lead);
   const double least = kLeastShare * most;
-  std::vector<OpenHypothesis> open{describe(remainder, lead, most)};
-  std::vector<const Contender*> runners_up;
+  std::vector<OpenHypothesis> open{describe(discrepancy, lead, most)};
+  std::vector<const Candidate*> runners_up;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
-    const bool told_apart = expected_log_bayes_factor(remainder, lead, *ranked[i]) >= thresholds::kToldApart_nats;
+    const bool told_apart = expected_log_bayes_factor(discrepancy, lead, *ranked[i]) >= thresholds::kToldApart_nats;
     if (is_baseline || told_apart || is_lead_and_a_trifle(lead, *ranked[i])) {
       if (probability_of(*ranked[i]) >= kRunnerUp) runners_up.push_back(ranked[i]);
     } else if (open.size() < kMost) {
-      open.push_back(describe(remainder, *ranked[i], most));
+      open.push_back(describe(discrepancy, *ranked[i], most));
     }
   }
-  for (const Contender* other : runners_up) {
-    if (open.size() < kMost) open.push_back(describe(remainder, *other, std::max(least, probability_of(*other))));
+  for (const Candidate* other : runners_up) {
+    if (open.size() < kMost) open.push_back(describe(discrepancy, *other, std::max(least, probability_of(*other))));
   }
   if (open.size() == 1 || is_baseline) {
-    for (const models::Effect* effect : find_hidden(race)) {
+    for (const models::Effect* effect : find_hidden(comparison)) {
       const bool is_in = std::any_of(open.begin(), open.end(),
                                      [&](const OpenHypothesis& one) { return one.hypothesis.contains(*effect); });
       if (is_in || open.size() >= (is_baseline ? kMostOnBaseline : kMost)) continue;
-      if (auto added = add_unseen(set, base, remainder, lead, *effect, least, threads)) open.push_back(*added);
+      if (auto added = add_unseen(set, base, discrepancy, lead, *effect, least, threads)) open.push_back(*added);
     }
   }
   double sum = 0.0;

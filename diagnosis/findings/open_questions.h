@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 
 namespace rollrig::diagnosis {
 
@@ -26,6 +26,7 @@ struct OpenHypothesis {
 /// Checked tests/diagnosis/next_test_test.cpp
 std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
                                                  const std::vector<estimation::FreeParameter>& base,
-                                                 const Remainder& remainder, const Race& race, int threads);
+                                                 const Discrepancy& discrepancy, const Comparison& comparison,
+                                                 int threads);
 
 }  // namespace rollrig::diagnosis

@@ -15,33 +15,33 @@ namespace {
 
 constexpr double kNormal95 = 1.959963984540054;
 
-bool was_fitted(const Contender& contender) { return std::isfinite(contender.fit.cost); }
+bool was_fitted(const Candidate& candidate) { return std::isfinite(candidate.fit.cost); }
 
 /// How far a fitted size is from the value at which its effect does nothing, in prior units.
-double distance_from_off(const Model& model, const Contender& contender, std::size_t column) {
+double distance_from_off(const Model& model, const Candidate& candidate, std::size_t column) {
   const models::EffectParameter& declared = model.declaration(model.own_parameters()[column]);
-  const PriorUnits value = model.own_value(column, contender.fit.unknowns[at(column)]);
+  const PriorUnits value = model.own_value(column, candidate.fit.unknowns[at(column)]);
   const double off_SI = declared.off.value_or(0.0) * unit_of_key(declared.key).factor;
   return std::abs((value.value_SI - off_SI) / value.derivative_SI);
 }
 
-/// Own parameters with their intervals. The remainder covers a law that is wrong here and there; that it may be wrong
+/// Own parameters with their intervals. The discrepancy covers a law that is wrong here and there; that it may be wrong
 /// by `size_share` everywhere alike widens the size.
 std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
                                                    const std::vector<estimation::FreeParameter>& base,
-                                                   const Remainder& remainder, const Contender& contender,
+                                                   const Discrepancy& discrepancy, const Candidate& candidate,
                                                    double size_share) {
-  const Model model(set, base, contender.fit.hypothesis);
-  const Evidence evidence(remainder, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
-  const Eigen::MatrixXd covariance = evidence.calc_term(contender.amplitudes, true).covariance;
+  const Model model(set, base, candidate.fit.hypothesis);
+  const Evidence evidence(discrepancy, candidate.fit.unknowns, candidate.fit.residuals, candidate.fit.jacobian);
+  const Eigen::MatrixXd covariance = evidence.calc_term(candidate.amplitudes, true).covariance;
   std::vector<ParameterEstimate> estimates;
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const models::EffectParameter& declared = model.declaration(model.own_parameters()[i]);
-    const models::Effect& effect = *contender.fit.hypothesis.effects[model.own_parameters()[i].effect].effect;
+    const models::Effect& effect = *candidate.fit.hypothesis.effects[model.own_parameters()[i].effect].effect;
     const Unit unit = unit_of_key(declared.key);
-    const double u = contender.fit.unknowns[at(i)];
+    const double u = candidate.fit.unknowns[at(i)];
     const bool is_size = model.own_parameters()[i].index == 0;
-    const double of_law_u = is_size ? size_share * distance_from_off(model, contender, i) : 0.0;
+    const double of_law_u = is_size ? size_share * distance_from_off(model, candidate, i) : 0.0;
     const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
     const auto value_at = [&](double shifted) { return model.own_value(i, shifted).value_SI / unit.factor; };
     ParameterEstimate estimate;
@@ -60,12 +60,12 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
 /// Whether the size that each run by itself asks for is one: chi2 of the runs' shifts, in prior units, about their
 /// mean. A run's shift is judged by its own residual along the size's derivative, everything else of the fit held,
 /// where it alone says more than the prior and knows the size to within `allowed_u`.
-bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, const Contender& contender,
+bool differs_between_runs(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& candidate,
                           std::size_t size_column, double allowed_u) {
-  RowMatrix jacobian = contender.fit.jacobian;
-  Eigen::VectorXd residual = contender.fit.residuals;
-  remainder.whiten(contender.amplitudes, jacobian);
-  remainder.whiten(contender.amplitudes, residual);
+  RowMatrix jacobian = candidate.fit.jacobian;
+  Eigen::VectorXd residual = candidate.fit.residuals;
+  discrepancy.whiten(candidate.amplitudes, jacobian);
+  discrepancy.whiten(candidate.amplitudes, residual);
   // The size's direction once all other unknowns have taken what they can.
   const Eigen::Index n = jacobian.cols();
   const Eigen::VectorXd size = jacobian.col(at(size_column));
@@ -103,27 +103,27 @@ bool differs_between_runs(const PreparedSet& set, const Remainder& remainder, co
 }
 
 std::vector<std::string> find_objections(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                         const Remainder& remainder, const Contender& contender) {
+                                         const Discrepancy& discrepancy, const Candidate& candidate) {
   std::vector<std::string> objections;
-  if (contender.remainder_probability > contender.probability) {
+  if (candidate.discrepancy_probability > candidate.probability) {
     constexpr double kBeyondDoubt_nats = 50.0;
-    const double gain_nats = contender.log_remainder - contender.log_evidence;
+    const double gain_nats = candidate.log_discrepancy - candidate.log_evidence;
     const std::string by =
         gain_nats < kBeyondDoubt_nats ? fmt::format("{:.0f} nats likelier", gain_nats) : "likelier beyond all doubt";
-    objections.push_back("something else is missing: a free remainder on top of it is " + by);
+    objections.push_back("something else is missing: a free discrepancy on top of it is " + by);
   }
-  const Model model(set, base, contender.fit.hypothesis);
+  const Model model(set, base, candidate.fit.hypothesis);
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
-    const std::string& id = contender.fit.hypothesis.effects[own.effect].effect->info.id;
-    const double u = contender.fit.unknowns[at(i)];
+    const std::string& id = candidate.fit.hypothesis.effects[own.effect].effect->info.id;
+    const double u = candidate.fit.unknowns[at(i)];
     if (std::abs(u) > thresholds::kTail_sd) {
       objections.push_back(fmt::format(
           "{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", model.declaration(own).key,
           id, model.own_value(i, u).value_SI / unit_of_key(model.declaration(own).key).factor, std::abs(u)));
     }
-    if (own.index == 0 && differs_between_runs(set, remainder, contender, i,
-                                               thresholds::kRunSizeShare * distance_from_off(model, contender, i))) {
+    if (own.index == 0 && differs_between_runs(set, discrepancy, candidate, i,
+                                               thresholds::kRunSizeShare * distance_from_off(model, candidate, i))) {
       objections.push_back(fmt::format("its size ({}) differs from run to run", model.declaration(own).key));
     }
   }
@@ -132,16 +132,16 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
 
 /// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
 /// that are most unusual, is told from it already.
-bool is_open_beside(const Contender& lead, const Contender& other) {
-  const auto posterior = [](const Contender& one) { return one.probability + one.remainder_probability; };
+bool is_open_beside(const Candidate& lead, const Candidate& other) {
+  const auto posterior = [](const Candidate& one) { return one.probability + one.discrepancy_probability; };
   return posterior(other) >= std::exp(-thresholds::kToldApart_nats) * posterior(lead);
 }
 
 }  // namespace
 
-double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b) {
+double expected_log_bayes_factor(const Discrepancy& discrepancy, const Candidate& a, const Candidate& b) {
   Eigen::VectorXd difference = a.fit.residuals - b.fit.residuals;
-  remainder.whiten(a.amplitudes, difference);
+  discrepancy.whiten(a.amplitudes, difference);
   return 0.5 * difference.squaredNorm();
 }
 
@@ -163,38 +163,41 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
   return ids;
 }
 
-std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects) {
-  std::map<std::string, double> probability{{"none", race.null.probability}, {"unknown", race.unknown_probability}};
+std::map<std::string, double> find_probabilities(const Comparison& comparison,
+                                                 const std::vector<const models::Effect*>& effects) {
+  std::map<std::string, double> probability{{"none", comparison.null.probability},
+                                            {"unknown", comparison.unknown_probability}};
   for (const models::Effect* effect : effects) {
     double& sum = probability[effect->info.id];
-    for (const Contender& contender : race.contenders) {
-      if (contender.fit.hypothesis.contains(*effect)) sum += contender.probability;
+    for (const Candidate& candidate : comparison.candidates) {
+      if (candidate.fit.hypothesis.contains(*effect)) sum += candidate.probability;
     }
   }
   return probability;
 }
 
 std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                               const Remainder& remainder, const Race& race) {
-  std::vector<const Contender*> left;
-  for (const Contender& contender : race.contenders) {
-    if (was_fitted(contender)) left.push_back(&contender);
+                               const Discrepancy& discrepancy, const Comparison& comparison) {
+  std::vector<const Candidate*> left;
+  for (const Candidate& candidate : comparison.candidates) {
+    if (was_fitted(candidate)) left.push_back(&candidate);
   }
-  std::stable_sort(left.begin(), left.end(), [](const Contender* a, const Contender* b) {
-    return a->probability + a->remainder_probability > b->probability + b->remainder_probability;
+  std::stable_sort(left.begin(), left.end(), [](const Candidate* a, const Candidate* b) {
+    return a->probability + a->discrepancy_probability > b->probability + b->discrepancy_probability;
   });
   std::vector<Cause> causes;
-  std::set<const Contender*> taken;
-  for (const Contender* lead : left) {
+  std::set<const Candidate*> taken;
+  for (const Candidate* lead : left) {
     if (taken.count(lead) > 0) continue;
-    if (!causes.empty() && lead->probability + lead->remainder_probability < thresholds::kWorthNaming) break;
+    if (!causes.empty() && lead->probability + lead->discrepancy_probability < thresholds::kWorthNaming) break;
     Cause cause;
     cause.effects = lead->fit.hypothesis.ids();
-    const auto weight_of = [](const Contender& one) { return one.probability + one.remainder_probability; };
+    const auto weight_of = [](const Candidate& one) { return one.probability + one.discrepancy_probability; };
     std::map<std::string, double> beside;
-    for (const Contender* other : left) {
+    for (const Candidate* other : left) {
       if (taken.count(other) > 0) continue;
-      if (other != lead && expected_log_bayes_factor(remainder, *lead, *other) >= thresholds::kToldApart_nats) continue;
+      if (other != lead && expected_log_bayes_factor(discrepancy, *lead, *other) >= thresholds::kToldApart_nats)
+        continue;
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.effects.size() > lead->fit.hypothesis.effects.size()) continue;  // lead, and a trifle
@@ -202,8 +205,8 @@ std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<estimat
       for (const std::string& id : other->fit.hypothesis.ids()) beside[id] += weight_of(*other);
     }
     cause.indistinguishable_from = find_named_beside(cause.effects, weight_of(*lead), std::move(beside));
-    cause.parameters = estimate_parameters(set, base, remainder, *lead, race.model_error.size_share);
-    if (causes.empty()) cause.objections = find_objections(set, base, remainder, *lead);
+    cause.parameters = estimate_parameters(set, base, discrepancy, *lead, comparison.model_error.size_share);
+    if (causes.empty()) cause.objections = find_objections(set, base, discrepancy, *lead);
     cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));
   }
@@ -228,15 +231,16 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   }
 }
 
-std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
+std::vector<std::string> find_not_excluded(const Comparison& comparison,
+                                           const std::vector<const models::Effect*>& effects,
                                            const std::vector<Cause>& causes) {
-  const std::map<std::string, double> probability = find_probabilities(race, effects);
+  const std::map<std::string, double> probability = find_probabilities(comparison, effects);
   double likeliest = probability.at("none");
   for (const Cause& cause : causes) likeliest = std::max(likeliest, cause.probability);
   std::vector<std::string> hidden;
   for (const models::Effect* effect : effects) {
     double detectability = 0.0;
-    for (const Screened& one : race.screened) {
+    for (const Screened& one : comparison.screened) {
       if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);
     }
     const std::string& id = effect->info.id;

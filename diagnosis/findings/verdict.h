@@ -1,21 +1,22 @@
 #pragma once
-/// From a race to named causes: what cannot be told apart, what is adequate, what stays possible.
+/// From a comparison to named causes: what cannot be told apart, what is adequate, what stays possible.
 
 #include <map>
 #include <string>
 #include <vector>
 
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
 
 namespace rollrig::diagnosis {
 
-/// Inclusion probability of every effect in the race, of "none" and of "unknown".
-std::map<std::string, double> find_probabilities(const Race& race, const std::vector<const models::Effect*>& effects);
+/// Inclusion probability of every effect in the comparison, of "none" and of "unknown".
+std::map<std::string, double> find_probabilities(const Comparison& comparison,
+                                                 const std::vector<const models::Effect*>& effects);
 
 /// What a set like this one would say on average for `a` against `b`, were `a` true.
 /// Equation  |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
-double expected_log_bayes_factor(const Remainder& remainder, const Contender& a, const Contender& b);
+double expected_log_bayes_factor(const Discrepancy& discrepancy, const Candidate& a, const Candidate& b);
 
 /// What is named beside the lead's own effects, in the order of the names: all of `beside` (with what is left of their
 /// probability), or where that makes more than three in all, without the unlikeliest, as long as all that are left out
@@ -28,12 +29,12 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
 /// (the same prediction, but with parameters that are most unusual), are not listed beside it. Of a set of more than
 /// three the unlikeliest are left out, as long as all of them together hold a tenth of it at most.
 /// The first cause is held adequate unless
-/// - a free remainder on top of it is likelier than it alone,
+/// - a free discrepancy on top of it is likelier than it alone,
 /// - its size differs from run to run, by more than noise and 30 % of it explain, among runs that know it so well (1 in
 /// 1000),
 /// - its size or a shape lies more than 3 standard deviations out in its prior.
 std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                               const Remainder& remainder, const Race& race);
+                               const Discrepancy& discrepancy, const Comparison& comparison);
 
 /// Adds what the runs left out say against the first cause, and moves the probability of a cause with objections to
 /// "unknown": a true cause fails one of the tests in 1 of 20 sets or fewer, what merely looks like one often.
@@ -41,7 +42,8 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
 
 /// Effects that this set need not show: detectable at less than 5 standard deviations at the middle of their prior,
 /// or left with e^-3 of the likeliest hypothesis's probability or more; and not named.
-std::vector<std::string> find_not_excluded(const Race& race, const std::vector<const models::Effect*>& effects,
+std::vector<std::string> find_not_excluded(const Comparison& comparison,
+                                           const std::vector<const models::Effect*>& effects,
                                            const std::vector<Cause>& causes);
 
 /// No gap where none is likelier than unknown and than the first cause; of a cause of more than three effects, which

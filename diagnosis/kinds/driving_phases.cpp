@@ -44,7 +44,7 @@ double find_mean_km_h(const measurements::MeasuredRun& run, const Window& window
   return 3.6 * sum_m_s / static_cast<double>(window.last - window.first);
 }
 
-/// Joins neighbours of one name and load.
+/// Joins neighbors of one name and load.
 std::vector<Window> join_equal(const std::vector<Window>& windows) {
   std::vector<Window> joined;
   for (const Window& window : windows) {

@@ -52,9 +52,10 @@ class DrumKind : public KindWithRig {
 
   double skim_limit_N(const MeasurementSet& set) const override { return scenarios::calc_skim_limit_N(*set.rig); }
 
-  std::vector<NamedPush> pushes() const override {
-    return {{"drum torque", Push::kForce}, {"tire loss", Push::kTireLoss}, {"tire heat", Push::kTireHeat},
-            {"gas heat", Push::kGasHeat},  {"gas mass", Push::kGasMass},   {"boundary", Push::kBoundary}};
+  std::vector<NamedPerturbation> perturbations() const override {
+    return {{"drum torque", Perturbation::kForce},  {"tire loss", Perturbation::kTireLoss},
+            {"tire heat", Perturbation::kTireHeat}, {"gas heat", Perturbation::kGasHeat},
+            {"gas mass", Perturbation::kGasMass},   {"boundary", Perturbation::kBoundary}};
   }
 
   std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_drum_tests(set); }

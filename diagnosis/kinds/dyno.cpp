@@ -50,10 +50,11 @@ class DynoKind : public KindWithRig {
 
   double skim_limit_N(const MeasurementSet&) const override { return 0.0; }
 
-  std::vector<NamedPush> pushes() const override {
-    return {{"loss force", Push::kForce}, {"tire loss", Push::kTireLoss}, {"tire heat", Push::kTireHeat},
-            {"gas heat", Push::kGasHeat}, {"gas mass", Push::kGasMass},   {"slip", Push::kSlip},
-            {"inertia", Push::kInertia},  {"boundary", Push::kBoundary}};
+  std::vector<NamedPerturbation> perturbations() const override {
+    return {{"loss force", Perturbation::kForce},   {"tire loss", Perturbation::kTireLoss},
+            {"tire heat", Perturbation::kTireHeat}, {"gas heat", Perturbation::kGasHeat},
+            {"gas mass", Perturbation::kGasMass},   {"slip", Perturbation::kSlip},
+            {"inertia", Perturbation::kInertia},    {"boundary", Perturbation::kBoundary}};
   }
 
   std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override { return make_dyno_tests(set); }

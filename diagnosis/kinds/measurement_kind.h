@@ -10,7 +10,7 @@
 #include "diagnosis/checks/repairs.h"
 #include "diagnosis/comparison/base_parameters.h"
 #include "diagnosis/comparison/run_phases.h"
-#include "diagnosis/findings/pushes.h"
+#include "diagnosis/findings/perturbations.h"
 #include "diagnosis/next_test/test_menu.h"
 #include "measurements/measurement_set.h"
 #include "measurements/replay.h"
@@ -60,10 +60,10 @@ class MeasurementKind {
   /// Load at or below which a tire is in skim; 0 where there is no skim.
   virtual double skim_limit_N(const measurements::MeasurementSet& set) const = 0;
 
-  // What a recalibration may move, and which equations may need a push.
+  // What a recalibration may move, and which equations may need a perturbation.
   virtual Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
                                            const models::Context<double>& context) const = 0;
-  virtual std::vector<NamedPush> pushes() const = 0;
+  virtual std::vector<NamedPerturbation> perturbations() const = 0;
 
   // Which tests could come next, and in which air.
   virtual double usual_ambient_K(const measurements::MeasurementSet& set) const = 0;

@@ -62,11 +62,11 @@ class RoadKind : public MeasurementKind {
     return uncertainties;
   }
 
-  std::vector<NamedPush> pushes() const override {
-    return {{"rolling loss", Push::kForce},
-            {"inertia", Push::kInertia},
-            {"air drag", Push::kDrag},
-            {"tire heat", Push::kTireHeat}};
+  std::vector<NamedPerturbation> perturbations() const override {
+    return {{"rolling loss", Perturbation::kForce},
+            {"inertia", Perturbation::kInertia},
+            {"air drag", Perturbation::kDrag},
+            {"tire heat", Perturbation::kTireHeat}};
   }
 
   /// That in which the runs began, on average.

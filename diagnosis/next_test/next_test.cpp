@@ -159,12 +159,12 @@ Whitened predict(const PreparedSet& set, const std::vector<estimation::FreeParam
     prediction.spread = derivatives * one.spread;
     whitened.predictions.push_back(std::move(prediction));
   }
-  const Remainder remainder(virtual_set);
+  const Discrepancy discrepancy(virtual_set);
   const Amplitudes amplitudes = find_model_error(virtual_set, whitened.predictions);
   whitened.offsets = make_offsets(virtual_set);
   const auto whiten_fully = [&](auto& columns) {
     whiten(virtual_set, columns);
-    remainder.whiten(amplitudes, columns);
+    discrepancy.whiten(amplitudes, columns);
   };
   whiten_fully(whitened.offsets);
   for (const Series& series : virtual_set.series()) {

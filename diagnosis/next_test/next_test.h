@@ -14,7 +14,7 @@ namespace rollrig::diagnosis {
 /// as in a diagnosis, one new session. Empty where a hypothesis cannot be simulated on it.
 /// Equation  covariance = 1 + (J L)(J L)^T + offsets, L L^T what the parameters are uncertain by after the measurement,
 ///           all of it reduced to the directions in which the hypotheses' means and covariances differ from 1
-/// Validity  linear in the parameters about the fit; model error as in the race, common to all hypotheses, in
+/// Validity  linear in the parameters about the fit; model error as in the comparison, common to all hypotheses, in
 ///           proportion to what they differ by on average
 /// Checked   tests/diagnosis/next_test_test.cpp
 std::vector<PredictedOutcome> predict_outcomes(const PreparedSet& set,

@@ -49,7 +49,7 @@ std::vector<std::string> find_given_columns(const MeasuredRun& run, SetKind kind
   return columns;
 }
 
-/// Whether a row says nothing that its neighbours do not: the load goes on, all else lies on a straight line.
+/// Whether a row says nothing that its neighbors do not: the load goes on, all else lies on a straight line.
 bool is_between(const MeasuredRun& run, const std::vector<std::string>& columns, std::size_t row) {
   constexpr double kSame = 1e-9;
   const double share = (run.time_s[row] - run.time_s[row - 1]) / (run.time_s[row + 1] - run.time_s[row - 1]);

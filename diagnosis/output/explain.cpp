@@ -16,18 +16,18 @@ constexpr std::size_t kIndent = 2;
 
 constexpr const char* kNone =
     "The simulation meets the measurement within the noise of the sensors once the numbers of tire and rig "
-    "files move within their uncertainties (*_sd). Always in the race, with half of the probability before "
+    "files move within their uncertainties (*_sd). Always in the comparison, with half of the probability before "
     "the data speak. When it is the likeliest, the verdict is no_gap; the report then says which effects the "
     "set could not have shown.";
 
 constexpr const char* kUnknown =
-    "There is a gap, and no effect of the catalogue, alone or in a pair, follows it. A flexible remainder "
-    "stands in for what is not modelled: it takes part on top of the baseline and on top of each cause found. "
+    "There is a gap, and no effect of the catalog, alone or in a pair, follows it. A flexible discrepancy "
+    "stands in for what is not modeled: it takes part on top of the baseline and on top of each cause found. "
     "When it is the likeliest, or when something is left over on top of the likeliest cause, the verdict is "
     "unexplained.";
 
 constexpr const char* kUnknownNext =
-    "Look at where the gap lies (channel, run, phase; which equation needs a push), check sensors and units "
+    "Look at where the gap lies (channel, run, phase; which equation needs a perturbation), check sensors and units "
     "there, repeat that run, or add an effect (docs/add_an_effect.md).";
 
 std::string join_or(const std::vector<std::string>& words, const char* none) {
@@ -45,12 +45,12 @@ std::string list_kinds(const std::vector<models::RigKind>& kinds) {
 
 std::string section(const std::string& title, const std::string& text) { return title + "\n" + wrap(text, kIndent); }
 
-/// "0.005 to 0.04 1/K, centre 0.0141 (log scale)"
+/// "0.005 to 0.04 1/K, center 0.0141 (log scale)"
 std::string describe_prior(const models::EffectParameter& parameter) {
   const models::Prior& prior = parameter.prior;
   const std::string unit = unit_of_key(parameter.key).symbol;
   std::string text = fmt::format("{:.4g} to {:.4g}{}", prior.low, prior.high, unit.empty() ? "" : " " + unit);
-  text += fmt::format(", centre {:.4g}", prior.centre());
+  text += fmt::format(", center {:.4g}", prior.center());
   if (prior.scale == models::Prior::Scale::kLog) text += ", on a log scale";
   if (prior.either_sign) text += ", either sign";
   if (parameter.off.has_value()) text += fmt::format("; {:.4g} is off", *parameter.off);
@@ -81,7 +81,7 @@ std::string describe_source(const models::EffectInfo& info) {
   std::string text = info.source;
   for (const char* document : {"effects.md", "baseline.md"}) {
     if (text.find(document) == std::string::npos) continue;
-    text += fmt::format(". ({}: the specification to which the catalogue was written; not part of rollrig)", document);
+    text += fmt::format(". ({}: the specification to which the catalog was written; not part of rollrig)", document);
   }
   return text;
 }
@@ -115,7 +115,7 @@ std::vector<std::string> explainable_names() {
 std::string explain_effect(const std::string& name) {
   if (name == "none") return "none: no effect is needed\n" + wrap(kNone, kIndent);
   if (name == "unknown") {
-    return "unknown: something outside the catalogue\n" + wrap(kUnknown, kIndent) + section("Next", kUnknownNext);
+    return "unknown: something outside the catalog\n" + wrap(kUnknown, kIndent) + section("Next", kUnknownNext);
   }
   for (const models::Effect* effect : models::all_effects()) {
     if (effect->info.id == name) return describe(effect->info);

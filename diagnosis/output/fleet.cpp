@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr double kPrior = 0.02;
 constexpr double kRecurs = 0.8;
-constexpr double kCertain = 1e-6;  // a race is not surer than this
+constexpr double kCertain = 1e-6;  // a comparison is not surer than this
 
 bool names(const Diagnosis& diagnosis, const std::string& effect) {
   if (diagnosis.verdict != Verdict::kExplained || diagnosis.causes.empty()) return false;

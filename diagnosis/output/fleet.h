@@ -62,7 +62,7 @@ double calc_recurrence_probability(const std::vector<double>& in_sets, double pr
 /// Which effects come back with the machine or with the tire. An effect is listed where it is named in one set at
 /// least and acts with more than 80 % in all that share something, two sets at least. A set whose files are in doubt
 /// says nothing of any effect.
-/// Source  Assumed: q = 0.02, about what a single effect has in a race of the whole catalogue; 80 %, since what is
+/// Source  Assumed: q = 0.02, about what a single effect has in a comparison of the whole catalog; 80 %, since what is
 ///         named once and not excluded elsewhere says little
 std::vector<Recurrence> find_recurrences(const std::vector<FleetMember>& members);
 

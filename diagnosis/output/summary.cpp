@@ -70,7 +70,7 @@ std::string verdict_line(const Diagnosis& diagnosis) {
       if (named && !diagnosis.causes.front().adequate) {
         return line("Verdict", "unexplained: looks like this cause, but something else is missing");
       }
-      return line("Verdict", fmt::format("unexplained: outside the catalogue, probability {}", unknown));
+      return line("Verdict", fmt::format("unexplained: outside the catalog, probability {}", unknown));
   }
   return {};
 }
@@ -108,7 +108,7 @@ std::string describe_effect(const std::string& effect, const std::vector<Paramet
 
 std::string cause_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
-  if (diagnosis.causes.empty()) return line("Cause", "none of the catalogue");
+  if (diagnosis.causes.empty()) return line("Cause", "none of the catalog");
   const Cause& cause = diagnosis.causes.front();
   return line("Cause", describe_effect(cause.effects.front(), find_sizes(cause)));
 }
@@ -118,7 +118,7 @@ std::string describe_alternatives(const Cause& cause) {
   return join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why;
 }
 
-/// The summary of an effect, where the catalogue has it.
+/// The summary of an effect, where the catalog has it.
 std::string meaning_of(const std::string& id) {
   for (const models::Effect* effect : models::all_effects()) {
     if (effect->info.id == id) return effect->info.summary;
@@ -160,7 +160,7 @@ std::string where_line(const Diagnosis& diagnosis) {
 
 std::string equation_line(const Diagnosis& diagnosis) {
   if (diagnosis.balance.empty())
-    return line("Equation", diagnosis.verdict == Verdict::kNoGap ? "none needs a push" : "none stands out");
+    return line("Equation", diagnosis.verdict == Verdict::kNoGap ? "none needs a perturbation" : "none stands out");
   std::vector<std::string> shares;
   for (const BalanceShare& share : diagnosis.balance) {
     shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));

@@ -8,18 +8,18 @@
 namespace rollrig::estimation {
 namespace {
 
-constexpr std::size_t kNeighbours = 5;  // to each side; five wrong ones of eleven do no harm
-constexpr double kTopShare = 0.98;      // of the highest speed: the coast has begun
-constexpr double kSlowest_m_s = 0.5;    // below, a body is as good as at rest
+constexpr std::size_t kNeighbors = 5;  // to each side; five wrong ones of eleven do no harm
+constexpr double kTopShare = 0.98;     // of the highest speed: the coast has begun
+constexpr double kSlowest_m_s = 0.5;   // below, a body is as good as at rest
 constexpr std::size_t kFewestRows = 20;
 
-/// Running median, narrower towards the ends so that it stays centred and does not lag a falling speed.
+/// Running median, narrower towards the ends so that it stays centerd and does not lag a falling speed.
 std::vector<double> calc_running_median(const std::vector<double>& values) {
   std::vector<double> medians(values.size());
   std::vector<double> window;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::size_t reach =
-        std::min({kNeighbours, std::max<std::size_t>(i, 2), std::max<std::size_t>(values.size() - 1 - i, 2)});
+        std::min({kNeighbors, std::max<std::size_t>(i, 2), std::max<std::size_t>(values.size() - 1 - i, 2)});
     const std::size_t first = i > reach ? i - reach : 0;
     const std::size_t last = std::min(values.size() - 1, i + reach);
     window.assign(values.begin() + static_cast<std::ptrdiff_t>(first),

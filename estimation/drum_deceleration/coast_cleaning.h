@@ -20,7 +20,7 @@ struct Coast {
 
 /// Finds the coast: it begins where the running median leaves the top (98 % of the highest) for the last time.
 /// A pulse is missed when the speed of its row is near a half or a third of the running median of its
-/// neighbours, double when near twice. A speed that repeats to the end of the record is of a body at rest.
+/// neighbors, double when near twice. A speed that repeats to the end of the record is of a body at rest.
 /// Symbols   pulse_length_m way between two pulses: a speed from a period holds half a period before its row
 /// Errors    InputError: fewer than twenty rows of coast
 /// Checked   tests/estimation/coast_cleaning_test.cpp

@@ -141,7 +141,7 @@ Eigen::VectorXd calc_psi_slopes(const Eigen::VectorXd& residual, double sd) {
   });
 }
 
-/// Newey and West's sandwich: curvature inverse, spread of the scores with correlated neighbours, curvature inverse.
+/// Newey and West's sandwich: curvature inverse, spread of the scores with correlated neighbors, curvature inverse.
 Eigen::MatrixXd calc_covariance(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
                                 const Eigen::VectorXd& weights, double sd) {
   const Eigen::Index n = jacobian.rows();

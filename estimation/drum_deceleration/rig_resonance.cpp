@@ -56,10 +56,10 @@ std::vector<BinValue> calc_bin_decelerations(const Coast& coast, std::size_t bin
   return values;
 }
 
-/// Deceleration of a bin over what its neighbours say, less one.
+/// Deceleration of a bin over what its neighbors say, less one.
 BinValue calc_excess(const std::vector<BinValue>& decelerations, std::size_t bin) {
   constexpr int kFewestSide = 2;
-  constexpr int kFewestNeighbours = 5;
+  constexpr int kFewestNeighbors = 5;
   if (!decelerations[bin].is_there()) return {};
   std::vector<double> offset, value, variance;
   int below = 0, above = 0;
@@ -71,7 +71,7 @@ BinValue calc_excess(const std::vector<BinValue>& decelerations, std::size_t bin
     variance.push_back(decelerations[other].variance);
     ++(x < 0.0 ? below : above);
   }
-  if (below < kFewestSide || above < kFewestSide || below + above < kFewestNeighbours) return {};
+  if (below < kFewestSide || above < kFewestSide || below + above < kFewestNeighbors) return {};
   const auto n = static_cast<Eigen::Index>(offset.size());
   Eigen::MatrixXd terms(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {

@@ -16,7 +16,7 @@ struct Resonance {
 };
 
 /// Looks for local excess of deceleration that runs of one kind show in common.
-/// Equation  deceleration in bins of 1 m/s of each run, each over the quadratic in speed through its neighbours at
+/// Equation  deceleration in bins of 1 m/s of each run, each over the quadratic in speed through its neighbors at
 ///           1.5 to 5 m/s; a bin stands out when the mean over the runs is above 1 % and beyond the normal
 ///           interval at 0.1 % shared out among the bins, by the scatter of rows or of runs, whichever is larger; of
 ///           one or two runs each must show half of the mean. The range goes one bin further to both sides.

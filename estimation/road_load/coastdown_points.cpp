@@ -6,7 +6,7 @@
 namespace rollrig::estimation {
 namespace {
 
-/// Sums over neighbouring samples, for a line through them.
+/// Sums over neighboring samples, for a line through them.
 struct LineSums {
   double n = 0.0, t = 0.0, v = 0.0, tt = 0.0, tv = 0.0;
 
@@ -117,11 +117,11 @@ std::vector<SpeedCell> cut_into_cells(const CoastdownRun& run, const CellOptions
     const bool whole = first > coast.first && end < coast.end;
     const double upper = whole ? (static_cast<double>(index) + 0.5) * width : smoothed[first];
     const double lower = whole ? (static_cast<double>(index) - 0.5) * width : smoothed[end - 1];
-    const double centre = static_cast<double>(index) * width;
-    const double covered = std::min(upper, centre + 0.5 * width) - std::max(lower, centre - 0.5 * width);
+    const double center = static_cast<double>(index) * width;
+    const double covered = std::min(upper, center + 0.5 * width) - std::max(lower, center - 0.5 * width);
     if (end - first >= 2 && covered >= kLeastShare * width) {
-      const bool centred = covered > 0.9 * width;
-      const double nominal = centred ? centre : std::round(0.5 * (upper + lower) / kNominal_m_s) * kNominal_m_s;
+      const bool centerd = covered > 0.9 * width;
+      const double nominal = centerd ? center : std::round(0.5 * (upper + lower) / kNominal_m_s) * kNominal_m_s;
       cells.push_back(make_cell(run, first, end, nominal));
       cells.back().high_m_s = upper;
       cells.back().low_m_s = lower;

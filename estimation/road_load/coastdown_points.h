@@ -14,7 +14,7 @@ struct DecelerationCurve {
   double bend_per_m = 0.0;
 };
 
-/// Neighbouring samples of a trace, as what their mean needs.
+/// Neighboring samples of a trace, as what their mean needs.
 struct SpeedCell {
   double nominal_speed_m_s = 0.0;  // exact: no sample enters it
   double high_m_s = 0.0;           // where it begins and ends

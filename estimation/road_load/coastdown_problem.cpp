@@ -24,7 +24,7 @@ bool has_both_headings(const std::vector<FitRun>& runs) {
 }
 
 /// Covariance of mean forces under white force of unit density. Through bins as given, 1/T. Between means over
-/// cells the weight of the force rises over one cell and falls over the next, so that neighbours share a cell.
+/// cells the weight of the force rises over one cell and falls over the next, so that neighbors share a cell.
 MatrixXd make_gust_pattern(const FitRun& run, const std::vector<double>& durations_s) {
   const auto n = static_cast<Index>(run.bins.size());
   MatrixXd pattern = MatrixXd::Zero(n, n);
@@ -123,7 +123,7 @@ std::vector<double> find_durations_s(const CoastdownModel& model, const FitRun& 
   return durations;
 }
 
-LinearBlock linearise(const CoastdownProblem& problem, const FitRun& run, const VectorXd& coefficients,
+LinearBlock linearize(const CoastdownProblem& problem, const FitRun& run, const VectorXd& coefficients,
                       const VectorXd& components) {
   const CoastdownModel& model = problem.model;
   const auto n = static_cast<Index>(run.bins.size());
@@ -204,12 +204,12 @@ VectorXd start_coefficients(const CoastdownProblem& problem) {
   throw RunFailure("the speed does not fall: no force to fit");
 }
 
-std::vector<LinearBlock> linearise_all(const CoastdownProblem& problem, const VectorXd& coefficients,
+std::vector<LinearBlock> linearize_all(const CoastdownProblem& problem, const VectorXd& coefficients,
                                        const VectorXd& components) {
   std::vector<LinearBlock> blocks;
   for (const std::vector<std::size_t>& group : problem.groups) {
     std::vector<LinearBlock> parts;
-    for (const std::size_t i : group) parts.push_back(linearise(problem, problem.runs[i], coefficients, components));
+    for (const std::size_t i : group) parts.push_back(linearize(problem, problem.runs[i], coefficients, components));
     blocks.push_back(parts.size() == 1 ? parts.front() : join(parts));
   }
   return blocks;

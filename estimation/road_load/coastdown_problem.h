@@ -33,10 +33,10 @@ std::vector<double> find_durations_s(const CoastdownModel& model, const FitRun& 
                                      const Eigen::VectorXd& coefficients);
 
 /// Mean forces of a run as observations of a linear model about the present coefficients.
-LinearBlock linearise(const CoastdownProblem& problem, const FitRun& run, const Eigen::VectorXd& coefficients,
+LinearBlock linearize(const CoastdownProblem& problem, const FitRun& run, const Eigen::VectorXd& coefficients,
                       const Eigen::VectorXd& components);
 /// The same of all runs, a block a group.
-std::vector<LinearBlock> linearise_all(const CoastdownProblem& problem, const Eigen::VectorXd& coefficients,
+std::vector<LinearBlock> linearize_all(const CoastdownProblem& problem, const Eigen::VectorXd& coefficients,
                                        const Eigen::VectorXd& components);
 
 /// Whether the force is positive at every speed of the data.

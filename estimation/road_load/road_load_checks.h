@@ -52,7 +52,7 @@ struct RoadLoadChecks {
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit);
 
 /// Equation  p = t s/(sqrt(n) mean), pair time 2/(1/dt_+ + 1/dt_-), t: Student's, two-sided 95 %
-/// Source    70/220/EEC Annex III (the same form with 2 %); UN GTR 15 Annex 4, 4.3.1.4.2 (harmonised average, 3 %)
+/// Source    70/220/EEC Annex III (the same form with 2 %); UN GTR 15 Annex 4, 4.3.1.4.2 (harmonized average, 3 %)
 /// Checked   tests/estimation/road_load_checks_test.cpp
 std::vector<PairPrecision> find_pair_precisions(const CoastdownData& data, const RoadLoadFit& fit);
 

@@ -49,7 +49,7 @@ LinearEstimate iterate(const CoastdownProblem& problem, const RoadLoadFitOptions
   const VectorXd floors = make_floors();
   LinearEstimate estimate;
   for (iterations = 1; iterations <= kMostIterations; ++iterations) {
-    const std::vector<LinearBlock> blocks = linearise_all(problem, coefficients, components);
+    const std::vector<LinearBlock> blocks = linearize_all(problem, coefficients, components);
     estimate = fixed ? solve_weighted(blocks, components) : step_variance_components(blocks, components, floors);
     if (options.bounds.has_value()) {
       apply_bounds(estimate, bound(options.bounds->lower), bound(options.bounds->upper));
@@ -91,7 +91,7 @@ RoadLoadEstimate to_estimate(const LinearEstimate& linear) {
 void put_points(const CoastdownProblem& problem, const VectorXd& coefficients, const VectorXd& components,
                 RoadLoadFit& fit) {
   for (const FitRun& run : problem.runs) {
-    const LinearBlock block = linearise(problem, run, coefficients, components);
+    const LinearBlock block = linearize(problem, run, coefficients, components);
     const std::vector<double> durations = find_durations_s(problem.model, run, coefficients);
     for (std::size_t k = 0; k < run.bins.size(); ++k) {
       const FitBin& bin = run.bins[k];

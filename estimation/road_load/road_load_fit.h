@@ -109,11 +109,11 @@ struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
   std::array<double, 2> interval_95(int i) const;
 };
 
-/// Generalised least squares on mean forces over speed bins.
+/// Generalized least squares on mean forces over speed bins.
 /// Equation  time through a bin T = int m dv / F(v);  force of the bin f = m (v_hi - v_lo) / dt;
 ///           F(v) = k (A + B v) + q C (v + h w)^2 + h (m g s + d_0 + d_1 v) + d_1^2/(4 C)
 ///           k = 1/(1 + K_0 (T_amb - T_0)), q = rho/rho_0, rho = p/(R T)
-///           covariance: passing times shared by neighbouring bins, gusts, run to run (constant, in
+///           covariance: passing times shared by neighboring bins, gusts, run to run (constant, in
 ///           proportion to speed), by restricted maximum likelihood
 /// Symbols   m effective mass [kg]; h heading +1 or -1; w wind against + [m/s]; s slope; d_0 [N], d_1 [N s/m]
 ///           what slope and wind remain, d_1 = 2 C times the wind of a session; K_0 [1/K]; rho air density [kg/m3]

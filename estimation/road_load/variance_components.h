@@ -1,5 +1,5 @@
 #pragma once
-/// Generalised least squares when the sizes of several kinds of scatter have to be found from the data.
+/// Generalized least squares when the sizes of several kinds of scatter have to be found from the data.
 
 #include <vector>
 

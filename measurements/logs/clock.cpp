@@ -94,12 +94,12 @@ std::vector<Tie> make_response_ties(const Log& torque_log, const Log& tire_log, 
 ClockPrior make_prior(const Log& torque_log, const Log& tire_log, const ClockPlan& plan) {
   ClockPrior prior;
   const bool both_alike = torque_log.is_absolute == tire_log.is_absolute;
-  prior.centre_s = both_alike ? 0.0 : torque_log.time_s.front() - tire_log.time_s.front();
+  prior.center_s = both_alike ? 0.0 : torque_log.time_s.front() - tire_log.time_s.front();
   prior.half_width_s = plan.largest_shift_s;
   prior.rate_sd = plan.rate_sd;
   if (plan.shift_s.has_value()) {
     constexpr double kWide = 5.0;
-    prior.centre_s = *plan.shift_s;
+    prior.center_s = *plan.shift_s;
     prior.shift_sd_s = *plan.shift_sd_s;
     prior.half_width_s = kWide * *plan.shift_sd_s;
   }
@@ -117,8 +117,8 @@ std::string judge_peak(const ClockPeak& peak, const std::vector<Tie>& ties, cons
   if (!(peak.shift_sd_s <= plan.largest_sd_s)) {
     return fmt::format("the shift of the clocks is known to no better than {:.3g} s (1 sd)", peak.shift_sd_s);
   }
-  if (std::abs(peak.clock.shift_s - prior.centre_s) > prior.half_width_s - peak.shift_sd_s) {
-    return fmt::format("the likeliest shift lies at the end of the search, {:.1f} +- {:.1f} s", prior.centre_s,
+  if (std::abs(peak.clock.shift_s - prior.center_s) > prior.half_width_s - peak.shift_sd_s) {
+    return fmt::format("the likeliest shift lies at the end of the search, {:.1f} +- {:.1f} s", prior.center_s,
                        prior.half_width_s);
   }
   if (peak.gain - peak.gain_next < kClear) return "several shifts of the clocks agree with the logs as well";
@@ -194,8 +194,8 @@ ClockEstimate estimate_clock(const Log& torque_log, const Log& tire_log, const M
   ClockEstimate estimate;
   estimate.torque_log = torque_log.file;
   estimate.tire_log = tire_log.file;
-  estimate.searched_from_s = prior.centre_s - prior.half_width_s;
-  estimate.searched_to_s = prior.centre_s + prior.half_width_s;
+  estimate.searched_from_s = prior.center_s - prior.half_width_s;
+  estimate.searched_to_s = prior.center_s + prior.half_width_s;
   std::string objection = "the logs have nothing in common";
   const std::vector<Tie> common = make_common_ties(torque_log, tire_log, mapping);
   const std::vector<Tie> responses = make_response_ties(torque_log, tire_log, mapping);

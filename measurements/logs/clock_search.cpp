@@ -19,7 +19,7 @@ double calc_gain(const std::vector<Tie>& ties, const Clock& clock, const ClockPr
     }
   }
   if (prior.rate_sd > 0.0) gain -= 0.5 * std::pow(clock.rate / prior.rate_sd, 2);
-  if (prior.shift_sd_s > 0.0) gain -= 0.5 * std::pow((clock.shift_s - prior.centre_s) / prior.shift_sd_s, 2);
+  if (prior.shift_sd_s > 0.0) gain -= 0.5 * std::pow((clock.shift_s - prior.center_s) / prior.shift_sd_s, 2);
   return gain;
 }
 
@@ -53,11 +53,11 @@ Clock scan(const std::vector<Tie>& ties, const ClockPrior& prior, double referen
   if (3.0 * prior.rate_sd > rate_step) {
     rates = make_grid(3.0 * prior.rate_sd, std::max(rate_step, 3.0 * prior.rate_sd / kMostRates));
   }
-  Clock best{reference_s, prior.centre_s, 0.0};
+  Clock best{reference_s, prior.center_s, 0.0};
   double highest = -std::numeric_limits<double>::infinity();
   for (const double rate : rates) {
     for (const double shift_s : make_grid(prior.half_width_s, step_s)) {
-      const Clock clock{reference_s, prior.centre_s + shift_s, rate};
+      const Clock clock{reference_s, prior.center_s + shift_s, rate};
       const double gain = calc_gain(ties, clock, prior);
       if (gain > highest) {
         highest = gain;
@@ -85,7 +85,7 @@ Normal calc_normal(const std::vector<Tie>& ties, const Clock& clock, const Clock
   }
   if (prior.shift_sd_s > 0.0) {
     normal.matrix(0, 0) += 1.0 / (prior.shift_sd_s * prior.shift_sd_s);
-    normal.right(0) -= (clock.shift_s - prior.centre_s) / (prior.shift_sd_s * prior.shift_sd_s);
+    normal.right(0) -= (clock.shift_s - prior.center_s) / (prior.shift_sd_s * prior.shift_sd_s);
   }
   if (prior.rate_sd > 0.0) {
     normal.matrix(1, 1) += 1.0 / (prior.rate_sd * prior.rate_sd);
@@ -140,7 +140,7 @@ double find_next_gain(const std::vector<Tie>& ties, const ClockPrior& prior, con
   const double step_s = find_scan_step(ties, prior);
   double highest = -std::numeric_limits<double>::infinity();
   for (const double shift_s : make_grid(prior.half_width_s, step_s)) {
-    const Clock clock{peak.clock.reference_s, prior.centre_s + shift_s, peak.clock.rate};
+    const Clock clock{peak.clock.reference_s, prior.center_s + shift_s, peak.clock.rate};
     if (std::abs(clock.shift_s - peak.clock.shift_s) < std::max(kFar * peak.shift_sd_s, step_s)) continue;
     highest = std::max(highest, calc_gain(ties, clock, prior));
   }

@@ -77,7 +77,7 @@ Cell find_cell(const Log& log, std::size_t i) {
   return cell;
 }
 
-/// Interval of each row: half-way to its neighbours.
+/// Interval of each row: half-way to its neighbors.
 std::vector<Cell> find_row_cells(const std::vector<double>& times) {
   std::vector<Cell> cells(times.size());
   for (std::size_t row = 0; row < times.size(); ++row) {

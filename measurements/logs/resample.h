@@ -9,7 +9,7 @@
 
 namespace rollrig::measurements {
 
-/// Neighbouring rows of a set that lack a value, or were left out for want of an input.
+/// Neighboring rows of a set that lack a value, or were left out for want of an input.
 struct EmptyRange {
   std::string column;
   double from_s = 0.0;  // time of the set

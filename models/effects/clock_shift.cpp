@@ -12,7 +12,7 @@ namespace {
 ///
 /// A cell reaches from half-way to the row before to half-way to the next, and ends at the first and last row. In a
 /// cell the channel is the parabola that has the cell's mean and, at both edges, what the straight line between the
-/// neighbouring cells' means has there. So means are kept, the channel is continuous, its integral has a continuous
+/// neighboring cells' means has there. So means are kept, the channel is continuous, its integral has a continuous
 /// slope, and all is linear in the means. Before the first row the channel is what it is there (a tire waits in its
 /// state); after the last it goes on with the slope of the last two cells.
 /// Error     smooth channel, cells h wide: of third order in h. Beside a kink: jump of the slope times h/16. Beside a
@@ -49,10 +49,10 @@ class MeanChannel {
 
  private:
   S width_s(std::size_t cell) const { return quantity<S>(edge_s_[cell + 1] - edge_s_[cell], dimension::kTime); }
-  /// Of the way from the middle of a cell to that of its neighbour, what lies in the cell.
-  double share_of(std::size_t cell, std::size_t neighbour) const {
+  /// Of the way from the middle of a cell to that of its neighbor, what lies in the cell.
+  double share_of(std::size_t cell, std::size_t neighbor) const {
     const double own_s = edge_s_[cell + 1] - edge_s_[cell];
-    return own_s / (own_s + edge_s_[neighbour + 1] - edge_s_[neighbour]);
+    return own_s / (own_s + edge_s_[neighbor + 1] - edge_s_[neighbor]);
   }
 
   /// The integral from one edge of a cell over a share of its width, towards the other edge.
@@ -100,7 +100,7 @@ bool is_missing(const S& value) {
   return std::isnan(value_of(value));
 }
 
-/// Missing rows on the straight line between their neighbours in time, or like the nearest at both ends.
+/// Missing rows on the straight line between their neighbors in time, or like the nearest at both ends.
 template <class S>
 std::vector<S> fill_gaps(const std::vector<double>& time_s, std::vector<S> values) {
   std::size_t before = values.size();  // the row before that is not missing; none yet
@@ -130,7 +130,7 @@ struct ClockShift {
         "T(t) <- T(t - d), p(t) <- p(t - d), as means over the same samples; rows without a sample stay so, and are "
         "bridged by straight lines";
     info.source =
-        "source B.1: torque and temperature are logged apart and synchronised afterwards; 0.5 to 10 s: effects.md. "
+        "source B.1: torque and temperature are logged apart and synchronized afterwards; 0.5 to 10 s: effects.md. "
         "Assumed: a constant shift, the same for temperature and pressure";
     info.parameters = {{"shift_s",
                         between(-600.0, 600.0),

@@ -20,7 +20,7 @@ struct TorqueGain {
     info.source =
         "2 %, of all torque: effects.md. On a dynamometer one scale of hub and roller, so that the loss between them "
         "has it too; Assumed: two scales that differ would leak the drive force into it, which is not in the "
-        "catalogue; n about 0, below it for a bridge that reads less at high force, which a rig's sensor is and the "
+        "catalog; n about 0, below it for a bridge that reads less at high force, which a rig's sensor is and the "
         "reckoning of a motor's force is not; F_ref, about the rolling resistance of a car's tire; e, below which the "
         "share stays, since the force passes through 0";
     info.parameters = {{"gain_percent", between(-50.0, 50.0), {-2.0, 2.0}, "s, shown over true at 60 N, less one", 0.0},

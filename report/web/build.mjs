@@ -1,4 +1,4 @@
-// Makes the page: one HTML file with scripts, styles and licences in it, and the same as a C++ source.
+// Makes the page: one HTML file with scripts, styles and licenses in it, and the same as a C++ source.
 // node build.mjs <page.html> [<page.cpp>]
 import { build } from 'esbuild';
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -18,13 +18,13 @@ async function bundle(entry) {
     format: 'iife',
     target: 'es2020',
     charset: 'utf8',
-    legalComments: 'none', // the licences stand in the page in full
+    legalComments: 'none', // the licenses stand in the page in full
     define: { 'process.env.NODE_ENV': '"production"' },
   });
   return result.outputFiles[0].text;
 }
 
-/// What the licences of the bundled packages ask to be handed on.
+/// What the licenses of the bundled packages ask to be handed on.
 function collectLicences() {
   const parts = [];
   for (const [name, files] of [

@@ -7,7 +7,7 @@
 
 namespace rollrig {
 
-/// Exponents of the base units kilogram, metre, second and kelvin. Radians count as dimensionless.
+/// Exponents of the base units kilogram, meter, second and kelvin. Radians count as dimensionless.
 struct Dimension {
   int kg = 0;
   int m = 0;

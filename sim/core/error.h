@@ -18,7 +18,7 @@ struct InputProblem {
   std::string nearest;  // nearest known name
 };
 
-/// One labelled line of a message.
+/// One labeled line of a message.
 struct ProblemPart {
   const char* label;
   std::string content;

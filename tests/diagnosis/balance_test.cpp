@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "diagnosis/findings/pushes.h"
+#include "diagnosis/findings/perturbations.h"
 #include "models/effect.h"
 #include "sim/core/parallel.h"
 #include "tests/diagnosis/gap_sets.h"
@@ -13,7 +13,7 @@ using namespace rollrig;
 
 namespace {
 
-/// What is missing from half a minute after loading for 15 min, in one balance. Not in the catalogue.
+/// What is missing from half a minute after loading for 15 min, in one balance. Not in the catalog.
 struct Missing {
   enum Parameter { kSize };
   static models::EffectInfo info() {
@@ -49,12 +49,12 @@ struct MissingLoss : Missing {
   }
 };
 
-/// Shares by name; 0 for a push that is not listed.
+/// Shares by name; 0 for a perturbation that is not listed.
 class Shares {
  public:
   explicit Shares(const measurements::MeasurementSet& clean) {
     const tests::FittedBaseline fitted(tests::add_noise(clean, 1));
-    listed_ = diagnosis::find_balance(fitted.set, fitted.base, fitted.remainder, fitted.null, 1);
+    listed_ = diagnosis::find_balance(fitted.set, fitted.base, fitted.discrepancy, fitted.null, 1);
     for (const auto& share : listed_) UNSCOPED_INFO(share.name << ' ' << share.share_percent << " %");
   }
   double of(const std::string& name) const {
@@ -75,32 +75,32 @@ Shares find_shares(const models::Effect& effect, const std::vector<double>& valu
 
 }  // namespace
 
-TEST_CASE("bearings that warm push the drum's torque", "[fast]") {
+TEST_CASE("bearings that warm perturb the drum's torque", "[fast]") {
   const Shares shares = find_shares(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0});
   CHECK(shares.of("drum torque") > 90.0);
 }
 
-TEST_CASE("heat that is missing pushes the tire's heat, or its surroundings where those are its twin", "[fast]") {
+TEST_CASE("heat that is missing perturbs the tire's heat, or its surroundings where those are its twin", "[fast]") {
   static const models::Effect missing = models::make_effect<MissingHeat>();
   const Shares shares = find_shares(missing, {60.0});
   CHECK(shares.of("tire heat") + shares.of("tire loss") + shares.of("boundary") > 95.0);
   CHECK(shares.of("tire heat") + shares.of("tire loss") > shares.of("boundary"));
 }
 
-TEST_CASE("a loss of the tire that is missing pushes the tire's loss", "[fast]") {
+TEST_CASE("a loss of the tire that is missing perturbs the tire's loss", "[fast]") {
   static const models::Effect missing = models::make_effect<MissingLoss>();
   const Shares shares = find_shares(missing, {2.5});
   CHECK(shares.of("tire loss") > 90.0);
 }
 
-TEST_CASE("a surface that warms pushes the boundary, or heat as its twin", "[fast]") {
+TEST_CASE("a surface that warms perturbations the boundary, or heat as its twin", "[fast]") {
   const auto effect = tests::make_active(models::find_effect("surface_warming"), {10.0, 20.0, 0.7, 0.0});
   const Shares shares(tests::make_gap_set({effect}, 6));  // of three runs, recalibrated cooling takes it all
   CHECK(shares.of("boundary") + shares.of("tire heat") > 95.0);
   CHECK(shares.of("boundary") > 30.0);
 }
 
-TEST_CASE("a thermometer that creeps pushes itself alone", "[fast]") {
+TEST_CASE("a thermometer that creeps perturbations itself alone", "[fast]") {
   auto clean = tests::make_gap_set({}, 3);
   tests::add_to_channel(clean.runs[1], "liner_temperature_degC",
                         [](double t) { return t < 1000.0 ? 1.5e-3 * t : 1.5; });
@@ -115,14 +115,14 @@ TEST_CASE("where the gas has a thermometer, that is told from the liner's", "[fa
   CHECK(shares.of("gas temperature sensor") > 90.0);
 }
 
-TEST_CASE("a pressure that no temperature explains pushes the gas or its sensor", "[fast]") {
+TEST_CASE("a pressure that no temperature explains perturbations the gas or its sensor", "[fast]") {
   auto clean = tests::make_gap_set({}, 3);
   tests::add_to_channel(clean.runs[1], "cavity_pressure_kPa", [](double t) { return -1.0 * t; });
   const Shares shares(clean);
   CHECK(shares.of("gas mass") + shares.of("pressure sensor") > 90.0);
 }
 
-TEST_CASE("offsets of sensors push nothing", "[fast]") {
+TEST_CASE("offsets of sensors perturbation nothing", "[fast]") {
   auto clean = tests::make_gap_set({}, 2);
   for (const auto& [channel, sensor] : clean.sensors) {
     const double offset = 1.5 * sensor.offset_sd;
@@ -131,13 +131,13 @@ TEST_CASE("offsets of sensors push nothing", "[fast]") {
   CHECK(Shares(clean).listed().empty());
 }
 
-TEST_CASE("sets without a gap push nothing in 99 of 100", "[slow]") {
+TEST_CASE("sets without a gap perturbation nothing in 99 of 100", "[slow]") {
   constexpr int kSeeds = 200;
   const tests::RepeatedBaseline baseline(tests::make_gap_set({}, 2));
   std::vector<char> pushed(kSeeds, 0);
   parallel_for(kSeeds, 0, [&](std::size_t i) {
     const auto draw = baseline.draw(i + 1);
-    pushed[i] = diagnosis::find_balance(*draw.set, baseline.base(), *draw.remainder, draw.null, 1).empty() ? 0 : 1;
+    pushed[i] = diagnosis::find_balance(*draw.set, baseline.base(), *draw.discrepancy, draw.null, 1).empty() ? 0 : 1;
   });
   const auto sets = static_cast<int>(std::count(pushed.begin(), pushed.end(), 1));
   INFO("pushed " << sets << " of " << kSeeds);
@@ -147,8 +147,8 @@ TEST_CASE("sets without a gap push nothing in 99 of 100", "[slow]") {
 TEST_CASE("shares are the same to the bit from one thread or two", "[fast]") {
   const auto effect = tests::make_active(models::find_effect("load_exponent"), {0.9});
   const tests::FittedBaseline fitted(tests::add_noise(tests::make_gap_set({effect}, 3), 1));
-  const auto one = diagnosis::find_balance(fitted.set, fitted.base, fitted.remainder, fitted.null, 1);
-  const auto two = diagnosis::find_balance(fitted.set, fitted.base, fitted.remainder, fitted.null, 2);
+  const auto one = diagnosis::find_balance(fitted.set, fitted.base, fitted.discrepancy, fitted.null, 1);
+  const auto two = diagnosis::find_balance(fitted.set, fitted.base, fitted.discrepancy, fitted.null, 2);
   REQUIRE(!one.empty());
   REQUIRE(one.size() == two.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
@@ -157,9 +157,9 @@ TEST_CASE("shares are the same to the bit from one thread or two", "[fast]") {
   }
 }
 
-TEST_CASE("pushes that last move the channels by what their balance says", "[fast]") {
+TEST_CASE("perturbations that last move the channels by what their balance says", "[fast]") {
   const diagnosis::PreparedSet set(tests::make_gap_set({}, 2));
-  const auto families = diagnosis::calc_pushes(set, {}, {}, 0);
+  const auto families = diagnosis::calc_perturbations(set, {}, {}, 0);
   REQUIRE(families.size() == 8);  // six balances, and the sensors of temperature and pressure
   const auto constant = [&](const std::string& name, const char* channel, std::size_t block) {
     for (const auto& family : families) {
@@ -169,7 +169,7 @@ TEST_CASE("pushes that last move the channels by what their balance says", "[fas
         return family.columns.row(static_cast<Eigen::Index>(series.first_residual + block)).sum();
       }
     }
-    FAIL("no push " << name);
+    FAIL("no perturbation " << name);
     return 0.0;
   };
   const double radius_m = 1.0 / set.context().surface_curvature_per_m;
@@ -187,11 +187,11 @@ TEST_CASE("pushes that last move the channels by what their balance says", "[fas
   CHECK(rise < 1.0);
 }
 
-TEST_CASE("knots of pushes stand at both ends of each phase", "[fast]") {
+TEST_CASE("knots of perturbations stand at both ends of each phase", "[fast]") {
   const diagnosis::PreparedSet set(tests::make_gap_set({}, 1));
   const auto& run = set.runs().front();
-  const auto knots_s = diagnosis::find_push_knots(run);
-  REQUIRE(knots_s.size() == diagnosis::kPushKnots);
+  const auto knots_s = diagnosis::find_perturbation_knots(run);
+  REQUIRE(knots_s.size() == diagnosis::kPerturbationKnots);
   CHECK(std::is_sorted(knots_s.begin(), knots_s.end()));
   CHECK(knots_s.front() == 0.0);
   CHECK(knots_s.back() == run.measured.time_s.back());
@@ -207,8 +207,8 @@ TEST_CASE("a run of many phases has knots no more than others", "[fast]") {
     load_N[row] = 3000.0 + 500.0 * static_cast<double>(row / 60 % 3);
   const diagnosis::PreparedSet set(measured);
   REQUIRE(set.runs().front().phases.size() > 20);
-  const auto knots_s = diagnosis::find_push_knots(set.runs().front());
-  CHECK(knots_s.size() == diagnosis::kPushKnots);
+  const auto knots_s = diagnosis::find_perturbation_knots(set.runs().front());
+  CHECK(knots_s.size() == diagnosis::kPerturbationKnots);
   CHECK(std::is_sorted(knots_s.begin(), knots_s.end()));
-  CHECK(knots_s[diagnosis::kPushKnots - 2] < knots_s.back());
+  CHECK(knots_s[diagnosis::kPerturbationKnots - 2] < knots_s.back());
 }

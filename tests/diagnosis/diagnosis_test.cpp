@@ -1,6 +1,6 @@
 // Whole diagnoses, of small sets by the simulator and by the foreign generator.
 #include "diagnosis/diagnosis.h"
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -209,7 +209,7 @@ TEST_CASE("progress rises from nothing to all of it", "[fast]") {
   CHECK(done.back() == 1.0);
 }
 
-TEST_CASE("causes of the foreign generator are named, out of the whole catalogue", "[slow]") {
+TEST_CASE("causes of the foreign generator are named, out of the whole catalog", "[slow]") {
   struct Hidden {
     const char* effect;
     const char* size;

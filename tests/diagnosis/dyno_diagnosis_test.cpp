@@ -6,7 +6,7 @@
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/base_parameters.h"
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/output/diagnosis_json.h"
@@ -95,12 +95,12 @@ TEST_CASE("on a dynamometer a base parameter off by twice its uncertainty is mad
     estimation::find_parameter(moved, a0->key) += 2.0 * a0->prior_sd_SI;
   });
   const diagnosis::PreparedSet prepared(tests::add_noise(off, 6));
-  const diagnosis::Remainder remainder(prepared);
-  const diagnosis::Race race = diagnosis::run_race(prepared, base, remainder, {});
+  const diagnosis::Discrepancy discrepancy(prepared);
+  const diagnosis::Comparison comparison = diagnosis::compare_models(prepared, base, discrepancy, {});
   measurements::MeasurementSet fitted = nominal;
   tests::measure_again(fitted, {}, [&](models::Context<double>& moved) {
     for (std::size_t i = 0; i < base.size(); ++i) {
-      const double unknown = race.null.fit.unknowns[static_cast<Eigen::Index>(i)];
+      const double unknown = comparison.null.fit.unknowns[static_cast<Eigen::Index>(i)];
       estimation::find_parameter(moved, base[i].key) += base[i].prior_sd_SI * unknown;
     }
   });
@@ -115,7 +115,7 @@ TEST_CASE("against a constant coefficient the tire's temperature is named on a d
   CHECK(names(found, "tire_temperature"));
 }
 
-TEST_CASE("against the combined model the tire's temperature is not in the race", "[fast]") {
+TEST_CASE("against the combined model the tire's temperature is not in the comparison", "[fast]") {
   const auto set = tests::add_noise(make_dyno_set({}, 1), 8);
   CHECK(diagnose(set, only({"tire_temperature", "slow_leak"})).probability.count("tire_temperature") == 0);
 }

@@ -13,9 +13,9 @@ using namespace rollrig;
 using diagnosis::AmplitudePrior;
 using diagnosis::Amplitudes;
 using diagnosis::at;
+using diagnosis::Discrepancy;
 using diagnosis::Evidence;
 using diagnosis::PreparedSet;
-using diagnosis::Remainder;
 using diagnosis::RowMatrix;
 
 namespace {
@@ -33,7 +33,7 @@ const PreparedSet& short_set() {
 
 /// A linear problem: whitened residuals r at u, that change by `jacobian`.
 struct Problem {
-  explicit Problem(Eigen::Index unknowns) : remainder(short_set()) {
+  explicit Problem(Eigen::Index unknowns) : discrepancy(short_set()) {
     std::srand(5);  // Eigen's Random
     const Eigen::Index n = at(short_set().residual_count());
     jacobian = 0.05 * RowMatrix::Random(n, unknowns);
@@ -41,12 +41,12 @@ struct Problem {
     r = Eigen::VectorXd::Random(n) + 3.0 * jacobian.col(0);
   }
 
-  Evidence evidence() const { return {remainder, u, r, jacobian}; }
+  Evidence evidence() const { return {discrepancy, u, r, jacobian}; }
 
-  /// The whole covariance of the whitened residuals, from the remainder's parts.
+  /// The whole covariance of the whitened residuals, from the discrepancy's parts.
   Eigen::MatrixXd make_sigma(const Amplitudes& amplitudes) const {
     Eigen::MatrixXd sigma = Eigen::MatrixXd::Identity(r.size(), r.size());
-    for (const Remainder::Basis& basis : remainder.bases()) {
+    for (const Discrepancy::Basis& basis : discrepancy.bases()) {
       const auto& series = short_set().series()[basis.series.front()];
       const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
       const Eigen::Index first = at(series.first_residual);
@@ -57,7 +57,7 @@ struct Problem {
     return sigma;
   }
 
-  Remainder remainder;
+  Discrepancy discrepancy;
   RowMatrix jacobian;
   Eigen::VectorXd u;
   Eigen::VectorXd r;
@@ -138,11 +138,11 @@ TEST_CASE("the evidence of a linear problem is the integral over its unknowns", 
   }
 }
 
-TEST_CASE("a remainder that stands on another counts both", "[fast]") {
+TEST_CASE("a discrepancy that stands on another counts both", "[fast]") {
   // The process of conditions has no size here, so that the one below is all there is.
   const Problem problem(2);
   const Amplitudes below{0.3, 2.0, 0.7};
-  const Remainder of_conditions(problem.remainder, below);
+  const Discrepancy of_conditions(problem.discrepancy, below);
   const Evidence above(of_conditions, problem.u, problem.r, problem.jacobian);
   CHECK(above.calc_term({0.0, 0.0, 0.0}).log_value ==
         Approx(problem.evidence().calc_term(below).log_value).margin(1e-6));

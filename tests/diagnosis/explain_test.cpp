@@ -1,4 +1,4 @@
-// Explanations of effects: complete, from the catalogue, within 80 columns.
+// Explanations of effects: complete, from the catalog, within 80 columns.
 #include "diagnosis/output/explain.h"
 
 #include <catch2/catch.hpp>

@@ -76,8 +76,8 @@ measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect
 FittedBaseline::FittedBaseline(const measurements::MeasurementSet& measured)
     : set(measured),
       base(diagnosis::find_base_parameters(set.source(), set.context())),
-      remainder(set),
-      null(diagnosis::run_race(set, base, remainder, {}).null) {}
+      discrepancy(set),
+      null(diagnosis::compare_models(set, base, discrepancy, {}).null) {}
 
 RepeatedBaseline::RepeatedBaseline(const measurements::MeasurementSet& clean) : clean_(clean) {
   const diagnosis::PreparedSet set(clean_);
@@ -96,7 +96,7 @@ RepeatedBaseline::Draw RepeatedBaseline::draw(std::uint64_t seed,
   if (change) change(measured);
   Draw draw;
   draw.set = std::make_unique<diagnosis::PreparedSet>(add_noise(measured, seed));
-  draw.remainder = std::make_unique<diagnosis::Remainder>(*draw.set);
+  draw.discrepancy = std::make_unique<diagnosis::Discrepancy>(*draw.set);
 
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 
 namespace rollrig::tests {
 
@@ -21,8 +21,8 @@ struct FittedBaseline {
 
   diagnosis::PreparedSet set;
   std::vector<estimation::FreeParameter> base;
-  diagnosis::Remainder remainder;
-  diagnosis::Contender null;
+  diagnosis::Discrepancy discrepancy;
+  diagnosis::Candidate null;
 };
 
 /// A baseline set measured again and again: noise and true base parameters are drawn, all by their priors. The fit is
@@ -34,8 +34,8 @@ class RepeatedBaseline {
   /// A set with the errors of its sensors added, and the baseline fitted.
   struct Draw {
     std::unique_ptr<diagnosis::PreparedSet> set;
-    std::unique_ptr<diagnosis::Remainder> remainder;
-    diagnosis::Contender null;
+    std::unique_ptr<diagnosis::Discrepancy> discrepancy;
+    diagnosis::Candidate null;
   };
   /// `change` acts on the clean set before the errors are added.
   Draw draw(std::uint64_t seed, const std::function<void(measurements::MeasurementSet&)>& change = {}) const;

@@ -9,7 +9,7 @@
 #include "tests/support/fit_study.h"
 
 using namespace rollrig;
-using diagnosis::Contender;
+using diagnosis::Candidate;
 using diagnosis::Gap;
 using diagnosis::PreparedSet;
 using diagnosis::Series;
@@ -21,17 +21,18 @@ constexpr std::size_t kTorque = 0;
 /// Noise floors. The mean of squares over some 300 times of a drift has a standard deviation of 0.08; root of three.
 constexpr double kNoiseAlone = 0.5;
 
-Gap find(const FittedBaseline& fitted, const Contender* cause = nullptr, int threads = 0) {
-  return diagnosis::find_gap(fitted.set, fitted.base, fitted.remainder, fitted.null, cause, threads);
+Gap find(const FittedBaseline& fitted, const Candidate* cause = nullptr, int threads = 0) {
+  return diagnosis::find_gap(fitted.set, fitted.base, fitted.discrepancy, fitted.null, cause, threads);
 }
 
 /// An effect fitted to a set by itself.
-Contender fit_effect(const FittedBaseline& fitted, const char* id) {
-  diagnosis::RaceSettings settings;
+Candidate fit_effect(const FittedBaseline& fitted, const char* id) {
+  diagnosis::ComparisonSettings settings;
   settings.effects = {&models::find_effect(id)};
-  const diagnosis::Race race = diagnosis::run_race(fitted.set, fitted.base, fitted.remainder, settings);
-  REQUIRE(race.contenders.size() == 1);
-  return race.contenders.front();
+  const diagnosis::Comparison comparison =
+      diagnosis::compare_models(fitted.set, fitted.base, fitted.discrepancy, settings);
+  REQUIRE(comparison.candidates.size() == 1);
+  return comparison.candidates.front();
 }
 
 std::vector<models::ActiveEffect> warming_bearings(double fall_per_K = 0.02) {
@@ -82,7 +83,7 @@ TEST_CASE("of noise alone nothing can shrink", "[fast]") {
   const auto clean = tests::make_gap_set({}, 3);
   for (const std::uint64_t seed : {1, 2}) {
     const FittedBaseline fitted(tests::add_noise(clean, seed));
-    const Contender cause = fit_effect(fitted, "bearing_warmup");
+    const Candidate cause = fit_effect(fitted, "bearing_warmup");
     const Gap gap = find(fitted, &cause);
     INFO("seed " << seed);
     CHECK_FALSE(gap.shrink_percent.has_value());
@@ -132,7 +133,7 @@ TEST_CASE("an offset of the sensor is no gap", "[fast]") {
 
 TEST_CASE("the true effect shrinks the gap by all of it, on runs that the fit did not see", "[fast]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 4), 5));
-  const Contender cause = fit_effect(fitted, "bearing_warmup");
+  const Candidate cause = fit_effect(fitted, "bearing_warmup");
   const Gap gap = find(fitted, &cause);
   REQUIRE(gap.shrink_percent.has_value());
   CHECK(gap.recalibrated.after < kNoiseAlone);
@@ -153,7 +154,7 @@ TEST_CASE("of a large effect that is known, next to nothing is left in the middl
   std::vector<double> percents;
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     const FittedBaseline fitted(tests::add_noise(clean, seed));
-    const Contender cause = fit_effect(fitted, "bearing_warmup");
+    const Candidate cause = fit_effect(fitted, "bearing_warmup");
     percents.push_back(find(fitted, &cause).shrink_percent.value());
   }
   std::sort(percents.begin(), percents.end());
@@ -163,8 +164,8 @@ TEST_CASE("of a large effect that is known, next to nothing is left in the middl
 
 TEST_CASE("a wrong effect shrinks it less", "[fast]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
-  const Contender right = fit_effect(fitted, "bearing_warmup");
-  const Contender wrong = fit_effect(fitted, "slow_leak");
+  const Candidate right = fit_effect(fitted, "bearing_warmup");
+  const Candidate wrong = fit_effect(fitted, "slow_leak");
   const Gap by_right = find(fitted, &right);
   const Gap by_wrong = find(fitted, &wrong);
   REQUIRE(by_right.shrink_percent.has_value());
@@ -193,7 +194,7 @@ TEST_CASE("a run is judged by fits that did not see it", "[fast]") {
 
 TEST_CASE("of one run nothing can be left out: the gap is its own", "[fast]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 1), 5));
-  const Contender cause = fit_effect(fitted, "bearing_warmup");
+  const Candidate cause = fit_effect(fitted, "bearing_warmup");
   const Gap gap = find(fitted, &cause);
   CHECK(gap.held_out.empty());
   CHECK_FALSE(gap.black_box_percent.has_value());
@@ -207,7 +208,7 @@ TEST_CASE("where a fit without a run leads nowhere, nothing is said of what shri
   REQUIRE(at != fitted.base.end());
   // One step from here: a heat capacity far below zero, which cannot be simulated.
   fitted.null.fit.residuals = 1e3 * fitted.null.fit.jacobian.col(at - fitted.base.begin());
-  const Contender cause = fitted.null;
+  const Candidate cause = fitted.null;
   const Gap gap = find(fitted, &cause);
   CHECK(gap.held_out.empty());
   CHECK_FALSE(gap.shrink_percent.has_value());
@@ -220,7 +221,7 @@ TEST_CASE("where a fit without a run leads nowhere, nothing is said of what shri
 
 TEST_CASE("a gap is the same to the bit from one thread or two", "[fast]") {
   const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
-  const Contender cause = fit_effect(fitted, "bearing_warmup");
+  const Candidate cause = fit_effect(fitted, "bearing_warmup");
   const Gap one = find(fitted, &cause, 1);
   const Gap two = find(fitted, &cause, 2);
   CHECK(one.as_calibrated.before == two.as_calibrated.before);
@@ -239,7 +240,7 @@ TEST_CASE("the interval of a shrinkage holds what other measurements of the same
   double mean = 0.0;
   for (int seed = 1; seed <= kSets; ++seed) {
     const FittedBaseline fitted(tests::add_noise(clean, static_cast<std::uint64_t>(100 + seed)));
-    const Contender cause = fit_effect(fitted, "bearing_warmup");
+    const Candidate cause = fit_effect(fitted, "bearing_warmup");
     gaps.push_back(find(fitted, &cause));
     REQUIRE(gaps.back().shrink_percent.has_value());
     mean += *gaps.back().shrink_percent / kSets;

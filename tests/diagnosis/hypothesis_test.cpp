@@ -13,7 +13,7 @@ using models::EffectParameter;
 
 namespace {
 
-/// Every parameter of the catalogue, with each sign that it may have.
+/// Every parameter of the catalog, with each sign that it may have.
 void for_each_parameter(const std::function<void(const EffectParameter& parameter, int sign)>& act) {
   for (const models::Effect* effect : models::all_effects()) {
     for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {

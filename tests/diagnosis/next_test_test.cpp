@@ -26,7 +26,7 @@ namespace {
 models::ActiveEffect act(const std::string& id, double size = 1.0) {
   const models::Effect& effect = models::find_effect(id);
   std::vector<double> values;
-  for (const models::EffectParameter& parameter : effect.info.parameters) values.push_back(parameter.prior.centre());
+  for (const models::EffectParameter& parameter : effect.info.parameters) values.push_back(parameter.prior.center());
   values.front() *= size;
   return tests::make_active(effect, values);
 }
@@ -71,13 +71,13 @@ measurements::MeasurementSet measure(const std::vector<models::ActiveEffect>& ef
 
 struct Raced {
   Raced(const measurements::MeasurementSet& measured, const std::vector<std::string>& effects)
-      : set(measured), base(find_base_parameters(set.source(), set.context())), remainder(set) {
-    RaceSettings settings;
+      : set(measured), base(find_base_parameters(set.source(), set.context())), discrepancy(set) {
+    ComparisonSettings settings;
     for (const std::string& id : effects) settings.effects.push_back(&models::find_effect(id));
-    race = run_race(set, base, remainder, settings);
+    comparison = compare_models(set, base, discrepancy, settings);
   }
 
-  std::vector<OpenHypothesis> find_open() const { return find_open_hypotheses(set, base, remainder, race, 1); }
+  std::vector<OpenHypothesis> find_open() const { return find_open_hypotheses(set, base, discrepancy, comparison, 1); }
   std::vector<JudgedTest> judge(const std::vector<OpenHypothesis>& open) const {
     return judge_tests(set, base, open, 0);
   }
@@ -85,27 +85,27 @@ struct Raced {
 
   PreparedSet set;
   std::vector<estimation::FreeParameter> base;
-  Remainder remainder;
-  Race race;
+  Discrepancy discrepancy;
+  Comparison comparison;
 };
 
 /// A warm-up in which only what warms shows, with bearings that do: the torque's zero could drift as well.
 const Raced& bearings_or_zero() {
-  static const Raced raced(measure({act("bearing_warmup")}, {plan_skim_run()}),
-                           {"bearing_warmup", "torque_zero_drift"});
-  return raced;
+  static const Raced compared(measure({act("bearing_warmup")}, {plan_skim_run()}),
+                              {"bearing_warmup", "torque_zero_drift"});
+  return compared;
 }
 
 /// The baseline and each of the effects, at the middle of its prior and as uncertain, all as likely.
-std::vector<OpenHypothesis> make_open(const Raced& raced, const std::vector<std::string>& effects) {
+std::vector<OpenHypothesis> make_open(const Raced& compared, const std::vector<std::string>& effects) {
   std::vector<OpenHypothesis> open;
   const double share = 1.0 / static_cast<double>(effects.size());
   for (const std::string& id : effects) {
     Hypothesis hypothesis;
     if (id != "none") hypothesis.effects.push_back({&models::find_effect(id), 1});
-    const auto count = static_cast<Eigen::Index>(Model(raced.set, raced.base, hypothesis).parameter_count());
+    const auto count = static_cast<Eigen::Index>(Model(compared.set, compared.base, hypothesis).parameter_count());
     Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(count, count);
-    spread.bottomRightCorner(raced.base.size(), raced.base.size()) *= 0.3;  // after some measurement
+    spread.bottomRightCorner(compared.base.size(), compared.base.size()) *= 0.3;  // after some measurement
     open.push_back({hypothesis, Eigen::VectorXd::Zero(count), spread, share});
   }
   return open;
@@ -173,28 +173,29 @@ TEST_CASE("an expected log Bayes factor is half the squared distance of equal no
 }
 
 TEST_CASE("every test of the menu runs on paper and takes its hours", "[fast]") {
-  const Raced& raced = bearings_or_zero();
+  const Raced& compared = bearings_or_zero();
   std::set<std::string> ids;
-  for (const PlannedTest& test : make_test_menu(raced.set)) {
+  for (const PlannedTest& test : make_test_menu(compared.set)) {
     INFO(test.id);
     ids.insert(test.id);
     double rolling_h = 0.0;
     for (const measurements::MeasuredRun& run : test.runs) rolling_h += run.time_s.back() / 3600.0;
     CHECK(test.hours >= rolling_h + 0.5);  // set-up
     CHECK(test.hours < 24.0);
-    CHECK(!predict_outcomes(raced.set, raced.base, make_open(raced, {"none", "bearing_warmup"}), test).empty());
+    CHECK(
+        !predict_outcomes(compared.set, compared.base, make_open(compared, {"none", "bearing_warmup"}), test).empty());
   }
-  CHECK(ids.size() == make_test_menu(raced.set).size());
+  CHECK(ids.size() == make_test_menu(compared.set).size());
 }
 
 TEST_CASE("identical hypotheses leave nothing to learn, and none teaches more than there is to know", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  for (const JudgedTest& one : raced.judge(make_open(raced, {"rim_heat", "rim_heat"}))) {
+  const Raced& compared = bearings_or_zero();
+  for (const JudgedTest& one : compared.judge(make_open(compared, {"rim_heat", "rim_heat"}))) {
     INFO(one.test.id);
     CHECK(one.bits == Approx(0.0).margin(1e-6));
     CHECK(one.splits.empty());
   }
-  for (const JudgedTest& one : raced.judge(make_open(raced, {"none", "slow_leak", "load_exponent"}))) {
+  for (const JudgedTest& one : compared.judge(make_open(compared, {"none", "slow_leak", "load_exponent"}))) {
     INFO(one.test.id);
     CHECK(one.bits >= 0.0);
     CHECK(one.bits <= std::log2(3.0) + 1e-9);
@@ -202,22 +203,22 @@ TEST_CASE("identical hypotheses leave nothing to learn, and none teaches more th
 }
 
 TEST_CASE("warming bearings and a drifting zero are split by the torque at standstill", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  std::vector<OpenHypothesis> open = raced.find_open();
+  const Raced& compared = bearings_or_zero();
+  std::vector<OpenHypothesis> open = compared.find_open();
   REQUIRE(open.size() >= 2);
   CHECK(open[0].hypothesis.ids() == std::vector<std::string>{"bearing_warmup"});
   CHECK(open[1].hypothesis.ids() == std::vector<std::string>{"torque_zero_drift"});
   CHECK(open[0].probability == Approx(open[1].probability));  // the set cannot tell them apart
-  const std::vector<NextTest> proposed = raced.propose();
+  const std::vector<NextTest> proposed = compared.propose();
   REQUIRE(!proposed.empty());
-  std::vector<JudgedTest> judged = raced.judge(open);
+  std::vector<JudgedTest> judged = compared.judge(open);
   const std::string best = find_described(judged, proposed.front().test).test.id;
   CHECK((best == "standstill_torque" || best == "standstill_at_loads" || best == "drum_alone"));  // the zero is read
   CHECK(proposed.front().splits.size() == 2);
   CHECK(proposed.front().expected_bits_per_hour > 2.0 * calc_mean_bits_per_hour(judged));
   open.resize(2);  // without both at once
   for (OpenHypothesis& one : open) one.probability = 0.5;
-  judged = raced.judge(open);
+  judged = compared.judge(open);
   CHECK(find_judged(judged, "standstill_torque").bits > 0.9);  // of one bit
 }
 
@@ -232,8 +233,8 @@ TEST_CASE("a proposal does not depend on the number of threads", "[fast]") {
 }
 
 TEST_CASE("bearings that warm and a loss of the tire in skim are split best by their row of the menu", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  const std::vector<JudgedTest> judged = raced.judge(make_open(raced, {"bearing_warmup", "tire_loss_in_skim"}));
+  const Raced& compared = bearings_or_zero();
+  const std::vector<JudgedTest> judged = compared.judge(make_open(compared, {"bearing_warmup", "tire_loss_in_skim"}));
   const auto most = [&](const auto& value) {
     return *std::max_element(judged.begin(), judged.end(),
                              [&](const JudgedTest& a, const JudgedTest& b) { return value(a) < value(b); });
@@ -249,29 +250,29 @@ TEST_CASE("bearings that warm and a loss of the tire in skim are split best by t
 }
 
 TEST_CASE("readings beyond the usual channels tell what they are for", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  const auto clocks = raced.judge(make_open(raced, {"none", "clock_shift"}));
+  const Raced& compared = bearings_or_zero();
+  const auto clocks = compared.judge(make_open(compared, {"none", "clock_shift"}));
   CHECK(find_judged(clocks, "speed_steps_with_pulse").bits > find_judged(clocks, "speed_steps_hot").bits);
   CHECK(find_judged(clocks, "standstill_torque").bits < 0.05);
-  const auto rims = raced.judge(make_open(raced, {"none", "rim_heat"}));
+  const auto rims = compared.judge(make_open(compared, {"none", "rim_heat"}));
   CHECK(find_judged(rims, "rim_thermocouple").bits > find_judged(rims, "short_soak").bits);
   CHECK(find_judged(rims, "standstill_torque").bits < 0.05);
-  const auto zeros = raced.judge(make_open(raced, {"none", "torque_zero_drift"}));
+  const auto zeros = compared.judge(make_open(compared, {"none", "torque_zero_drift"}));
   CHECK(find_judged(zeros, "soak_with_pressure").bits < 0.2 * find_judged(zeros, "standstill_torque").bits);
 }
 
 TEST_CASE("without a gap the test is proposed that would show what is not excluded", "[fast]") {
-  const Raced raced(measure({}, {plan_skim_run()}), {"standing_wave"});
-  const std::vector<OpenHypothesis> open = raced.find_open();
+  const Raced compared(measure({}, {plan_skim_run()}), {"standing_wave"});
+  const std::vector<OpenHypothesis> open = compared.find_open();
   REQUIRE(open.size() == 2);
   CHECK(open[0].hypothesis.effects.empty());
-  const std::vector<NextTest> proposed = raced.propose();
+  const std::vector<NextTest> proposed = compared.propose();
   REQUIRE(!proposed.empty());
-  CHECK(proposed.front().test == find_judged(raced.judge(open), "fast_steps").test.description);
+  CHECK(proposed.front().test == find_judged(compared.judge(open), "fast_steps").test.description);
 }
 
 TEST_CASE("a sensor tells what it is for, and nothing of what it does not see", "[fast]") {
-  const Raced& raced = bearings_or_zero();
+  const Raced& compared = bearings_or_zero();
   const auto find = [](const std::vector<NextSensor>& sensors, const std::string& word) -> const NextSensor* {
     for (const NextSensor& one : sensors) {
       if (one.sensor.find(word) != std::string::npos) return &one;
@@ -279,7 +280,7 @@ TEST_CASE("a sensor tells what it is for, and nothing of what it does not see", 
     return nullptr;
   };
   const auto propose = [&](const std::vector<std::string>& effects) {
-    return propose_sensors(raced.set, raced.base, make_open(raced, effects));
+    return propose_sensors(compared.set, compared.base, make_open(compared, effects));
   };
   const std::vector<NextSensor> surface = propose({"none", "surface_warming"});
   REQUIRE(find(surface, "surface") != nullptr);
@@ -301,38 +302,38 @@ TEST_CASE("a sensor tells what it is for, and nothing of what it does not see", 
 }
 
 TEST_CASE("identical hypotheses and a lone one leave no sensor worth its hours", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  CHECK(propose_sensors(raced.set, raced.base, make_open(raced, {"rim_heat", "rim_heat"})).empty());
-  CHECK(propose_sensors(raced.set, raced.base, make_open(raced, {"rim_heat"})).empty());
+  const Raced& compared = bearings_or_zero();
+  CHECK(propose_sensors(compared.set, compared.base, make_open(compared, {"rim_heat", "rim_heat"})).empty());
+  CHECK(propose_sensors(compared.set, compared.base, make_open(compared, {"rim_heat"})).empty());
 }
 
 TEST_CASE("a sensor that the rig has is not proposed", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  const PlannedTest test = make_drum_sensor_test(raced.set);
-  for (const std::string& channel : raced.set.channels()) {
+  const Raced& compared = bearings_or_zero();
+  const PlannedTest test = make_drum_sensor_test(compared.set);
+  for (const std::string& channel : compared.set.channels()) {
     CHECK(std::find(test.extra.sensors.begin(), test.extra.sensors.end(), channel) == test.extra.sensors.end());
   }
   CHECK(test.extra.sensors.size() >= 5);
 }
 
 TEST_CASE("weights on a lever read the zero and reversed rotation turns it over", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  const auto zeros = raced.judge(make_open(raced, {"none", "torque_zero_drift"}));
+  const Raced& compared = bearings_or_zero();
+  const auto zeros = compared.judge(make_open(compared, {"none", "torque_zero_drift"}));
   // The drift is the same with weights on; a tire standing for minutes shows less of it than before and after a run.
   CHECK(find_judged(zeros, "dead_weights").bits < find_judged(zeros, "standstill_torque").bits);
   // Friction that goes with load keeps its sign in reversed rotation: turning round does not hide it.
-  const auto friction = raced.judge(make_open(raced, {"none", "bearing_load_friction"}));
+  const auto friction = compared.judge(make_open(compared, {"none", "bearing_load_friction"}));
   CHECK(find_judged(friction, "reversed_rotation").bits > 0.05);
   CHECK(find_judged(friction, "dead_weights").bits < 0.01);
-  const auto inertia = raced.judge(make_open(raced, {"none", "inertia_error"}));
+  const auto inertia = compared.judge(make_open(compared, {"none", "inertia_error"}));
   const double by_ramps = find_judged(inertia, "ramps").bits;
   CHECK(by_ramps > find_judged(inertia, "drum_alone").bits);
   CHECK(by_ramps > 0.1);
 }
 
 TEST_CASE("weights on a lever are read with the gain that a bent sensor has at their torque", "[fast]") {
-  const Raced& raced = bearings_or_zero();
-  const models::Corner<double> corner(raced.set.context(),
+  const Raced& compared = bearings_or_zero();
+  const models::Corner<double> corner(compared.set.context(),
                                       {tests::make_active(models::find_effect("torque_gain"), {2.0, -0.3})});
   measurements::MeasuredRun run;
   run.time_s = {0.0, 1.0, 2.0};
@@ -341,7 +342,7 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
   sim::Recording<double> recording;
   recording.channels.push_back({"drum_torque_Nm"});
   recording.values = {{0.0, 0.0, 0.0}};
-  const std::vector<double> read_Nm = read_channel(raced.set, run, corner, recording, "drum_torque_Nm");
+  const std::vector<double> read_Nm = read_channel(compared.set, run, corner, recording, "drum_torque_Nm");
   CHECK(read_Nm[0] == 0.0);
   CHECK(read_Nm[1] == Approx(61.2));  // 60 N at a radius of 1 m
   CHECK(read_Nm[2] > 600.0);
@@ -349,9 +350,9 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
 }
 
 TEST_CASE("to repeat a run that could not show an effect tells next to nothing of it", "[fast]") {
-  Raced raced(measure({}, {plan_skim_run()}), {"bearing_load_friction"});
-  raced.race.contenders.clear();  // as an effect that was not refitted
-  const std::vector<OpenHypothesis> open = raced.find_open();
+  Raced compared(measure({}, {plan_skim_run()}), {"bearing_load_friction"});
+  compared.comparison.candidates.clear();  // as an effect that was not refitted
+  const std::vector<OpenHypothesis> open = compared.find_open();
   REQUIRE(open.size() == 2);
   const measurements::MeasuredRun run = plan_skim_run();
   PlannedTest again{"again", "again", 1.0, {run}, {}, false};
@@ -361,29 +362,29 @@ TEST_CASE("to repeat a run that could not show an effect tells next to nothing o
   for (std::size_t row = 0; row < run.time_s.size(); row += static_cast<std::size_t>(kVirtualRow_s)) {
     rows.time_s.push_back(run.time_s[row]);
     for (const auto& [column, values] : run.columns) rows.columns[column].push_back(values[row]);
-    for (const std::string& channel : raced.set.channels()) rows.columns[channel].push_back(0.0);
+    for (const std::string& channel : compared.set.channels()) rows.columns[channel].push_back(0.0);
   }
   const std::vector<double> even{0.5, 0.5};
-  CHECK(calc_information_bits(even, predict_outcomes(raced.set, raced.base, open, again)) < 0.05);
+  CHECK(calc_information_bits(even, predict_outcomes(compared.set, compared.base, open, again)) < 0.05);
 }
 
 TEST_CASE("with nothing open no test is proposed", "[fast]") {
-  Raced raced = bearings_or_zero();
-  raced.race.contenders.resize(1);
-  raced.race.effects.clear();
-  CHECK(raced.propose().empty());
+  Raced compared = bearings_or_zero();
+  compared.comparison.candidates.resize(1);
+  compared.comparison.effects.clear();
+  CHECK(compared.propose().empty());
 }
 
 TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
   const std::vector<std::string> effects{"tire_loss_in_skim", "load_exponent"};
   const std::vector<models::ActiveEffect> truth{act("tire_loss_in_skim", 1.5)};
   const Raced before(measure(truth, {plan_skim_run()}), effects);
-  const auto find_factor = [](const Raced& raced) {
-    const auto find = [&](const std::string& id) -> const Contender& {
-      return *std::find_if(raced.race.contenders.begin(), raced.race.contenders.end(),
-                           [&](const Contender& one) { return one.fit.hypothesis.name() == id; });
+  const auto find_factor = [](const Raced& compared) {
+    const auto find = [&](const std::string& id) -> const Candidate& {
+      return *std::find_if(compared.comparison.candidates.begin(), compared.comparison.candidates.end(),
+                           [&](const Candidate& one) { return one.fit.hypothesis.name() == id; });
     };
-    return expected_log_bayes_factor(raced.remainder, find("tire_loss_in_skim"), find("load_exponent"));
+    return expected_log_bayes_factor(compared.discrepancy, find("tire_loss_in_skim"), find("load_exponent"));
   };
   REQUIRE(find_factor(before) < thresholds::kToldApart_nats);
   const std::vector<NextTest> proposed = before.propose();
@@ -396,5 +397,5 @@ TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
   REQUIRE(runs.size() >= 2);
   const Raced after(measure(truth, runs), effects);
   CHECK(find_factor(after) >= thresholds::kToldApart_nats);
-  CHECK(after.race.contenders.front().fit.hypothesis.contains(models::find_effect("tire_loss_in_skim")));
+  CHECK(after.comparison.candidates.front().fit.hypothesis.contains(models::find_effect("tire_loss_in_skim")));
 }

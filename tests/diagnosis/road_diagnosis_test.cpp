@@ -8,7 +8,7 @@
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/base_parameters.h"
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/output/summary.h"
@@ -85,9 +85,9 @@ TEST_CASE("on the road the vehicle's own numbers are found again", "[fast]") {
     for (std::size_t row = 0; row < was.size(); ++row) now[row] = std::isnan(was[row]) ? was[row] : now[row];
   }
   const diagnosis::PreparedSet prepared(tests::add_noise(with_quiet_sensor(heavy), 6));
-  const diagnosis::Remainder remainder(prepared);
-  const diagnosis::Race race = diagnosis::run_race(prepared, base, remainder, {});
-  CHECK(base[1].prior_sd_SI * race.null.fit.unknowns[1] == Approx(0.06).epsilon(0.25));
+  const diagnosis::Discrepancy discrepancy(prepared);
+  const diagnosis::Comparison comparison = diagnosis::compare_models(prepared, base, discrepancy, {});
+  CHECK(base[1].prior_sd_SI * comparison.null.fit.unknowns[1] == Approx(0.06).epsilon(0.25));
 }
 
 TEST_CASE("a vehicle that is given by its road load cannot be diagnosed, and the file is named", "[fast]") {

@@ -1,4 +1,4 @@
-// Sets that cannot be what they are said to be are met before the race, and sets that can are let through.
+// Sets that cannot be what they are said to be are met before the comparison, and sets that can are let through.
 #include "diagnosis/checks/set_checks.h"
 
 #include <fmt/format.h>
@@ -84,8 +84,8 @@ models::ActiveEffect draw_effect(const models::Effect& effect, std::mt19937_64& 
     const models::Prior& prior = parameter.prior;
     const double z = normal(random);
     double value = prior.scale == models::Prior::Scale::kLog
-                       ? prior.centre() * std::pow(prior.high / prior.low, 0.5 * z)
-                       : prior.centre() + 0.5 * z * (prior.high - prior.low);
+                       ? prior.center() * std::pow(prior.high / prior.low, 0.5 * z)
+                       : prior.center() + 0.5 * z * (prior.high - prior.low);
     if (prior.either_sign && random() % 2 == 0) value = -value;
     values.push_back(std::clamp(value, parameter.range.lower, parameter.range.upper));
   }
@@ -116,7 +116,7 @@ TEST_CASE("runs of next to no samples are warned of", "[fast]") {
   CHECK_THAT(cut(diagnosis::kFewSamples + 5), !Contains("hardly any data"));  // where the load jumps a row has none
 }
 
-TEST_CASE("no effect of the catalogue makes a set look like a mistake", "[slow]") {
+TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") {
   constexpr int kDraws = 20;
   int sets = 0;
   int stopped = 0;

@@ -120,8 +120,8 @@ TEST_CASE("an unknown cause is said to be one", "[fast]") {
   made.causes.clear();
   const std::string text = format_summary(made);
   check_layout(text, 11);
-  CHECK_THAT(line_of(text, "Verdict"), Contains("outside the catalogue") && Contains("90 %"));
-  CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalogue"));
+  CHECK_THAT(line_of(text, "Verdict"), Contains("outside the catalog") && Contains("90 %"));
+  CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalog"));
 }
 
 TEST_CASE("a cause that the runs left out do not confirm is said to be such, in one line", "[fast]") {

@@ -81,7 +81,7 @@ void check_against(const SensorParameters& sensor, double white, double lasting)
 /// Sensors' own errors of a block's mean, over true values anywhere between two steps of the resolution.
 struct Drawn {
   double variance = 0.0;  // of the whitened means
-  double lagged = 0.0;    // mean product of neighbours
+  double lagged = 0.0;    // mean product of neighbors
   double whitened = 0.0;  // how many
 };
 

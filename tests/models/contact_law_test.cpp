@@ -29,7 +29,7 @@ double settle(const models::ContactParameters<double>& p, double speed_m_s, doub
 
 }  // namespace
 
-TEST_CASE("the normal force pushes and never pulls", "[fast]") {
+TEST_CASE("the normal force perturbations and never pulls", "[fast]") {
   const auto p = stiff_contact();
   CHECK(calc_normal_force_N(p, 0.0, 0.0) == 0.0);
   CHECK(calc_normal_force_N(p, -0.01, 1.0) == 0.0);
@@ -73,7 +73,7 @@ TEST_CASE("a lifted wheel has no slip force and its deflection springs back", "[
 
 TEST_CASE("the stiff contact of the baseline dissipates under 0.1 N at 1 kN", "[fast]") {
   const auto p = stiff_contact();
-  // In steady rolling Fx = C slip with C = k sigma; the loss per metre is Fx slip.
+  // In steady rolling Fx = C slip with C = k sigma; the loss per meter is Fx slip.
   const double stiffness_N = p.slip_spring_N_per_m * p.relaxation_length_m;
   CHECK(1000.0 * 1000.0 / stiffness_N < 0.1);
 }

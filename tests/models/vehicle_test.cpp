@@ -14,7 +14,7 @@ TEST_CASE("density of air at the conditions of the standards", "[fast]") {
   CHECK(calc_air_density_kg_per_m3(98210.0, 293.15) == Approx(1.167).margin(5e-4));   // 40 CFR 1066.305
 }
 
-TEST_CASE("drag of a square metre is the dynamic pressure", "[fast]") {
+TEST_CASE("drag of a square meter is the dynamic pressure", "[fast]") {
   // 1.225 kg/m3 at 40 m/s: 980 Pa
   CHECK(calc_drag_N(1.225, 1.0, 40.0, 0.0) == Approx(980.0));
   CHECK(calc_drag_N(1.225, 1.0, 30.0, 10.0) == Approx(980.0));  // only the air's own speed counts
@@ -24,7 +24,7 @@ TEST_CASE("drag of a square metre is the dynamic pressure", "[fast]") {
 TEST_CASE("drag turns with the air that comes, and vanishes in air that goes along", "[fast]") {
   CHECK(calc_drag_N(1.2, 0.7, 20.0, -20.0) == 0.0);
   CHECK(calc_drag_N(1.2, 0.7, -20.0, 0.0) == -calc_drag_N(1.2, 0.7, 20.0, 0.0));
-  CHECK(calc_drag_N(1.2, 0.7, 10.0, -15.0) < 0.0);  // a tailwind that overtakes pushes
+  CHECK(calc_drag_N(1.2, 0.7, 10.0, -15.0) < 0.0);  // a tailwind that overtakes perturbations
   // headwind and tailwind alike cost more than still air: 2 w^2 in the mean
   const double mean_N = 0.5 * (calc_drag_N(1.2, 0.7, 30.0, 5.0) + calc_drag_N(1.2, 0.7, 30.0, -5.0));
   CHECK(mean_N / calc_drag_N(1.2, 0.7, 30.0, 0.0) == Approx(1.0 + 25.0 / 900.0));

@@ -28,7 +28,7 @@ const hear = (method, params) => {
   if (method === 'Network.requestWillBeSent' && !/^(data|blob|about):/.test(params.request.url)) requests.push(params.request.url);
 };
 
-/// Share of the pixels of an area that differ from its most frequent colour, and how many colours it has.
+/// Share of the pixels of an area that differ from its most frequent color, and how many colors it has.
 const kMeasureInk = `async (png) => {
   const image = await createImageBitmap(await (await fetch('data:image/png;base64,' + png)).blob());
   const canvas = new OffscreenCanvas(image.width, image.height);
@@ -37,11 +37,11 @@ const kMeasureInk = `async (png) => {
   const { data } = context.getImageData(0, 0, image.width, image.height);
   const counts = new Map();
   for (let i = 0; i < data.length; i += 4) {
-    const colour = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
-    counts.set(colour, (counts.get(colour) || 0) + 1);
+    const color = (data[i] << 16) | (data[i + 1] << 8) | data[i + 2];
+    counts.set(color, (counts.get(color) || 0) + 1);
   }
   const pixels = data.length / 4;
-  return { ink: 1 - Math.max(...counts.values()) / pixels, colours: counts.size };
+  return { ink: 1 - Math.max(...counts.values()) / pixels, colors: counts.size };
 }`;
 
 /// What is really seen of an element, as PNG.
@@ -68,8 +68,8 @@ async function checkCharts() {
   check(count >= wanted, `${count} charts, at least ${wanted} wanted`);
   for (let i = 0; i < count; ++i) {
     const { png, box } = await capture('.chart', i);
-    const { ink, colours } = await measureInk(png);
-    check(box.height > 100 && ink > 0.005 && colours > 8, `chart ${i + 1}: ${(100 * ink).toFixed(1)} % of its pixels drawn, ${colours} colours, ${Math.round(box.height)} px high`);
+    const { ink, colors } = await measureInk(png);
+    check(box.height > 100 && ink > 0.005 && colors > 8, `chart ${i + 1}: ${(100 * ink).toFixed(1)} % of its pixels drawn, ${colors} colors, ${Math.round(box.height)} px high`);
   }
 }
 

@@ -44,7 +44,7 @@ TEST_CASE("names cannot end the script that they stand in", "[fast]") {
   CHECK_THAT(read_payload(html)["title"].get<std::string>(), Contains("</script><script>alert(1)"));
 }
 
-TEST_CASE("a page asks no other place for anything, and brings its licences", "[fast]") {
+TEST_CASE("a page asks no other place for anything, and brings its licenses", "[fast]") {
   const std::string html = report::make_html(make_page("a test"));
   CHECK_THAT(html, Contains("default-src 'none'"));
   CHECK_FALSE(std::regex_search(html, std::regex("<(script|link|img|iframe)[^>]+(src|href)=\"?http")));

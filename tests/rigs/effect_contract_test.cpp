@@ -32,12 +32,12 @@ std::vector<std::string> select_measured(const std::vector<std::string>& named, 
 
 std::vector<double> usual_values(const EffectInfo& info) {
   std::vector<double> values;
-  for (const auto& parameter : info.parameters) values.push_back(parameter.prior.centre());
+  for (const auto& parameter : info.parameters) values.push_back(parameter.prior.center());
   return values;
 }
 
-/// Every effect of the design's catalogue; the registry has these and may have more.
-const std::set<std::string>& catalogue() {
+/// Every effect of the design's catalog; the registry has these and may have more.
+const std::set<std::string>& catalog() {
   static const std::set<std::string> ids{
       "bearing_warmup",     "tire_loss_in_skim", "bearing_load_friction", "windage",
       "torque_zero_drift",  "torque_gain",       "load_cross_talk",       "load_exponent",
@@ -234,13 +234,13 @@ std::size_t find_most_sensitive(const std::vector<Jet>& channel) {
 
 void check_derivative(const Campaign& campaign, const Effect& effect) {
   const models::EffectParameter& size = effect.info.parameters[0];
-  const double centre = size.prior.centre();
+  const double center = size.prior.center();
   const double step = 1e-3 * (size.prior.high - size.prior.low);
   const double to_file_unit = unit_of_key(size.key).factor;
-  const auto derivatives = campaign.run_with_derivatives(at_size(effect, centre), baseline_for(effect));
+  const auto derivatives = campaign.run_with_derivatives(at_size(effect, center), baseline_for(effect));
   std::vector<sim::Recording<double>> runs;
   for (const double steps : {-2.0, -1.0, 1.0, 2.0}) {
-    runs.push_back(campaign.run_quasi_static(at_size(effect, centre + steps * step), baseline_for(effect)));
+    runs.push_back(campaign.run_quasi_static(at_size(effect, center + steps * step), baseline_for(effect)));
   }
   for (const std::string& channel : select_measured(effect.info.visible_in, campaign.kind)) {
     INFO(channel);
@@ -310,9 +310,9 @@ TEST_CASE("both audits close with every effect on at once, and the fidelities ag
   }
 }
 
-TEST_CASE("the registry holds the whole catalogue, and the table of ports in the docs names all that it holds",
+TEST_CASE("the registry holds the whole catalog, and the table of ports in the docs names all that it holds",
           "[fast][contract]") {
-  for (const std::string& id : catalogue()) CHECK_NOTHROW(models::find_effect(id));
+  for (const std::string& id : catalog()) CHECK_NOTHROW(models::find_effect(id));
   std::ifstream in(std::filesystem::path(ROLLRIG_SOURCE_DIR) / "docs/ports.md");
   std::stringstream text;
   text << in.rdbuf();

@@ -78,7 +78,8 @@ TEST_CASE("what the rollers push, the tie-downs hold: the ground's forces sum to
 
 TEST_CASE("tie-downs carry the drive force less what the tires lose on their way to the rollers", "[fast]") {
   // Steady: hub torque T = (X + F_rr/(1 + r_l k)) r_l for each wheel; the tie-downs hold the sum of X, and
-  // give way by x, so that the wheels stand off the tops of their rollers and their loads push as well: x/(R + r_l).
+  // give way by x, so that the wheels stand off the tops of their rollers and their loads push as well: x/(R +
+  // r_l).
   const VehicleFixture fixture = make_uneven("dyno_1m2", rigs::DrivenAxle::kRear);
   Ran ran(fixture, hold());
   double expected_N = 0.0;

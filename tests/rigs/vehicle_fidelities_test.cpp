@@ -5,7 +5,7 @@
 // which a vehicle on springs takes a moment to answer, the energies of each section to 1e-4 (battery
 // and recuperation: of the energy at the wheels); times of coastdowns to 0.05 s, and the road load
 // from them to 1e-4. On the road the load moves between the axles with drag and acceleration, by the height of the
-// centre of gravity, which the quasi-static vehicle leaves out: a whole vehicle there is compared by the mean of
+// center of gravity, which the quasi-static vehicle leaves out: a whole vehicle there is compared by the mean of
 // its wheels.
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -189,7 +189,7 @@ TEST_CASE("with every effect on at once the multi-cycle test runs, its audits cl
     for (const models::Effect* effect : models::all_effects()) {
       if (!models::acts_on(effect->info, models::RigKind::kDyno)) continue;
       const auto& size = effect->info.parameters[0];
-      settings.push_back(fmt::format("effects.{}.{}={}", effect->info.id, size.key, size.prior.centre()));
+      settings.push_back(fmt::format("effects.{}.{}={}", effect->info.id, size.key, size.prior.center()));
     }
     INFO(quarter);
     Pair pair;

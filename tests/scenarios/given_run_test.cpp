@@ -70,7 +70,7 @@ TEST_CASE("energy closes on the roller and on the road, with any effect on", "[f
     const std::string& id = effect->info.id;
     const models::EffectParameter& size = effect->info.parameters.front();
     INFO(id);
-    const std::string on = "effects." + id + "." + size.key + "=" + std::to_string(size.prior.centre());
+    const std::string on = "effects." + id + "." + size.key + "=" + std::to_string(size.prior.center());
     if (models::acts_in(effect->info, models::RigKind::kDyno, models::Baseline::kCombined)) {
       check_closed(on_roller({on}).run());
     }

@@ -61,7 +61,7 @@ models::ActiveEffect make_active(const models::Effect& effect, const std::vector
   models::ActiveEffect active{&effect, {}};
   for (std::size_t i = 0; i < effect.info.parameters.size(); ++i) {
     const models::EffectParameter& parameter = effect.info.parameters[i];
-    const double value = i < first_values.size() ? first_values[i] : parameter.prior.centre();
+    const double value = i < first_values.size() ? first_values[i] : parameter.prior.center();
     active.parameters.push_back(unit_of_key(parameter.key).to_si(value));
   }
   return active;

@@ -18,7 +18,7 @@ struct BankOrder {
   int singles = 0;                   // sets of one effect, in turn, sizes small, middle and large in turn
   int none = 100;                    // sets without effect
   int pairs = 0;                     // sets of two effects, drawn among them
-  int outside = 0;                   // sets with an effect outside of the catalogue, each as often as the others
+  int outside = 0;                   // sets with an effect outside of the catalog, each as often as the others
   std::vector<std::string> effects;  // among which
   int runs = kMostRuns;
   bool counterfactual = false;  // also counterfactual/<number>, to be sealed like the truth
@@ -27,7 +27,7 @@ struct BankOrder {
 
 constexpr const char* kMixed = "mixed";
 
-/// Effects that banks of these campaigns have: of the catalogue, or outside of it.
+/// Effects that banks of these campaigns have: of the catalog, or outside of it.
 std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside);
 
 /// Those of `campaigns` in which banks have all of `effects` together.

@@ -23,7 +23,7 @@ struct Ceiling {
   std::vector<std::string> twins() const;
 };
 
-/// Of a set with effects. Those outside of the catalogue are compared with no others, a pair with all single effects,
+/// Of a set with effects. Those outside of the catalog are compared with no others, a pair with all single effects,
 /// an effect with all but itself. `detection_alone` leaves the comparison out, which is most of the work.
 Ceiling find_ceiling(const SetOrder& order, bool detection_alone = false);
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What an effect is to the generator: one file in validation/generator/effects, one line in validation/generator/effects.def.
+/// What an effect is to the generator: one file in validation/generator/effects, one line in
+/// validation/generator/effects.def.
 
 #include <array>
 #include <cstddef>
@@ -125,7 +126,7 @@ struct EffectKind {
   std::vector<Form> forms;      // drawn evenly
   Grounds acts = kRigGrounds;   // where it can be made
   Grounds drawn = kRigGrounds;  // where banks have it: the others hardly change with it
-  bool outside = false;         // of the catalogue
+  bool outside = false;         // of the catalog
 };
 
 const std::vector<const EffectKind*>& effect_kinds();

@@ -26,7 +26,7 @@ class KnownSet {
   /// What the observer does not know, a column each of one prior standard deviation: offsets of the sensors by session,
   /// base parameters that the files give an uncertainty of.
   Eigen::MatrixXd unknowns() const;
-  /// Effects of the catalogue that banks may have in such a set.
+  /// Effects of the catalog that banks may have in such a set.
   std::vector<const EffectKind*> rivals() const;
 
  private:

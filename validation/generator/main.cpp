@@ -142,7 +142,7 @@ int follow_up_command(const FollowUpOrder& order) {
 int list_command() {
   for (const EffectKind* kind : effect_kinds()) {
     std::cout << fmt::format("{}{}\n  size     {} [{}]; {:g} does nothing\n", kind->id,
-                             kind->outside ? " (outside of the catalogue)" : "", kind->meaning, kind->unit,
+                             kind->outside ? " (outside of the catalog)" : "", kind->meaning, kind->unit,
                              kind->neutral);
     for (const Form& form : kind->forms) std::cout << fmt::format("  form     {}: {}\n", form.name, form.law);
     std::cout << fmt::format("  made on  {}\n  drawn on {}\n", list_kinds(kind->acts), list_kinds(kind->drawn));
@@ -194,9 +194,9 @@ CLI::App* add_bank(CLI::App& app, BankOptions& options) {
       ->check(CLI::Range(0, kMostSets));
   bank->add_option("--none", order.none, "Sets without effect [100]")->check(CLI::Range(0, kMostSets));
   bank->add_option("--pairs", order.pairs, "Sets of two effects [0]")->check(CLI::Range(0, kMostSets));
-  bank->add_option("--outside", order.outside, "Sets with an effect outside of the catalogue [0]")
+  bank->add_option("--outside", order.outside, "Sets with an effect outside of the catalog [0]")
       ->check(CLI::Range(0, kMostSets));
-  bank->add_option("--effects", options.effects, "Effects, as a,b,c [all of the catalogue that the kind shows]");
+  bank->add_option("--effects", options.effects, "Effects, as a,b,c [all of the catalog that the kind shows]");
   bank->add_option("--runs", order.runs, "Number of runs of a set [6]")->check(CLI::Range(1, kMostRuns));
   bank->add_flag("--counterfactual", order.counterfactual, "Also each set without effect and without noise");
   bank->add_option("--out", order.out, "Folder of the bank, new or empty")->required();

@@ -52,7 +52,7 @@ void draw_truth(Draws& draws, bool nominal_base, Base first, Base last, Specimen
   }
 }
 
-/// Assumed: passenger cars, by their segments' catalogues. Streams of its own, so that a drum set does not see it.
+/// Assumed: passenger cars, by their segments' catalogs. Streams of its own, so that a drum set does not see it.
 void draw_vehicle(Draws& draws, bool nominal_base, Specimen& specimen) {
   const auto set = [&specimen](Base which, const char* key, double nominal) {
     specimen.base[static_cast<std::size_t>(which)] = {key, round_to(nominal, 4), 0.0, 0.0};

@@ -79,7 +79,7 @@ void require_sealed_files(const std::string& bank, const Json& sets) {
       (fs::path(bank) / "sets").string(), "set", changed.front(), "the files as rollrig blind make wrote them");
 }
 
-Truth read_truth(const std::string& set, const Json& json, const std::vector<std::string>& catalogue) {
+Truth read_truth(const std::string& set, const Json& json, const std::vector<std::string>& catalog) {
   Truth truth;
   truth.set = set;
   for (const Json& effect : json.at("effects")) truth.effects.push_back(read_effect(effect));
@@ -88,7 +88,7 @@ Truth read_truth(const std::string& set, const Json& json, const std::vector<std
     if (floors.is_number()) truth.signal_floors = std::max(truth.signal_floors, floors.get<double>());
   }
   for (const TrueEffect& effect : truth.effects) {
-    if (std::find(catalogue.begin(), catalogue.end(), effect.id) == catalogue.end()) truth.outside = true;
+    if (std::find(catalog.begin(), catalog.end(), effect.id) == catalog.end()) truth.outside = true;
   }
   return truth;
 }
@@ -148,9 +148,9 @@ std::vector<Truth> open_truth(const std::string& bank, const std::string& seal) 
   try {
     const Json json = Json::parse(text);
     if (json.at("format") != kBankFormat) throw problem("not the truth of a bank", file, "format", "", kBankFormat);
-    const std::vector<std::string> catalogue = models::effect_ids();
+    const std::vector<std::string> catalog = models::effect_ids();
     sealed_sets = json.at("sets");
-    for (const auto& [set, of] : sealed_sets.items()) truths.push_back(read_truth(set, of, catalogue));
+    for (const auto& [set, of] : sealed_sets.items()) truths.push_back(read_truth(set, of, catalog));
   } catch (const Json::exception& error) {
     throw problem(fmt::format("not the truth of a bank: {}", error.what()), file, "", "", kBankFormat);
   }

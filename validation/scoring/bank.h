@@ -32,7 +32,7 @@ struct Truth {
   std::vector<TrueEffect> effects;  // none, one, or two
   std::string campaign;             // kind of campaign, or kind of set
   double signal_floors = 0.0;       // of the channel that shows most, in noise floors
-  bool outside = false;             // not in the catalogue
+  bool outside = false;             // not in the catalog
 
   /// "none", or the effects joined by "+".
   std::string name() const;

@@ -124,7 +124,7 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
   const Cases inside = only(cases, [](const Case& one) { return one.is_single() || one.is_pair(); });
   const Cases outside = only(cases, [](const Case& one) { return one.truth.outside; });
   const auto wrong = [](const Case& one) { return one.is_wrong_above(kConfident); };
-  figures.push_back(make_share("wrong_above_inside", "wrong above 0.9, in the catalogue", inside, wrong, 0.01, false));
+  figures.push_back(make_share("wrong_above_inside", "wrong above 0.9, in the catalog", inside, wrong, 0.01, false));
   figures.back().floor = 0.02;
   figures.push_back(make_part("wrong_above_half", "  with one of two named, alone", inside,
                               [&](const Case& one) { return wrong(one) && one.names_one_of_two(); }));
@@ -186,7 +186,7 @@ void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
   }
 }
 
-/// Of the sets with an effect of the catalogue whose next test was done: in how many it splits what was named.
+/// Of the sets with an effect of the catalog whose next test was done: in how many it splits what was named.
 void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
   const auto add = [&](const char* id, const char* label, std::optional<FollowUp> Case::*test, const char* how) {
     const Cases done = only(cases, [test](const Case& one) {

@@ -50,7 +50,7 @@ Counts count(const Score& score, std::optional<FollowUp> Case::*test) {
   return counts;
 }
 
-std::string summarise(const Score& score, std::optional<FollowUp> Case::*test, const char* what) {
+std::string summarize(const Score& score, std::optional<FollowUp> Case::*test, const char* what) {
   const Counts counts = count(score, test);
   if (counts.open == 0) return "";
   return fmt::format("{}: {} sets whose cause could not be told from others, {} followed up, {} split", what,
@@ -83,7 +83,7 @@ std::string format_follow_ups(const Score& score) {
   std::string text;
   for (const auto& [test, what] :
        {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
-    const std::string summary = summarise(score, test, what);
+    const std::string summary = summarize(score, test, what);
     if (summary.empty()) continue;
     text += "\n" + wrap(summary, 0);
     for (const Case& one : score.followed_up) {
@@ -97,7 +97,7 @@ std::string write_follow_ups(const Score& score) {
   std::string text;
   for (const auto& [test, what] :
        {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
-    const std::string summary = summarise(score, test, what);
+    const std::string summary = summarize(score, test, what);
     if (summary.empty()) continue;
     text += fmt::format("\n{}.\n\n| set | true | named before | test | named after | |\n|---|---|---|---|---|---|\n",
                         summary);

@@ -10,7 +10,7 @@ namespace rollrig::proof {
 
 enum class OracleRace {
   kAlone,    // the true effects alone: how far the gap can shrink
-  kLeftOut,  // without the true effects and their twins: whether a neighbour is named instead
+  kLeftOut,  // without the true effects and their twins: whether a neighbor is named instead
 };
 
 /// Effects by set.
@@ -20,10 +20,10 @@ using Twins = std::map<std::string, std::vector<std::string>>;
 /// that, of whatever size.
 Twins find_twins(const std::vector<Truth>& truths, const std::string& answers);
 
-/// Adds to the twins of each set all effects that the catalogue calls confusable with the true ones, either way.
+/// Adds to the twins of each set all effects that the catalog calls confusable with the true ones, either way.
 void add_confusable(const std::vector<Truth>& truths, Twins& twins);
 
-/// A task for each set with effects of the catalogue. `only` as in plan_race(); `twins` are left out with the truth.
+/// A task for each set with effects of the catalog. `only` as in plan_race(); `twins` are left out with the truth.
 std::vector<Task> plan_oracle(const std::vector<Truth>& truths, OracleRace race, const std::vector<std::string>& only,
                               const Twins& twins = {});
 

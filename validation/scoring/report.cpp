@@ -144,7 +144,7 @@ std::string describe_truth(const Case& one) {
     if (!effect.size_class.empty()) text += fmt::format(" ({})", effect.size_class);
   }
   if (one.is_clean()) text += ", no effect";
-  if (one.truth.outside) text += ", outside of the catalogue";
+  if (one.truth.outside) text += ", outside of the catalog";
   text += fmt::format("; signal {:.2f} noise floors", one.truth.signal_floors);
   if (one.d_prime.has_value()) text += fmt::format(", d' {:.1f}", *one.d_prime);
   return text;

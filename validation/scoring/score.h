@@ -81,7 +81,7 @@ struct ScoreOrder {
   std::string ceiling;              // file with d' of the sets; empty: none
   std::string next_tests;           // folder of rollrig blind plan with the proposed tests, done; empty: none
   std::string drawn_tests;          // likewise with tests drawn from the menu
-  bool truth_was_left_out = false;  // the true effects were not in the race: none is in the catalogue
+  bool truth_was_left_out = false;  // the true effects were not in the race: none is in the catalog
   bool by_baseline = false;         // the answers are of rollrig blind baselines
 };
 

@@ -13,7 +13,7 @@ import {
 } from 'echarts/components';
 import { SVGRenderer } from 'echarts/renderers';
 import { h } from './dom.js';
-import { colour, onThemeChange } from './theme.js';
+import { color, onThemeChange } from './theme.js';
 
 echarts.use([
   BarChart, CustomChart, LineChart, SankeyChart, ScatterChart, DataZoomComponent, GridComponent, LegendComponent,
@@ -29,11 +29,11 @@ export function baseOption() {
   return {
     animation: false,
     backgroundColor: 'transparent',
-    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily, color: colour('ink'), fontSize: 12 },
+    textStyle: { fontFamily: getComputedStyle(document.body).fontFamily, color: color('ink'), fontSize: 12 },
     tooltip: {
-      backgroundColor: colour('raised'),
-      borderColor: colour('rule'),
-      textStyle: { color: colour('ink'), fontSize: 12 },
+      backgroundColor: color('raised'),
+      borderColor: color('rule'),
+      textStyle: { color: color('ink'), fontSize: 12 },
       confine: true,
       transitionDuration: 0,
     },
@@ -42,16 +42,16 @@ export function baseOption() {
 
 export function axisStyle() {
   return {
-    axisLine: { show: true, lineStyle: { color: colour('axis') } },
-    axisTick: { show: true, lineStyle: { color: colour('axis') } },
-    axisLabel: { color: colour('soft'), fontSize: 11, hideOverlap: true },
-    splitLine: { show: true, lineStyle: { color: colour('grid'), width: 1 } },
-    nameTextStyle: { color: colour('soft'), fontSize: 11 },
+    axisLine: { show: true, lineStyle: { color: color('axis') } },
+    axisTick: { show: true, lineStyle: { color: color('axis') } },
+    axisLabel: { color: color('soft'), fontSize: 11, hideOverlap: true },
+    splitLine: { show: true, lineStyle: { color: color('grid'), width: 1 } },
+    nameTextStyle: { color: color('soft'), fontSize: 11 },
   };
 }
 
 /// What the upright axis shows, in words above it and below a legend.
-export const axisTitle = (text, hasLegend) => ({ text, left: 0, top: hasLegend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: colour('soft') } });
+export const axisTitle = (text, hasLegend) => ({ text, left: 0, top: hasLegend ? 26 : 2, padding: 0, textStyle: { fontSize: 12, fontWeight: 400, color: color('soft') } });
 
 export class Chart {
   /// `makeOption(width)` is asked anew for each theme; `height` in px, or of the width.

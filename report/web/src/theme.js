@@ -18,13 +18,13 @@ function apply() {
 
 export const onThemeChange = (listener) => listeners.push(listener);
 
-/// A colour of style.css.
-export const colour = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
+/// A color of style.css.
+export const color = (name) => getComputedStyle(root).getPropertyValue(`--${name}`).trim();
 
-/// Line colours with their dashes and hatches, told apart in black and white too.
+/// Line colors with their dashes and hatches, told apart in black and white too.
 export function seriesStyle(i) {
   const dashes = ['solid', [7, 4], [2, 3], [9, 3, 2, 3]];
-  return { color: colour(`series-${(i % 6) + 1}`), type: dashes[i % dashes.length] };
+  return { color: color(`series-${(i % 6) + 1}`), type: dashes[i % dashes.length] };
 }
 
 /// Whether the page is being laid out for print.

@@ -42,7 +42,7 @@ TEST_CASE("EX30: at constant speed the wheels need the road load over the distan
   const double force_N = models::calc_road_load_N(*vehicle.road_load, 65.0 * 0.44704);
   for (const std::size_t i : {3, 7}) {
     CHECK(simulated[i].distance_m == Approx(certificate[i].distance_m).epsilon(1e-4));
-    // Ramps: kinetic energy given once and taken back but for the last metres, less drag on the way.
+    // Ramps: kinetic energy given once and taken back but for the last meters, less drag on the way.
     CHECK((simulated[i].drive_J - simulated[i].recuperated_J) / simulated[i].distance_m ==
           Approx(force_N).epsilon(0.01));
   }

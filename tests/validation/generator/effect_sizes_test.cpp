@@ -1,4 +1,4 @@
-// Sizes and base parameters of the foreign generator are drawn as the catalogue and the files say; each effect has two
+// Sizes and base parameters of the foreign generator are drawn as the catalog and the files say; each effect has two
 // functional forms, in which its size means the same.
 #include <fmt/format.h>
 
@@ -178,7 +178,7 @@ TEST_CASE("sizes lie mostly but not always in the catalogue's ranges, base param
   }
 }
 
-TEST_CASE("each effect of the catalogue has two forms, and seeds draw both about as often", "[slow]") {
+TEST_CASE("each effect of the catalog has two forms, and seeds draw both about as often", "[slow]") {
   Counts counts;
   count_forms("--kind drum", counts);
   count_forms("--kind dyno --effects slip_loss,brake_heat,tie_down_load,curvature_exponent", counts);

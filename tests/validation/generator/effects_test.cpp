@@ -95,17 +95,17 @@ BlindSet make(const Expected& expected, const std::string& form, const std::stri
 
 }  // namespace
 
-TEST_CASE("the whole catalogue is there, and eight effects outside of it", "[fast]") {
+TEST_CASE("the whole catalog is there, and eight effects outside of it", "[fast]") {
   const auto listed = run_blind("list").out;
-  std::set<std::string> catalogue;
-  for (const Expected& expected : kEffects) catalogue.insert(expected.effect);
-  for (const Expected& expected : kRoadEffects) catalogue.insert(expected.effect);
-  CHECK(catalogue.size() == 34);  // effects.md
-  for (const std::string& effect : catalogue)
+  std::set<std::string> catalog;
+  for (const Expected& expected : kEffects) catalog.insert(expected.effect);
+  for (const Expected& expected : kRoadEffects) catalog.insert(expected.effect);
+  CHECK(catalog.size() == 34);  // effects.md
+  for (const std::string& effect : catalog)
     CHECK_THAT(listed, Catch::Contains("\n" + effect + "\n") || Catch::StartsWith(effect + "\n"));
   CHECK(kOutside.size() >= 8);
   for (const Expected& expected : kOutside) {
-    CHECK_THAT(listed, Catch::Contains(std::string(expected.effect) + " (outside of the catalogue)"));
+    CHECK_THAT(listed, Catch::Contains(std::string(expected.effect) + " (outside of the catalog)"));
   }
 }
 

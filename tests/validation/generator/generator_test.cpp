@@ -99,7 +99,7 @@ TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
   }
 }
 
-TEST_CASE("a bank of each kind has what its kind shows, and effects outside of the catalogue where asked", "[fast]") {
+TEST_CASE("a bank of each kind has what its kind shows, and effects outside of the catalog where asked", "[fast]") {
   for (const std::string kind : {"drum", "dyno", "road"}) {
     const TemporaryFolder folder;
     const auto made =
@@ -303,7 +303,7 @@ TEST_CASE("a run that is stopped by a mistake leaves nothing behind", "[fast]") 
   CHECK(folder.entry_count() == 1);
 }
 
-TEST_CASE("a mixed bank has every effect of the catalogue, each size class, and each sort of campaign", "[slow]") {
+TEST_CASE("a mixed bank has every effect of the catalog, each size class, and each sort of campaign", "[slow]") {
   const TemporaryFolder folder;
   const auto made = run_blind(
       fmt::format("bank --kind mixed --seed 31 --each 0 --singles 102 --pairs 3 --none 2 --outside 9 --runs 1 --out {}",

@@ -59,7 +59,7 @@ double calc_run_mean_variance(const models::SensorParameters& sensor, double n) 
 TEST_CASE("errors of sensors are white and of unit variance once whitened by the format's noise model", "[fast]") {
   for (const std::string& channel : kChannels) {
     double squares = 0.0;
-    double neighbours = 0.0;
+    double neighbors = 0.0;
     double count = 0.0;
     for (const BlindSet& made : noisy_sets()) {
       for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
@@ -70,7 +70,7 @@ TEST_CASE("errors of sensors are white and of unit variance once whitened by the
         whitener.apply(white.data(), 1);
         for (std::size_t i = 1; i < white.size(); ++i) {
           squares += white[i] * white[i];
-          neighbours += white[i] * white[i - 1];
+          neighbors += white[i] * white[i - 1];
           count += 1.0;
         }
       }
@@ -78,7 +78,7 @@ TEST_CASE("errors of sensors are white and of unit variance once whitened by the
     INFO(channel);
     // Some 300 000 samples: standard errors 0.0026 and 0.0018. Less the mean of each run: a few in 2500.
     CHECK(squares / count == Approx(1.0).margin(0.012));
-    CHECK(std::abs(neighbours / count) < 0.01);
+    CHECK(std::abs(neighbors / count) < 0.01);
   }
 }
 

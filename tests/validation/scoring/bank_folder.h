@@ -10,7 +10,7 @@
 
 namespace rollrig::tests {
 
-/// Sets 0001 to 0003 with no effect, rim_heat and one outside of the catalogue, and their sealed truth.
+/// Sets 0001 to 0003 with no effect, rim_heat and one outside of the catalog, and their sealed truth.
 struct BankFolder {
   TemporaryFolder folder;
   std::string bank = folder.file("bank");

@@ -25,7 +25,7 @@ Eigen::VectorXd draw_noise(std::uint64_t seed, Eigen::Index count = kBlocks) {
   return noise;
 }
 
-/// Noise, and eight effects "a" to "h" whose signatures, of lengths 1 to 8, point anywhere; neighbours overlap.
+/// Noise, and eight effects "a" to "h" whose signatures, of lengths 1 to 8, point anywhere; neighbors overlap.
 LinearData make_data(std::uint64_t seed) {
   LinearData data;
   data.residual = draw_noise(seed);

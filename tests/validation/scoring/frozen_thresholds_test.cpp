@@ -48,5 +48,5 @@ void check_frozen(const std::string& what, const std::string& content) {
 
 TEST_CASE("thresholds and priors are those that the last blind bank was answered with", "[fast]") {
   check_frozen("diagnosis/thresholds.h", read_text_file(ROLLRIG_SOURCE_DIR "/diagnosis/thresholds.h"));
-  check_frozen("priors of the catalogue", write_priors());
+  check_frozen("priors of the catalog", write_priors());
 }

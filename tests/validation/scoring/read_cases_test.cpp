@@ -76,7 +76,7 @@ TEST_CASE("answers that lack are counted, with the command that mends it", "[fas
   CHECK_THROWS_WITH(proof::read_cases(make_order(made)), Contains("1 of 3 sets"));
 }
 
-TEST_CASE("races that know the truth are of effects of the catalogue", "[fast]") {
+TEST_CASE("races that know the truth are of effects of the catalog", "[fast]") {
   const BankFolder made;
   const auto truths = proof::open_truth(made.bank, "");
   const auto alone = proof::plan_oracle(truths, proof::OracleRace::kAlone, {});
@@ -112,7 +112,7 @@ TEST_CASE("twins of a truth are what its own set could not tell from it, and no 
   CHECK(say({"windage"}, {"slow_leak"}).empty());
 }
 
-TEST_CASE("what the catalogue calls confusable with a truth is left out with it, either way, where that is asked for",
+TEST_CASE("what the catalog calls confusable with a truth is left out with it, either way, where that is asked for",
           "[fast]") {
   const BankFolder made;
   const auto truths = proof::open_truth(made.bank, "");
@@ -127,7 +127,7 @@ TEST_CASE("what the catalogue calls confusable with a truth is left out with it,
   CHECK(count("rim_heat") == 0);
   CHECK(count("clock_shift") == 0);
   CHECK(twins.count("0001") == 0);  // no effect
-  CHECK(twins.count("0003") == 0);  // outside of the catalogue
+  CHECK(twins.count("0003") == 0);  // outside of the catalog
 }
 
 TEST_CASE("a ceiling of another bank is refused, one of this bank read", "[fast]") {

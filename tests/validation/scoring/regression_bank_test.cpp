@@ -11,7 +11,7 @@ using namespace rollrig::tests;
 namespace {
 
 /// Verdict and first cause of each set, and all counts of the score.
-json summarise(const std::string& bank, const json& score) {
+json summarize(const std::string& bank, const json& score) {
   json now = {{"seal", rollrig::read_text_file(bank + "/seal.sha256").substr(0, 64)}};
   for (const json& figure : score["figures"]) {
     if (figure["n"] > 0) now["figures"][figure["id"].get<std::string>()] = {figure["k"], figure["n"]};
@@ -42,7 +42,7 @@ TEST_CASE("a blind bank of ten sets comes out as it did", "[slow]") {
   const auto scored = run_program("blind score bank --json score.json --quiet", folder.path());
   INFO(scored.err);
   REQUIRE(scored.status == 0);
-  const json now = summarise(folder.file("bank"), json::parse(read_file(folder.file("score.json"))));
+  const json now = summarize(folder.file("bank"), json::parse(read_file(folder.file("score.json"))));
   INFO("if that is meant: " << stored_file << " is to hold\n" << now.dump(1));
   CHECK(now["seal"] == stored["seal"]);  // the generator makes the same sets
   CHECK(now["sets"] == stored["sets"]);

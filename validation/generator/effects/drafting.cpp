@@ -1,4 +1,4 @@
-/// Outside of the catalogue: for parts of a trip the vehicle drives in the wake of another.
+/// Outside of the catalog: for parts of a trip the vehicle drives in the wake of another.
 #include <array>
 #include <cmath>
 

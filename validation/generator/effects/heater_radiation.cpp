@@ -1,4 +1,4 @@
-/// Outside of the catalogue: a radiant heater in the cell that a thermostat switches.
+/// Outside of the catalog: a radiant heater in the cell that a thermostat switches.
 #include <cmath>
 
 #include "validation/generator/effect.h"

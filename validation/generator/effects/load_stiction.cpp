@@ -1,4 +1,4 @@
-/// Outside of the catalogue: the load cylinder sticks short of where it is sent.
+/// Outside of the catalog: the load cylinder sticks short of where it is sent.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-/// Outside of the catalogue: torque ripple once a turn of drum or roller, sampled once a second without a filter.
+/// Outside of the catalog: torque ripple once a turn of drum or roller, sampled once a second without a filter.
 #include <cmath>
 
 #include "validation/generator/effect.h"

@@ -1,4 +1,4 @@
-/// Outside of the catalogue: the thermometer at the liner warms itself once it is switched on.
+/// Outside of the catalog: the thermometer at the liner warms itself once it is switched on.
 #include <cmath>
 
 #include "validation/generator/effect.h"

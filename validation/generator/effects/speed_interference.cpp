@@ -1,4 +1,4 @@
-/// Outside of the catalogue: the inverter disturbs the force meter about one speed.
+/// Outside of the catalog: the inverter disturbs the force meter about one speed.
 #include <cmath>
 
 #include "validation/generator/effect.h"

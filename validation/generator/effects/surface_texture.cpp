@@ -1,4 +1,4 @@
-/// Outside of the catalogue: the surface changes: polished from run to run on a rig, patch by patch on a road.
+/// Outside of the catalog: the surface changes: polished from run to run on a rig, patch by patch on a road.
 #include <cmath>
 
 #include "validation/generator/effect.h"

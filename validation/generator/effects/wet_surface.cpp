@@ -1,4 +1,4 @@
-/// Outside of the catalogue: water on the surface for part of the runs: it cools the tread and drags.
+/// Outside of the catalog: water on the surface for part of the runs: it cools the tread and drags.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "validation/scoring/baselines/gaussian_process.h"
-#include "validation/scoring/baselines/linearised_set.h"
+#include "validation/scoring/baselines/linearized_set.h"
 
 namespace rollrig::proof {
 namespace {
@@ -13,7 +13,7 @@ using diagnosis::at;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
-Diagnosis shrink_by_gaussian_process(const LinearisedSet& set) {
+Diagnosis shrink_by_gaussian_process(const LinearizedSet& set) {
   Diagnosis diagnosis;
   diagnosis.verdict = Verdict::kUnexplained;
   diagnosis.probability = {{"none", 0.0}, {"unknown", 1.0}};
@@ -48,7 +48,7 @@ diagnosis::Cause make_cause(const Naming& naming, const LinearData& data, const 
   return cause;
 }
 
-Diagnosis name_effects(const BaselineMethod& method, const LinearisedSet& set) {
+Diagnosis name_effects(const BaselineMethod& method, const LinearizedSet& set) {
   const std::vector<TriedEffect> tried = set.try_effects();
   const LinearData data = set.project(tried);
   const Naming naming = method.name(data);
@@ -84,7 +84,7 @@ std::string baseline_folder(const std::string& bank, const BaselineMethod& metho
 
 Diagnosis diagnose_by(const BaselineMethod& method, const measurements::MeasurementSet& measured,
                       const Settings& settings) {
-  const LinearisedSet set(measured, settings);
+  const LinearizedSet set(measured, settings);
   Diagnosis diagnosis = method.name == nullptr ? shrink_by_gaussian_process(set) : name_effects(method, set);
   diagnosis.set = measured.name;
   return diagnosis;

@@ -22,7 +22,7 @@ std::string baseline_folder(const std::string& bank, const BaselineMethod& metho
 
 /// A set by one method: verdict, probabilities, one cause at most, sizes, and how far it shrinks the gap on runs left
 /// out. A method that names nothing has an unexplained set.
-/// Errors   as LinearisedSet
+/// Errors   as LinearizedSet
 /// Checked  tests/validation/scoring/baselines_of_sets_test.cpp
 diagnosis::Diagnosis diagnose_by(const BaselineMethod& method, const measurements::MeasurementSet& set,
                                  const Settings& settings);

@@ -21,7 +21,7 @@ struct LinearData {
 /// Takes out of whitened columns what unknowns with standard normal priors can do.
 /// Equation  C^-1/2 = 1 - U diag(1 - 1/sqrt(1 + s^2)) U^T, C = 1 + J J^T, J = U s V^T
 /// Symbols   J derivatives by base parameters and offsets, in prior units
-/// Source    generalised least squares with normal priors: ridge regression, kept in
+/// Source    generalized least squares with normal priors: ridge regression, kept in
 /// Checked   tests/validation/scoring/baselines_test.cpp
 class BaseProjection {
  public:

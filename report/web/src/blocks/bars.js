@@ -1,14 +1,14 @@
 // Bars side by side: {label, unit, categories: [...], series: [{name, values, low, high}], caption}
 import { axisStyle, axisTitle, baseOption, Chart, figure } from '../chart.js';
 import { number } from '../format.js';
-import { colour } from '../theme.js';
+import { color } from '../theme.js';
 import { makeTable } from './table.js';
 
-/// Filled, hollow and hatched bars differ without colour.
+/// Filled, hollow and hatched bars differ without color.
 function barStyle(k) {
-  const tone = colour(`series-${(k % 6) + 1}`);
+  const tone = color(`series-${(k % 6) + 1}`);
   if (k % 2 === 0) return { color: tone, borderColor: tone, borderWidth: 1 };
-  return { color: colour('hatch'), borderColor: tone, borderWidth: 1.5,
+  return { color: color('hatch'), borderColor: tone, borderWidth: 1.5,
     decal: { symbol: 'rect', color: tone, dashArrayX: [1, 0], dashArrayY: [2, 4], rotation: -Math.PI / 4 } };
 }
 
@@ -25,7 +25,7 @@ function whiskers(series, k, count) {
       const at = x + (k - (count - 1) / 2) * ((0.7 * band) / count);
       const whisker = (stroke, lineWidth) => [[at, low, at, high], [at - 4, low, at + 4, low], [at - 4, high, at + 4, high]]
         .map(([x1, y1, x2, y2]) => ({ type: 'line', shape: { x1, y1, x2, y2 }, style: { stroke, lineWidth } }));
-      return { type: 'group', children: [...whisker(colour('paper'), 4), ...whisker(colour('ink'), 1.5)] };
+      return { type: 'group', children: [...whisker(color('paper'), 4), ...whisker(color('ink'), 1.5)] };
     },
   };
 }
@@ -35,12 +35,12 @@ function makeOption(block, width) {
   const crowded = width / block.categories.length < 70;
   const bars = block.series.map((series, k) => ({
     name: series.name, type: 'bar', data: series.values, itemStyle: barStyle(k), barGap: '8%', barMaxWidth: 72, barCategoryGap: '30%',
-    label: { show: Boolean(series.labels) && !crowded, position: 'top', fontSize: 11, color: colour('ink'), formatter: (p) => series.labels[p.dataIndex] },
+    label: { show: Boolean(series.labels) && !crowded, position: 'top', fontSize: 11, color: color('ink'), formatter: (p) => series.labels[p.dataIndex] },
   }));
   return {
     ...baseOption(),
     tooltip: { ...baseOption().tooltip, trigger: 'axis', axisPointer: { type: 'shadow' }, valueFormatter: (v) => (Array.isArray(v) ? '' : `${number(v)} ${block.unit}`) },
-    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: 18, itemHeight: 10, textStyle: { color: colour('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
+    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: 18, itemHeight: 10, textStyle: { color: color('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
     title: axisTitle(`${block.label}, ${block.unit}`, block.series.length > 1),
     grid: { left: 8, right: 8, top: block.series.length > 1 ? 58 : 34, bottom: 4, containLabel: true },
     xAxis: { ...axis, type: 'category', data: block.categories, splitLine: { show: false }, axisTick: { show: false },

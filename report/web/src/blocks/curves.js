@@ -3,7 +3,7 @@
 // A line's low and high are a band, those of points are whiskers.
 import { axisStyle, axisTitle, baseOption, Chart, figure } from '../chart.js';
 import { number } from '../format.js';
-import { colour, seriesStyle } from '../theme.js';
+import { color, seriesStyle } from '../theme.js';
 import { makeTable } from './table.js';
 
 const kSymbols = ['circle', 'rect', 'triangle', 'diamond', 'emptyCircle', 'emptyRect'];
@@ -52,11 +52,11 @@ function makeOption(block) {
     ...(block.diagonal ? [[{ coord: [0, 0] }, { coord: [block.diagonal, block.diagonal] }]] : []),
   ];
   const series = block.series.flatMap(makeSeries);
-  if (lines.length) series[0].markLine = { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: colour('axis'), type: [4, 4] }, data: lines };
+  if (lines.length) series[0].markLine = { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: color('axis'), type: [4, 4] }, data: lines };
   return {
     ...baseOption(),
     tooltip: { ...baseOption().tooltip, trigger: 'item', formatter: (p) => `${p.seriesName}<br>${name(block.x)}: <b>${number(p.value[0])}</b><br>${name(block.y)}: <b>${number(p.value[1])}</b>` },
-    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14, itemHeight: 9, type: 'scroll', textStyle: { color: colour('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
+    legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14, itemHeight: 9, type: 'scroll', textStyle: { color: color('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
     title: axisTitle(name(block.y), block.series.length > 1),
     grid: { left: 8, right: 16, top: block.series.length > 1 ? 54 : 30, bottom: 26, containLabel: true },
     xAxis: { ...axis, type: 'value', scale: !block.x.from_zero, name: name(block.x), nameLocation: 'middle', nameGap: 26, splitLine: { show: false } },

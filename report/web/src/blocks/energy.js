@@ -4,7 +4,7 @@
 import { baseOption, Chart } from '../chart.js';
 import { h } from '../dom.js';
 import { number, plain } from '../format.js';
-import { colour } from '../theme.js';
+import { color } from '../theme.js';
 import { makeTable } from './table.js';
 
 const kShown = 1e-3; // of a ledger's inflow; smaller terms stand in the table alone
@@ -20,7 +20,7 @@ function unitFor(largest_J) {
 function makeFlow(block, unit) {
   const nodes = new Map();
   const links = [];
-  const add = (name, tone) => nodes.has(name) || nodes.set(name, { name, itemStyle: { color: colour(tone) } });
+  const add = (name, tone) => nodes.has(name) || nodes.set(name, { name, itemStyle: { color: color(tone) } });
   const flow = (source, target, value_J) => links.push({ source, target, value: value_J / unit.J });
   block.ledgers.forEach((ledger, l) => {
     const whole = inflow(ledger);
@@ -60,8 +60,8 @@ function makeOption(block, unit, width) {
     series: [{
       type: 'sankey', left: 4, right, top: 12, bottom: 12, nodeWidth: 10, nodeGap: 28, draggable: false, nodeAlign: 'left',
       data: nodes, links, layoutIterations: 64, emphasis: { disabled: true },
-      label: { color: colour('ink'), fontSize: width < 600 ? 10.5 : 12, formatter: (p) => `${p.name}\n${number(carried(p.name))} ${unit.symbol}`, lineHeight: 15, width: label, overflow: 'break' },
-      lineStyle: { color: colour('flow'), opacity: 0.32, curveness: 0.5 },
+      label: { color: color('ink'), fontSize: width < 600 ? 10.5 : 12, formatter: (p) => `${p.name}\n${number(carried(p.name))} ${unit.symbol}`, lineHeight: 15, width: label, overflow: 'break' },
+      lineStyle: { color: color('flow'), opacity: 0.32, curveness: 0.5 },
     }],
   };
 }

@@ -3,7 +3,7 @@ import { fixed, clockTime, decimalsFor } from '../format.js';
 import { makeTable } from './table.js';
 
 /// Mean over time of the straight lines between points, and the extremes.
-function summarise({ t, y }, start_s, end_s) {
+function summarize({ t, y }, start_s, end_s) {
   let area = 0;
   let width = 0;
   let low = Infinity;
@@ -29,7 +29,7 @@ export function makePhaseTable(block, span) {
   for (const panel of block.panels) {
     for (const series of panel.series) {
       for (const phase of phases) {
-        const found = summarise(series, phase.start_s, phase.end_s);
+        const found = summarize(series, phase.start_s, phase.end_s);
         if (!found) continue;
         const decimals = decimalsFor(found.low, found.high);
         rows.push([series.name, phase.name, clockTime(phase.start_s), clockTime(phase.end_s),

@@ -5,7 +5,7 @@
 import { axisStyle, baseOption, Chart, graphic } from '../chart.js';
 import { h } from '../dom.js';
 import { clockTime, number, timeUnit } from '../format.js';
-import { colour, isOnPaper, seriesStyle } from '../theme.js';
+import { color, isOnPaper, seriesStyle } from '../theme.js';
 import { makePhaseTable } from './phase_table.js';
 
 const kLeft = 62;
@@ -56,11 +56,11 @@ function phaseStrip(phases, unit) {
       return {
         type: 'group',
         children: [
-          { type: 'rect', shape: box, style: { fill: colour(i % 2 ? 'phase-b' : 'phase-a'), stroke: colour('axis'), lineWidth: 0.5 } },
+          { type: 'rect', shape: box, style: { fill: color(i % 2 ? 'phase-b' : 'phase-a'), stroke: color('axis'), lineWidth: 0.5 } },
           box.width - 8 > Math.min(6.2 * name.length, 44) && { // a letter or two say nothing
             type: 'text',
             style: { x: box.x + 4, y: area.y + area.height / 2, text: name, width: box.width - 8, overflow: 'truncate',
-              ellipsis: '\u2026', verticalAlign: 'middle', fontSize: 11, fill: colour('ink') },
+              ellipsis: '\u2026', verticalAlign: 'middle', fontSize: 11, fill: color('ink') },
           },
         ].filter(Boolean),
       };
@@ -71,7 +71,7 @@ function phaseStrip(phases, unit) {
 function phaseShading(phases, unit) {
   return {
     silent: true,
-    itemStyle: { color: colour('phase-shade') },
+    itemStyle: { color: color('phase-shade') },
     data: phases.filter((_, i) => i % 2 === 1).map((p) => [{ xAxis: p.start_s / unit.seconds }, { xAxis: p.end_s / unit.seconds }]),
   };
 }
@@ -93,11 +93,11 @@ function makeSeries(panel, series, index, k, unit, phases) {
     symbolSize: isPoints ? 3 : 0,
     symbol: isPoints ? 'circle' : 'none',
     z: isPoints ? 1 : 3,
-    itemStyle: { color: isPoints ? colour('soft') : style.color, opacity: isPoints ? 0.55 : 1 },
+    itemStyle: { color: isPoints ? color('soft') : style.color, opacity: isPoints ? 0.55 : 1 },
     lineStyle: { color: style.color, width: 1.6, type: style.type },
     step: series.step ? 'end' : false,
     markArea: k === 0 ? phaseShading(phases, unit) : undefined,
-    markLine: k === 0 && series.zero ? { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: colour('axis'), type: 'solid' }, data: [{ yAxis: 0 }] } : undefined,
+    markLine: k === 0 && series.zero ? { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: color('axis'), type: 'solid' }, data: [{ yAxis: 0 }] } : undefined,
   };
 }
 
@@ -133,18 +133,18 @@ function makeOption(block, span, unit, width) {
       axisLine: { ...axis.axisLine, onZero: false }, axisTick: { ...axis.axisTick, show: last },
       axisLabel: { ...axis.axisLabel, show: last, showMinLabel: false, showMaxLabel: false, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') },
       name: last ? `Time, ${unit.symbol}` : '', nameLocation: 'middle', nameGap: 22, splitLine: { show: false },
-      axisPointer: { snap: false, lineStyle: { color: colour('soft'), type: 'solid', width: 1 }, label: { show: false } },
+      axisPointer: { snap: false, lineStyle: { color: color('soft'), type: 'solid', width: 1 }, label: { show: false } },
     });
     yAxes.push({ ...axis, type: 'value', gridIndex: i + 1, scale: true, splitNumber: 3, axisLine: { ...axis.axisLine, onZero: false }, min: (v) => limits(v).min, max: (v) => limits(v).max,
       axisLabel: { ...axis.axisLabel, formatter: (v) => number(v, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '') } });
     titles.push({ left: kLeft - 4, top: top - (isNarrow(width) ? 38 : 22), padding: 0,
       text: `{b|${panel.label}} {u|${panel.unit}}`,
-      textStyle: { fontSize: 12, color: colour('ink'), rich: { b: { fontWeight: 600, fontSize: 12, color: colour('ink') }, u: { fontSize: 12, color: colour('soft') } } } });
+      textStyle: { fontSize: 12, color: color('ink'), rich: { b: { fontWeight: 600, fontSize: 12, color: color('ink') }, u: { fontSize: 12, color: color('soft') } } } });
     if (panel.series.length > 1) {
       const narrow = isNarrow(width);
-      legends.push({ data: panel.series.map((s) => ({ name: uniqueName(panel, s), itemStyle: { opacity: s.points ? 1 : 0 } })), formatter: (name) => name.split('|').at(-1), type: 'scroll', top: top - (narrow ? 20 : 24), pageIconSize: 10, pageTextStyle: { color: colour('soft') },
+      legends.push({ data: panel.series.map((s) => ({ name: uniqueName(panel, s), itemStyle: { opacity: s.points ? 1 : 0 } })), formatter: (name) => name.split('|').at(-1), type: 'scroll', top: top - (narrow ? 20 : 24), pageIconSize: 10, pageTextStyle: { color: color('soft') },
         ...(narrow ? { left: kLeft - 8, right: kRight } : { right: kRight, width: width - 230 }), itemWidth: 26, itemHeight: 8, itemGap: 12, padding: 0,
-        textStyle: { fontSize: 11, lineHeight: 16, color: colour('soft') }, inactiveColor: colour('grid') });
+        textStyle: { fontSize: 11, lineHeight: 16, color: color('soft') }, inactiveColor: color('grid') });
     }
     panel.series.forEach((one, k) => series.push(makeSeries(panel, one, i, k, unit, block.phases || [])));
   });
@@ -156,8 +156,8 @@ function makeOption(block, span, unit, width) {
     title: titles, legend: legends, grid: grids, xAxis: xAxes, yAxis: yAxes,
     dataZoom: [
       { type: 'slider', show: !isOnPaper(), xAxisIndex: allX, startValue: view[0], endValue: view[1], bottom: 4, height: 16, left: kLeft, right: kRight,
-        showDataShadow: false, showDetail: false, brushSelect: false, filterMode: 'none', borderColor: colour('rule'),
-        fillerColor: colour('phase-a'), handleStyle: { color: colour('raised'), borderColor: colour('axis') }, moveHandleSize: 4, moveHandleStyle: { color: colour('axis') } },
+        showDataShadow: false, showDetail: false, brushSelect: false, filterMode: 'none', borderColor: color('rule'),
+        fillerColor: color('phase-a'), handleStyle: { color: color('raised'), borderColor: color('axis') }, moveHandleSize: 4, moveHandleStyle: { color: color('axis') } },
       { type: 'inside', xAxisIndex: allX, startValue: view[0], endValue: view[1], filterMode: 'none', zoomOnMouseWheel: 'ctrl', moveOnMouseWheel: false },
     ],
     series,

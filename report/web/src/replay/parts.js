@@ -1,11 +1,11 @@
-// Parts of rigs and vehicles in metres, y downwards as SVG has it.
+// Parts of rigs and vehicles in meters, y downwards as SVG has it.
 import { h, set, svg } from '../dom.js';
-import { colour } from '../theme.js';
+import { color } from '../theme.js';
 
 /// Cold to hot: dark blue, green, yellow, red; lighter as it warms, so that it reads in black and white.
 const kHeat = [[59, 76, 192], [68, 132, 181], [94, 176, 142], [188, 196, 96], [240, 160, 60], [214, 66, 48]];
 
-export function heatColour(share) {
+export function heatColor(share) {
   const at = Math.min(0.9999, Math.max(0, share)) * (kHeat.length - 1);
   const i = Math.floor(at);
   const mix = kHeat[i].map((c, k) => Math.round(c + (at - i) * (kHeat[i + 1][k] - c)));
@@ -50,7 +50,7 @@ export function makeWheel(tire) {
   return {
     element: turning,
     turn: (rad, x, y) => rotate(turning, rad, x, y),
-    heat: (share) => rubber.setAttribute('stroke', heatColour(share)),
+    heat: (share) => rubber.setAttribute('stroke', heatColor(share)),
   };
 }
 
@@ -77,9 +77,9 @@ export function makeArrow(name) {
   };
 }
 
-/// The scale of the tire's colour, along the left edge.
+/// The scale of the tire's color, along the left edge.
 export function makeHeatScale({ x, y, width, height, low, high }) {
-  const bands = Array.from({ length: 24 }, (_, i) => svg('rect', { x, y: y + (height * i) / 24, width, height: height / 24 + 0.002, fill: heatColour(1 - (i + 0.5) / 24) }));
+  const bands = Array.from({ length: 24 }, (_, i) => svg('rect', { x, y: y + (height * i) / 24, width, height: height / 24 + 0.002, fill: heatColor(1 - (i + 0.5) / 24) }));
   const pointer = svg('path', { class: 'pointer' });
   const text = (value, at) => svg('text', { x: x + width / 2, y: at, class: 'label small', 'text-anchor': 'middle' }, `${Math.round(value)} \u00b0C`);
   return {

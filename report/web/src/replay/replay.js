@@ -1,4 +1,4 @@
-// The test rig as it moves, drawn from the recorded poses; the tire is coloured by its temperature.
+// The test rig as it moves, drawn from the recorded poses; the tire is colored by its temperature.
 //
 // {machine: drum | rollers | road, label, caption, tire, wheels: [...], body, temperature_degC: [low, high], ...}
 // Series are {t, y}. Beside it stands what the channels of the section's time chart show at that time.

@@ -1,10 +1,10 @@
-// Scenes of the three machines. Lengths in metres; each scene has an element and show(time_s).
+// Scenes of the three machines. Lengths in meters; each scene has an element and show(time_s).
 import { svg } from '../dom.js';
 import { fixed } from '../format.js';
 import { valueAt } from '../clock.js';
 import { makeArrow, makeDrum, makeHeatScale, makeWheel } from './parts.js';
 
-const kNewtonsPerMetre = 14000; // of the arrows
+const kNewtonsPerMeter = 14000; // of the arrows
 
 function makeHeat(block) {
   const [low, high] = block.temperature_degC;
@@ -42,13 +42,13 @@ function makeDrumScene(block) {
       turning.heat(heat);
       scale.point(heat);
       carriage.setAttribute('transform', `translate(0 ${-height})`);
-      load.point(0.36, -height - 0.55, 0, Math.max(0, now_N) / kNewtonsPerMetre, `load ${fixed(now_N, 0)} N`);
+      load.point(0.36, -height - 0.55, 0, Math.max(0, now_N) / kNewtonsPerMeter, `load ${fixed(now_N, 0)} N`);
       speed.point(R * 0.5, 0.3, -Math.min(0.8, km_h / 160), 0, `${fixed(km_h, 1)} km/h`, 'start');
     },
   };
 }
 
-/// A plain saloon about its centre of gravity.
+/// A plain saloon about its center of gravity.
 function makeShell({ wheelbase_m, front_x_m, height_m }) {
   const middle = front_x_m - wheelbase_m / 2;
   const a = wheelbase_m / 2;

@@ -1,4 +1,4 @@
-#include "diagnosis/comparison/remainder.h"
+#include "diagnosis/comparison/discrepancy.h"
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -9,8 +9,8 @@
 using namespace rollrig;
 using diagnosis::Amplitudes;
 using diagnosis::at;
+using diagnosis::Discrepancy;
 using diagnosis::PreparedSet;
-using diagnosis::Remainder;
 using diagnosis::RowMatrix;
 using diagnosis::Series;
 
@@ -33,14 +33,14 @@ const PreparedSet& twins() {
   return set;
 }
 
-/// The remainder's covariance of whitened residuals, of unit amplitude, over the whole set.
-Eigen::MatrixXd make_process(const Remainder& remainder, const Amplitudes& amplitudes) {
-  const Eigen::Index n = at(remainder.set().residual_count());
+/// The discrepancy's covariance of whitened residuals, of unit amplitude, over the whole set.
+Eigen::MatrixXd make_process(const Discrepancy& discrepancy, const Amplitudes& amplitudes) {
+  const Eigen::Index n = at(discrepancy.set().residual_count());
   Eigen::MatrixXd process = Eigen::MatrixXd::Zero(n, n);
-  for (const Remainder::Basis& basis : remainder.bases()) {
+  for (const Discrepancy::Basis& basis : discrepancy.bases()) {
     std::vector<Eigen::Index> rows;
     for (const std::size_t s : basis.series) {
-      const Series& series = remainder.set().series()[s];
+      const Series& series = discrepancy.set().series()[s];
       for (std::size_t k = 0; k < series.size(); ++k) rows.push_back(at(series.first_residual + k));
     }
     REQUIRE(at(rows.size()) == basis.directions.rows());
@@ -56,12 +56,12 @@ Eigen::MatrixXd make_process(const Remainder& remainder, const Amplitudes& ampli
 }
 
 /// What the process is before whitening, in noise floors: a row a block.
-Eigen::MatrixXd make_rows_in_floors(const Remainder& remainder, std::size_t s) {
-  const Series& series = remainder.set().series()[s];
-  for (const Remainder::Basis& basis : remainder.bases()) {
+Eigen::MatrixXd make_rows_in_floors(const Discrepancy& discrepancy, std::size_t s) {
+  const Series& series = discrepancy.set().series()[s];
+  for (const Discrepancy::Basis& basis : discrepancy.bases()) {
     Eigen::Index first = 0;
     for (const std::size_t other : basis.series) {
-      const Eigen::Index size = at(remainder.set().series()[other].size());
+      const Eigen::Index size = at(discrepancy.set().series()[other].size());
       if (other == s) {
         RowMatrix rows = basis.directions.middleRows(first, size) * basis.strengths.cwiseSqrt().asDiagonal();
         series.whitener.undo(rows.data(), static_cast<std::size_t>(rows.cols()));
@@ -73,59 +73,59 @@ Eigen::MatrixXd make_rows_in_floors(const Remainder& remainder, std::size_t s) {
   throw std::logic_error("a series without a basis");
 }
 
-void check_inverse_root(const Remainder& remainder, const Amplitudes& amplitudes) {
+void check_inverse_root(const Discrepancy& discrepancy, const Amplitudes& amplitudes) {
   const Eigen::MatrixXd sigma =
-      make_process(remainder, amplitudes) +
-      Eigen::MatrixXd::Identity(at(remainder.set().residual_count()), at(remainder.set().residual_count()));
+      make_process(discrepancy, amplitudes) +
+      Eigen::MatrixXd::Identity(at(discrepancy.set().residual_count()), at(discrepancy.set().residual_count()));
   const RowMatrix columns = RowMatrix::Random(sigma.rows(), 3);
   RowMatrix whitened = columns;
-  remainder.whiten(amplitudes, whitened);
+  discrepancy.whiten(amplitudes, whitened);
   const Eigen::MatrixXd expected = columns.transpose() * sigma.llt().solve(Eigen::MatrixXd(columns));
   CHECK((whitened.transpose() * whitened - expected).norm() < 1e-8 * expected.norm());
   Eigen::VectorXd column = columns.col(1);
-  remainder.whiten(amplitudes, column);
+  discrepancy.whiten(amplitudes, column);
   CHECK((column - whitened.col(1)).norm() < 1e-12 * column.norm());
 }
 
 }  // namespace
 
 TEST_CASE("the squared length after whitening is r' Sigma^-1 r, of either kind", "[fast]") {
-  const Remainder of_time(two_runs());
+  const Discrepancy of_time(two_runs());
   check_inverse_root(of_time, {0.1, 2.0, 0.5});
-  const Remainder of_conditions(of_time, {0.2, 0.3, 0.4});
+  const Discrepancy of_conditions(of_time, {0.2, 0.3, 0.4});
   check_inverse_root(of_conditions, {0.1, 2.0, 0.5});
 }
 
-TEST_CASE("a remainder of no size changes nothing", "[fast]") {
-  const Remainder of_time(two_runs());
-  const Remainder of_conditions(of_time, {0.0, 0.0, 0.0});
+TEST_CASE("a discrepancy of no size changes nothing", "[fast]") {
+  const Discrepancy of_time(two_runs());
+  const Discrepancy of_conditions(of_time, {0.0, 0.0, 0.0});
   const RowMatrix columns = RowMatrix::Random(at(two_runs().residual_count()), 2);
-  for (const Remainder* remainder : {&of_time, &of_conditions}) {
+  for (const Discrepancy* discrepancy : {&of_time, &of_conditions}) {
     RowMatrix whitened = columns;
-    remainder->whiten({0.0, 0.0, 0.0}, whitened);
+    discrepancy->whiten({0.0, 0.0, 0.0}, whitened);
     CHECK(whitened == columns);
-    remainder->whiten_below(whitened);
+    discrepancy->whiten_below(whitened);
     CHECK(whitened == columns);
-    CHECK(remainder->log_determinant_below() == 0.0);
+    CHECK(discrepancy->log_determinant_below() == 0.0);
   }
 }
 
 TEST_CASE("a channel of no size is left alone", "[fast]") {
-  const Remainder remainder(two_runs());
+  const Discrepancy discrepancy(two_runs());
   const Eigen::VectorXd column = Eigen::VectorXd::Random(at(two_runs().residual_count()));
   Eigen::VectorXd whitened = column;
-  remainder.whiten({0.0, 3.0, 0.0}, whitened);
+  discrepancy.whiten({0.0, 3.0, 0.0}, whitened);
   for (const Series& series : two_runs().series()) {
     const auto change = (whitened - column).segment(at(series.first_residual), at(series.size())).norm();
     CHECK((change > 0.1) == (series.channel == 1));
   }
 }
 
-TEST_CASE("of what it stands on, a remainder knows the inverse root and the determinant", "[fast]") {
-  const Remainder of_time(two_runs());
+TEST_CASE("of what it stands on, a discrepancy knows the inverse root and the determinant", "[fast]") {
+  const Discrepancy of_time(two_runs());
   CHECK(of_time.log_determinant_below() == 0.0);
   const Amplitudes amplitudes{0.2, 1.0, 0.4};
-  const Remainder of_conditions(of_time, amplitudes);
+  const Discrepancy of_conditions(of_time, amplitudes);
   const Eigen::VectorXd column = Eigen::VectorXd::Random(at(two_runs().residual_count()));
   Eigen::VectorXd below = column;
   Eigen::VectorXd of_its_own = column;
@@ -139,10 +139,10 @@ TEST_CASE("of what it stands on, a remainder knows the inverse root and the dete
 }
 
 TEST_CASE("directions are orthonormal and strengths positive", "[fast]") {
-  const Remainder of_time(two_runs());
-  const Remainder of_conditions(of_time, {0.2, 1.0, 0.4});
-  for (const Remainder* remainder : {&of_time, &of_conditions}) {
-    for (const Remainder::Basis& basis : remainder->bases()) {
+  const Discrepancy of_time(two_runs());
+  const Discrepancy of_conditions(of_time, {0.2, 1.0, 0.4});
+  for (const Discrepancy* discrepancy : {&of_time, &of_conditions}) {
+    for (const Discrepancy::Basis& basis : discrepancy->bases()) {
       const Eigen::Index n = basis.directions.cols();
       CHECK((basis.directions.transpose() * basis.directions - Eigen::MatrixXd::Identity(n, n)).norm() < 1e-6);
       CHECK(basis.strengths.minCoeff() > 0.0);
@@ -151,20 +151,20 @@ TEST_CASE("directions are orthonormal and strengths positive", "[fast]") {
 }
 
 TEST_CASE("an amplitude is a standard deviation in noise floors, the same all along a run", "[fast]") {
-  const Remainder remainder(two_runs());
+  const Discrepancy discrepancy(two_runs());
   for (std::size_t s = 0; s < two_runs().series().size(); ++s) {
-    const Eigen::VectorXd variance = make_rows_in_floors(remainder, s).rowwise().squaredNorm();
+    const Eigen::VectorXd variance = make_rows_in_floors(discrepancy, s).rowwise().squaredNorm();
     CHECK(variance.maxCoeff() < 1.001);
     CHECK(variance.minCoeff() > 0.7);  // between two hats, less
   }
 }
 
-TEST_CASE("a remainder of time differs from run to run; one of conditions repeats", "[fast]") {
-  const Remainder of_time(twins());
-  for (const Remainder::Basis& basis : of_time.bases()) CHECK(basis.series.size() == 1);
-  const Remainder of_conditions(of_time, {0.0, 0.0, 0.0});
+TEST_CASE("a discrepancy of time differs from run to run; one of conditions repeats", "[fast]") {
+  const Discrepancy of_time(twins());
+  for (const Discrepancy::Basis& basis : of_time.bases()) CHECK(basis.series.size() == 1);
+  const Discrepancy of_conditions(of_time, {0.0, 0.0, 0.0});
   CHECK(of_conditions.bases().size() == twins().channels().size());
-  for (const Remainder::Basis& basis : of_conditions.bases()) {
+  for (const Discrepancy::Basis& basis : of_conditions.bases()) {
     REQUIRE(basis.series.size() == 2);
     const Eigen::MatrixXd first = make_rows_in_floors(of_conditions, basis.series[0]);
     const Eigen::MatrixXd second = make_rows_in_floors(of_conditions, basis.series[1]);
@@ -172,8 +172,8 @@ TEST_CASE("a remainder of time differs from run to run; one of conditions repeat
   }
 }
 
-TEST_CASE("what lasts is taken for a remainder, what jumps from block to block is not", "[fast]") {
-  const Remainder remainder(two_runs());
+TEST_CASE("what lasts is taken for a discrepancy, what jumps from block to block is not", "[fast]") {
+  const Discrepancy discrepancy(two_runs());
   const Series& series = two_runs().series().front();
   Eigen::VectorXd slow = Eigen::VectorXd::Zero(at(two_runs().residual_count()));
   Eigen::VectorXd fast = slow;
@@ -184,7 +184,7 @@ TEST_CASE("what lasts is taken for a remainder, what jumps from block to block i
   const auto kept = [&](Eigen::VectorXd difference) {
     diagnosis::whiten(two_runs(), difference);
     const double before = difference.squaredNorm();
-    remainder.whiten({100.0, 100.0, 100.0}, difference);
+    discrepancy.whiten({100.0, 100.0, 100.0}, difference);
     return difference.squaredNorm() / before;
   };
   CHECK(kept(slow) < 0.05);

@@ -1,4 +1,4 @@
-#include "diagnosis/comparison/remainder.h"
+#include "diagnosis/comparison/discrepancy.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -41,7 +41,7 @@ void add_phases(const Series& series, Eigen::MatrixXd& basis) {
 Eigen::MatrixXd make_time_basis(const Series& series) {
   Eigen::MatrixXd columns(at(series.size()), 1);
   columns.setOnes();
-  for (const double scale_s : thresholds::kRemainderScales_s) add_hats(series, scale_s, columns);
+  for (const double scale_s : thresholds::kDiscrepancyScales_s) add_hats(series, scale_s, columns);
   add_phases(series, columns);
   return columns / std::sqrt(kLevels);
 }
@@ -124,14 +124,14 @@ RowMatrix whiten_basis(const Series& series, const Eigen::MatrixXd& columns) {
 
 }  // namespace
 
-Remainder::Remainder(const PreparedSet& set) : set_(set) {
+Discrepancy::Discrepancy(const PreparedSet& set) : set_(set) {
   for (std::size_t s = 0; s < set.series().size(); ++s) {
     const Series& series = set.series()[s];
     add_basis(series.channel, {s}, whiten_basis(series, make_time_basis(series)));
   }
 }
 
-Remainder::Remainder(const Remainder& of_time, const Amplitudes& amplitudes)
+Discrepancy::Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitudes)
     : set_(of_time.set_), below_(&of_time), below_amplitudes_(amplitudes) {
   std::vector<RowMatrix> of_series;
   for (const Series& series : set_.series()) {
@@ -151,7 +151,7 @@ Remainder::Remainder(const Remainder& of_time, const Amplitudes& amplitudes)
   }
 }
 
-void Remainder::add_basis(std::size_t channel, std::vector<std::size_t> series, const Eigen::MatrixXd& whitened) {
+void Discrepancy::add_basis(std::size_t channel, std::vector<std::size_t> series, const Eigen::MatrixXd& whitened) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whitened.transpose() * whitened);
   const Eigen::VectorXd& values = solver.eigenvalues();  // increasing
   constexpr double kNegligible = 1e-9;
@@ -164,7 +164,7 @@ void Remainder::add_basis(std::size_t channel, std::vector<std::size_t> series, 
 }
 
 template <class Columns>
-Eigen::MatrixXd Remainder::gather(const Basis& basis, const Columns& columns) const {
+Eigen::MatrixXd Discrepancy::gather(const Basis& basis, const Columns& columns) const {
   Eigen::Index rows = 0;
   for (const std::size_t s : basis.series) rows += at(set_.series()[s].size());
   Eigen::MatrixXd gathered(rows, columns.cols());
@@ -178,7 +178,7 @@ Eigen::MatrixXd Remainder::gather(const Basis& basis, const Columns& columns) co
 }
 
 template <class Columns>
-void Remainder::whiten(const Amplitudes& amplitudes, Columns& columns) const {
+void Discrepancy::whiten(const Amplitudes& amplitudes, Columns& columns) const {
   for (const Basis& basis : bases_) {
     const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
     const Eigen::VectorXd taken = (1.0 - (1.0 + square * basis.strengths.array()).rsqrt()).matrix();
@@ -194,11 +194,11 @@ void Remainder::whiten(const Amplitudes& amplitudes, Columns& columns) const {
 }
 
 template <class Columns>
-void Remainder::whiten_below(Columns& columns) const {
+void Discrepancy::whiten_below(Columns& columns) const {
   if (below_ != nullptr) below_->whiten(below_amplitudes_, columns);
 }
 
-double Remainder::log_determinant_below() const {
+double Discrepancy::log_determinant_below() const {
   double sum = 0.0;
   if (below_ == nullptr) return sum;
   for (const Basis& basis : below_->bases()) {
@@ -208,11 +208,11 @@ double Remainder::log_determinant_below() const {
   return sum;
 }
 
-template Eigen::MatrixXd Remainder::gather(const Basis&, const RowMatrix&) const;
-template Eigen::MatrixXd Remainder::gather(const Basis&, const Eigen::VectorXd&) const;
-template void Remainder::whiten(const Amplitudes&, RowMatrix&) const;
-template void Remainder::whiten(const Amplitudes&, Eigen::VectorXd&) const;
-template void Remainder::whiten_below(RowMatrix&) const;
-template void Remainder::whiten_below(Eigen::VectorXd&) const;
+template Eigen::MatrixXd Discrepancy::gather(const Basis&, const RowMatrix&) const;
+template Eigen::MatrixXd Discrepancy::gather(const Basis&, const Eigen::VectorXd&) const;
+template void Discrepancy::whiten(const Amplitudes&, RowMatrix&) const;
+template void Discrepancy::whiten(const Amplitudes&, Eigen::VectorXd&) const;
+template void Discrepancy::whiten_below(RowMatrix&) const;
+template void Discrepancy::whiten_below(Eigen::VectorXd&) const;
 
 }  // namespace rollrig::diagnosis

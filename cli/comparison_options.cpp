@@ -1,4 +1,4 @@
-#include "cli/race_options.h"
+#include "cli/comparison_options.h"
 
 #include <algorithm>
 
@@ -22,8 +22,8 @@ void require_effects(const char* option, const std::vector<std::string>& names) 
 }  // namespace
 
 void RaceOptions::add_to(CLI::App& command) {
-  command.add_option("--without", without, "Effects left out of the race: a,b")->delimiter(',');
-  command.add_option("--only", only, "The only effects in the race: a,b")->delimiter(',');
+  command.add_option("--without", without, "Effects left out of the comparison: a,b")->delimiter(',');
+  command.add_option("--only", only, "The only effects in the comparison: a,b")->delimiter(',');
 }
 
 void RaceOptions::check() const {

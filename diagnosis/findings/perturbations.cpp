@@ -1,4 +1,4 @@
-#include "diagnosis/findings/pushes.h"
+#include "diagnosis/findings/perturbations.h"
 
 #include <algorithm>
 #include <array>
@@ -14,26 +14,27 @@ namespace {
 using models::EffectView;
 using models::Instant;
 
-static_assert(kPushKnots == static_cast<std::size_t>(kJetWidth), "a pass differentiates by one family's pushes");
+static_assert(kPerturbationKnots == static_cast<std::size_t>(kJetWidth),
+              "a pass differentiates by one family's perturbations");
 
 /// The interval between knots in which a time lies; of two knots at that time, the one after them.
 template <class GetKnot>
 std::size_t find_interval(double elapsed_s, GetKnot&& knot_s) {
   std::size_t i = 0;
-  while (i + 2 < kPushKnots && knot_s(i + 1) <= elapsed_s) ++i;
+  while (i + 2 < kPerturbationKnots && knot_s(i + 1) <= elapsed_s) ++i;
   return i;
 }
 
-/// What all pushes share: the knots, then the push at each, in the family's unit; the time as a state.
-struct TimePush {
+/// What all perturbations share: the knots, then the perturbation at each, in the family's unit; the time as a state.
+struct TimePerturbation {
   static models::EffectInfo describe(const char* name) {
     models::EffectInfo info;
     info.id = name;
     info.summary = "A probe of one balance";
     const models::EffectParameter knot{"knot_s", {}, {}, "time of a knot"};
-    const models::EffectParameter size{"size", {}, {}, "push at a knot", 0.0};
-    info.parameters.assign(kPushKnots, knot);
-    info.parameters.insert(info.parameters.end(), kPushKnots, size);
+    const models::EffectParameter size{"size", {}, {}, "perturbation at a knot", 0.0};
+    info.parameters.assign(kPerturbationKnots, knot);
+    info.parameters.insert(info.parameters.end(), kPerturbationKnots, size);
     info.states = {{"elapsed_s", 1000.0, "time since the run's start"}};
     return info;
   }
@@ -50,13 +51,13 @@ struct TimePush {
     const std::size_t i =
         find_interval(value_of(elapsed_s), [&](std::size_t knot) { return value_of(self.parameter(knot)); });
     const S share = (elapsed_s - self.parameter(i)) / (self.parameter(i + 1) - self.parameter(i));
-    const S& before = self.parameter(kPushKnots + i);
-    const S& after = self.parameter(kPushKnots + i + 1);
+    const S& before = self.parameter(kPerturbationKnots + i);
+    const S& after = self.parameter(kPerturbationKnots + i + 1);
     return (before + share * (after - before)) * unit;
   }
 };
 
-struct ForcePush : TimePush {
+struct ForcePerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("force"); }
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>&, models::ParasiticPort<S>& port) {
@@ -64,7 +65,7 @@ struct ForcePush : TimePush {
   }
 };
 
-struct SlipPush : TimePush {
+struct SlipPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("slip"); }
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
@@ -73,7 +74,7 @@ struct SlipPush : TimePush {
   }
 };
 
-struct InertiaPush : TimePush {
+struct InertiaPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("inertia"); }
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
@@ -82,7 +83,7 @@ struct InertiaPush : TimePush {
   }
 };
 
-struct DragPush : TimePush {
+struct DragPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("air drag"); }
   template <class S>
   static void parasitic(const EffectView<S>& self, const Instant<S>& now, models::ParasiticPort<S>& port) {
@@ -91,7 +92,7 @@ struct DragPush : TimePush {
   }
 };
 
-struct TireLossPush : TimePush {
+struct TireLossPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("tire loss"); }
   template <class S>
   static void loss(const EffectView<S>& self, const Instant<S>&, models::LossPort<S>& port) {
@@ -104,7 +105,7 @@ S one_watt() {
   return quantity<S>(1.0, dimension::kForce * dimension::kSpeed);
 }
 
-struct TireHeatPush : TimePush {
+struct TireHeatPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("tire heat"); }
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>&, models::ThermalPort<S>& port) {
@@ -112,7 +113,7 @@ struct TireHeatPush : TimePush {
   }
 };
 
-struct GasHeatPush : TimePush {
+struct GasHeatPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("gas heat"); }
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>&, models::ThermalPort<S>& port) {
@@ -120,7 +121,7 @@ struct GasHeatPush : TimePush {
   }
 };
 
-struct GasMassPush : TimePush {
+struct GasMassPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("gas mass"); }
   template <class S>
   static void gas(const EffectView<S>& self, const Instant<S>&, models::GasPort<S>& port) {
@@ -128,7 +129,7 @@ struct GasMassPush : TimePush {
   }
 };
 
-struct BoundaryPush : TimePush {
+struct BoundaryPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("boundary"); }
   template <class S>
   static void input(const EffectView<S>& self, const Instant<S>&, models::InputPort<S>& port) {
@@ -138,17 +139,21 @@ struct BoundaryPush : TimePush {
   }
 };
 
-const models::Effect& effect_of(Push push) {
-  static const std::map<Push, models::Effect> effects{
-      {Push::kForce, models::make_effect<ForcePush>()},       {Push::kTireLoss, models::make_effect<TireLossPush>()},
-      {Push::kTireHeat, models::make_effect<TireHeatPush>()}, {Push::kGasHeat, models::make_effect<GasHeatPush>()},
-      {Push::kGasMass, models::make_effect<GasMassPush>()},   {Push::kBoundary, models::make_effect<BoundaryPush>()},
-      {Push::kSlip, models::make_effect<SlipPush>()},         {Push::kInertia, models::make_effect<InertiaPush>()},
-      {Push::kDrag, models::make_effect<DragPush>()}};
-  return effects.at(push);
+const models::Effect& effect_of(Perturbation perturbation) {
+  static const std::map<Perturbation, models::Effect> effects{
+      {Perturbation::kForce, models::make_effect<ForcePerturbation>()},
+      {Perturbation::kTireLoss, models::make_effect<TireLossPerturbation>()},
+      {Perturbation::kTireHeat, models::make_effect<TireHeatPerturbation>()},
+      {Perturbation::kGasHeat, models::make_effect<GasHeatPerturbation>()},
+      {Perturbation::kGasMass, models::make_effect<GasMassPerturbation>()},
+      {Perturbation::kBoundary, models::make_effect<BoundaryPerturbation>()},
+      {Perturbation::kSlip, models::make_effect<SlipPerturbation>()},
+      {Perturbation::kInertia, models::make_effect<InertiaPerturbation>()},
+      {Perturbation::kDrag, models::make_effect<DragPerturbation>()}};
+  return effects.at(perturbation);
 }
 
-/// A part of a run in which a push is continuous.
+/// A part of a run in which a perturbation is continuous.
 struct Piece {
   double start_s;
   double end_s;
@@ -166,7 +171,7 @@ std::vector<Piece> find_pieces(const PreparedRun& run) {
     const Piece piece{time_s[phase.first] - time_s.front(), time_s[end] - time_s.front()};
     if (piece.length_s() > 0.0) pieces.push_back(piece);
   }
-  while (2 * pieces.size() > kPushKnots) {
+  while (2 * pieces.size() > kPerturbationKnots) {
     const auto shorter = [](const Piece& a, const Piece& b) { return a.length_s() < b.length_s(); };
     const auto shortest = std::min_element(pieces.begin(), pieces.end(), shorter);
     const bool is_first = shortest == pieces.begin();
@@ -178,14 +183,16 @@ std::vector<Piece> find_pieces(const PreparedRun& run) {
   return pieces;
 }
 
-/// Simulates a run with one push at size 0, differentiated by its sizes.
-void simulate_push(const PreparedSet& set, const models::Context<double>& context, std::size_t r,
-                   const std::vector<double>& knots_s, PushFamily& family, const models::Effect& push) {
-  const std::size_t parameters = 2 * kPushKnots;
-  models::Corner<Jet> corner(models::convert_context<Jet>(context), {{&push, std::vector<double>(parameters, 0.0)}});
-  for (std::size_t i = 0; i < kPushKnots; ++i) {
+/// Simulates a run with one perturbation at size 0, differentiated by its sizes.
+void simulate_perturbation(const PreparedSet& set, const models::Context<double>& context, std::size_t r,
+                           const std::vector<double>& knots_s, PerturbationFamily& family,
+                           const models::Effect& perturbation) {
+  const std::size_t parameters = 2 * kPerturbationKnots;
+  models::Corner<Jet> corner(models::convert_context<Jet>(context),
+                             {{&perturbation, std::vector<double>(parameters, 0.0)}});
+  for (std::size_t i = 0; i < kPerturbationKnots; ++i) {
     corner.effects()[0].parameters[i] = Jet(knots_s[i]);
-    corner.effects()[0].parameters[kPushKnots + i] = Jet(0.0, static_cast<int>(i));
+    corner.effects()[0].parameters[kPerturbationKnots + i] = Jet(0.0, static_cast<int>(i));
   }
   const PreparedRun& run = set.runs()[r];
   const auto recording = run.replay->simulate(set.source(), run.measured, corner, rigs::Detail::kMeasured);
@@ -199,10 +206,10 @@ void simulate_push(const PreparedSet& set, const models::Context<double>& contex
   }
 }
 
-/// A sensor's own push: it moves its channel alone.
-PushFamily push_sensor(const PreparedSet& set, std::size_t channel, const std::string& name,
-                       const std::vector<std::vector<double>>& knots_s) {
-  PushFamily family{name, RowMatrix::Zero(at(set.residual_count()), at(kPushKnots))};
+/// A sensor's own perturbation: it moves its channel alone.
+PerturbationFamily perturb_sensor(const PreparedSet& set, std::size_t channel, const std::string& name,
+                                  const std::vector<std::vector<double>>& knots_s) {
+  PerturbationFamily family{name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))};
   for (const Series& series : set.series()) {
     if (series.channel != channel) continue;
     const std::vector<double>& of_run = knots_s[series.run];
@@ -220,9 +227,9 @@ PushFamily push_sensor(const PreparedSet& set, std::size_t channel, const std::s
 
 }  // namespace
 
-std::vector<double> find_push_knots(const PreparedRun& run) {
+std::vector<double> find_perturbation_knots(const PreparedRun& run) {
   std::vector<Piece> pieces = find_pieces(run);
-  for (std::size_t knots = 2 * pieces.size(); knots < kPushKnots; ++knots) {
+  for (std::size_t knots = 2 * pieces.size(); knots < kPerturbationKnots; ++knots) {
     const auto coarser = [](const Piece& a, const Piece& b) { return a.step_s() < b.step_s(); };
     ++std::max_element(pieces.begin(), pieces.end(), coarser)->intervals;
   }
@@ -236,24 +243,26 @@ std::vector<double> find_push_knots(const PreparedRun& run) {
   return knots_s;
 }
 
-std::vector<PushFamily> calc_pushes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                    const Eigen::VectorXd& unknowns, int threads) {
+std::vector<PerturbationFamily> calc_perturbations(const PreparedSet& set,
+                                                   const std::vector<estimation::FreeParameter>& base,
+                                                   const Eigen::VectorXd& unknowns, int threads) {
   models::Context<double> context = set.context();
   for (std::size_t i = 0; i < base.size(); ++i) {
     estimation::find_parameter(context, base[i].key) = base[i].start_SI + base[i].prior_sd_SI * unknowns[at(i)];
   }
   std::vector<std::vector<double>> knots_s;
-  for (const PreparedRun& run : set.runs()) knots_s.push_back(find_push_knots(run));
-  const std::vector<NamedPush> pushes = set.kind().pushes();
-  std::vector<PushFamily> families;
-  for (const NamedPush& push : pushes) {
-    families.push_back({push.name, RowMatrix::Zero(at(set.residual_count()), at(kPushKnots))});
+  for (const PreparedRun& run : set.runs()) knots_s.push_back(find_perturbation_knots(run));
+  const std::vector<NamedPerturbation> perturbations = set.kind().perturbations();
+  std::vector<PerturbationFamily> families;
+  for (const NamedPerturbation& perturbation : perturbations) {
+    families.push_back({perturbation.name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))});
   }
   const std::size_t runs = set.runs().size();
-  parallel_for(runs * pushes.size(), threads, [&](std::size_t job) {
-    const std::size_t run = job / pushes.size();
-    const std::size_t push = job % pushes.size();
-    simulate_push(set, context, run, knots_s[run], families[push], effect_of(pushes[push].push));
+  parallel_for(runs * perturbations.size(), threads, [&](std::size_t job) {
+    const std::size_t run = job / perturbations.size();
+    const std::size_t perturbation = job % perturbations.size();
+    simulate_perturbation(set, context, run, knots_s[run], families[perturbation],
+                          effect_of(perturbations[perturbation].perturbation));
   });
   constexpr std::array<std::pair<const char*, const char*>, 3> kSensors{
       {{"liner_temperature_degC", "temperature sensor"},
@@ -261,7 +270,7 @@ std::vector<PushFamily> calc_pushes(const PreparedSet& set, const std::vector<es
        {"gas_temperature_degC", "gas temperature sensor"}}};
   for (std::size_t channel = 0; channel < set.channels().size(); ++channel) {
     for (const auto& [key, name] : kSensors) {
-      if (set.channels()[channel] == key) families.push_back(push_sensor(set, channel, name, knots_s));
+      if (set.channels()[channel] == key) families.push_back(perturb_sensor(set, channel, name, knots_s));
     }
   }
   return families;

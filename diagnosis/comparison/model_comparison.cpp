@@ -1,4 +1,4 @@
-#include "diagnosis/comparison/race.h"
+#include "diagnosis/comparison/model_comparison.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kImpossible = -std::numeric_limits<double>::infinity();
 
-/// A free remainder: in each channel either as small as model error, or of any size up to a hundred floors.
+/// A free discrepancy: in each channel either as small as model error, or of any size up to a hundred floors.
 AmplitudePrior free_amplitude(double smallest) {
   AmplitudePrior prior{{smallest}, {0.5}};
   const double first = std::max(0.4, 4.0 * smallest);
@@ -50,12 +50,12 @@ ModelError loosen(ModelError error, const Hypothesis& hypothesis) {
   return error;
 }
 
-Amplitudes expect_model_error(const ModelError& usual, const Contender& contender) {
-  const ModelError error = loosen(usual, contender.fit.hypothesis);
+Amplitudes expect_model_error(const ModelError& usual, const Candidate& candidate) {
+  const ModelError error = loosen(usual, candidate.fit.hypothesis);
   Amplitudes expected;
-  for (std::size_t c = 0; c < contender.signature.size(); ++c) {
-    expected.push_back(std::hypot(error.baseline_floors, error.law_share * contender.signature[c],
-                                  error.whole_share * contender.whole[c]));
+  for (std::size_t c = 0; c < candidate.signature.size(); ++c) {
+    expected.push_back(std::hypot(error.baseline_floors, error.law_share * candidate.signature[c],
+                                  error.whole_share * candidate.whole[c]));
   }
   return expected;
 }
@@ -71,47 +71,47 @@ Amplitudes measure_whole(const Model& model, const Fit& fit) {
   return measure_in_floors(model.set(), fit.simulated - simulated);
 }
 
-/// What all fits of a race share.
-class Referee {
+/// What all fits of a comparison share.
+class Evaluator {
  public:
-  Referee(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Remainder& remainder,
-          const RaceSettings& settings)
+  Evaluator(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Discrepancy& discrepancy,
+            const ComparisonSettings& settings)
       : set_(set),
         base_(base),
-        of_time_(remainder),
-        of_conditions_(remainder, Amplitudes(set.channels().size(), settings.model_error.baseline_floors)),
+        of_time_(discrepancy),
+        of_conditions_(discrepancy, Amplitudes(set.channels().size(), settings.model_error.baseline_floors)),
         settings_(settings) {}
 
-  /// The baseline through the same optimiser as everything else.
-  Contender fit_null() const;
+  /// The baseline through the same optimizer as everything else.
+  Candidate fit_null() const;
 
   /// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
-  std::vector<Contender> refit_all(const Contender& from, const std::vector<Screened>& chosen,
-                                   const Contender& null) const;
+  std::vector<Candidate> refit_all(const Candidate& from, const std::vector<Screened>& chosen,
+                                   const Candidate& null) const;
 
-  std::vector<Screened> screen_on_top_of(const Contender& from,
+  std::vector<Screened> screen_on_top_of(const Candidate& from,
                                          const std::vector<const models::Effect*>& effects) const {
     return screen(Model(set_, base_, from.fit.hypothesis), of_time_, from.amplitudes, from.fit, base_, effects,
                   settings_.threads);
   }
 
  private:
-  void weigh(Contender& contender) const;
-  Contender fit_once(const Model& model, const Contender& null, const Amplitudes& amplitudes,
+  void weigh(Candidate& candidate) const;
+  Candidate fit_once(const Model& model, const Candidate& null, const Amplitudes& amplitudes,
                      const Eigen::VectorXd& start, int most_iterations) const;
-  Contender fit_contender(const Model& model, const Contender& null, const Eigen::VectorXd& start) const;
+  Candidate fit_candidate(const Model& model, const Candidate& null, const Eigen::VectorXd& start) const;
 
   const PreparedSet& set_;
   const std::vector<estimation::FreeParameter>& base_;
-  const Remainder& of_time_;  // model error, and an unknown effect that follows nothing recorded
-  Remainder of_conditions_;   // an unknown effect that repeats from run to run
-  const RaceSettings& settings_;
+  const Discrepancy& of_time_;  // model error, and an unknown effect that follows nothing recorded
+  Discrepancy of_conditions_;   // an unknown effect that repeats from run to run
+  const ComparisonSettings& settings_;
 };
 
-void Referee::weigh(Contender& contender) const {
+void Evaluator::weigh(Candidate& candidate) const {
   const ModelError& error = settings_.model_error;
-  const Amplitudes expected = expect_model_error(error, contender);
-  const Evidence evidence(of_time_, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+  const Amplitudes expected = expect_model_error(error, candidate);
+  const Evidence evidence(of_time_, candidate.fit.unknowns, candidate.fit.residuals, candidate.fit.jacobian);
   std::vector<AmplitudePrior> small;
   std::vector<AmplitudePrior> free;
   for (const double amplitude : expected) {
@@ -119,58 +119,58 @@ void Referee::weigh(Contender& contender) const {
     free.push_back(free_amplitude(amplitude));
   }
   const Evidence::Sum sum = evidence.integrate(small);
-  contender.log_evidence = sum.log_value;
-  contender.amplitudes = sum.mean;
-  const Evidence repeated(of_conditions_, contender.fit.unknowns, contender.fit.residuals, contender.fit.jacobian);
+  candidate.log_evidence = sum.log_value;
+  candidate.amplitudes = sum.mean;
+  const Evidence repeated(of_conditions_, candidate.fit.unknowns, candidate.fit.residuals, candidate.fit.jacobian);
   // What the law of an effect leaves out comes back in like conditions, or does not: as likely one as the other.
-  if (!contender.fit.hypothesis.effects.empty()) {
-    contender.log_evidence = log_sum_exp({sum.log_value, repeated.integrate(small).log_value}) - std::log(2.0);
+  if (!candidate.fit.hypothesis.effects.empty()) {
+    candidate.log_evidence = log_sum_exp({sum.log_value, repeated.integrate(small).log_value}) - std::log(2.0);
   }
   // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other. On top of an
   // effect it is as likely a distortion of what that effect does.
   std::vector<double> logs{evidence.integrate(free).log_value, repeated.integrate(free).log_value};
-  if (!contender.fit.hypothesis.effects.empty()) {
+  if (!candidate.fit.hypothesis.effects.empty()) {
     std::vector<AmplitudePrior> distorted;
     for (std::size_t c = 0; c < expected.size(); ++c) {
-      const double look_alike = std::hypot(error.baseline_floors, error.look_alike_share * contender.signature[c]);
+      const double look_alike = std::hypot(error.baseline_floors, error.look_alike_share * candidate.signature[c]);
       distorted.push_back(near_amplitude(std::max(expected[c], look_alike)));  // never less than the law's own error
     }
     logs.push_back(evidence.integrate(distorted).log_value);
     logs.push_back(repeated.integrate(distorted).log_value);
   }
-  contender.log_remainder = log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
+  candidate.log_discrepancy = log_sum_exp(logs) - std::log(static_cast<double>(logs.size()));
 }
 
 /// One fit under given model error; weighed under the error in proportion to what it changes.
-Contender Referee::fit_once(const Model& model, const Contender& null, const Amplitudes& amplitudes,
-                            const Eigen::VectorXd& start, int most_iterations) const {
-  Contender contender;
-  contender.fit = refit(model, of_time_, amplitudes, start, 1, most_iterations);
-  if (!std::isfinite(contender.fit.cost)) {
-    contender.log_evidence = contender.log_remainder = kImpossible;
-    contender.signature.assign(amplitudes.size(), 0.0);
-    contender.whole = contender.signature;
-    contender.amplitudes = amplitudes;
-    return contender;
+Candidate Evaluator::fit_once(const Model& model, const Candidate& null, const Amplitudes& amplitudes,
+                              const Eigen::VectorXd& start, int most_iterations) const {
+  Candidate candidate;
+  candidate.fit = refit(model, of_time_, amplitudes, start, 1, most_iterations);
+  if (!std::isfinite(candidate.fit.cost)) {
+    candidate.log_evidence = candidate.log_discrepancy = kImpossible;
+    candidate.signature.assign(amplitudes.size(), 0.0);
+    candidate.whole = candidate.signature;
+    candidate.amplitudes = amplitudes;
+    return candidate;
   }
-  contender.signature = measure_in_floors(set_, contender.fit.simulated - null.fit.simulated);
-  contender.whole = measure_whole(model, contender.fit);
-  weigh(contender);
-  return contender;
+  candidate.signature = measure_in_floors(set_, candidate.fit.simulated - null.fit.simulated);
+  candidate.whole = measure_whole(model, candidate.fit);
+  weigh(candidate);
+  return candidate;
 }
 
 /// Fits a hypothesis from `start`, under model error in proportion to what it changes against `null`: twice, since that
 /// change is known after the first fit only.
-Contender Referee::fit_contender(const Model& model, const Contender& null, const Eigen::VectorXd& start) const {
-  const Contender first = fit_once(model, null, null.amplitudes, start, thresholds::kMostSteps);
+Candidate Evaluator::fit_candidate(const Model& model, const Candidate& null, const Eigen::VectorXd& start) const {
+  const Candidate first = fit_once(model, null, null.amplitudes, start, thresholds::kMostSteps);
   if (!std::isfinite(first.fit.cost)) return first;
   return fit_once(model, null, expect_model_error(settings_.model_error, first), first.fit.unknowns,
                   thresholds::kMostSteps);
 }
 
-Contender Referee::fit_null() const {
+Candidate Evaluator::fit_null() const {
   const Model model(set_, base_, {});
-  Contender null;
+  Candidate null;
   null.signature.assign(set_.channels().size(), 0.0);
   null.whole = null.signature;
   const Amplitudes expected = expect_model_error(settings_.model_error, null);
@@ -194,36 +194,36 @@ std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, 
   return chosen;
 }
 
-std::vector<Contender> Referee::refit_all(const Contender& from, const std::vector<Screened>& chosen,
-                                          const Contender& null) const {
-  std::vector<Contender> contenders(chosen.size());
+std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::vector<Screened>& chosen,
+                                            const Candidate& null) const {
+  std::vector<Candidate> candidates(chosen.size());
   const auto model_of = [&](std::size_t i) { return Model(set_, base_, from.fit.hypothesis.with(chosen[i].effect)); };
   parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
     const Model model = model_of(i);
     const bool is_faint = chosen[i].was_simulated && chosen[i].score < thresholds::kFaint_nats;
     const int steps = is_faint ? 1 : thresholds::kFirstSteps;
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
-    contenders[i] = fit_once(model, null, from.amplitudes, start, steps);
-    if (std::isfinite(contenders[i].fit.cost)) return;
+    candidates[i] = fit_once(model, null, from.amplitudes, start, steps);
+    if (std::isfinite(candidates[i].fit.cost)) return;
     // Where it cannot be simulated with what makes up for its absence: from the middle of all priors.
     const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(model.unknown_count()));
-    contenders[i] = fit_once(model, null, from.amplitudes, middle, steps);
+    candidates[i] = fit_once(model, null, from.amplitudes, middle, steps);
   });
-  double best = std::max(from.log_evidence, from.log_remainder);
-  for (const Contender& one : contenders) best = std::max({best, one.log_evidence, one.log_remainder});
+  double best = std::max(from.log_evidence, from.log_discrepancy);
+  for (const Candidate& one : candidates) best = std::max({best, one.log_evidence, one.log_discrepancy});
   parallel_for(chosen.size(), settings_.threads, [&](std::size_t i) {
     const bool hopeless =
-        std::max(contenders[i].log_evidence, contenders[i].log_remainder) <
+        std::max(candidates[i].log_evidence, candidates[i].log_discrepancy) <
         best - std::max(thresholds::kHopeless_nats, thresholds::kHopelessShare * (best - from.log_evidence));
-    const bool faint = contenders[i].log_evidence < null.log_evidence + thresholds::kWorthFinishing_nats;
+    const bool faint = candidates[i].log_evidence < null.log_evidence + thresholds::kWorthFinishing_nats;
     if (hopeless || faint) return;
-    contenders[i] = fit_contender(model_of(i), null, contenders[i].fit.unknowns);
+    candidates[i] = fit_candidate(model_of(i), null, candidates[i].fit.unknowns);
   });
-  return contenders;
+  return candidates;
 }
 
-/// Whether two contenders are the same hypothesis, found from two starts.
-bool same_hypothesis(const Contender& a, const Contender& b) {
+/// Whether two candidates are the same hypothesis, found from two starts.
+bool same_hypothesis(const Candidate& a, const Candidate& b) {
   const auto& x = a.fit.hypothesis.effects;
   const auto& y = b.fit.hypothesis.effects;
   return x.size() == y.size() && std::equal(x.begin(), x.end(), y.begin(), [](const auto& p, const auto& q) {
@@ -231,9 +231,9 @@ bool same_hypothesis(const Contender& a, const Contender& b) {
          });
 }
 
-/// Adds contenders; of one hypothesis found twice the better stays.
-void add_contenders(std::vector<Contender> more, std::vector<Contender>& all) {
-  for (Contender& one : more) {
+/// Adds candidates; of one hypothesis found twice the better stays.
+void add_candidates(std::vector<Candidate> more, std::vector<Candidate>& all) {
+  for (Candidate& one : more) {
     const auto known =
         std::find_if(all.begin(), all.end(), [&](const auto& other) { return same_hypothesis(one, other); });
     if (known == all.end()) {
@@ -251,92 +251,94 @@ double sign_share(const Hypothesis& hypothesis) {
   return share;
 }
 
-void assign_probabilities(const RaceSettings& settings, Race& race) {
+void assign_probabilities(const ComparisonSettings& settings, Comparison& comparison) {
   const auto n = static_cast<double>(settings.effects.size());
   const auto prior_of = [&](std::size_t effects) {  // of each of its kind
     if (effects == 1) return settings.priors.singles / n;
     if (effects == 2) return settings.priors.pairs / std::max(1.0, n * (n - 1.0) / 2.0);
     return settings.priors.triples / std::max(1.0, n * (n - 1.0) * (n - 2.0) / 6.0);
   };
-  std::vector<double> logs{std::log(settings.priors.none) + race.null.log_evidence,
-                           std::log(settings.priors.unknown) + race.null.log_remainder};
-  for (const Contender& contender : race.contenders) {
-    const double share = sign_share(contender.fit.hypothesis);
-    const double prior = prior_of(contender.fit.hypothesis.effects.size());
-    logs.push_back(std::log(share * prior) + contender.log_evidence);
+  std::vector<double> logs{std::log(settings.priors.none) + comparison.null.log_evidence,
+                           std::log(settings.priors.unknown) + comparison.null.log_discrepancy};
+  for (const Candidate& candidate : comparison.candidates) {
+    const double share = sign_share(candidate.fit.hypothesis);
+    const double prior = prior_of(candidate.fit.hypothesis.effects.size());
+    logs.push_back(std::log(share * prior) + candidate.log_evidence);
     const double look_alike = prior * settings.priors.look_alike / settings.priors.singles;
-    logs.push_back(std::log(share * look_alike) + contender.log_remainder);
+    logs.push_back(std::log(share * look_alike) + candidate.log_discrepancy);
   }
   const double total = log_sum_exp(logs);
-  race.null.probability = std::exp(logs[0] - total);
-  race.null.remainder_probability = race.unknown_probability = std::exp(logs[1] - total);
-  for (std::size_t i = 0; i < race.contenders.size(); ++i) {
-    race.contenders[i].probability = std::exp(logs[2 + 2 * i] - total);
-    race.contenders[i].remainder_probability = std::exp(logs[3 + 2 * i] - total);
-    race.unknown_probability += race.contenders[i].remainder_probability;
+  comparison.null.probability = std::exp(logs[0] - total);
+  comparison.null.discrepancy_probability = comparison.unknown_probability = std::exp(logs[1] - total);
+  for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
+    comparison.candidates[i].probability = std::exp(logs[2 + 2 * i] - total);
+    comparison.candidates[i].discrepancy_probability = std::exp(logs[3 + 2 * i] - total);
+    comparison.unknown_probability += comparison.candidates[i].discrepancy_probability;
   }
-  std::stable_sort(race.contenders.begin(), race.contenders.end(),
+  std::stable_sort(comparison.candidates.begin(), comparison.candidates.end(),
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
 }
 
 /// On top of the best `firsts` hypotheses of so many effects the `seconds` effects that gain most: those whose score
 /// could make up for the smaller prior.
-void add_on_top(const Referee& referee, std::size_t effects, std::size_t firsts, std::size_t seconds, Race& race) {
-  std::vector<Contender> lower;
-  for (const Contender& contender : race.contenders) {
-    if (contender.fit.hypothesis.effects.size() == effects && lower.size() < firsts) lower.push_back(contender);
+void add_on_top(const Evaluator& evaluator, std::size_t effects, std::size_t firsts, std::size_t seconds,
+                Comparison& comparison) {
+  std::vector<Candidate> lower;
+  for (const Candidate& candidate : comparison.candidates) {
+    if (candidate.fit.hypothesis.effects.size() == effects && lower.size() < firsts) lower.push_back(candidate);
   }
-  for (const Contender& first : lower) {
-    if (!(first.log_evidence >= race.null.log_evidence)) continue;  // nor where it could not be fitted
+  for (const Candidate& first : lower) {
+    if (!(first.log_evidence >= comparison.null.log_evidence)) continue;  // nor where it could not be fitted
     std::vector<const models::Effect*> others;
-    for (const models::Effect* effect : race.effects) {
+    for (const models::Effect* effect : comparison.effects) {
       if (!first.fit.hypothesis.contains(*effect)) others.push_back(effect);
     }
-    std::vector<Screened> screened = referee.screen_on_top_of(first, others);
+    std::vector<Screened> screened = evaluator.screen_on_top_of(first, others);
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < thresholds::kWorthAdding_nats; }),
                    screened.end());
     if (screened.empty()) continue;
-    add_contenders(referee.refit_all(first, choose(screened, seconds, 0.0), race.null), race.contenders);
+    add_candidates(evaluator.refit_all(first, choose(screened, seconds, 0.0), comparison.null), comparison.candidates);
   }
 }
 
-/// Whether the likeliest hypothesis is one of so many effects, alone or with a remainder.
-bool asks_for(const Race& race, std::size_t effects) {
-  const auto probability_of = [](const Contender& one) { return one.probability + one.remainder_probability; };
+/// Whether the likeliest hypothesis is one of so many effects, alone or with a discrepancy.
+bool asks_for(const Comparison& comparison, std::size_t effects) {
+  const auto probability_of = [](const Candidate& one) { return one.probability + one.discrepancy_probability; };
   const auto likeliest =
-      std::max_element(race.contenders.begin(), race.contenders.end(),
-                       [&](const Contender& a, const Contender& b) { return probability_of(a) < probability_of(b); });
-  return likeliest != race.contenders.end() && likeliest->fit.hypothesis.effects.size() == effects;
+      std::max_element(comparison.candidates.begin(), comparison.candidates.end(),
+                       [&](const Candidate& a, const Candidate& b) { return probability_of(a) < probability_of(b); });
+  return likeliest != comparison.candidates.end() && likeliest->fit.hypothesis.effects.size() == effects;
 }
 
 }  // namespace
 
-Race run_race(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Remainder& remainder,
-              const RaceSettings& settings) {
-  const Referee referee(set, base, remainder, settings);
-  Race race;
-  race.effects = settings.effects;
-  race.model_error = settings.model_error;
+Comparison compare_models(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                          const Discrepancy& discrepancy, const ComparisonSettings& settings) {
+  const Evaluator evaluator(set, base, discrepancy, settings);
+  Comparison comparison;
+  comparison.effects = settings.effects;
+  comparison.model_error = settings.model_error;
   settings.progress(0.0, "baseline");
-  race.null = referee.fit_null();
+  comparison.null = evaluator.fit_null();
   settings.progress(0.1, "screening");
-  race.screened = referee.screen_on_top_of(race.null, settings.effects);
+  comparison.screened = evaluator.screen_on_top_of(comparison.null, settings.effects);
   settings.progress(0.2, "refit of effects");
-  add_contenders(
-      referee.refit_all(race.null, choose(race.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats),
-                        race.null),
-      race.contenders);
-  assign_probabilities(settings, race);
+  add_candidates(
+      evaluator.refit_all(comparison.null,
+                          choose(comparison.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats),
+                          comparison.null),
+      comparison.candidates);
+  assign_probabilities(settings, comparison);
   settings.progress(0.6, "pairs");
-  add_on_top(referee, 1, thresholds::kFirstsOfPairs, thresholds::kSecondsOfPairs, race);
-  assign_probabilities(settings, race);
-  if (asks_for(race, 2)) {
+  add_on_top(evaluator, 1, thresholds::kFirstsOfPairs, thresholds::kSecondsOfPairs, comparison);
+  assign_probabilities(settings, comparison);
+  if (asks_for(comparison, 2)) {
     settings.progress(0.9, "triples");
-    add_on_top(referee, 2, thresholds::kFirstsOfTriples, thresholds::kSecondsOfTriples, race);
-    assign_probabilities(settings, race);
+    add_on_top(evaluator, 2, thresholds::kFirstsOfTriples, thresholds::kSecondsOfTriples, comparison);
+    assign_probabilities(settings, comparison);
   }
-  return race;
+  return comparison;
 }
 
 }  // namespace rollrig::diagnosis

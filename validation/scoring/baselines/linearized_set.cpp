@@ -1,4 +1,4 @@
-#include "validation/scoring/baselines/linearised_set.h"
+#include "validation/scoring/baselines/linearized_set.h"
 
 #include <fmt/format.h>
 
@@ -63,20 +63,20 @@ Eigen::VectorXd scale_own(const ChosenEffect& chosen) {
 
 }  // namespace
 
-LinearisedSet::LinearisedSet(const measurements::MeasurementSet& measured, const Settings& settings)
+LinearizedSet::LinearizedSet(const measurements::MeasurementSet& measured, const Settings& settings)
     : set_(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).left_out)),
       base_(diagnosis::find_base_parameters(measured, set_.context())),
-      remainder_(set_),
+      discrepancy_(set_),
       effects_(choose_effects(measured, settings)),
       null_(expand({})) {
   if (null_.fit.jacobian.size() == 0) throw RunFailure("the baseline as calibrated cannot be simulated");
 }
 
-std::vector<TriedEffect> LinearisedSet::try_effects() const {
+std::vector<TriedEffect> LinearizedSet::try_effects() const {
   const diagnosis::Model null(set_, base_, {});
   std::vector<TriedEffect> all;
   for (diagnosis::Screened& screened :
-       diagnosis::screen(null, remainder_, null_.amplitudes, null_.fit, base_, effects_, 1)) {
+       diagnosis::screen(null, discrepancy_, null_.amplitudes, null_.fit, base_, effects_, 1)) {
     TriedEffect tried{screened.effect, std::move(screened.own), {}};
     const diagnosis::Model model(set_, base_, diagnosis::Hypothesis{}.with(tried.effect));
     const auto simulate = [&] {
@@ -96,7 +96,7 @@ std::vector<TriedEffect> LinearisedSet::try_effects() const {
   return all;
 }
 
-LinearData LinearisedSet::project(const std::vector<TriedEffect>& tried) const {
+LinearData LinearizedSet::project(const std::vector<TriedEffect>& tried) const {
   const BaseProjection projection(null_.fit.jacobian);
   LinearData data;
   Eigen::MatrixXd changes(null_.fit.residuals.size(), at(tried.size()));
@@ -110,16 +110,16 @@ LinearData LinearisedSet::project(const std::vector<TriedEffect>& tried) const {
 }
 
 /// Without derivatives where it cannot be simulated.
-diagnosis::Contender LinearisedSet::expand(const std::vector<ChosenEffect>& chosen) const {
+diagnosis::Candidate LinearizedSet::expand(const std::vector<ChosenEffect>& chosen) const {
   std::vector<const ChosenEffect*> acting;
-  diagnosis::Contender contender;
+  diagnosis::Candidate candidate;
   for (const ChosenEffect& one : chosen) {
-    if (contender.fit.hypothesis.contains(*one.tried.effect.effect)) continue;
-    contender.fit.hypothesis = contender.fit.hypothesis.with(one.tried.effect);
+    if (candidate.fit.hypothesis.contains(*one.tried.effect.effect)) continue;
+    candidate.fit.hypothesis = candidate.fit.hypothesis.with(one.tried.effect);
     acting.push_back(&one);
   }
-  const diagnosis::Model model(set_, base_, contender.fit.hypothesis);
-  diagnosis::Fit& fit = contender.fit;
+  const diagnosis::Model model(set_, base_, candidate.fit.hypothesis);
+  diagnosis::Fit& fit = candidate.fit;
   fit.unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const diagnosis::Model::OwnParameter& own = model.own_parameters()[i];
@@ -129,18 +129,18 @@ diagnosis::Contender LinearisedSet::expand(const std::vector<ChosenEffect>& chos
     const diagnosis::PriorBounds bounds = model.own_bounds(i);
     fit.unknowns[at(i)] = std::clamp(scale_own(**of)[at(own.index)], bounds.lower, bounds.upper);
   }
-  contender.amplitudes.assign(set_.channels().size(), 0.0);
+  candidate.amplitudes.assign(set_.channels().size(), 0.0);
   const bool done = model.evaluate(fit.unknowns, 1, fit.residuals, &fit.jacobian) &&
                     model.simulate(fit.unknowns, 1, fit.simulated, nullptr);
   if (!done) fit.jacobian.resize(0, 0);
-  return contender;
+  return candidate;
 }
 
-diagnosis::Gap LinearisedSet::find_gap(const std::vector<ChosenEffect>& chosen,
+diagnosis::Gap LinearizedSet::find_gap(const std::vector<ChosenEffect>& chosen,
                                        const diagnosis::BlackBox& black_box) const {
-  const diagnosis::Contender cause = expand(chosen);
+  const diagnosis::Candidate cause = expand(chosen);
   const bool is_cause = !chosen.empty() && cause.fit.jacobian.size() > 0;
-  return diagnosis::find_gap(set_, base_, remainder_, null_, is_cause ? &cause : nullptr, 1, black_box);
+  return diagnosis::find_gap(set_, base_, discrepancy_, null_, is_cause ? &cause : nullptr, 1, black_box);
 }
 
 diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen) {

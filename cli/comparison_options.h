@@ -1,5 +1,5 @@
 #pragma once
-/// --only and --without: which effects are in the race, shared by diagnose and blind.
+/// --only and --without: which effects are in the comparison, shared by diagnose and blind.
 
 #include <CLI/CLI.hpp>
 

@@ -8,7 +8,7 @@
 
 namespace rollrig::diagnosis {
 
-/// Size of the remainder by channel, in noise floors (standard deviation of a block's mean).
+/// Size of the discrepancy by channel, in noise floors (standard deviation of a block's mean).
 using Amplitudes = std::vector<double>;
 
 /// A normal process in every channel, of one of two kinds.
@@ -18,17 +18,17 @@ using Amplitudes = std::vector<double>;
 /// follows nothing recorded.
 /// Of conditions: the same in all runs, a sum of functions of speed, of load, of speed times load, of the time in the
 /// run, of the time since the load changed, of acceleration, pressure and start temperature: an unknown effect that
-/// repeats. It stands on top of a small remainder of time.
+/// repeats. It stands on top of a small discrepancy of time.
 ///
 /// Equation  covariance of the whitened residual  Sigma = 1 + a^2 B B^T, B the whitened basis in noise floors; with
 ///           B = U s V^T: Sigma^-1 = 1 - U diag(a^2 s^2/(1 + a^2 s^2)) U^T, |Sigma| = prod (1 + a^2 s^2)
-/// Checked   tests/diagnosis/remainder_test.cpp
-class Remainder {
+/// Checked   tests/diagnosis/discrepancy_test.cpp
+class Discrepancy {
  public:
   /// Of time.
-  explicit Remainder(const PreparedSet& set);
-  /// Of conditions, on top of a remainder of time of given size.
-  Remainder(const Remainder& of_time, const Amplitudes& amplitudes);
+  explicit Discrepancy(const PreparedSet& set);
+  /// Of conditions, on top of a discrepancy of time of given size.
+  Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitudes);
 
   /// A part of the data in which the process is one: U and s^2, over the blocks of these series, one after the other.
   struct Basis {
@@ -48,7 +48,7 @@ class Remainder {
   template <class Columns>
   void whiten(const Amplitudes& amplitudes, Columns& columns) const;
 
-  /// Sigma^-1/2 of the remainder that this one stands on, and log |Sigma| of it; without one, nothing and 0.
+  /// Sigma^-1/2 of the discrepancy that this one stands on, and log |Sigma| of it; without one, nothing and 0.
   template <class Columns>
   void whiten_below(Columns& columns) const;
   double log_determinant_below() const;
@@ -57,7 +57,7 @@ class Remainder {
   void add_basis(std::size_t channel, std::vector<std::size_t> series, const Eigen::MatrixXd& whitened);
 
   const PreparedSet& set_;
-  const Remainder* below_ = nullptr;
+  const Discrepancy* below_ = nullptr;
   Amplitudes below_amplitudes_;
   std::vector<Basis> bases_;
 };

@@ -23,13 +23,13 @@ struct ChosenEffect {
 
 /// Data are those that the diagnosis compares: the same blocks without what stuck sensors read, the same priors of
 /// base parameters and offsets, the same effects in the race. Noise is that of the sensors, without model error.
-class LinearisedSet {
+class LinearizedSet {
  public:
   /// Errors  InputError: a file lacks what the set's kind needs; nothing measured. RunFailure: the baseline as
   ///         calibrated cannot be simulated
-  LinearisedSet(const measurements::MeasurementSet& measured, const Settings& settings);
-  LinearisedSet(const LinearisedSet&) = delete;
-  LinearisedSet& operator=(const LinearisedSet&) = delete;
+  LinearizedSet(const measurements::MeasurementSet& measured, const Settings& settings);
+  LinearizedSet(const LinearizedSet&) = delete;
+  LinearizedSet& operator=(const LinearizedSet&) = delete;
 
   /// Each effect at the size and shape that diagnosis::screen() asks for, for each sign or side of its prior:
   /// simulated, so that effects without a first order are seen. Left out where that cannot be simulated.
@@ -42,13 +42,13 @@ class LinearisedSet {
                           const diagnosis::BlackBox& black_box = diagnosis::subtract_black_box) const;
 
  private:
-  diagnosis::Contender expand(const std::vector<ChosenEffect>& chosen) const;
+  diagnosis::Candidate expand(const std::vector<ChosenEffect>& chosen) const;
 
   diagnosis::PreparedSet set_;
   std::vector<estimation::FreeParameter> base_;
-  diagnosis::Remainder remainder_;  // of no size: the fits' linear algebra asks for one
+  diagnosis::Discrepancy discrepancy_;  // of no size: the fits' linear algebra asks for one
   std::vector<const models::Effect*> effects_;
-  diagnosis::Contender null_;
+  diagnosis::Candidate null_;
 };
 
 /// Size of a chosen effect: its distance from doing nothing goes by the amplitude.
