@@ -58,7 +58,7 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, 
 
 void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
   CsvForm form;
-  form.elsewise = "rollrig import reads logs of other forms, names and units, and writes such files";
+  form.hint = "rollrig import reads logs of other forms, names and units, and writes such files";
   const CsvTable csv = CsvTable::read(run.file, form);
   std::vector<std::string> known{"time_s"};
   for (const auto* list : {&columns.given, &columns.optional_given, &columns.measured}) {

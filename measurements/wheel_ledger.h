@@ -30,7 +30,7 @@ struct WheelPowers {
 ///           thermal: heat generated - change of stored heat - heat to air and road = 0
 /// Validity  the midpoint rule: an interval's speed runs straight, so that a m v h is the change of m v^2/2. Loss
 ///           of the tire is counted over the way, as in the loss force; what slip takes from it is of second order
-/// Checked   tests/scenarios/given_run_test.cpp
+/// Checked   tests/scenarios/recorded_inputs_test.cpp
 class WheelLedger : public ReplayObserver<double> {
  public:
   /// `wheels` alike, of which the corner is one.

@@ -42,8 +42,8 @@ struct EffectState {
 
 /// How far an effect's law may be from the truth, where that is more than usual: shares of what it changes.
 struct LawError {
-  double here_and_there = 0.0;  // of what nothing else can change
-  double everywhere = 0.0;      // of all that it changes, base parameters held
+  double law_share = 0.0;    // of what nothing else can change
+  double whole_share = 0.0;  // of all that it changes, base parameters held
 };
 
 /// Everything about an effect that is not an equation in code.

@@ -18,7 +18,7 @@ struct Section {
   std::string folded = {};  // where not empty, the line behind which the blocks are folded away
 };
 
-/// The time that slider, charts and replay share.
+/// The time that slider, charts and animation share.
 struct PageClock {
   double start_s = 0.0;
   double end_s = 0.0;

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "report/animation.h"
 #include "report/blocks.h"
 #include "report/energy.h"
-#include "report/replay.h"
 #include "report/run_figures.h"
 #include "report/time_panels.h"
 #include "scenarios/run/run_spec.h"
@@ -40,7 +40,7 @@ Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome&
   const sim::Recording<double>& recording = outcome.recording;
   Section section{"The test over time"};
   section.blocks.push_back({{"type", "time_bar"}, {"phases", make_phases(recording.phases)}});
-  section.blocks.push_back(make_replay(spec, recording));
+  section.blocks.push_back(make_animation(spec, recording));
   section.blocks.push_back(make_times(recording));
   return section;
 }

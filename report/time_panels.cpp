@@ -142,13 +142,14 @@ Block make_times(const sim::Recording<double>& recording) {
   }
   std::stable_sort(panels.begin(), panels.end(), [](const Panel& a, const Panel& b) { return a.order < b.order; });
   const PageClock view = find_view(recording);
-  Block block = {{"type", "times"},
-                 {"view", {view.start_s, view.end_s}},
-                 {"phases", make_phases(recording.phases)},
-                 {"panels", Json::array()},
-                 {"caption",
-                  "Click on the chart to move the time of slider and replay. The bar below the chart, or Ctrl and the "
-                  "mouse wheel, zoom."}};
+  Block block = {
+      {"type", "times"},
+      {"view", {view.start_s, view.end_s}},
+      {"phases", make_phases(recording.phases)},
+      {"panels", Json::array()},
+      {"caption",
+       "Click on the chart to move the time of slider and animation. The bar below the chart, or Ctrl and the "
+       "mouse wheel, zoom."}};
   for (Panel& panel : panels) {
     block["panels"].push_back({{"label", panel.label}, {"unit", panel.unit}, {"series", std::move(panel.series)}});
   }

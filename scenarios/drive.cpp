@@ -5,7 +5,7 @@
 namespace rollrig::scenarios {
 namespace {
 
-struct DriveConditions : GivenRun {
+struct DriveConditions : RecordedInputs {
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"program", any_number(),

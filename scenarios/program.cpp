@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/given_run.h"
 #include "scenarios/common/readings.h"
+#include "scenarios/common/recorded_inputs.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {

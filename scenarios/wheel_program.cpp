@@ -7,7 +7,7 @@
 namespace rollrig::scenarios {
 namespace {
 
-struct WheelConditions : GivenRun {
+struct WheelConditions : RecordedInputs {
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"program", any_number(),

@@ -44,8 +44,8 @@ Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& diff
 ModelError loosen(ModelError error, const Hypothesis& hypothesis) {
   for (const ActingEffect& on : hypothesis.effects) {
     const models::LawError& own = on.effect->info.law_error;
-    error.law_share = std::max(error.law_share, own.here_and_there);
-    error.whole_share = std::max(error.whole_share, own.everywhere);
+    error.law_share = std::max(error.law_share, own.law_share);
+    error.whole_share = std::max(error.whole_share, own.whole_share);
   }
   return error;
 }

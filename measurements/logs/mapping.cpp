@@ -123,7 +123,7 @@ LogForm read_log_form(const ConfigTable& table, const std::string& name, measure
   if (form.csv.decimal == form.csv.separator) {
     throw reader.problem("decimal", "separator and decimal are both a comma", "separator = \"semicolon\" or \"tab\"");
   }
-  form.csv.elsewise = "separator, decimal, header_line and first_row_line of the mapping say how a log is written";
+  form.csv.hint = "separator, decimal, header_line and first_row_line of the mapping say how a log is written";
   form.csv.header_line = reader.count({"header_line", between(1, 1000), "", 1.0});
   form.csv.first_row_line =
       reader.count({"first_row_line", between(2, 1100), "", static_cast<double>(form.csv.header_line + 1)});

@@ -59,7 +59,7 @@ models::Context<double> make_wheel_context(const RunSpec& spec, const measuremen
   return make_context(make_set(spec, rows));
 }
 
-void simulate_rows(const RunSpec& spec, const GivenRun&, const measurements::MeasuredRun& rows,
+void simulate_rows(const RunSpec& spec, const RecordedInputs&, const measurements::MeasuredRun& rows,
                    const sim::Progress& progress, Outcome& outcome) {
   const measurements::MeasurementSet set = make_set(spec, rows);
   models::Corner<double> corner(make_context(set), spec.effects);

@@ -2,7 +2,7 @@
 /// Runs a file's rows as the replay of a set's run does: one wheel on its roller, or a vehicle on the road.
 
 #include "measurements/wheel_ledger.h"
-#include "scenarios/common/given_run.h"
+#include "scenarios/common/recorded_inputs.h"
 #include "scenarios/run/rig_scenario.h"
 
 namespace rollrig::scenarios {
@@ -12,11 +12,11 @@ models::Context<double> make_wheel_context(const RunSpec& spec, const measuremen
 
 /// Replays `rows`, checks both audits, applies sensors, and puts recording and set run into `outcome`: given columns,
 /// measured ones, then those of the ledger. What is written as a set is replayed to the same values.
-void simulate_rows(const RunSpec& spec, const GivenRun& given, const measurements::MeasuredRun& rows,
+void simulate_rows(const RunSpec& spec, const RecordedInputs& given, const measurements::MeasuredRun& rows,
                    const sim::Progress& progress, Outcome& outcome);
 
-/// A scenario whose settings have a GivenRun as `conditions`, for sets of a kind; see rig_scenario.h. Quasi-static
-/// alone: the rows say what moves, so that there are no mechanics to simulate.
+/// A scenario whose settings have a RecordedInputs as `conditions`, for sets of a kind; see rig_scenario.h.
+/// Quasi-static alone: the rows say what moves, so that there are no mechanics to simulate.
 template <class Settings>
 Scenario make_wheel_scenario(ScenarioText text, measurements::SetKind kind,
                              void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {

@@ -85,7 +85,7 @@ class CsvScanner {
 
 /// What is allowed, and what to do instead.
 std::string allow(const std::string& allowed, const CsvForm& form) {
-  return form.elsewise.empty() ? allowed : allowed + "; " + form.elsewise;
+  return form.hint.empty() ? allowed : allowed + "; " + form.hint;
 }
 
 /// Asked where something is wrong with a line: whether it is a remark, of which there can be none. A lone # is the name

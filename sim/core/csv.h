@@ -17,7 +17,7 @@ struct CsvForm {
   char decimal = '.';
   int header_line = 1;     // lines before it are not read
   int first_row_line = 2;  // lines between header and this one (units, say) are not read
-  std::string elsewise{};  // for errors: what to do where a file is of another form
+  std::string hint{};      // for errors: what to do where a file is of another form
 };
 
 /// A CSV file as text cells.

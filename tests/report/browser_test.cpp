@@ -1,5 +1,6 @@
 // Pages of every command in headless Chromium, from file://: no message on the console, nothing asked of a network,
-// charts drawn in pixels, the slider moves the replay, first paint within two seconds, no larger than three megabytes.
+// charts drawn in pixels, the slider moves the animation, first paint within two seconds, no larger than three
+// megabytes.
 #include <catch2/catch.hpp>
 #include <filesystem>
 
@@ -49,19 +50,19 @@ void write_set(const TemporaryFolder& folder) {
 }  // namespace
 
 TEST_CASE("page of an ISO test on the multibody drum", "[slow]") {
-  check_command(TemporaryFolder(), "run iso_28580 --tire a50", "--charts 2 --replay");
+  check_command(TemporaryFolder(), "run iso_28580 --tire a50", "--charts 2 --animation");
 }
 
 TEST_CASE("page of a multi-cycle test of a quarter on its roller", "[slow]") {
-  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --set wheels=1", "--charts 4 --replay");
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --set wheels=1", "--charts 4 --animation");
 }
 
 TEST_CASE("page of a multi-cycle test of four wheels, four hours long", "[slow]") {
-  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static", "--charts 4 --replay");
+  check_command(TemporaryFolder(), "run sae_j1634 --tire a50 --fidelity quasi_static", "--charts 4 --animation");
 }
 
 TEST_CASE("page of a vehicle that coasts down on the road", "[slow]") {
-  check_command(TemporaryFolder(), "run coastdown --tire a50", "--charts 3 --replay");
+  check_command(TemporaryFolder(), "run coastdown --tire a50", "--charts 3 --animation");
 }
 
 TEST_CASE("page of two hours with ten rows a second", "[slow]") {
@@ -69,7 +70,7 @@ TEST_CASE("page of two hours with ten rows a second", "[slow]") {
   write_file(folder.file("long.toml"),
              "format = \"rollrig-run/1\"\nscenario = \"warm_up\"\ntire = \"a50\"\nsensors = \"source\"\n"
              "sample_interval_s = 0.1\n[settings]\nwarm_up_min = 120.0\n");
-  check_command(folder, "run long.toml", "--charts 2 --replay");
+  check_command(folder, "run long.toml", "--charts 2 --animation");
 }
 
 TEST_CASE("page of a sweep", "[slow]") {

@@ -1,5 +1,5 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
-// node check_page.mjs <page.html> [--charts N] [--replay] [--screenshots DIR]
+// node check_page.mjs <page.html> [--charts N] [--animation] [--screenshots DIR]
 import { writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -74,18 +74,18 @@ async function checkCharts() {
 }
 
 /// The slider by keyboard: the drawing, the values and the cursor move.
-async function checkReplay() {
-  const look = `(() => ({ drawing: [...document.querySelectorAll('.replay g[transform]')].map((g) => g.getAttribute('transform')).join(),
+async function checkAnimation() {
+  const look = `(() => ({ drawing: [...document.querySelectorAll('.animation g[transform]')].map((g) => g.getAttribute('transform')).join(),
     values: document.querySelector('.readings').textContent, cursor: document.querySelector('.cursor').style.transform, now: document.querySelector('.now').textContent }))()`;
   const before = await chromium.evaluate(look);
-  const picture = await capture('.replay', 0);
-  check((await measureInk(picture.png)).ink > 0.02, 'the replay is drawn');
+  const picture = await capture('.animation', 0);
+  check((await measureInk(picture.png)).ink > 0.02, 'the animation is drawn');
   await chromium.evaluate(`document.querySelector('#time').focus()`);
   for (const type of ['keyDown', 'keyUp']) await chromium.send('Input.dispatchKeyEvent', { type, key: 'PageDown', code: 'PageDown', windowsVirtualKeyCode: 34 });
   const after = await chromium.evaluate(look);
-  for (const key of ['drawing', 'cursor', 'now']) check(before[key] !== after[key], `the slider moves the replay: ${key}`);
-  const moved = await capture('.replay', 0);
-  check(moved.png !== picture.png, 'the picture of the replay changes');
+  for (const key of ['drawing', 'cursor', 'now']) check(before[key] !== after[key], `the slider moves the animation: ${key}`);
+  const moved = await capture('.animation', 0);
+  check(moved.png !== picture.png, 'the picture of the animation changes');
   await chromium.evaluate(`(rollrig.clock.set(rollrig.clock.start_s), 0)`);
   const start = await chromium.evaluate(look);
   check(start.values !== before.values, 'the slider moves the values beside it');
@@ -97,7 +97,7 @@ async function checkWords() {
 }
 
 async function checkAccess() {
-  const unnamed = await chromium.evaluate(`[...document.querySelectorAll('.chart, .replay, input, select, button')].filter((e) =>
+  const unnamed = await chromium.evaluate(`[...document.querySelectorAll('.chart, .animation, input, select, button')].filter((e) =>
     !(e.getAttribute('aria-label') || e.textContent.trim() || (e.labels && e.labels.length))).length`);
   check(unnamed === 0, `${unnamed} charts or controls without a name for a screen reader`);
   const tables = await chromium.evaluate(`[...document.querySelectorAll('figure')].filter((f) => f.querySelector('.chart') && !f.querySelector('details.numbers table tbody tr')).length`);
@@ -170,7 +170,7 @@ async function checkPage() {
   await saveScreenshot('light');
   await checkWords();
   await checkAccess();
-  if (args.includes('--replay')) await checkReplay();
+  if (args.includes('--animation')) await checkAnimation();
   await checkNarrow();
   await checkDarkAndPaper();
   const strange = requests.filter((url) => url !== pathToFileURL(page).href);

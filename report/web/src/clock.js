@@ -1,4 +1,4 @@
-// The one time of the page: slider, charts and replay follow it.
+// The one time of the page: slider, charts and animation follow it.
 
 export class Clock {
   constructor(start_s, end_s, now_s) {

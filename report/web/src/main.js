@@ -11,13 +11,13 @@ import { timesBlock } from './blocks/times.js';
 import { chartCount, drawAll } from './chart.js';
 import { Clock } from './clock.js';
 import { h } from './dom.js';
-import { replayBlock } from './replay/replay.js';
+import { animationBlock } from './animation/animation.js';
 import { makeThemeButton, setOnPaper, startTheme } from './theme.js';
 import { timeBarBlock } from './timebar.js';
 
 const kBlocks = {
   bars: barsBlock, curves: curvesBlock, definitions: definitionsBlock, energy: energyBlock, inputs: inputsBlock, lead: leadBlock, lines: linesBlock,
-  map: mapBlock, pre: preBlock, replay: replayBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
+  map: mapBlock, pre: preBlock, animation: animationBlock, shares: sharesBlock, table: tableBlock, text: textBlock,
   time_bar: timeBarBlock, times: timesBlock, warnings: warningsBlock,
 };
 

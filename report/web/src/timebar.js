@@ -36,7 +36,7 @@ export function timeBarBlock({ phases = [] }, { clock }) {
   const output = h('output', { for: 'time', class: 'now' });
   const button = h('button', { type: 'button', class: 'tool play' }, '\u25b6\ufe0e Play');
   const setSpeed = makePlayer(clock, button);
-  const select = h('select', { 'aria-label': 'Speed of the replay', onchange: (event) => setSpeed(Number(event.target.value)) },
+  const select = h('select', { 'aria-label': 'Speed of the animation', onchange: (event) => setSpeed(Number(event.target.value)) },
     kSpeeds.map((speed) => h('option', { value: speed, selected: speed === 60 }, `${speed}\u00d7`)));
   slider.addEventListener('input', () => clock.set(Number(slider.value)));
   slider.addEventListener('keydown', (event) => {

@@ -18,7 +18,7 @@ std::string write_priors() {
   std::string text;
   for (const models::Effect* effect : models::all_effects()) {
     const models::LawError& error = effect->info.law_error;
-    text += fmt::format("{} {:.17g} {:.17g}\n", effect->info.id, error.here_and_there, error.everywhere);
+    text += fmt::format("{} {:.17g} {:.17g}\n", effect->info.id, error.law_share, error.whole_share);
     for (const models::EffectParameter& parameter : effect->info.parameters) {
       const models::Prior& prior = parameter.prior;
       text += fmt::format("{}.{} {:.17g} {:.17g} {} {} {:.17g} {:.17g}\n", effect->info.id, parameter.key, prior.low,

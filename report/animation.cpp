@@ -1,4 +1,4 @@
-#include "report/replay.h"
+#include "report/animation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -188,7 +188,7 @@ void add_vehicle(const Scene& scene, Block& block) {
 
 }  // namespace
 
-Block make_replay(const RunSpec& spec, const Recording& recording) {
+Block make_animation(const RunSpec& spec, const Recording& recording) {
   const Scene scene(spec, recording);
   const bool is_vehicle = spec.vehicle.has_value();
   const bool is_road = is_vehicle && scene.surface_radius_m() <= 0.0;
@@ -199,7 +199,7 @@ Block make_replay(const RunSpec& spec, const Recording& recording) {
   const std::string what = !is_vehicle ? "The drum with the wheel on it"
                            : is_road   ? "The vehicle on the road"
                                        : "The vehicle on its rollers";
-  Block block = {{"type", "replay"},
+  Block block = {{"type", "animation"},
                  {"machine", machine},
                  {"label", what + " at the slider's time; the tire is colored by its temperature"},
                  {"caption", std::string(of) + " The tire has the color of its liner temperature."},

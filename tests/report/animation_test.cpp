@@ -1,5 +1,5 @@
-// The replay's bodies are where the multibody rig had them.
-#include "report/replay.h"
+// The animation's bodies are where the multibody rig had them.
+#include "report/animation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -28,10 +28,10 @@ double value_at(const Json& series, double time_s) {
 
 }  // namespace
 
-TEST_CASE("the drum's replay has the recorded heights and angles", "[fast]") {
+TEST_CASE("the drum's animation has the recorded heights and angles", "[fast]") {
   const scenarios::RunSpec spec = make_spec("warm_up", {"warm_up_min=5", "load_N=5400", "speed_km_h=80"});
   const scenarios::Outcome outcome = spec.scenario->run(spec, {});
-  const Json block = report::make_replay(spec, outcome.recording);
+  const Json block = report::make_animation(spec, outcome.recording);
   REQUIRE(block["machine"] == "drum");
   const Json& wheel = block["wheels"][0];
   const auto& tire = spec.tire.values;
@@ -43,14 +43,14 @@ TEST_CASE("the drum's replay has the recorded heights and angles", "[fast]") {
   CHECK(turned("angle_rad") == Approx(100.0 * speed_m_s / loaded_m).epsilon(2e-3));
 }
 
-TEST_CASE("without bodies the replay follows from speed and load, alike", "[fast]") {
+TEST_CASE("without bodies the animation follows from speed and load, alike", "[fast]") {
   const std::vector<std::string> settings{"warm_up_min=5"};
   scenarios::RunSpec spec = make_spec("warm_up", settings);
-  const Json with_bodies = report::make_replay(spec, spec.scenario->run(spec, {}).recording);
+  const Json with_bodies = report::make_animation(spec, spec.scenario->run(spec, {}).recording);
   spec.fidelity = scenarios::Fidelity::kQuasiStatic;
   const scenarios::Outcome outcome = spec.scenario->run(spec, {});
   CHECK(outcome.recording.poses.empty());
-  const Json without = report::make_replay(spec, outcome.recording);
+  const Json without = report::make_animation(spec, outcome.recording);
   for (const double time_s : {50.0, 250.0}) {
     CHECK(value_at(without["wheels"][0]["axle_height_m"], time_s) ==
           Approx(value_at(with_bodies["wheels"][0]["axle_height_m"], time_s)).margin(1e-4));
@@ -60,7 +60,7 @@ TEST_CASE("without bodies the replay follows from speed and load, alike", "[fast
 TEST_CASE("on the road the vehicle moves on, its axles carry it at the loaded radius", "[fast]") {
   const scenarios::RunSpec spec = make_spec("coastdown", {"warm_up_min=1"});
   const scenarios::Outcome outcome = spec.scenario->run(spec, {});
-  const Json block = report::make_replay(spec, outcome.recording);
+  const Json block = report::make_animation(spec, outcome.recording);
   REQUIRE(block["machine"] == "road");
   REQUIRE(block["wheels"].size() == 2);
   const double radius_m = spec.tire.values.geometry.outer_diameter_m / 2.0;

@@ -31,11 +31,11 @@ function makeReadings(readings, clock) {
   return h('table', { class: 'lines readings' }, h('caption', null, 'Now'), h('tbody', null, cells.map((cell) => cell.row)));
 }
 
-export function replayBlock(block, { clock, section }) {
+export function animationBlock(block, { clock, section }) {
   const scene = makeScene(block);
-  const picture = svg('svg', { viewBox: scene.viewBox.join(' '), class: 'replay', role: 'img', 'aria-label': block.label }, scene.element);
+  const picture = svg('svg', { viewBox: scene.viewBox.join(' '), class: 'animation', role: 'img', 'aria-label': block.label }, scene.element);
   clock.onChange((t) => scene.show(t));
   return h('div', { class: 'stage' },
-    h('figure', { class: 'replayfigure' }, picture, h('figcaption', null, block.caption)),
+    h('figure', { class: 'animationfigure' }, picture, h('figcaption', null, block.caption)),
     makeReadings(findReadings(section), clock));
 }

@@ -9,7 +9,7 @@
 namespace rollrig::scenarios {
 
 /// Settings of scenarios that follow a file as a run of a measurement set is replayed.
-struct GivenRun {
+struct RecordedInputs {
   FilePath program;
   std::optional<double> pressure_Pa;
   std::optional<double> initial_tire_K;

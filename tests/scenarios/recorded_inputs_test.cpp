@@ -1,5 +1,5 @@
 // Runs that a file gives row by row: one wheel on its roller, a vehicle on the road.
-#include "scenarios/common/given_run.h"
+#include "scenarios/common/recorded_inputs.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenarios/common/given_run.h"
+#include "scenarios/common/recorded_inputs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace rollrig::scenarios {
 
-void GivenRun::complete(const RunSpec& spec) {
+void RecordedInputs::complete(const RunSpec& spec) {
   run = measurements::read_run_inputs(program.path, *spec.scenario->set_kind);
   if (run.has("load_N")) {
     const std::vector<double>& load_N = column("load_N");
@@ -70,7 +70,7 @@ std::vector<double> resample(const std::vector<double>& own_s, const std::vector
 
 }  // namespace
 
-measurements::MeasuredRun GivenRun::make_rows(const RunSpec& spec) const {
+measurements::MeasuredRun RecordedInputs::make_rows(const RunSpec& spec) const {
   const measurements::MeasuredRun longer = add_run_up(run, run_up_s);
   measurements::MeasuredRun rows;
   rows.id = run.id;
