@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "models/quantities.h"
 #include "models/sensor.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
@@ -47,6 +48,10 @@ struct MeasuredRun {
   std::map<std::string, std::vector<double>> columns;  // SI by column name; NaN where there is no sample
 
   bool has(const std::string& column) const { return columns.count(column) > 0; }
+  bool has(const Quantity& quantity) const { return has(quantity.header()); }
+  /// Throws std::out_of_range for a column that the run does not have.
+  const std::vector<double>& column(const Quantity& quantity) const { return columns.at(quantity.header()); }
+  std::vector<double>& column(const Quantity& quantity) { return columns.at(quantity.header()); }
   /// Whether a column holds anything but empty fields.
   bool has_samples(const std::string& column) const;
 };

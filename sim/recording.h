@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/quantity.h"
 #include "sim/energy_audit.h"
 #include "sim/ode_system.h"
 
@@ -45,6 +46,9 @@ struct Recording {
   std::vector<S>& channel(const std::string& name) {
     return const_cast<std::vector<S>&>(static_cast<const Recording&>(*this).channel(name));
   }
+
+  const std::vector<S>& channel(const Quantity& quantity) const { return channel(quantity.header()); }
+  std::vector<S>& channel(const Quantity& quantity) { return channel(quantity.header()); }
 
   /// The first row at or after a time, or the last row.
   std::size_t row_at(double at_s) const {

@@ -1,0 +1,39 @@
+#pragma once
+/// A quantity that is recorded, given or measured: SI inside, its unit only where it is written to a file.
+
+#include <string>
+#include <string_view>
+
+#include "sim/core/units.h"
+
+namespace rollrig {
+
+/// Name and file unit. Two quantities are the same when their names are. It holds no text of its own: constants refer
+/// to literals, and intern_quantity() keeps the text of names that are made up at run time.
+class Quantity {
+ public:
+  constexpr Quantity() = default;
+  constexpr Quantity(std::string_view name, std::string_view unit) : name_(name), unit_(unit) {}
+
+  /// Without a unit: "drum_torque".
+  constexpr std::string_view name() const { return name_; }
+  /// Suffix by which files say the unit: "Nm"; empty for a ratio.
+  constexpr std::string_view unit_suffix() const { return unit_; }
+  /// The heading of its column in a file: "drum_torque_Nm".
+  std::string header() const;
+  /// Of its values in files.
+  Unit file_unit() const { return unit_of_key(header()); }
+
+  constexpr bool operator==(const Quantity& other) const { return name_ == other.name_; }
+  constexpr bool operator!=(const Quantity& other) const { return name_ != other.name_; }
+  constexpr bool operator<(const Quantity& other) const { return name_ < other.name_; }
+
+ private:
+  std::string_view name_;
+  std::string_view unit_;
+};
+
+/// The quantity that a heading names: "drum_torque_Nm" -> drum_torque in Nm. Its text is kept until the program ends.
+Quantity intern_quantity(const std::string& header);
+
+}  // namespace rollrig

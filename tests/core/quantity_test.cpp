@@ -1,0 +1,30 @@
+#include "sim/core/quantity.h"
+
+#include <catch2/catch.hpp>
+
+using rollrig::intern_quantity;
+using rollrig::Quantity;
+
+TEST_CASE("a quantity's heading is its name and its unit, and is read back", "[fast]") {
+  constexpr Quantity torque{"drum_torque", "Nm"};
+  CHECK(torque.header() == "drum_torque_Nm");
+  CHECK(torque.file_unit().symbol == "Nm");
+  const Quantity read = intern_quantity("drum_torque_Nm");
+  CHECK(read == torque);
+  CHECK(read.unit_suffix() == "Nm");
+}
+
+TEST_CASE("a ratio has no unit, a temperature its offset", "[fast]") {
+  CHECK(intern_quantity("slip_ratio").header() == "slip_ratio");
+  CHECK(intern_quantity("slip_ratio").unit_suffix().empty());
+  CHECK(intern_quantity("liner_temperature_degC").file_unit().to_si(25.0) == Approx(298.15));
+}
+
+TEST_CASE("text of a quantity made up at run time outlives its maker", "[fast]") {
+  Quantity kept;
+  {
+    const std::string header = std::string("bearing") + "_rise_K";
+    kept = intern_quantity(header);
+  }
+  CHECK(kept.header() == "bearing_rise_K");
+}
