@@ -71,11 +71,6 @@ void read_analysis(TableReader& top, CoastSet& set) {
   reader.finish();
 }
 
-InputError bad_row(const std::string& file, std::size_t row, const std::string& key, const std::string& value,
-                   const std::string& what, const std::string& allowed) {
-  return InputError({what, file, static_cast<int>(row) + 2, key, value, allowed, ""});
-}
-
 /// Columns src, t_s, speed_mps: both bodies in one file.
 void read_two_bodies(const CsvTable& csv, CoastRun& run) {
   csv.require_known({"src", "t_s", "speed_mps"});
@@ -84,14 +79,14 @@ void read_two_bodies(const CsvTable& csv, CoastRun& run) {
   const std::vector<double> speed_m_s = csv.numbers({"speed_mps", between(0.0, 120.0), ""});
   for (std::size_t row = 0; row < src.size(); ++row) {
     if (src[row] != "D" && src[row] != "W") {
-      throw bad_row(run.file, row, "src", src[row], fmt::format("'{}' is no body", src[row]), "D (drum) or W (wheel)");
+      throw csv.cell_error(row, "src", fmt::format("'{}' is no body", src[row]), "D (drum) or W (wheel)");
     }
     std::optional<CoastSeries>& body = src[row] == "D" ? run.drum : run.wheel;
     if (!body.has_value()) body.emplace();
     if (!body->time_s.empty() && time_s[row] <= body->time_s.back()) {
-      throw bad_row(run.file, row, "t_s", fmt::format("{:g}", time_s[row]),
-                    fmt::format("time does not increase: {:g} after {:g}", time_s[row], body->time_s.back()),
-                    "a later time in each row of a body");
+      throw csv.cell_error(row, "t_s",
+                           fmt::format("time does not increase: {:g} after {:g}", time_s[row], body->time_s.back()),
+                           "a later time in each row of a body");
     }
     body->time_s.push_back(time_s[row]);
     body->speed_m_s.push_back(speed_m_s[row]);

@@ -24,11 +24,6 @@ const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "r
                                            "use",      "heading",  "session", "start_time"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
 
-InputError cell_error(const CsvTable& table, std::size_t row, const std::string& column, const std::string& value,
-                      const std::string& what, const std::string& allowed) {
-  return InputError({what, table.path(), table.line_of(row), column, value, allowed, ""});
-}
-
 /// "+" and "-" as they are; degrees against the first heading of the file.
 class HeadingReader {
  public:
@@ -39,7 +34,7 @@ class HeadingReader {
     if (text == "-" || text == "-1") return -1;
     const std::optional<double> degrees = parse_number(text);
     if (!degrees.has_value()) {
-      throw cell_error(table, row, "heading", cell, "not a heading", "+ or -, or degrees");
+      throw table.cell_error(row, "heading", "not a heading", "+ or -, or degrees");
     }
     if (!first_deg_.has_value()) first_deg_ = *degrees;
     return std::cos((*degrees - *first_deg_) * 0.017453292519943295) >= 0.0 ? +1 : -1;
@@ -122,8 +117,7 @@ class RunSorter {
     if (!table_.has("heading")) return run;
     const int heading = heading_.read(table_, row, headings_[row]);
     if (!is_new && heading != run.heading) {
-      throw cell_error(table_, row, "heading", headings_[row], fmt::format("run '{}' changes its heading", id),
-                       "one heading a run");
+      throw table_.cell_error(row, "heading", fmt::format("run '{}' changes its heading", id), "one heading a run");
     }
     run.heading = heading;
     return run;
@@ -159,8 +153,8 @@ void read_trace(const CsvTable& table, CoastdownFile& file) {
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     CoastdownRun& run = sorter.run_of(row, row == 0);
     if (!run.time_s.empty() && times[row] <= run.time_s.back()) {
-      throw cell_error(
-          table, row, "time_s", fmt::format("{}", times[row]),
+      throw table.cell_error(
+          row, "time_s",
           fmt::format("time does not increase within run '{}': {} after {}", run.id, times[row], run.time_s.back()),
           fmt::format("more than {}", run.time_s.back()));
     }
@@ -180,13 +174,12 @@ void read_trace(const CsvTable& table, CoastdownFile& file) {
 
 void require_order(const CsvTable& table, std::size_t row, const CoastdownRun& run, double high, double low) {
   if (low >= high) {
-    throw cell_error(table, row, "v_lo_kmh", fmt::format("{:.6g}", low), "the bin does not fall: v_lo_kmh >= v_hi_kmh",
-                     fmt::format("less than v_hi_kmh = {:.6g}", high));
+    throw table.cell_error(row, "v_lo_kmh", "the bin does not fall: v_lo_kmh >= v_hi_kmh",
+                           fmt::format("less than v_hi_kmh = {:.6g}", high));
   }
   if (!run.bins.empty() && high * kPerKmh > run.bins.back().low_m_s + 1e-6) {
-    throw cell_error(table, row, "v_hi_kmh", fmt::format("{:.6g}", high),
-                     fmt::format("bins of run '{}' overlap or rise", run.id),
-                     fmt::format("at most {:.6g}, the end of the bin before", 3.6 * run.bins.back().low_m_s));
+    throw table.cell_error(row, "v_hi_kmh", fmt::format("bins of run '{}' overlap or rise", run.id),
+                           fmt::format("at most {:.6g}, the end of the bin before", 3.6 * run.bins.back().low_m_s));
   }
 }
 
@@ -194,7 +187,7 @@ bool is_on(const CsvTable& table, std::size_t row, const std::string& cell) {
   const std::string word = boost::algorithm::to_lower_copy(boost::algorithm::trim_copy(cell));
   if (word == "on" || word == "yes" || word == "1" || word == "true") return true;
   if (word == "off" || word == "no" || word == "0" || word == "false") return false;
-  throw cell_error(table, row, "use", cell, "not a value of 'use'", "On or Off");
+  throw table.cell_error(row, "use", "not a value of 'use'", "On or Off");
 }
 
 void read_bins(const CsvTable& table, CoastdownFile& file) {

@@ -8,6 +8,7 @@
 #include <boost/math/distributions/students_t.hpp>
 
 #include "estimation/road_load/coastdown_problem.h"
+#include "estimation/road_load/road_load_iteration.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -17,69 +18,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-/// Least components: a speed resolution far below any sensor's, so that data without noise keep weights.
-VectorXd make_floors() {
-  constexpr double kLeastSpeedSd_m_s = 1e-4;  // Assumed
-  VectorXd floors = VectorXd::Zero(kComponents);
-  floors(kPassing) = kLeastSpeedSd_m_s * kLeastSpeedSd_m_s;
-  return floors;
-}
-
-/// Moves towards `wanted`, less far where the force would not stay positive.
-double step_to(const CoastdownProblem& problem, const VectorXd& wanted, VectorXd& coefficients) {
-  double share = 1.0;
-  while (share > 1e-3 && !all_possible(problem, coefficients + share * (wanted - coefficients))) share *= 0.5;
-  if (share <= 1e-3)
-    throw RunFailure(
-        "the fitted road load is not positive at every speed of the data: was the vehicle braked or driven in part of "
-        "it? Leave that part out (--speed-from, --speed-to)");
-  coefficients += share * (wanted - coefficients);
-  return share;
-}
-
-VectorXd bound(const std::array<double, 3>& values) { return Eigen::Map<const Eigen::Vector3d>(values.data()); }
-
-/// Iterates coefficients and components together; `fixed` components are kept.
-LinearEstimate iterate(const CoastdownProblem& problem, const RoadLoadFitOptions& options, VectorXd& coefficients,
-                       VectorXd& components, bool fixed, int& iterations) {
-  constexpr int kMostIterations = 100;
-  constexpr int kUndampedIterations = 10;
-  constexpr double kStep = 1e-4;  // of a standard deviation, and of a component
-  const VectorXd floors = make_floors();
-  LinearEstimate estimate;
-  for (iterations = 1; iterations <= kMostIterations; ++iterations) {
-    const std::vector<LinearBlock> blocks = linearize_all(problem, coefficients, components);
-    estimate = fixed ? solve_weighted(blocks, components) : step_variance_components(blocks, components, floors);
-    if (options.bounds.has_value()) {
-      apply_bounds(estimate, bound(options.bounds->lower), bound(options.bounds->upper));
-    }
-    // without scatter of passing times the covariance has no inverse: a first guess must not take it all away
-    estimate.components(kPassing) = std::max(estimate.components(kPassing), 0.1 * components(kPassing));
-    const VectorXd before = coefficients;
-    const double share = step_to(problem, estimate.coefficients, coefficients);
-    const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
-    bool settled = share == 1.0;
-    for (Index i = 0; i < coefficients.size(); ++i) {
-      settled = settled && std::abs(coefficients(i) - before(i)) <= kStep * sd(i) + 1e-9 * std::abs(coefficients(i));
-    }
-    const double scale = (components - estimate.components).cwiseAbs().maxCoeff();
-    const bool held = iterations > kMostIterations / 2;
-    for (Index i = 0; i < components.size() && !held; ++i) {
-      const double change = std::abs(estimate.components(i) - components(i));
-      settled = settled && (change <= 10.0 * kStep * std::max(components(i), estimate.components(i)) ||
-                            change <= 1e-12 * scale || estimate.components(i) == floors(i));
-    }
-    // a component that comes and goes across its floor would go on for ever: halve its steps, then hold it
-    if (iterations <= kUndampedIterations) {
-      components = estimate.components;
-    } else if (iterations <= kMostIterations / 2) {
-      components = 0.5 * (components + estimate.components);
-    }
-    if (settled) return estimate;
-  }
-  throw RunFailure(fmt::format("the fit of the road load does not converge within {} iterations", kMostIterations));
-}
 
 RoadLoadEstimate to_estimate(const LinearEstimate& linear) {
   RoadLoadEstimate estimate;
@@ -172,12 +110,10 @@ void put_headings(const CoastdownProblem& problem, const RoadLoadFitOptions& opt
     }
     if (part.runs.empty()) continue;
     try {
-      VectorXd start = coefficients.head(3);
-      if (!all_possible(part, start)) start = start_coefficients(part);
-      VectorXd kept = components;
-      int iterations = 0;
-      const LinearEstimate linear = iterate(part, options, start, kept, true, iterations);
-      fit.headings.push_back({heading, static_cast<int>(part.runs.size()), to_estimate(linear)});
+      IterationStart start{coefficients.head(3), components};
+      if (!all_possible(part, start.coefficients)) start.coefficients = start_coefficients(part);
+      const IteratedFit found = iterate_road_load(part, options.bounds, start, Components::kHeld);
+      fit.headings.push_back({heading, static_cast<int>(part.runs.size()), to_estimate(found.linear)});
     } catch (const RunFailure& failure) {
       fit.warnings.push_back(fmt::format("heading {} alone: {}", heading > 0 ? "+" : "-", failure.what()));
     }
@@ -283,10 +219,11 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
   }
   const CoastdownProblem problem = make_problem(data, options, fit.effective_mass_kg);
   require_enough(problem, options);
-  VectorXd coefficients = start_coefficients(problem);
-  VectorXd components = VectorXd::Zero(kComponents);
-  components(kPassing) = 1e-4;
-  const LinearEstimate linear = iterate(problem, options, coefficients, components, false, fit.iterations);
+  IterationStart start{start_coefficients(problem), VectorXd::Zero(kComponents)};
+  start.components(kPassing) = 1e-4;
+  const auto [linear, coefficients, components, iterations] =
+      iterate_road_load(problem, options.bounds, start, Components::kEstimated);
+  fit.iterations = iterations;
   static_cast<RoadLoadEstimate&>(fit) = to_estimate(linear);
   std::size_t bins = 0;
   for (const FitRun& run : problem.runs) bins += run.bins.size();

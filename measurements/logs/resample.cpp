@@ -138,8 +138,15 @@ void add_empty(ResampledRun& run, const EmptyRange& row, double interval_s) {
   run.empty.push_back(row);
 }
 
-void add_measured(const Log& log, const std::string& column, const std::vector<double>& times,
-                  const std::vector<Cell>& cells, double interval_s, ResampledRun& run) {
+/// The rows of a run: their times on the torque log's clock, and what of the time each stands for.
+struct RowGrid {
+  std::vector<double> times;
+  std::vector<Cell> cells;
+  double interval_s = 0.0;
+};
+
+void add_measured(const Log& log, const std::string& column, const RowGrid& rows, ResampledRun& run) {
+  const auto& [times, cells, interval_s] = rows;
   const bool is_slow = log.interval_s > kSlower * interval_s;
   std::vector<double> values = is_slow ? place_samples(log, column, cells) : calc_means(log, column, cells);
   for (std::size_t row = 0; row < times.size(); ++row) {
@@ -233,10 +240,10 @@ ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, dou
   const std::vector<double> times = add_given(mapping, sources, grid, interval_s, run);
   require_rows(times.size() >= 3);
   for (const double time_s : times) run.time_s.push_back(time_s - from_s);
-  const std::vector<Cell> cells = find_row_cells(times);
+  const RowGrid rows{times, find_row_cells(times), interval_s};
   for (const std::string& column : measured_channels(mapping.set.kind)) {
     const Source source = find_source(mapping, sources, column);
-    if (source.log != nullptr) add_measured(*source.log, column, times, cells, interval_s, run);
+    if (source.log != nullptr) add_measured(*source.log, column, rows, run);
   }
   return run;
 }

@@ -13,14 +13,16 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Rows [first, last) of a tie whose times the torque log covers.
+/// Rows [first, last) of a tie whose times the torque log covers, by a clock.
 struct Overlap {
+  const Tie& tie;
+  const Clock& clock;
   std::size_t first = 0;
   std::size_t last = 0;
 };
 
 Overlap find_overlap(const Tie& tie, const Clock& clock) {
-  Overlap overlap{0, tie.time_s.size()};
+  Overlap overlap{tie, clock, 0, tie.time_s.size()};
   while (overlap.first < overlap.last && clock.to_torque(tie.time_s[overlap.first]) < tie.basis.node_s.front()) {
     ++overlap.first;
   }
@@ -31,12 +33,12 @@ Overlap find_overlap(const Tie& tie, const Clock& clock) {
 }
 
 /// The functions f at the rows of an overlap, moved by `extra_s`.
-void fill_functions(const Tie& tie, const Clock& clock, const Overlap& overlap, double extra_s, std::size_t column,
-                    RowMatrix& to) {
+void fill_functions(const Overlap& overlap, double extra_s, std::size_t column, RowMatrix& to) {
+  const Tie& tie = overlap.tie;
   const std::vector<double>& node_s = tie.basis.node_s;
   std::size_t node = 1;
   for (std::size_t row = overlap.first; row < overlap.last; ++row) {
-    const double at_s = std::clamp(clock.to_torque(tie.time_s[row]) + extra_s, node_s.front(), node_s.back());
+    const double at_s = std::clamp(overlap.clock.to_torque(tie.time_s[row]) + extra_s, node_s.front(), node_s.back());
     while (node + 1 < node_s.size() && node_s[node] < at_s) ++node;
     const double share = (at_s - node_s[node - 1]) / (node_s[node] - node_s[node - 1]);
     for (std::size_t f = 0; f < tie.basis.functions.size(); ++f) {
@@ -48,7 +50,8 @@ void fill_functions(const Tie& tie, const Clock& clock, const Overlap& overlap, 
 }
 
 /// g, f and y side by side.
-RowMatrix make_columns(const Tie& tie, const Clock& clock, const Overlap& overlap) {
+RowMatrix make_columns(const Overlap& overlap) {
+  const Tie& tie = overlap.tie;
   const std::size_t own = 1 + tie.decay_s.size();
   const std::size_t count = overlap.last - overlap.first;
   RowMatrix columns(static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(own + tie.basis.functions.size() + 1));
@@ -61,7 +64,7 @@ RowMatrix make_columns(const Tie& tie, const Clock& clock, const Overlap& overla
     }
     columns(r, columns.cols() - 1) = tie.values[overlap.first + row];
   }
-  fill_functions(tie, clock, overlap, 0.0, own, columns);
+  fill_functions(overlap, 0.0, own, columns);
   return columns;
 }
 
@@ -92,22 +95,21 @@ class Projection {
   Eigen::MatrixXd basis_;
 };
 
-void add_slopes(const Tie& tie, const Clock& clock, const Overlap& overlap, double step_s, const Whitener& whitener,
-                const Projection& projection, const Eigen::VectorXd& weights, TieFit& fit) {
-  const auto functions = static_cast<Eigen::Index>(tie.basis.functions.size());
-  const auto rows = static_cast<Eigen::Index>(fit.count);
+/// Derivatives of what the functions come to by the clock's shift and drift, by differences of `step_s`.
+RowMatrix calc_slopes(const Overlap& overlap, double step_s, const Eigen::VectorXd& weights) {
+  const auto functions = static_cast<Eigen::Index>(overlap.tie.basis.functions.size());
+  const auto rows = static_cast<Eigen::Index>(overlap.last - overlap.first);
   RowMatrix later(rows, functions), earlier(rows, functions);
-  fill_functions(tie, clock, overlap, step_s, 0, later);
-  fill_functions(tie, clock, overlap, -step_s, 0, earlier);
+  fill_functions(overlap, step_s, 0, later);
+  fill_functions(overlap, -step_s, 0, earlier);
   const Eigen::VectorXd slope = (later - earlier) * weights.tail(functions) / (2.0 * step_s);
   RowMatrix slopes(rows, 2);
   for (Eigen::Index row = 0; row < rows; ++row) {
     slopes(row, 0) = slope(row);
-    slopes(row, 1) = slope(row) * (fit.time_s[static_cast<std::size_t>(row)] - clock.reference_s);
+    const double time_s = overlap.tie.time_s[overlap.first + static_cast<std::size_t>(row)];
+    slopes(row, 1) = slope(row) * (time_s - overlap.clock.reference_s);
   }
-  whitener.apply(slopes.data(), 2);
-  fit.slope_white.resize(rows, 2);
-  for (Eigen::Index c = 0; c < 2; ++c) fit.slope_white.col(c) = projection.take_out(slopes.col(c));
+  return slopes;
 }
 
 }  // namespace
@@ -121,7 +123,7 @@ TieFit fit_tie(const Tie& tie, const Clock& clock, bool with_slopes, double step
   if (fit.count < kRowsAnUnknown * unknowns) return {};
   fit.time_s.assign(tie.time_s.begin() + static_cast<std::ptrdiff_t>(overlap.first),
                     tie.time_s.begin() + static_cast<std::ptrdiff_t>(overlap.last));
-  const RowMatrix columns = make_columns(tie, clock, overlap);
+  const RowMatrix columns = make_columns(overlap);
   RowMatrix white = columns;
   const Whitener whitener(tie.noise, fit.time_s);
   whitener.apply(white.data(), static_cast<std::size_t>(white.cols()));
@@ -137,7 +139,12 @@ TieFit fit_tie(const Tie& tie, const Clock& clock, bool with_slopes, double step
   fit.rank = static_cast<std::size_t>(together.rank());
   if (tie.is_common && weights(own) <= 0.0) fit.chi2 = fit.chi2_alone;  // one quantity twice does not run backwards
   fit.rest = columns.col(all) - columns.leftCols(all) * weights;
-  if (with_slopes) add_slopes(tie, clock, overlap, step_s, whitener, together, weights, fit);
+  if (with_slopes) {
+    RowMatrix slopes = calc_slopes(overlap, step_s, weights);
+    whitener.apply(slopes.data(), 2);
+    fit.slope_white.resize(slopes.rows(), 2);
+    for (Eigen::Index c = 0; c < 2; ++c) fit.slope_white.col(c) = together.take_out(slopes.col(c));
+  }
   return fit;
 }
 

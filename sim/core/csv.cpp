@@ -190,13 +190,13 @@ std::vector<std::string> CsvTable::text(const std::string& column) const {
   return cells;
 }
 
-InputError CsvTable::cell_problem(const Row& row, const std::string& column, const std::string& cell,
-                                  const std::string& what, const std::string& allowed) const {
-  return InputError({what, path_, row.line, column, cell, allowed, ""});
+InputError CsvTable::cell_error(std::size_t row, const std::string& column, const std::string& what,
+                                const std::string& allowed) const {
+  const std::string& cell = rows_[row].cells[find_column(column)];
+  return InputError({what, path_, line_of(row), column, cell.empty() ? "(empty)" : cell, allowed, ""});
 }
 
-double CsvTable::parse_cell(const Row& row, const std::string& column, const std::string& cell,
-                            const Field& field) const {
+double CsvTable::parse_cell(std::size_t row, const Field& field, const std::string& cell) const {
   const std::string range = field.range.to_string();
   const std::string allowed = range.empty() ? "a number" : "a number " + range;
   double value = 0.0;
@@ -209,13 +209,12 @@ double CsvTable::parse_cell(const Row& row, const std::string& column, const std
   const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
     const bool has_comma = form_.decimal == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
-    throw cell_problem(row, column, cell, fmt::format("'{}' is not a number", cell),
-                       has_comma ? allow(allowed + " with a decimal point", form_) : allowed);
+    throw cell_error(row, field.key, fmt::format("'{}' is not a number", cell),
+                     has_comma ? allow(allowed + " with a decimal point", form_) : allowed);
   }
-  if (!std::isfinite(value)) throw cell_problem(row, column, cell, fmt::format("'{}' is not finite", cell), allowed);
-  if (!field.range.contains(value)) {
-    throw cell_problem(row, column, cell, fmt::format("{} is out of range", column), allowed);
-  }
+  if (!std::isfinite(value)) throw cell_error(row, field.key, fmt::format("'{}' is not finite", cell), allowed);
+  if (!field.range.contains(value))
+    throw cell_error(row, field.key, fmt::format("{} is out of range", field.key), allowed);
   return value;
 }
 
@@ -224,15 +223,15 @@ std::vector<double> CsvTable::numbers(const Field& column, bool may_be_empty) co
   const Unit unit = unit_of_key(column.key);
   std::vector<double> values;
   values.reserve(rows_.size());
-  for (const Row& row : rows_) {
-    const std::string& cell = row.cells[index];
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string& cell = rows_[row].cells[index];
     if (!cell.empty()) {
-      values.push_back(unit.to_si(parse_cell(row, column.key, cell, column)));
+      values.push_back(unit.to_si(parse_cell(row, column, cell)));
     } else if (may_be_empty) {
       values.push_back(std::numeric_limits<double>::quiet_NaN());
     } else {
-      throw cell_problem(row, column.key, "(empty)", fmt::format("'{}' has an empty field", column.key),
-                         "a number in every row: this column is an input");
+      throw cell_error(row, column.key, fmt::format("'{}' has an empty field", column.key),
+                       "a number in every row: this column is an input");
     }
   }
   return values;
@@ -243,10 +242,10 @@ std::vector<double> CsvTable::plain_numbers(const std::string& column, const std
   const Field field{column.c_str(), any_number(), ""};
   std::vector<double> values;
   values.reserve(rows_.size());
-  for (const Row& row : rows_) {
-    const std::string cell = boost::algorithm::trim_copy(row.cells[index]);
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string cell = boost::algorithm::trim_copy(rows_[row].cells[index]);
     const bool is_missing = cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end();
-    values.push_back(is_missing ? std::numeric_limits<double>::quiet_NaN() : parse_cell(row, column, cell, field));
+    values.push_back(is_missing ? std::numeric_limits<double>::quiet_NaN() : parse_cell(row, field, cell));
   }
   return values;
 }
@@ -255,9 +254,8 @@ std::vector<double> CsvTable::increasing_times(const std::string& column) const 
   const std::vector<double> times = numbers({column.c_str(), any_number(), "time"});
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i] > times[i - 1]) continue;
-    throw cell_problem(rows_[i], column, rows_[i].cells[find_column(column)],
-                       fmt::format("time does not increase: {} after {}", times[i], times[i - 1]),
-                       fmt::format("more than {}", times[i - 1]));
+    throw cell_error(i, column, fmt::format("time does not increase: {} after {}", times[i], times[i - 1]),
+                     fmt::format("more than {}", times[i - 1]));
   }
   return times;
 }

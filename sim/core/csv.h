@@ -33,6 +33,9 @@ class CsvTable {
   bool has(const std::string& column) const;
   /// Line of the file on which a row begins.
   int line_of(std::size_t row) const { return rows_[row].line; }
+  /// What is wrong with a cell, with its line and text, for the caller to throw.
+  InputError cell_error(std::size_t row, const std::string& column, const std::string& what,
+                        const std::string& allowed) const;
   /// Throws InputError, with the nearest known name, for a column that is not among `known`.
   void require_known(const std::vector<std::string>& known) const;
 
@@ -53,9 +56,7 @@ class CsvTable {
   };
 
   std::size_t find_column(const std::string& column) const;
-  InputError cell_problem(const Row& row, const std::string& column, const std::string& cell, const std::string& what,
-                          const std::string& allowed) const;
-  double parse_cell(const Row& row, const std::string& column, const std::string& cell, const Field& field) const;
+  double parse_cell(std::size_t row, const Field& field, const std::string& cell) const;
 
   std::string path_;
   CsvForm form_;

@@ -8,7 +8,7 @@ using rollrig::Quantity;
 TEST_CASE("a quantity's heading is its name and its unit, and is read back", "[fast]") {
   constexpr Quantity torque{"drum_torque", "Nm"};
   CHECK(torque.header() == "drum_torque_Nm");
-  CHECK(torque.file_unit().symbol == "Nm");
+  CHECK(torque.file_unit().symbol == "N m");
   const Quantity read = intern_quantity("drum_torque_Nm");
   CHECK(read == torque);
   CHECK(read.unit_suffix() == "Nm");

@@ -1,0 +1,31 @@
+#pragma once
+/// The iteration of a road-load fit: coefficients and components of variance together.
+
+#include <optional>
+
+#include "estimation/road_load/coastdown_problem.h"
+#include "estimation/road_load/road_load_fit.h"
+
+namespace rollrig::estimation {
+
+struct IterationStart {
+  Eigen::VectorXd coefficients;
+  Eigen::VectorXd components;  // of variance, by CoastdownScatter
+};
+
+enum class Components { kEstimated, kHeld };
+
+struct IteratedFit {
+  LinearEstimate linear;
+  Eigen::VectorXd coefficients;
+  Eigen::VectorXd components;
+  int iterations = 0;
+};
+
+/// Linearizes about the present coefficients, solves the weighted problem, and repeats until nothing changes by more
+/// than 1e-4 of its standard deviation.
+/// Errors    RunFailure: the force would not stay positive, or 100 iterations are not enough
+IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::optional<RoadLoadBounds>& bounds,
+                              const IterationStart& start, Components kind);
+
+}  // namespace rollrig::estimation
