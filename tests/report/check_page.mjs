@@ -19,6 +19,7 @@ const check = (isGood, text) => {
 };
 
 let chromium;
+let stalled = false;  // the browser did not do in time what the page asked of it
 const messages = [];
 const requests = [];
 const hear = (method, params) => {
@@ -135,16 +136,20 @@ async function checkDarkAndPaper() {
   if (option('--screenshots')) writeFileSync(join(option('--screenshots'), 'paper.pdf'), Buffer.from(data, 'base64'));
 }
 
-/// Waits until an expression is true in the page, and says whether it came to be.
+/// Waits until an expression is true in the page, and says whether it came to be. What a page does on a change of its size or
+/// theme waits for the next frame, and a headless browser on a busy machine may draw none of its own: a small picture asks
+/// for one.
 async function waitFor(expression) {
-  return chromium.evaluate(`(async () => {
-    const end = performance.now() + ${kPatience_ms};
-    while (!(${expression})) {
-      if (performance.now() > end) return false;
-      await new Promise((done) => setTimeout(done, 20));
+  const end_ms = performance.now() + kPatience_ms;
+  while (!(await chromium.evaluate(`Boolean(${expression})`))) {
+    if (performance.now() > end_ms) {
+      stalled = true;
+      return false;
     }
-    return true;
-  })()`);
+    await chromium.send('Page.captureScreenshot', { clip: { x: 0, y: 0, width: 1, height: 1, scale: 1 } });
+    await new Promise((done) => setTimeout(done, 20));
+  }
+  return true;
 }
 
 /// Loads the page. Returns the time of its first paint with content, in s.
@@ -178,13 +183,15 @@ async function checkPage() {
   check(messages.length === 0, `no message on the console: ${messages.join(' | ')}`);
 }
 
-// A browser that dies on a machine short of memory says nothing of the page: it is started anew, twice at most.
+// A browser that dies or stalls on a machine short of memory or time says nothing of the page: it is started anew, twice at
+// most. A page that is at fault fails in every browser.
 for (let browsers = 1; ; ++browsers) {
   for (const kept of [problems, messages, requests]) kept.length = 0;
   chromium = new Chromium();
   chromium.on(hear);
   measuring = undefined;
   let died = false;
+  stalled = false;
   try {
     await checkPage();
   } catch (error) {
@@ -194,7 +201,7 @@ for (let browsers = 1; ; ++browsers) {
     await chromium.close();
     if (measuring) await measuring.close();
   }
-  if (!died || browsers === kBrowsers) break;
-  console.log('the browser has died: once more');
+  if (problems.length === 0 || !(died || stalled) || browsers === kBrowsers) break;
+  console.log(`the browser has ${died ? 'died' : 'stalled'}: once more`);
 }
 process.exit(problems.length === 0 ? 0 : 1);

@@ -10,7 +10,8 @@ export class Chromium {
   constructor(program = process.env.CHROMIUM || 'chromium', width = 1280, height = 900) {
     this.profile = mkdtempSync(join(tmpdir(), 'rollrig-page-'));
     this.process = spawn(program, ['--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--remote-debugging-pipe',
-      '--no-first-run', '--disable-background-networking', `--user-data-dir=${this.profile}`, `--window-size=${width},${height}`, 'about:blank'],
+      '--no-first-run', '--disable-background-networking', '--disable-background-timer-throttling', '--disable-renderer-backgrounding',
+      '--disable-backgrounding-occluded-windows', `--user-data-dir=${this.profile}`, `--window-size=${width},${height}`, 'about:blank'],
     { stdio: ['ignore', 'ignore', 'ignore', 'pipe', 'pipe'] });
     this.waiting = new Map();
     this.listeners = [];
