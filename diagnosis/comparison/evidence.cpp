@@ -140,8 +140,6 @@ Evidence::Sum Evidence::integrate(const std::vector<AmplitudePrior>& priors) con
     for (std::size_t c = 0; c < priors.size(); ++c)
       sum.mean[c] += std::exp(logs[i] - sum.log_value) * combinations[i][c];
   }
-  const auto best = std::max_element(logs.begin(), logs.end()) - logs.begin();
-  sum.best = combinations[static_cast<std::size_t>(best)];
   return sum;
 }
 

@@ -45,9 +45,8 @@ class Evidence {
   struct Sum {
     double log_value = 0.0;
     Amplitudes mean;  // of the amplitudes, after the measurement
-    Amplitudes best;  // of the likeliest combination
   };
-  /// Over all combinations of the channels' amplitudes. `without_first`: not that of all the first ones.
+  /// Over all combinations of the channels' amplitudes.
   Sum integrate(const std::vector<AmplitudePrior>& priors) const;
 
  private:

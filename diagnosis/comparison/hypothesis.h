@@ -14,10 +14,9 @@ struct ActingEffect {
   int sign = 1;
 };
 
-/// Effects in the order of the registry. The baseline's own parameters move within their uncertainty unless fixed.
+/// Effects in the order of the registry.
 struct Hypothesis {
   std::vector<ActingEffect> effects;
-  bool base_fixed = false;
 
   std::vector<std::string> ids() const;
   std::string name() const;  // "bearing_warmup", "load_exponent + slow_leak", "none"

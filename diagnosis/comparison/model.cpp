@@ -30,10 +30,8 @@ void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::s
 
 }  // namespace
 
-Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis,
-             std::optional<std::size_t> held_out)
-    : set_(set), base_(std::move(base)), hypothesis_(std::move(hypothesis)), held_out_(held_out) {
-  if (hypothesis_.base_fixed) base_.clear();
+Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis)
+    : set_(set), base_(std::move(base)), hypothesis_(std::move(hypothesis)) {
   for (std::size_t e = 0; e < hypothesis_.effects.size(); ++e) {
     for (std::size_t i = 0; i < hypothesis_.effects[e].effect->info.parameters.size(); ++i) own_.push_back({e, i});
   }
@@ -119,8 +117,8 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   return true;
 }
 
-bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives,
-                     bool with_held_out) const {
+bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values,
+                     RowMatrix* derivatives) const {
   std::vector<Parameter> parameters;
   if (!find_parameters(unknowns, parameters)) return false;
   const std::size_t runs = set_.runs().size();
@@ -131,7 +129,6 @@ bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
   parallel_for(runs * passes, threads, [&](std::size_t job) {
     const std::size_t run = job / passes;
     const std::size_t first = (job % passes) * kJetWidth;
-    if (!with_held_out && held_out_ == run) return;
     const bool done = derivatives == nullptr ? simulate_run<double>(run, parameters, 0, values, nullptr)
                                              : simulate_run<Jet>(run, parameters, first, values, derivatives);
     good[job] = done ? 1 : 0;
@@ -164,11 +161,6 @@ bool Model::evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
       jacobian->block(at(series.first_residual), at(parameter_count() + series.offset), at(series.size()), 1)
           .setConstant(-series.offset_sd);
     }
-  }
-  for (const Series& series : set_.series()) {
-    if (held_out_ != series.run) continue;
-    residuals.segment(at(series.first_residual), at(series.size())).setZero();
-    if (jacobian != nullptr) jacobian->middleRows(at(series.first_residual), at(series.size())).setZero();
   }
   whiten(set_, residuals);
   if (jacobian != nullptr) whiten(set_, *jacobian);

@@ -2,7 +2,6 @@
 /// What the sensors of a set would have shown under a hypothesis, as a function of unknowns in prior units.
 
 #include <Eigen/Core>
-#include <optional>
 #include <vector>
 
 #include "diagnosis/comparison/eigen_index.h"
@@ -18,13 +17,10 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// the sensors' offsets (one a session and channel).
 class Model {
  public:
-  /// A run that is held out takes no part: its residuals are 0.
-  Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis,
-        std::optional<std::size_t> held_out = std::nullopt);
+  Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis);
 
   const PreparedSet& set() const { return set_; }
   const Hypothesis& hypothesis() const { return hypothesis_; }
-  std::optional<std::size_t> held_out() const { return held_out_; }
   const std::vector<estimation::FreeParameter>& base() const { return base_; }
 
   std::size_t own_count() const { return own_.size(); }
@@ -44,8 +40,7 @@ class Model {
 
   /// Block means of every series, SI units, without offsets; `derivatives` by the parameters may be null. Runs are
   /// shared out over threads. False where a parameter leaves its range or the simulation its domain.
-  bool simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives,
-                bool with_held_out = false) const;
+  bool simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives) const;
 
   /// Whitened residuals (measured - simulated - offset) and their derivatives by the unknowns.
   bool evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& residuals, RowMatrix* jacobian) const;
@@ -67,7 +62,6 @@ class Model {
   const PreparedSet& set_;
   std::vector<estimation::FreeParameter> base_;
   Hypothesis hypothesis_;
-  std::optional<std::size_t> held_out_;
   std::vector<OwnParameter> own_;
 };
 

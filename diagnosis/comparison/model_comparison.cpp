@@ -65,7 +65,7 @@ Amplitudes measure_whole(const Model& model, const Fit& fit) {
   const Model without(model.set(), model.base(), {});
   Eigen::VectorXd simulated;
   const Eigen::Index own = at(model.own_count());
-  if (!without.simulate(fit.unknowns.tail(fit.unknowns.size() - own), 1, simulated, nullptr, true)) {
+  if (!without.simulate(fit.unknowns.tail(fit.unknowns.size() - own), 1, simulated, nullptr)) {
     return Amplitudes(model.set().channels().size(), 0.0);
   }
   return measure_in_floors(model.set(), fit.simulated - simulated);

@@ -91,9 +91,8 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const Amplitudes& 
   } else if (!model.evaluate(fit.unknowns, threads, fit.residuals, &fit.jacobian)) {
     return fit;
   }
-  if (!model.simulate(fit.unknowns, threads, fit.simulated, nullptr, true)) return fit;
+  if (!model.simulate(fit.unknowns, threads, fit.simulated, nullptr)) return fit;
   fit.cost = summary.final_cost;
-  fit.converged = summary.termination_type == ceres::CONVERGENCE;
   return fit;
 }
 

@@ -75,12 +75,12 @@ std::vector<Screened> screen(const Model& null, const Discrepancy& discrepancy, 
     const models::Effect& effect = *effects[e];
     for (const SizeTrial& size : find_size_trials(effect)) {
       const ActingEffect acting{&effect, size.sign};
-      const Model larger(null.set(), base, null.hypothesis().with(acting), null.held_out());
+      const Model larger(null.set(), base, null.hypothesis().with(acting));
       std::vector<Screened> of_shapes;
       bool was_simulated = false;
       for (const Eigen::VectorXd& own : find_shape_trials(effect, size.u)) {
         Eigen::VectorXd simulated;
-        if (!larger.simulate(insert_own(larger, fit, effect, own), 1, simulated, nullptr, true)) continue;
+        if (!larger.simulate(insert_own(larger, fit, effect, own), 1, simulated, nullptr)) continue;
         was_simulated = true;
         const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
         if (!(variance > 0.0)) continue;

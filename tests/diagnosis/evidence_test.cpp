@@ -198,8 +198,6 @@ TEST_CASE("an evidence over amplitudes is the sum over all their combinations", 
   }
   const Evidence::Sum sum = evidence.integrate(priors);
   CHECK(sum.log_value == Approx(diagnosis::log_sum_exp(logs)).margin(1e-9));
-  const auto likeliest = std::max_element(logs.begin(), logs.end()) - logs.begin();
-  CHECK(sum.best == combinations[static_cast<std::size_t>(likeliest)]);
   for (std::size_t channel = 0; channel < 3; ++channel) {
     double mean = 0.0;
     for (std::size_t k = 0; k < logs.size(); ++k) mean += std::exp(logs[k] - sum.log_value) * combinations[k][channel];

@@ -95,34 +95,6 @@ TEST_CASE("residuals and derivatives are the same to the bit from one thread or 
   CHECK((one - alone).cwiseAbs().maxCoeff() < 1e-9);
 }
 
-TEST_CASE("a run that is held out takes no part, and may be predicted all the same", "[fast]") {
-  const Model all(two_runs(), base(), with({"bearing_warmup"}));
-  const Model without(two_runs(), base(), with({"bearing_warmup"}), 1);
-  const Eigen::VectorXd unknowns = make_unknowns(all);
-  Eigen::VectorXd of_all;
-  Eigen::VectorXd of_one;
-  RowMatrix jacobian_of_all;
-  RowMatrix jacobian_of_one;
-  REQUIRE(all.evaluate(unknowns, 1, of_all, &jacobian_of_all));
-  REQUIRE(without.evaluate(unknowns, 1, of_one, &jacobian_of_one));
-  for (const Series& series : two_runs().series()) {
-    const Eigen::Index first = at(series.first_residual);
-    const Eigen::Index size = at(series.size());
-    if (series.run == 1) {
-      CHECK(of_one.segment(first, size).isZero(0.0));
-      CHECK(jacobian_of_one.middleRows(first, size).isZero(0.0));
-    } else {
-      CHECK(of_one.segment(first, size) == of_all.segment(first, size));
-      CHECK(jacobian_of_one.middleRows(first, size) == jacobian_of_all.middleRows(first, size));
-    }
-  }
-  Eigen::VectorXd simulated_by_all;
-  Eigen::VectorXd simulated;
-  REQUIRE(all.simulate(unknowns, 1, simulated_by_all, nullptr));
-  REQUIRE(without.simulate(unknowns, 1, simulated, nullptr, true));
-  CHECK(simulated == simulated_by_all);
-}
-
 TEST_CASE("at the truth, without noise, nothing is left", "[fast]") {
   const auto effect = [] {
     models::ActiveEffect active{&models::find_effect("bearing_warmup"), {}};
@@ -165,9 +137,7 @@ TEST_CASE("a parameter out of its range is no hypothesis", "[fast]") {
   CHECK_FALSE(model.evaluate(unknowns, 1, residuals, nullptr));
 }
 
-TEST_CASE("with the base fixed, only own parameters and offsets are unknown", "[fast]") {
-  Hypothesis fixed = with({"bearing_warmup"});
-  fixed.base_fixed = true;
-  const Model model(two_runs(), base(), fixed);
+TEST_CASE("without base parameters, only own parameters and offsets are unknown", "[fast]") {
+  const Model model(two_runs(), {}, with({"bearing_warmup"}));
   CHECK(model.unknown_count() == model.own_count() + two_runs().offset_count());
 }
