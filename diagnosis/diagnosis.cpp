@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "diagnosis/checks/set_checks.h"
-#include "diagnosis/comparison/base_parameters.h"
 #include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/findings/balance.h"
 #include "diagnosis/findings/gap.h"
@@ -53,12 +52,10 @@ const Candidate* find_lead(const Comparison& comparison, const std::vector<Cause
 }
 
 /// What a fit makes of the sensors, offsets included.
-std::vector<double> find_fitted(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                const Fit& fit) {
-  const Model model(set, base, fit.hypothesis);
-  const Eigen::VectorXd left = model.subtract_from_measured(fit.unknowns, fit.simulated);
-  std::vector<double> values(set.residual_count());
-  for (const Series& series : set.series()) {
+std::vector<double> find_fitted(const Study& study, const Fit& fit) {
+  const Eigen::VectorXd left = study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
+  std::vector<double> values(study.set.residual_count());
+  for (const Series& series : study.set.series()) {
     for (std::size_t k = 0; k < series.size(); ++k) {
       const std::size_t row = series.first_residual + k;
       values[row] = series.measured[k] - left(at(row));
@@ -73,50 +70,51 @@ void forbid_causes(Diagnosis& diagnosis) {
   diagnosis.causes.clear();
 }
 
+/// The first cause on runs that its fit did not see, and what follows for the verdict.
+void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& diagnosis) {
+  const Candidate* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(comparison, diagnosis.causes);
+  diagnosis.gap = find_gap(study, lead);
+  if (lead == nullptr) return;
+  diagnosis.fitted.with_cause = find_fitted(study, lead->fit);
+  weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);
+  diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
+}
+
 Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const DiagnosisOptions& options) {
   const SetChecks checks = check_set(measured, options.threads);
-  const PreparedSet set(leave_out(measured, checks.left_out));
-  const Discrepancy discrepancy(set);
-  const std::vector<estimation::FreeParameter> base = find_base_parameters(measured, set.context());
-  ComparisonSettings settings;
-  settings.effects = choose_effects(measured, options);
-  settings.threads = options.threads;
   const auto report = [&options](double done, const std::string& stage) {
     if (options.progress) options.progress(done, stage);
   };
+  StudySettings settings;
+  settings.effects = choose_effects(measured, options);
+  settings.threads = options.threads;
   settings.progress = [&report](double done, const std::string& stage) { report(0.7 * done, stage); };
-  const Comparison comparison = compare_models(set, base, discrepancy, settings);
+  Study study(leave_out(measured, checks.left_out), settings);
+  const Comparison comparison = compare_models(study);
 
   Diagnosis diagnosis;
   diagnosis.set = measured.name;
-  diagnosis.probability = find_probabilities(comparison, settings.effects);
-  diagnosis.causes = find_causes(set, base, discrepancy, comparison);
+  diagnosis.probability = find_probabilities(study, comparison);
+  diagnosis.causes = find_causes(study, comparison);
   diagnosis.warnings = checks.warnings;
   diagnosis.doubt = checks.doubt;
   if (checks.is_implausible()) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   const bool is_named = diagnosis.verdict != Verdict::kNoGap;
-  diagnosis.not_excluded =
-      find_not_excluded(comparison, settings.effects, is_named ? diagnosis.causes : std::vector<Cause>{});
+  diagnosis.not_excluded = find_not_excluded(study, comparison, is_named ? diagnosis.causes : std::vector<Cause>{});
   report(0.7, "where and what");
-  diagnosis.where = find_locations(set, discrepancy, comparison.null);
-  diagnosis.balance = find_balance(set, base, discrepancy, comparison.null, options.threads);
+  diagnosis.where = find_locations(study);
+  diagnosis.balance = find_balance(study);
   report(0.8, "next test");
   if (!checks.is_implausible()) {
-    const std::vector<OpenHypothesis> open = find_open_hypotheses(set, base, discrepancy, comparison, options.threads);
-    diagnosis.next_test = propose_tests(set, base, open, options.threads);
-    diagnosis.next_sensor = propose_sensors(set, base, open);
+    const std::vector<OpenHypothesis> open = find_open_hypotheses(study, comparison);
+    diagnosis.next_test = propose_tests(study, open);
+    diagnosis.next_sensor = propose_sensors(study, open);
   }
   report(0.9, "runs left out");
-  const Candidate* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(comparison, diagnosis.causes);
-  diagnosis.gap = find_gap(set, base, discrepancy, comparison.null, lead, options.threads);
-  const bool is_whole = checks.left_out.empty();
-  if (is_whole) diagnosis.fitted.recalibrated = find_fitted(set, base, comparison.null.fit);
-  if (lead != nullptr) {
-    if (is_whole) diagnosis.fitted.with_cause = find_fitted(set, base, lead->fit);
-    weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);
-    diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
-  }
+  diagnosis.fitted.recalibrated = find_fitted(study, study.null.fit);
+  judge_cause(study, comparison, diagnosis);
+  if (!checks.left_out.empty()) diagnosis.fitted = {};
   report(1.0, "done");
   return diagnosis;
 }

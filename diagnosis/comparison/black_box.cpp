@@ -45,14 +45,12 @@ Eigen::VectorXd subtract_black_box(const PreparedSet& set, const Eigen::VectorXd
       if (series.channel != channel || series.run == run) continue;
       const Eigen::MatrixXd features = find_features(set, series);
       curvature += features.transpose() * features;
-      gradient +=
-          features.transpose() * difference.segment(at(series.first_residual), at(series.size())) / series.floor;
+      gradient += features.transpose() * series.rows_of(difference) / series.floor;
     }
     const Eigen::VectorXd weights = curvature.llt().solve(gradient);
     for (const Series& series : set.series()) {
       if (series.channel != channel || series.run != run) continue;
-      rest.segment(at(series.first_residual), at(series.size())) -=
-          series.floor * (find_features(set, series) * weights);
+      series.rows_of(rest) -= series.floor * (find_features(set, series) * weights);
     }
   }
   return rest;

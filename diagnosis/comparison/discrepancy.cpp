@@ -171,7 +171,7 @@ Eigen::MatrixXd Discrepancy::gather(const Basis& basis, const Columns& columns) 
   Eigen::Index next = 0;
   for (const std::size_t s : basis.series) {
     const Series& series = set_.series()[s];
-    gathered.middleRows(next, at(series.size())) = columns.middleRows(at(series.first_residual), at(series.size()));
+    gathered.middleRows(next, at(series.size())) = series.rows_of(columns);
     next += at(series.size());
   }
   return gathered;
@@ -187,7 +187,7 @@ void Discrepancy::whiten(const Amplitudes& amplitudes, Columns& columns) const {
     Eigen::Index next = 0;
     for (const std::size_t s : basis.series) {
       const Series& series = set_.series()[s];
-      columns.middleRows(at(series.first_residual), at(series.size())) -= change.middleRows(next, at(series.size()));
+      series.rows_of(columns) -= change.middleRows(next, at(series.size()));
       next += at(series.size());
     }
   }

@@ -41,11 +41,18 @@ AmplitudePrior law_amplitude(double least, double middle) {
   return prior;
 }
 
-Evidence::Evidence(const Discrepancy& discrepancy, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
-                   const RowMatrix& jacobian)
-    : discrepancy_(discrepancy), unknowns_(unknowns) {
-  RowMatrix columns = jacobian;
-  Eigen::VectorXd r = residuals;
+AmplitudePrior free_amplitude(double smallest) {
+  AmplitudePrior prior{{smallest}, {0.5}};
+  for (double larger = std::max(0.4, 4.0 * smallest); larger < 100.0; larger *= 2.0) prior.amplitudes.push_back(larger);
+  const auto count = static_cast<double>(prior.amplitudes.size() - 1);
+  prior.weights.resize(prior.amplitudes.size(), 0.5 / count);
+  return prior;
+}
+
+Evidence::Evidence(const Discrepancy& discrepancy, const Fit& fit)
+    : discrepancy_(discrepancy), unknowns_(fit.unknowns) {
+  RowMatrix columns = fit.jacobian;
+  Eigen::VectorXd r = fit.residuals;
   discrepancy.whiten_below(columns);
   discrepancy.whiten_below(r);
   log_determinant_below_ = discrepancy.log_determinant_below();

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnosis/comparison/discrepancy.h"
+#include "diagnosis/comparison/refit.h"
 
 namespace rollrig::diagnosis {
 
@@ -30,8 +30,7 @@ AmplitudePrior law_amplitude(double least, double middle);
 /// Checked   tests/diagnosis/evidence_test.cpp
 class Evidence {
  public:
-  Evidence(const Discrepancy& discrepancy, const Eigen::VectorXd& unknowns, const Eigen::VectorXd& residuals,
-           const RowMatrix& jacobian);
+  Evidence(const Discrepancy& discrepancy, const Fit& fit);
 
   /// One combination of amplitudes, one a channel.
   struct Term {
@@ -72,6 +71,9 @@ class Evidence {
   };
   std::vector<Part> parts_;
 };
+
+/// A free discrepancy: either as small as model error, or of any size up to a hundred floors.
+AmplitudePrior free_amplitude(double smallest);
 
 /// log(sum exp).
 double log_sum_exp(const std::vector<double>& logs);

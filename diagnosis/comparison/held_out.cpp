@@ -16,7 +16,7 @@ struct Bounds {
 
 /// Of all unknowns: own parameters in their ranges, and base parameters less than their own size away, since one step
 /// from a set that is not of this tire may lead out of physics.
-Bounds find_bounds(const Model& model, const std::vector<estimation::FreeParameter>& base) {
+Bounds find_bounds(const Model& model) {
   constexpr double kMostRelative = 0.9;
   const Eigen::Index n = at(model.unknown_count());
   const double infinity = std::numeric_limits<double>::infinity();
@@ -25,6 +25,7 @@ Bounds find_bounds(const Model& model, const std::vector<estimation::FreeParamet
     bounds.lower[at(i)] = model.own_bounds(i).lower;
     bounds.upper[at(i)] = model.own_bounds(i).upper;
   }
+  const std::vector<estimation::FreeParameter>& base = model.base();
   for (std::size_t i = 0; i < base.size(); ++i) {
     const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
     if (most > 0.0) {
@@ -37,25 +38,24 @@ Bounds find_bounds(const Model& model, const std::vector<estimation::FreeParamet
 
 }  // namespace
 
-Prediction predict_without(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                           const Discrepancy& discrepancy, const Candidate& candidate, std::size_t held_out) {
+Prediction predict_without(const Study& study, const Candidate& candidate, std::size_t held_out) {
   RowMatrix jacobian = candidate.fit.jacobian;
   Eigen::VectorXd residuals = candidate.fit.residuals;
-  discrepancy.whiten(candidate.amplitudes, jacobian);
-  discrepancy.whiten(candidate.amplitudes, residuals);
+  study.discrepancy.whiten(candidate.amplitudes, jacobian);
+  study.discrepancy.whiten(candidate.amplitudes, residuals);
   RowMatrix left_out = RowMatrix::Zero(jacobian.rows(), jacobian.cols());
-  for (const Series& series : set.series()) {
+  for (const Series& series : study.set.series()) {
     if (series.run != held_out) continue;
-    auto rows = jacobian.middleRows(at(series.first_residual), at(series.size()));
-    left_out.middleRows(at(series.first_residual), at(series.size())) = rows;
+    auto rows = series.rows_of(jacobian);
+    series.rows_of(left_out) = rows;
     rows.setZero();
-    residuals.segment(at(series.first_residual), at(series.size())).setZero();
+    series.rows_of(residuals).setZero();
   }
   const Eigen::Index n = jacobian.cols();
   const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
-  const Model model(set, base, candidate.fit.hypothesis);
+  const Model model = study.make_model(candidate.fit.hypothesis);
   const Eigen::VectorXd& from = candidate.fit.unknowns;
-  const Bounds bounds = find_bounds(model, base);
+  const Bounds bounds = find_bounds(model);
   const Eigen::VectorXd unknowns =
       solve_within(curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals), bounds.lower,
                    bounds.upper);

@@ -1,7 +1,7 @@
 #pragma once
 /// What a hypothesis says of a run that its fit did not see.
 
-#include "diagnosis/comparison/model_comparison.h"
+#include "diagnosis/study.h"
 
 namespace rollrig::diagnosis {
 
@@ -16,7 +16,6 @@ struct Prediction {
 /// Equation  minimum of |r + J (u - u_0)|^2 + |u|^2 over the rows of all other runs, own parameters within their ranges
 /// Symbols   r whitened residuals of the fit to all runs at its unknowns u_0, J their derivatives, u in prior units
 /// Checked   tests/diagnosis/gap_test.cpp
-Prediction predict_without(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                           const Discrepancy& discrepancy, const Candidate& candidate, std::size_t held_out);
+Prediction predict_without(const Study& study, const Candidate& candidate, std::size_t held_out);
 
 }  // namespace rollrig::diagnosis

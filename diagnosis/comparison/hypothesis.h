@@ -12,6 +12,8 @@ namespace rollrig::diagnosis {
 struct ActingEffect {
   const models::Effect* effect = nullptr;
   int sign = 1;
+
+  bool operator==(const ActingEffect& other) const { return effect == other.effect && sign == other.sign; }
 };
 
 /// Effects in the order of the registry.
@@ -20,6 +22,7 @@ struct Hypothesis {
 
   std::vector<std::string> ids() const;
   std::string name() const;  // "bearing_warmup", "load_exponent + slow_leak", "none"
+  bool operator==(const Hypothesis& other) const { return effects == other.effects; }
   bool contains(const models::Effect& effect) const;
   /// With one more effect, in its place.
   Hypothesis with(const ActingEffect& added) const;

@@ -2,11 +2,11 @@
 
 namespace rollrig::diagnosis {
 
-LinearFit::LinearFit(const Discrepancy& discrepancy_, const Amplitudes& amplitudes_, const Fit& fit)
+LinearFit::LinearFit(const Discrepancy& discrepancy_, const Candidate& candidate)
     : discrepancy(discrepancy_),
-      amplitudes(amplitudes_),
-      jacobian(fit.jacobian),
-      residual(fit.residuals - fit.jacobian * fit.unknowns) {
+      amplitudes(candidate.amplitudes),
+      jacobian(candidate.fit.jacobian),
+      residual(candidate.fit.residuals - candidate.fit.jacobian * candidate.fit.unknowns) {
   discrepancy.whiten(amplitudes, jacobian);
   discrepancy.whiten(amplitudes, residual);  // of the priors' middles
   const Eigen::Index n = jacobian.cols();

@@ -3,7 +3,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "diagnosis/comparison/refit.h"
+#include "diagnosis/study.h"
 
 namespace rollrig::diagnosis {
 
@@ -14,7 +14,7 @@ namespace rollrig::diagnosis {
 /// Source    generalized least squares with normal priors
 /// Checked   tests/diagnosis/locations_test.cpp
 struct LinearFit {
-  LinearFit(const Discrepancy& discrepancy, const Amplitudes& amplitudes, const Fit& fit);
+  LinearFit(const Discrepancy& discrepancy, const Candidate& candidate);
 
   /// Whitens block values in SI units, in place.
   template <class Columns>

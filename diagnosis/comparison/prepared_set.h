@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnosis/comparison/eigen_index.h"
 #include "diagnosis/comparison/run_phases.h"
 #include "measurements/measurement_set.h"
 #include "measurements/whitener.h"
@@ -34,6 +35,11 @@ struct Series {
   std::size_t first_residual = 0;  // index of its first residual
 
   std::size_t size() const { return blocks.size(); }
+  /// Of a column or columns over the residuals of the whole set, those of this series.
+  template <class Columns>
+  auto rows_of(Columns& columns) const {
+    return columns.middleRows(at(first_residual), at(size()));
+  }
   /// Mean over the samples of a block.
   template <class Get>
   auto mean_over(const Block& block, Get&& get) const {

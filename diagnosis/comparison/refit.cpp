@@ -13,8 +13,8 @@ namespace {
 /// Whitened residuals, then the unknowns themselves, whose priors are standard normal.
 class WhitenedResiduals : public ceres::CostFunction {
  public:
-  WhitenedResiduals(const Model& model, const Discrepancy& discrepancy, const Amplitudes& amplitudes, int threads)
-      : model_(model), discrepancy_(discrepancy), amplitudes_(amplitudes), threads_(threads) {
+  WhitenedResiduals(const Model& model, const Discrepancy& discrepancy, const RefitStart& start)
+      : model_(model), discrepancy_(discrepancy), amplitudes_(start.amplitudes), threads_(start.threads) {
     set_num_residuals(static_cast<int>(model.residual_count() + model.unknown_count()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(model.unknown_count()));
   }
@@ -59,14 +59,13 @@ class WhitenedResiduals : public ceres::CostFunction {
 
 }  // namespace
 
-Fit refit(const Model& model, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
-          const Eigen::VectorXd& start, int threads, int most_iterations) {
+Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& start) {
   Fit fit;
   fit.hypothesis = model.hypothesis();
-  fit.unknowns = start;
+  fit.unknowns = start.unknowns;
   fit.cost = std::numeric_limits<double>::infinity();
   ceres::Problem problem;
-  auto* residuals = new WhitenedResiduals(model, discrepancy, amplitudes, threads);  // the problem's own
+  auto* residuals = new WhitenedResiduals(model, discrepancy, start);  // the problem's own
   problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds bounds = model.own_bounds(i);
@@ -75,7 +74,7 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const Amplitudes& 
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = most_iterations;
+  options.max_num_iterations = start.most_iterations;
   options.function_tolerance = 1e-6;  // of a chi2 of thousands: far below what decides between hypotheses
   options.parameter_tolerance = 1e-4;
   options.max_num_consecutive_invalid_steps = 20;  // each twice, four, eight times ... shorter than the one before
@@ -88,10 +87,10 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const Amplitudes& 
   if (residuals->last().unknowns.size() > 0 && residuals->last().unknowns == fit.unknowns) {
     fit.residuals = residuals->last().residuals;
     fit.jacobian = residuals->last().jacobian;
-  } else if (!model.evaluate(fit.unknowns, threads, fit.residuals, &fit.jacobian)) {
+  } else if (!model.evaluate(fit.unknowns, start.threads, fit.residuals, &fit.jacobian)) {
     return fit;
   }
-  if (!model.simulate(fit.unknowns, threads, fit.simulated, nullptr)) return fit;
+  if (!model.simulate(fit.unknowns, start.threads, fit.simulated, nullptr)) return fit;
   fit.cost = summary.final_cost;
   return fit;
 }

@@ -15,10 +15,16 @@ struct Fit {
   double cost = 0.0;          // half of chi2 with priors, under the discrepancy's amplitudes
 };
 
-/// Least squares of whitened residuals and priors under a discrepancy of given amplitudes, by Levenberg and Marquardt.
-/// `threads` shares the runs of one evaluation. A hypothesis that cannot be simulated anywhere near its start comes
-/// back with an infinite cost.
-Fit refit(const Model& model, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
-          const Eigen::VectorXd& start, int threads, int most_iterations = 50);
+/// Where a refit starts, and how far it goes.
+struct RefitStart {
+  Amplitudes amplitudes;  // of the discrepancy
+  Eigen::VectorXd unknowns;
+  int threads = 1;  // that share the runs of one evaluation
+  int most_iterations = 50;
+};
+
+/// Least squares of whitened residuals and priors under a discrepancy of given size, by Levenberg and Marquardt. A
+/// hypothesis that cannot be simulated anywhere near its start comes back with an infinite cost.
+Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& start);
 
 }  // namespace rollrig::diagnosis

@@ -66,16 +66,16 @@ double scale_size(const models::EffectParameter& size, const SizeTrial& trial, d
 
 }  // namespace
 
-std::vector<Screened> screen(const Model& null, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
-                             const Fit& fit, const std::vector<estimation::FreeParameter>& base,
-                             const std::vector<const models::Effect*>& effects, int threads) {
-  const LinearFit linear(discrepancy, amplitudes, fit);
+std::vector<Screened> screen(const Study& study, const Candidate& from,
+                             const std::vector<const models::Effect*>& effects) {
+  const Fit& fit = from.fit;
+  const LinearFit linear(study.discrepancy, from);
   std::vector<std::vector<Screened>> found(effects.size());
-  parallel_for(effects.size(), threads, [&](std::size_t e) {
+  parallel_for(effects.size(), study.settings.threads, [&](std::size_t e) {
     const models::Effect& effect = *effects[e];
     for (const SizeTrial& size : find_size_trials(effect)) {
       const ActingEffect acting{&effect, size.sign};
-      const Model larger(null.set(), base, null.hypothesis().with(acting));
+      const Model larger = study.make_model(fit.hypothesis.with(acting));
       std::vector<Screened> of_shapes;
       bool was_simulated = false;
       for (const Eigen::VectorXd& own : find_shape_trials(effect, size.u)) {

@@ -1,8 +1,7 @@
 #pragma once
 /// Which effects could explain what the baseline leaves, to first order in their size.
 
-#include "diagnosis/comparison/evidence.h"
-#include "diagnosis/comparison/refit.h"
+#include "diagnosis/study.h"
 
 namespace rollrig::diagnosis {
 
@@ -19,13 +18,12 @@ struct Screened {
 Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Effect& effect,
                            const Eigen::VectorXd& own);
 
-/// Tries every effect on top of `fit`, with a finite size, so that effects without a first order are seen too:
+/// Tries every effect on top of `from`, with a finite size, so that effects without a first order are seen too:
 /// signature g = difference at the middle of the prior and, one at a time, one prior unit off in each shape.
 /// Equation  z = s/sqrt(V), best size = s/V middles, s and V score and variance of g (linear_fit.h); score = z^2/2
 ///           where the sign is one that the effect may have; d' = sqrt(V)
 /// An effect that cannot be simulated on top of the fit at all is listed without a score
-std::vector<Screened> screen(const Model& null, const Discrepancy& discrepancy, const Amplitudes& amplitudes,
-                             const Fit& fit, const std::vector<estimation::FreeParameter>& base,
-                             const std::vector<const models::Effect*>& effects, int threads);
+std::vector<Screened> screen(const Study& study, const Candidate& from,
+                             const std::vector<const models::Effect*>& effects);
 
 }  // namespace rollrig::diagnosis

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/comparison/evidence.h"
 #include "diagnosis/comparison/linear_fit.h"
 #include "diagnosis/findings/perturbations.h"
 #include "sim/core/parallel.h"
@@ -24,7 +25,7 @@ double measure_constant_push(const PreparedSet& set, const RowMatrix& columns) {
   std::vector<double> squares(set.channels().size(), 0.0);
   std::vector<double> counts(set.channels().size(), 0.0);
   for (const Series& series : set.series()) {
-    const auto rows = columns.middleRows(at(series.first_residual), at(series.size()));
+    const auto rows = series.rows_of(columns);
     squares[series.channel] += rows.rowwise().sum().squaredNorm() / (series.floor * series.floor);
     counts[series.channel] += static_cast<double>(series.size());
   }
@@ -52,11 +53,11 @@ class PerturbationModel {
     runs_.assign(set.runs().size(),
                  {Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, unknowns), Eigen::VectorXd::Zero(n)});
     for (const Series& series : set.series()) {
-      const auto rows = columns.middleRows(at(series.first_residual), at(series.size()));
+      const auto rows = series.rows_of(columns);
       OfRun& of = runs_[series.run];
       of.square += rows.transpose() * rows;
-      of.with_null += rows.transpose() * null.jacobian.middleRows(at(series.first_residual), at(series.size()));
-      of.score += rows.transpose() * null.residual.segment(at(series.first_residual), at(series.size()));
+      of.with_null += rows.transpose() * series.rows_of(null.jacobian);
+      of.score += rows.transpose() * series.rows_of(null.residual);
     }
     const Eigen::LLT<Eigen::MatrixXd> factor(null_curvature_);
     null_log_determinant_ = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
@@ -217,11 +218,10 @@ std::vector<double> average_shares(const std::vector<Weighed>& all, double log_s
 
 }  // namespace
 
-std::vector<BalanceShare> find_balance(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                       const Discrepancy& discrepancy, const Candidate& null, int threads) {
-  const std::vector<PerturbationFamily> families = calc_perturbations(set, base, null.fit.unknowns, threads);
-  const std::vector<Weighed> all =
-      search(PerturbationModel(set, LinearFit(discrepancy, null.amplitudes, null.fit), families), threads);
+std::vector<BalanceShare> find_balance(const Study& study) {
+  const std::vector<PerturbationFamily> families = calc_perturbations(study);
+  const PerturbationModel model(study.set, LinearFit(study.discrepancy, study.null), families);
+  const std::vector<Weighed> all = search(model, study.settings.threads);
   std::vector<double> logs;
   for (const Weighed& one : all) logs.push_back(one.log_odds);
   const double log_sum = log_sum_exp(logs);

@@ -31,7 +31,6 @@ namespace rollrig::diagnosis {
 ///           Assumed: no perturbation is as likely as any beforehand, all families are alike, s from 0.5 to 256
 /// Errors    RunFailure: a run cannot be simulated at the null
 /// Checked   tests/diagnosis/balance_test.cpp
-std::vector<BalanceShare> find_balance(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                       const Discrepancy& discrepancy, const Candidate& null, int threads);
+std::vector<BalanceShare> find_balance(const Study& study);
 
 }  // namespace rollrig::diagnosis

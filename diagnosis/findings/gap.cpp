@@ -90,28 +90,26 @@ Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& s
 }
 
 /// What the cause changes in a run, whitened, in squares.
-double measure_change(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& null,
-                      const Candidate& cause, std::size_t run) {
-  Eigen::VectorXd change = null.fit.residuals - cause.fit.residuals;
-  discrepancy.whiten(cause.amplitudes, change);
+double measure_change(const Study& study, const Candidate& cause, std::size_t run) {
+  Eigen::VectorXd change = study.null.fit.residuals - cause.fit.residuals;
+  study.discrepancy.whiten(cause.amplitudes, change);
   double sum = 0.0;
-  for (const Series& series : set.series()) {
-    if (series.run == run) sum += change.segment(at(series.first_residual), at(series.size())).squaredNorm();
+  for (const Series& series : study.set.series()) {
+    if (series.run == run) sum += series.rows_of(change).squaredNorm();
   }
   return sum;
 }
 
 /// The candidate with its base parameters at the files' values: only its own parameters and offsets are fitted.
-Measure measure_as_calibrated(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& candidate) {
-  Candidate fixed = candidate;
+Measure measure_as_calibrated(const Study& study, const Candidate& candidate) {
+  const PreparedSet& set = study.set;
   const Model model(set, {}, candidate.fit.hypothesis);
-  fixed.fit.unknowns.resize(at(model.unknown_count()));
-  const auto own = at(model.own_count());
-  fixed.fit.unknowns.head(own) = candidate.fit.unknowns.head(own);
-  fixed.fit.unknowns.tail(at(set.offset_count())) = candidate.fit.unknowns.tail(at(set.offset_count()));
   constexpr int kMost = 6;
-  const Eigen::VectorXd simulated =
-      refit(model, discrepancy, candidate.amplitudes, fixed.fit.unknowns, 1, kMost).simulated;
+  RefitStart start{candidate.amplitudes, Eigen::VectorXd(at(model.unknown_count())), 1, kMost};
+  const Eigen::Index own = at(model.own_count());
+  const Eigen::Index offsets = at(set.offset_count());
+  start.unknowns << candidate.fit.unknowns.head(own), candidate.fit.unknowns.tail(offsets);
+  const Eigen::VectorXd simulated = refit(model, study.discrepancy, start).simulated;
   Measure measure;
   if (simulated.size() == 0) return measure;
   const Eigen::VectorXd difference = find_difference(set, simulated);
@@ -166,28 +164,30 @@ Shrinkage resample(const Measure& before, const Measure& after) {
   return result;
 }
 
-}  // namespace
+/// What is left of every run by fits that did not see it.
+struct HeldOut {
+  Measure before;
+  Measure after;
+  Measure black_box;
+  Measure certain_before;  // of runs of which the others say enough
+  Measure certain_after;
+  std::vector<std::string> runs;
+};
 
-Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Discrepancy& discrepancy,
-             const Candidate& null, const Candidate* cause, int threads, const BlackBox& black_box) {
+HeldOut measure_held_out(const Study& study, const Candidate* cause, const BlackBox& black_box) {
+  const PreparedSet& set = study.set;
   const std::size_t runs = set.runs().size();
   const bool can_leave_out = runs > 1;
   std::vector<Prediction> before(runs);
   std::vector<Prediction> after(runs);
   const std::size_t hypotheses = cause != nullptr ? 2 : 1;
-  parallel_for(runs * hypotheses, threads, [&](std::size_t job) {
+  parallel_for(runs * hypotheses, study.settings.threads, [&](std::size_t job) {
     const std::size_t run = job / hypotheses;
     const bool is_null = job % hypotheses == 0;
-    const Candidate& candidate = is_null ? null : *cause;
     const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
-    (is_null ? before : after)[run] = predict_without(set, base, discrepancy, candidate, held_out);
+    (is_null ? before : after)[run] = predict_without(study, is_null ? study.null : *cause, held_out);
   });
-  Measure measured_before;
-  Measure measured_after;
-  Measure measured_black_box;
-  Measure certain_before;
-  Measure certain_after;
-  Gap gap;
+  HeldOut all;
   for (std::size_t run = 0; run < runs; ++run) {
     const bool lost = before[run].simulated.size() == 0 || (cause != nullptr && after[run].simulated.size() == 0);
     if (lost) continue;  // no fit without it
@@ -195,50 +195,61 @@ Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter
     if (std::none_of(set.series().begin(), set.series().end(), of_run)) continue;  // it measured nothing
     const Eigen::VectorXd difference = find_difference(set, before[run].simulated);
     const Eigen::VectorXd with_cause = cause != nullptr ? find_difference(set, after[run].simulated) : difference;
-    add_run(set, run, difference, measured_before);
-    add_run(set, run, with_cause, measured_after);
+    add_run(set, run, difference, all.before);
+    add_run(set, run, with_cause, all.after);
     if (!can_leave_out) continue;
-    add_run(set, run, black_box(set, difference, run), measured_black_box);
-    gap.held_out.push_back(set.runs()[run].measured.id);
+    add_run(set, run, black_box(set, difference, run), all.black_box);
+    all.runs.push_back(set.runs()[run].measured.id);
     if (cause == nullptr) continue;
-    const double change = measure_change(set, discrepancy, null, *cause, run);
-    if (std::max(before[run].uncertainty, after[run].uncertainty) > thresholds::kCertainHeldOut * change) continue;
-    add_run(set, run, difference, certain_before);
-    add_run(set, run, with_cause, certain_after);
+    const double uncertainty = std::max(before[run].uncertainty, after[run].uncertainty);
+    if (uncertainty > thresholds::kCertainHeldOut * measure_change(study, *cause, run)) continue;
+    add_run(set, run, difference, all.certain_before);
+    add_run(set, run, with_cause, all.certain_after);
   }
-  if (!certain_before.stretches.empty()) {
-    const Shrinkage certain = resample(certain_before, certain_after);
-    gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
-  }
-  const Measure calibrated = measure_as_calibrated(set, discrepancy, null);
-  const bool is_judged = !measured_before.stretches.empty();
-  if (!is_judged) {  // no run can be simulated without its own data: retuning is not known to help
-    measured_before = calibrated;
-    measured_after = calibrated;
-  }
-  gap.recalibrated = {gap_of(measured_before), gap_of(measured_after)};
-  gap.as_calibrated.before = gap_of(calibrated);
-  gap.as_calibrated.after =
-      cause != nullptr ? gap_of(measure_as_calibrated(set, discrepancy, *cause)) : gap.as_calibrated.before;
-  const Shrinkage shrinkage = resample(measured_before, measured_after);
-  if (is_judged && shrinkage.above_noise && cause != nullptr) {
-    gap.shrink_percent = shrinkage.percent;
-    gap.shrink_ci95_percent = shrinkage.ci95_percent;
-  }
-  if (is_judged && gap.as_calibrated.before > 0.0) {
-    gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
-  }
-  if (is_judged && can_leave_out && shrinkage.above_noise) {
-    gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(measured_black_box));
-  }
+  return all;
+}
+
+std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& before, const Measure& after) {
+  std::vector<ChannelGap> channels;
   for (std::size_t c = 0; c < set.channels().size(); ++c) {
     const ReportUnit unit = find_report_unit(set, set.channels()[c]);
     const auto in_unit = [&](const Measure& measure) {
       if (measure.channels.empty()) return 0.0;  // no run could be simulated
       return unit.per_SI * gap_of(measure.channels[c].above, measure.channels[c].blocks);
     };
-    gap.channels.push_back({set.channels()[c], unit.symbol, in_unit(measured_before), in_unit(measured_after)});
+    channels.push_back({set.channels()[c], unit.symbol, in_unit(before), in_unit(after)});
   }
+  return channels;
+}
+
+}  // namespace
+
+Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_box) {
+  Gap gap;
+  HeldOut left = measure_held_out(study, cause, black_box);
+  gap.held_out = left.runs;
+  if (!left.certain_before.stretches.empty()) {
+    const Shrinkage certain = resample(left.certain_before, left.certain_after);
+    gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
+  }
+  const Measure calibrated = measure_as_calibrated(study, study.null);
+  const bool is_judged = !left.before.stretches.empty();
+  if (!is_judged) left.before = left.after = calibrated;  // retuning is not known to help
+  gap.recalibrated = {gap_of(left.before), gap_of(left.after)};
+  gap.as_calibrated.before = gap_of(calibrated);
+  gap.as_calibrated.after = cause != nullptr ? gap_of(measure_as_calibrated(study, *cause)) : gap.as_calibrated.before;
+  gap.channels = list_channels(study.set, left.before, left.after);
+  if (!is_judged) return gap;
+  if (gap.as_calibrated.before > 0.0) {
+    gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
+  }
+  const Shrinkage shrinkage = resample(left.before, left.after);
+  if (!shrinkage.above_noise) return gap;
+  if (cause != nullptr) {
+    gap.shrink_percent = shrinkage.percent;
+    gap.shrink_ci95_percent = shrinkage.ci95_percent;
+  }
+  if (!left.runs.empty()) gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(left.black_box));
   return gap;
 }
 

@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "diagnosis/comparison/black_box.h"
-#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
+#include "diagnosis/study.h"
 
 namespace rollrig::diagnosis {
 
@@ -23,8 +23,6 @@ using BlackBox =
 /// Black box a ridge regression of the discrepancy on speed, load, temperature and time under load, learnt on the other
 ///           runs
 /// Checked   tests/diagnosis/gap_test.cpp
-Gap find_gap(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base, const Discrepancy& discrepancy,
-             const Candidate& null, const Candidate* cause, int threads,
-             const BlackBox& black_box = subtract_black_box);
+Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_box = subtract_black_box);
 
 }  // namespace rollrig::diagnosis

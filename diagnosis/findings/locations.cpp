@@ -127,15 +127,8 @@ std::vector<Sized> size_jointly(const Scores& scores, std::vector<std::size_t> s
   while (true) {
     std::vector<Sized> sized;
     const Eigen::Index n = at(selected.size());
-    Eigen::MatrixXd information(n, n);
-    Eigen::VectorXd score(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index from = at(selected[static_cast<std::size_t>(i)]);
-      score[i] = scores.score[from];
-      for (Eigen::Index j = 0; j < n; ++j) {
-        information(i, j) = scores.information(from, at(selected[static_cast<std::size_t>(j)]));
-      }
-    }
+    const Eigen::MatrixXd information = scores.information(selected, selected);
+    const Eigen::VectorXd score = scores.score(selected);
     const Eigen::MatrixXd covariance = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
     const Eigen::VectorXd size = covariance * score;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -190,19 +183,20 @@ Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& s
 
 }  // namespace
 
-std::vector<Location> find_locations(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& null) {
+std::vector<Location> find_locations(const Study& study) {
+  const PreparedSet& set = study.set;
   std::vector<Stretch> stretches;
   for (const Series& series : set.series()) add_stretches(set, series, stretches);
   const double tail = kFamilyWise / (2.0 * static_cast<double>(stretches.size()));
   const double critical = boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
-  const LinearFit linear(discrepancy, null.amplitudes, null.fit);
+  const LinearFit linear(study.discrepancy, study.null);
   const Scores scores = calc_scores(linear, stretches);
   const std::vector<Sized> listed = size_jointly(scores, select_forward(scores, critical), critical);
   if (listed.empty()) return {};
 
   Eigen::VectorXd unknowns = linear.unknowns;
   for (const Sized& sized : listed) unknowns += scores.null_steps.col(at(sized.stretch)) * sized.size;
-  const Eigen::VectorXd difference = calc_difference(set, null.fit, unknowns);
+  const Eigen::VectorXd difference = calc_difference(set, study.null.fit, unknowns);
   std::vector<Location> locations;
   double of_listed = 0.0;
   double of_others = 0.0;

@@ -27,6 +27,6 @@ namespace rollrig::diagnosis {
 ///           parameters and offsets can take within their uncertainty does not count as a gap
 /// Source    Bonferroni's inequality; forward selection
 /// Checked   tests/diagnosis/locations_test.cpp
-std::vector<Location> find_locations(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& null);
+std::vector<Location> find_locations(const Study& study);
 
 }  // namespace rollrig::diagnosis

@@ -24,9 +24,6 @@ struct OpenHypothesis {
 /// No hypothesis counts for less than a twentieth of the likeliest. One sign of an effect stands for both.
 /// Source  Assumed: six, nine, a twentieth and 0.01, which keep what matters in a named set of at most three
 /// Checked tests/diagnosis/next_test_test.cpp
-std::vector<OpenHypothesis> find_open_hypotheses(const PreparedSet& set,
-                                                 const std::vector<estimation::FreeParameter>& base,
-                                                 const Discrepancy& discrepancy, const Comparison& comparison,
-                                                 int threads);
+std::vector<OpenHypothesis> find_open_hypotheses(const Study& study, const Comparison& comparison);
 
 }  // namespace rollrig::diagnosis

@@ -243,9 +243,10 @@ std::vector<double> find_perturbation_knots(const PreparedRun& run) {
   return knots_s;
 }
 
-std::vector<PerturbationFamily> calc_perturbations(const PreparedSet& set,
-                                                   const std::vector<estimation::FreeParameter>& base,
-                                                   const Eigen::VectorXd& unknowns, int threads) {
+std::vector<PerturbationFamily> calc_perturbations(const Study& study) {
+  const PreparedSet& set = study.set;
+  const std::vector<estimation::FreeParameter>& base = study.base;
+  const Eigen::VectorXd& unknowns = study.null.fit.unknowns;
   models::Context<double> context = set.context();
   for (std::size_t i = 0; i < base.size(); ++i) {
     estimation::find_parameter(context, base[i].key) = base[i].start_SI + base[i].prior_sd_SI * unknowns[at(i)];
@@ -258,7 +259,7 @@ std::vector<PerturbationFamily> calc_perturbations(const PreparedSet& set,
     families.push_back({perturbation.name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))});
   }
   const std::size_t runs = set.runs().size();
-  parallel_for(runs * perturbations.size(), threads, [&](std::size_t job) {
+  parallel_for(runs * perturbations.size(), study.settings.threads, [&](std::size_t job) {
     const std::size_t run = job / perturbations.size();
     const std::size_t perturbation = job % perturbations.size();
     simulate_perturbation(set, context, run, knots_s[run], families[perturbation],

@@ -2,8 +2,7 @@
 /// Perturbations on the balances of the baseline, as functions of a run's time: not effects of the catalog, but a probe
 /// of which equation something is missing in.
 
-#include "diagnosis/comparison/model.h"
-#include "diagnosis/diagnosis.h"
+#include "diagnosis/study.h"
 
 namespace rollrig::diagnosis {
 
@@ -35,8 +34,6 @@ std::vector<double> find_perturbation_knots(const PreparedRun& run);
 /// "pressure sensor", "gas temperature sensor" where it is there. Equation  perturbation = sum_i a_i hat_i(t),
 /// derivatives by a_i at 0, by forward differentiation of the replay Errors    RunFailure: a run cannot be simulated at
 /// the null Checked   tests/diagnosis/balance_test.cpp
-std::vector<PerturbationFamily> calc_perturbations(const PreparedSet& set,
-                                                   const std::vector<estimation::FreeParameter>& base,
-                                                   const Eigen::VectorXd& unknowns, int threads);
+std::vector<PerturbationFamily> calc_perturbations(const Study& study);
 
 }  // namespace rollrig::diagnosis

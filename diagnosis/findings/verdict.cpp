@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "diagnosis/comparison/evidence.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
@@ -26,14 +27,11 @@ double distance_from_off(const Model& model, const Candidate& candidate, std::si
 }
 
 /// Own parameters with their intervals. The discrepancy covers a law that is wrong here and there; that it may be wrong
-/// by `size_share` everywhere alike widens the size.
-std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
-                                                   const std::vector<estimation::FreeParameter>& base,
-                                                   const Discrepancy& discrepancy, const Candidate& candidate,
-                                                   double size_share) {
-  const Model model(set, base, candidate.fit.hypothesis);
-  const Evidence evidence(discrepancy, candidate.fit.unknowns, candidate.fit.residuals, candidate.fit.jacobian);
-  const Eigen::MatrixXd covariance = evidence.calc_term(candidate.amplitudes, true).covariance;
+/// by a share everywhere alike widens the size.
+std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Candidate& candidate) {
+  const Model model = study.make_model(candidate.fit.hypothesis);
+  const Eigen::MatrixXd covariance =
+      Evidence(study.discrepancy, candidate.fit).calc_term(candidate.amplitudes, true).covariance;
   std::vector<ParameterEstimate> estimates;
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const models::EffectParameter& declared = model.declaration(model.own_parameters()[i]);
@@ -41,7 +39,8 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
     const Unit unit = unit_of_key(declared.key);
     const double u = candidate.fit.unknowns[at(i)];
     const bool is_size = model.own_parameters()[i].index == 0;
-    const double of_law_u = is_size ? size_share * distance_from_off(model, candidate, i) : 0.0;
+    const double of_law_u =
+        is_size ? study.settings.model_error.size_share * distance_from_off(model, candidate, i) : 0.0;
     const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
     const auto value_at = [&](double shifted) { return model.own_value(i, shifted).value_SI / unit.factor; };
     ParameterEstimate estimate;
@@ -60,12 +59,11 @@ std::vector<ParameterEstimate> estimate_parameters(const PreparedSet& set,
 /// Whether the size that each run by itself asks for is one: chi2 of the runs' shifts, in prior units, about their
 /// mean. A run's shift is judged by its own residual along the size's derivative, everything else of the fit held,
 /// where it alone says more than the prior and knows the size to within `allowed_u`.
-bool differs_between_runs(const PreparedSet& set, const Discrepancy& discrepancy, const Candidate& candidate,
-                          std::size_t size_column, double allowed_u) {
+bool differs_between_runs(const Study& study, const Candidate& candidate, std::size_t size_column, double allowed_u) {
   RowMatrix jacobian = candidate.fit.jacobian;
   Eigen::VectorXd residual = candidate.fit.residuals;
-  discrepancy.whiten(candidate.amplitudes, jacobian);
-  discrepancy.whiten(candidate.amplitudes, residual);
+  study.discrepancy.whiten(candidate.amplitudes, jacobian);
+  study.discrepancy.whiten(candidate.amplitudes, residual);
   // The size's direction once all other unknowns have taken what they can.
   const Eigen::Index n = jacobian.cols();
   const Eigen::VectorXd size = jacobian.col(at(size_column));
@@ -75,13 +73,13 @@ bool differs_between_runs(const PreparedSet& set, const Discrepancy& discrepancy
   const Eigen::VectorXd direction = size - others * curvature.solve(others.transpose() * size);
   std::vector<double> shifts;
   std::vector<double> weights;
-  for (std::size_t run = 0; run < set.runs().size(); ++run) {
+  for (std::size_t run = 0; run < study.set.runs().size(); ++run) {
     double along = 0.0;
     double square = 0.0;
-    for (const Series& series : set.series()) {
+    for (const Series& series : study.set.series()) {
       if (series.run != run) continue;
-      const auto d = direction.segment(at(series.first_residual), at(series.size()));
-      along += d.dot(residual.segment(at(series.first_residual), at(series.size())));
+      const auto d = series.rows_of(direction);
+      along += d.dot(series.rows_of(residual));
       square += d.squaredNorm();
     }
     const bool is_witness = square > 1.0 && square > 1.0 / (allowed_u * allowed_u);  // no vaguer than what is allowed
@@ -102,8 +100,7 @@ bool differs_between_runs(const PreparedSet& set, const Discrepancy& discrepancy
   return boost::math::cdf(boost::math::complement(distribution, chi2)) < thresholds::kRunSizeChance;
 }
 
-std::vector<std::string> find_objections(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                                         const Discrepancy& discrepancy, const Candidate& candidate) {
+std::vector<std::string> find_objections(const Study& study, const Candidate& candidate) {
   std::vector<std::string> objections;
   if (candidate.discrepancy_probability > candidate.probability) {
     constexpr double kBeyondDoubt_nats = 50.0;
@@ -112,7 +109,7 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
         gain_nats < kBeyondDoubt_nats ? fmt::format("{:.0f} nats likelier", gain_nats) : "likelier beyond all doubt";
     objections.push_back("something else is missing: a free discrepancy on top of it is " + by);
   }
-  const Model model(set, base, candidate.fit.hypothesis);
+  const Model model = study.make_model(candidate.fit.hypothesis);
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
     const std::string& id = candidate.fit.hypothesis.effects[own.effect].effect->info.id;
@@ -122,8 +119,8 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
           "{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", model.declaration(own).key,
           id, model.own_value(i, u).value_SI / unit_of_key(model.declaration(own).key).factor, std::abs(u)));
     }
-    if (own.index == 0 && differs_between_runs(set, discrepancy, candidate, i,
-                                               thresholds::kRunSizeShare * distance_from_off(model, candidate, i))) {
+    if (own.index == 0 &&
+        differs_between_runs(study, candidate, i, thresholds::kRunSizeShare * distance_from_off(model, candidate, i))) {
       objections.push_back(fmt::format("its size ({}) differs from run to run", model.declaration(own).key));
     }
   }
@@ -133,15 +130,14 @@ std::vector<std::string> find_objections(const PreparedSet& set, const std::vect
 /// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
 /// that are most unusual, is told from it already.
 bool is_open_beside(const Candidate& lead, const Candidate& other) {
-  const auto posterior = [](const Candidate& one) { return one.probability + one.discrepancy_probability; };
-  return posterior(other) >= std::exp(-thresholds::kToldApart_nats) * posterior(lead);
+  return other.posterior() >= std::exp(-thresholds::kToldApart_nats) * lead.posterior();
 }
 
 }  // namespace
 
-double expected_log_bayes_factor(const Discrepancy& discrepancy, const Candidate& a, const Candidate& b) {
+double expected_log_bayes_factor(const Study& study, const Candidate& a, const Candidate& b) {
   Eigen::VectorXd difference = a.fit.residuals - b.fit.residuals;
-  discrepancy.whiten(a.amplitudes, difference);
+  study.discrepancy.whiten(a.amplitudes, difference);
   return 0.5 * difference.squaredNorm();
 }
 
@@ -163,11 +159,10 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
   return ids;
 }
 
-std::map<std::string, double> find_probabilities(const Comparison& comparison,
-                                                 const std::vector<const models::Effect*>& effects) {
-  std::map<std::string, double> probability{{"none", comparison.null.probability},
+std::map<std::string, double> find_probabilities(const Study& study, const Comparison& comparison) {
+  std::map<std::string, double> probability{{"none", study.null.probability},
                                             {"unknown", comparison.unknown_probability}};
-  for (const models::Effect* effect : effects) {
+  for (const models::Effect* effect : study.settings.effects) {
     double& sum = probability[effect->info.id];
     for (const Candidate& candidate : comparison.candidates) {
       if (candidate.fit.hypothesis.contains(*effect)) sum += candidate.probability;
@@ -176,37 +171,33 @@ std::map<std::string, double> find_probabilities(const Comparison& comparison,
   return probability;
 }
 
-std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                               const Discrepancy& discrepancy, const Comparison& comparison) {
+std::vector<Cause> find_causes(const Study& study, const Comparison& comparison) {
   std::vector<const Candidate*> left;
   for (const Candidate& candidate : comparison.candidates) {
     if (was_fitted(candidate)) left.push_back(&candidate);
   }
-  std::stable_sort(left.begin(), left.end(), [](const Candidate* a, const Candidate* b) {
-    return a->probability + a->discrepancy_probability > b->probability + b->discrepancy_probability;
-  });
+  std::stable_sort(left.begin(), left.end(),
+                   [](const Candidate* a, const Candidate* b) { return a->posterior() > b->posterior(); });
   std::vector<Cause> causes;
   std::set<const Candidate*> taken;
   for (const Candidate* lead : left) {
     if (taken.count(lead) > 0) continue;
-    if (!causes.empty() && lead->probability + lead->discrepancy_probability < thresholds::kWorthNaming) break;
+    if (!causes.empty() && lead->posterior() < thresholds::kWorthNaming) break;
     Cause cause;
     cause.effects = lead->fit.hypothesis.ids();
-    const auto weight_of = [](const Candidate& one) { return one.probability + one.discrepancy_probability; };
     std::map<std::string, double> beside;
     for (const Candidate* other : left) {
       if (taken.count(other) > 0) continue;
-      if (other != lead && expected_log_bayes_factor(discrepancy, *lead, *other) >= thresholds::kToldApart_nats)
-        continue;
+      if (other != lead && expected_log_bayes_factor(study, *lead, *other) >= thresholds::kToldApart_nats) continue;
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.effects.size() > lead->fit.hypothesis.effects.size()) continue;  // lead, and a trifle
       if (!is_open_beside(*lead, *other)) continue;
-      for (const std::string& id : other->fit.hypothesis.ids()) beside[id] += weight_of(*other);
+      for (const std::string& id : other->fit.hypothesis.ids()) beside[id] += other->posterior();
     }
-    cause.indistinguishable_from = find_named_beside(cause.effects, weight_of(*lead), std::move(beside));
-    cause.parameters = estimate_parameters(set, base, discrepancy, *lead, comparison.model_error.size_share);
-    if (causes.empty()) cause.objections = find_objections(set, base, discrepancy, *lead);
+    cause.indistinguishable_from = find_named_beside(cause.effects, lead->posterior(), std::move(beside));
+    cause.parameters = estimate_parameters(study, *lead);
+    if (causes.empty()) cause.objections = find_objections(study, *lead);
     cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));
   }
@@ -231,14 +222,13 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   }
 }
 
-std::vector<std::string> find_not_excluded(const Comparison& comparison,
-                                           const std::vector<const models::Effect*>& effects,
+std::vector<std::string> find_not_excluded(const Study& study, const Comparison& comparison,
                                            const std::vector<Cause>& causes) {
-  const std::map<std::string, double> probability = find_probabilities(comparison, effects);
+  const std::map<std::string, double> probability = find_probabilities(study, comparison);
   double likeliest = probability.at("none");
   for (const Cause& cause : causes) likeliest = std::max(likeliest, cause.probability);
   std::vector<std::string> hidden;
-  for (const models::Effect* effect : effects) {
+  for (const models::Effect* effect : study.settings.effects) {
     double detectability = 0.0;
     for (const Screened& one : comparison.screened) {
       if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);

@@ -11,12 +11,11 @@
 namespace rollrig::diagnosis {
 
 /// Inclusion probability of every effect in the comparison, of "none" and of "unknown".
-std::map<std::string, double> find_probabilities(const Comparison& comparison,
-                                                 const std::vector<const models::Effect*>& effects);
+std::map<std::string, double> find_probabilities(const Study& study, const Comparison& comparison);
 
 /// What a set like this one would say on average for `a` against `b`, were `a` true.
 /// Equation  |Sigma^-1/2 (r_a - r_b)|^2 / 2, r the whitened residuals of the two fits
-double expected_log_bayes_factor(const Discrepancy& discrepancy, const Candidate& a, const Candidate& b);
+double expected_log_bayes_factor(const Study& study, const Candidate& a, const Candidate& b);
 
 /// What is named beside the lead's own effects, in the order of the names: all of `beside` (with what is left of their
 /// probability), or where that makes more than three in all, without the unlikeliest, as long as all that are left out
@@ -33,8 +32,7 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
 /// - its size differs from run to run, by more than noise and 30 % of it explain, among runs that know it so well (1 in
 /// 1000),
 /// - its size or a shape lies more than 3 standard deviations out in its prior.
-std::vector<Cause> find_causes(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                               const Discrepancy& discrepancy, const Comparison& comparison);
+std::vector<Cause> find_causes(const Study& study, const Comparison& comparison);
 
 /// Adds what the runs left out say against the first cause, and moves the probability of a cause with objections to
 /// "unknown": a true cause fails one of the tests in 1 of 20 sets or fewer, what merely looks like one often.
@@ -42,8 +40,7 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
 
 /// Effects that this set need not show: detectable at less than 5 standard deviations at the middle of their prior,
 /// or left with e^-3 of the likeliest hypothesis's probability or more; and not named.
-std::vector<std::string> find_not_excluded(const Comparison& comparison,
-                                           const std::vector<const models::Effect*>& effects,
+std::vector<std::string> find_not_excluded(const Study& study, const Comparison& comparison,
                                            const std::vector<Cause>& causes);
 
 /// No gap where none is likelier than unknown and than the first cause; of a cause of more than three effects, which

@@ -6,6 +6,7 @@
 #include "diagnosis/kinds/kinds.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/next_test/next_test.h"
+#include "diagnosis/next_test/predicted_test.h"
 #include "tests/diagnosis/driving_sets.h"
 
 using namespace rollrig;
@@ -14,26 +15,23 @@ using diagnosis::OpenHypothesis;
 namespace {
 
 /// A hypothesis whose parameters are known to a third of their priors.
-OpenHypothesis open(const diagnosis::PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
-                    const std::string& effect) {
+OpenHypothesis open(const diagnosis::Study& study, const std::string& effect) {
   diagnosis::Hypothesis hypothesis;
   if (!effect.empty()) hypothesis = hypothesis.with({&models::find_effect(effect), 1});
-  const diagnosis::Model model(set, base, hypothesis);
-  const auto count = static_cast<Eigen::Index>(model.parameter_count());
+  const auto count = static_cast<Eigen::Index>(study.make_model(hypothesis).parameter_count());
   return {hypothesis, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Identity(count, count) / 3.0, 0.5};
 }
 
 /// What a test of the menu tells two hypotheses apart by, by its id.
 std::map<std::string, double> judge(const measurements::MeasurementSet& measured, const std::string& a,
                                     const std::string& b) {
-  const diagnosis::PreparedSet set(measured);
-  const auto base = diagnosis::find_base_parameters(measured, set.context());
-  const std::vector<OpenHypothesis> both{open(set, base, a), open(set, base, b)};
+  const diagnosis::Study study(measured);
+  const std::vector<OpenHypothesis> both{open(study, a), open(study, b)};
   std::map<std::string, double> bits;
-  for (const diagnosis::JudgedTest& one : diagnosis::judge_tests(set, base, both, 0)) {
+  for (const diagnosis::JudgedTest& one : diagnosis::judge_tests(study, both)) {
     INFO(one.test.id);
     CHECK(one.test.hours > 0.0);
-    CHECK_FALSE(diagnosis::predict_outcomes(set, base, both, one.test).empty());  // both can be simulated
+    CHECK(diagnosis::PredictedTest(study, both, one.test).is_possible());
     CHECK(bits.emplace(one.test.id, one.bits).second);
     CHECK(one.bits >= 0.0);
     CHECK(one.bits <= 1.0 + 1e-9);

@@ -6,7 +6,6 @@
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/base_parameters.h"
-#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/output/diagnosis_json.h"
@@ -14,6 +13,7 @@
 #include "sim/core/error.h"
 #include "tests/diagnosis/answers.h"
 #include "tests/diagnosis/driving_sets.h"
+#include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
 
@@ -94,13 +94,11 @@ TEST_CASE("on a dynamometer a base parameter off by twice its uncertainty is mad
   tests::measure_again(off, {}, [&](models::Context<double>& moved) {
     estimation::find_parameter(moved, a0->key) += 2.0 * a0->prior_sd_SI;
   });
-  const diagnosis::PreparedSet prepared(tests::add_noise(off, 6));
-  const diagnosis::Discrepancy discrepancy(prepared);
-  const diagnosis::Comparison comparison = diagnosis::compare_models(prepared, base, discrepancy, {});
+  const tests::FittedBaseline recalibrated(tests::add_noise(off, 6));
   measurements::MeasurementSet fitted = nominal;
   tests::measure_again(fitted, {}, [&](models::Context<double>& moved) {
     for (std::size_t i = 0; i < base.size(); ++i) {
-      const double unknown = comparison.null.fit.unknowns[static_cast<Eigen::Index>(i)];
+      const double unknown = recalibrated.null.fit.unknowns[static_cast<Eigen::Index>(i)];
       estimation::find_parameter(moved, base[i].key) += base[i].prior_sd_SI * unknown;
     }
   });

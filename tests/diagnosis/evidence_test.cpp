@@ -36,16 +36,16 @@ struct Problem {
   explicit Problem(Eigen::Index unknowns) : discrepancy(short_set()) {
     std::srand(5);  // Eigen's Random
     const Eigen::Index n = at(short_set().residual_count());
-    jacobian = 0.05 * RowMatrix::Random(n, unknowns);
-    u = 0.5 * Eigen::VectorXd::Random(unknowns);
-    r = Eigen::VectorXd::Random(n) + 3.0 * jacobian.col(0);
+    fit.jacobian = 0.05 * RowMatrix::Random(n, unknowns);
+    fit.unknowns = 0.5 * Eigen::VectorXd::Random(unknowns);
+    fit.residuals = Eigen::VectorXd::Random(n) + 3.0 * fit.jacobian.col(0);
   }
 
-  Evidence evidence() const { return {discrepancy, u, r, jacobian}; }
+  Evidence evidence() const { return {discrepancy, fit}; }
 
   /// The whole covariance of the whitened residuals, from the discrepancy's parts.
   Eigen::MatrixXd make_sigma(const Amplitudes& amplitudes) const {
-    Eigen::MatrixXd sigma = Eigen::MatrixXd::Identity(r.size(), r.size());
+    Eigen::MatrixXd sigma = Eigen::MatrixXd::Identity(fit.residuals.size(), fit.residuals.size());
     for (const Discrepancy::Basis& basis : discrepancy.bases()) {
       const auto& series = short_set().series()[basis.series.front()];
       const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
@@ -58,9 +58,7 @@ struct Problem {
   }
 
   Discrepancy discrepancy;
-  RowMatrix jacobian;
-  Eigen::VectorXd u;
-  Eigen::VectorXd r;
+  diagnosis::Fit fit;
 };
 
 /// Likelihood times prior at unknowns, as logarithm, less what all hypotheses share: the powers of 2 pi.
@@ -71,7 +69,7 @@ class Density {
     log_determinant_ = 2.0 * sigma_.matrixLLT().diagonal().array().log().sum();
   }
   double operator()(const Eigen::VectorXd& v) const {
-    const Eigen::VectorXd r = problem_.r + problem_.jacobian * (v - problem_.u);
+    const Eigen::VectorXd r = problem_.fit.residuals + problem_.fit.jacobian * (v - problem_.fit.unknowns);
     const double log_likelihood = -0.5 * (r.dot(sigma_.solve(r)) + log_determinant_);
     const double log_prior = -0.5 * v.squaredNorm() -
                              0.5 * static_cast<double>(v.size()) * std::log(boost::math::constants::two_pi<double>());
@@ -132,7 +130,7 @@ TEST_CASE("the evidence of a linear problem is the integral over its unknowns", 
       const Integral expected = integrate(Density(problem, amplitudes), unknowns);
       const Evidence::Term term = problem.evidence().calc_term(amplitudes, true);
       CHECK(term.log_value == Approx(expected.log_value).margin(1e-6));
-      CHECK((problem.u + term.step - expected.mean).norm() < 1e-6);
+      CHECK((problem.fit.unknowns + term.step - expected.mean).norm() < 1e-6);
       CHECK((term.covariance - expected.covariance).norm() < 1e-6);
     }
   }
@@ -143,7 +141,7 @@ TEST_CASE("a discrepancy that stands on another counts both", "[fast]") {
   const Problem problem(2);
   const Amplitudes below{0.3, 2.0, 0.7};
   const Discrepancy of_conditions(problem.discrepancy, below);
-  const Evidence above(of_conditions, problem.u, problem.r, problem.jacobian);
+  const Evidence above(of_conditions, problem.fit);
   CHECK(above.calc_term({0.0, 0.0, 0.0}).log_value ==
         Approx(problem.evidence().calc_term(below).log_value).margin(1e-6));
 }
@@ -152,7 +150,7 @@ TEST_CASE("the step leads to the best unknowns, from wherever the problem is exp
   const Problem problem(3);
   const Amplitudes amplitudes{0.3, 2.0, 0.7};
   const Evidence::Term term = problem.evidence().calc_term(amplitudes);
-  const Eigen::VectorXd best = problem.u + term.step;
+  const Eigen::VectorXd best = problem.fit.unknowns + term.step;
   const Density density(problem, amplitudes);
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (const double off : {-0.1, 0.1}) {
@@ -162,8 +160,8 @@ TEST_CASE("the step leads to the best unknowns, from wherever the problem is exp
     }
   }
   Problem moved(3);
-  moved.u = best;
-  moved.r += moved.jacobian * term.step;
+  moved.fit.unknowns = best;
+  moved.fit.residuals += moved.fit.jacobian * term.step;
   const Evidence::Term there = moved.evidence().calc_term(amplitudes);
   CHECK(there.step.norm() < 1e-9);
   CHECK(there.log_value == Approx(term.log_value).margin(1e-7));
@@ -173,10 +171,10 @@ TEST_CASE("the step leads to the best unknowns, from wherever the problem is exp
 TEST_CASE("an unknown that nothing depends on costs nothing", "[fast]") {
   const Problem one(1);
   Problem two(2);
-  two.r = one.r;
-  two.u << one.u[0], 0.0;
-  two.jacobian.col(0) = one.jacobian.col(0);
-  two.jacobian.col(1).setZero();
+  two.fit.residuals = one.fit.residuals;
+  two.fit.unknowns << one.fit.unknowns[0], 0.0;
+  two.fit.jacobian.col(0) = one.fit.jacobian.col(0);
+  two.fit.jacobian.col(1).setZero();
   const Amplitudes amplitudes{0.3, 2.0, 0.7};
   CHECK(two.evidence().calc_term(amplitudes).log_value ==
         Approx(one.evidence().calc_term(amplitudes).log_value).margin(1e-9));

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <random>
-#include "diagnosis/comparison/base_parameters.h"
 #include "measurements/replay.h"
 #include "measurements/sensor_file.h"
 #include "sim/core/error.h"
@@ -73,16 +72,13 @@ measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect
   return set;
 }
 
-FittedBaseline::FittedBaseline(const measurements::MeasurementSet& measured)
-    : set(measured),
-      base(diagnosis::find_base_parameters(set.source(), set.context())),
-      discrepancy(set),
-      null(diagnosis::compare_models(set, base, discrepancy, {}).null) {}
+FittedBaseline::FittedBaseline(const measurements::MeasurementSet& measured) : Study(measured) {
+  diagnosis::compare_models(*this);
+}
 
 RepeatedBaseline::RepeatedBaseline(const measurements::MeasurementSet& clean) : clean_(clean) {
-  const diagnosis::PreparedSet set(clean_);
-  base_ = diagnosis::find_base_parameters(set.source(), set.context());
-  const diagnosis::Model model(set, base_, {});
+  const diagnosis::Study study(clean_);
+  const diagnosis::Model model = study.make_model({});
   const Eigen::VectorXd middle = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.unknown_count()));
   Eigen::VectorXd residuals;
   if (!model.simulate(middle, 0, simulated_, &derivatives_) || !model.evaluate(middle, 0, residuals, &jacobian_)) {
@@ -90,13 +86,13 @@ RepeatedBaseline::RepeatedBaseline(const measurements::MeasurementSet& clean) : 
   }
 }
 
-RepeatedBaseline::Draw RepeatedBaseline::draw(std::uint64_t seed,
-                                              const std::function<void(measurements::MeasurementSet&)>& change) const {
+std::unique_ptr<diagnosis::Study> RepeatedBaseline::draw(
+    std::uint64_t seed, const std::function<void(measurements::MeasurementSet&)>& change) const {
   measurements::MeasurementSet measured = clean_;
   if (change) change(measured);
-  Draw draw;
-  draw.set = std::make_unique<diagnosis::PreparedSet>(add_noise(measured, seed));
-  draw.discrepancy = std::make_unique<diagnosis::Discrepancy>(*draw.set);
+  diagnosis::StudySettings settings;
+  settings.threads = 1;
+  auto draw = std::make_unique<diagnosis::Study>(add_noise(measured, seed), settings);
 
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -105,14 +101,14 @@ RepeatedBaseline::Draw RepeatedBaseline::draw(std::uint64_t seed,
   // A simulator whose base parameters lie off the truth by that.
   const Eigen::VectorXd simulated = simulated_ - derivatives_ * base_error;
 
-  diagnosis::Fit& fit = draw.null.fit;
+  diagnosis::Fit& fit = draw->null.fit;
   Eigen::VectorXd difference = -simulated;
-  for (const diagnosis::Series& series : draw.set->series()) {
+  for (const diagnosis::Series& series : draw->set.series()) {
     for (std::size_t k = 0; k < series.size(); ++k) {
       difference[static_cast<Eigen::Index>(series.first_residual + k)] += series.measured[k];
     }
   }
-  diagnosis::whiten(*draw.set, difference);
+  diagnosis::whiten(draw->set, difference);
   const Eigen::Index n = jacobian_.cols();
   fit.jacobian = jacobian_;
   fit.unknowns = -(jacobian_.transpose() * jacobian_ + Eigen::MatrixXd::Identity(n, n))
@@ -120,7 +116,7 @@ RepeatedBaseline::Draw RepeatedBaseline::draw(std::uint64_t seed,
                       .solve(jacobian_.transpose() * difference);
   fit.residuals = difference + jacobian_ * fit.unknowns;
   fit.simulated = simulated + derivatives_ * fit.unknowns.head(derivatives_.cols());
-  draw.null.amplitudes.assign(draw.set->channels().size(), 0.0);
+  draw->null.amplitudes.assign(draw->set.channels().size(), 0.0);
   return draw;
 }
 

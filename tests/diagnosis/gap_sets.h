@@ -16,13 +16,8 @@ measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect
                                           const std::string& sensors = "source");
 
 /// A set made ready, and the baseline fitted to it.
-struct FittedBaseline {
+struct FittedBaseline : diagnosis::Study {
   explicit FittedBaseline(const measurements::MeasurementSet& measured);
-
-  diagnosis::PreparedSet set;
-  std::vector<estimation::FreeParameter> base;
-  diagnosis::Discrepancy discrepancy;
-  diagnosis::Candidate null;
 };
 
 /// A baseline set measured again and again: noise and true base parameters are drawn, all by their priors. The fit is
@@ -31,19 +26,13 @@ class RepeatedBaseline {
  public:
   explicit RepeatedBaseline(const measurements::MeasurementSet& clean);
 
-  /// A set with the errors of its sensors added, and the baseline fitted.
-  struct Draw {
-    std::unique_ptr<diagnosis::PreparedSet> set;
-    std::unique_ptr<diagnosis::Discrepancy> discrepancy;
-    diagnosis::Candidate null;
-  };
-  /// `change` acts on the clean set before the errors are added.
-  Draw draw(std::uint64_t seed, const std::function<void(measurements::MeasurementSet&)>& change = {}) const;
-  const std::vector<estimation::FreeParameter>& base() const { return base_; }
+  /// A set with the errors of its sensors added, and the baseline fitted; on one thread. `change` acts on the clean set
+  /// before the errors are added.
+  std::unique_ptr<diagnosis::Study> draw(std::uint64_t seed,
+                                         const std::function<void(measurements::MeasurementSet&)>& change = {}) const;
 
  private:
   measurements::MeasurementSet clean_;
-  std::vector<estimation::FreeParameter> base_;
   Eigen::VectorXd simulated_;
   diagnosis::RowMatrix derivatives_;
   diagnosis::RowMatrix jacobian_;

@@ -21,16 +21,14 @@ constexpr std::size_t kTorque = 0;
 /// Noise floors. The mean of squares over some 300 times of a drift has a standard deviation of 0.08; root of three.
 constexpr double kNoiseAlone = 0.5;
 
-Gap find(const FittedBaseline& fitted, const Candidate* cause = nullptr, int threads = 0) {
-  return diagnosis::find_gap(fitted.set, fitted.base, fitted.discrepancy, fitted.null, cause, threads);
-}
+Gap find(const FittedBaseline& fitted, const Candidate* cause = nullptr) { return diagnosis::find_gap(fitted, cause); }
 
 /// An effect fitted to a set by itself.
 Candidate fit_effect(const FittedBaseline& fitted, const char* id) {
-  diagnosis::ComparisonSettings settings;
+  diagnosis::StudySettings settings;
   settings.effects = {&models::find_effect(id)};
-  const diagnosis::Comparison comparison =
-      diagnosis::compare_models(fitted.set, fitted.base, fitted.discrepancy, settings);
+  diagnosis::Study study(fitted.set.source(), settings);
+  const diagnosis::Comparison comparison = diagnosis::compare_models(study);
   REQUIRE(comparison.candidates.size() == 1);
   return comparison.candidates.front();
 }
@@ -220,10 +218,12 @@ TEST_CASE("where a fit without a run leads nowhere, nothing is said of what shri
 }
 
 TEST_CASE("a gap is the same to the bit from one thread or two", "[fast]") {
-  const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
+  FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 3), 5));
   const Candidate cause = fit_effect(fitted, "bearing_warmup");
-  const Gap one = find(fitted, &cause, 1);
-  const Gap two = find(fitted, &cause, 2);
+  fitted.settings.threads = 1;
+  const Gap one = find(fitted, &cause);
+  fitted.settings.threads = 2;
+  const Gap two = find(fitted, &cause);
   CHECK(one.as_calibrated.before == two.as_calibrated.before);
   CHECK(one.recalibrated.before == two.recalibrated.before);
   CHECK(one.recalibrated.after == two.recalibrated.after);

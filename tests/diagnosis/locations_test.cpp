@@ -39,10 +39,8 @@ TEST_CASE("sets without a gap have a location at the family-wise rate", "[fast]"
   constexpr int kSeeds = 200;
   const tests::RepeatedBaseline baseline(tests::make_gap_set({}, 2));
   std::vector<char> located(kSeeds, 0);
-  parallel_for(kSeeds, 0, [&](std::size_t i) {
-    const auto draw = baseline.draw(i + 1);
-    located[i] = diagnosis::find_locations(*draw.set, *draw.discrepancy, draw.null).empty() ? 0 : 1;
-  });
+  parallel_for(kSeeds, 0,
+               [&](std::size_t i) { located[i] = diagnosis::find_locations(*baseline.draw(i + 1)).empty() ? 0 : 1; });
   const auto sets = static_cast<int>(std::count(located.begin(), located.end(), 1));
   INFO("with a location: " << sets << " of " << kSeeds);
   CHECK_FALSE(tests::is_rejected(sets, kSeeds, 0.01, 0.01));
@@ -52,10 +50,8 @@ TEST_CASE("a force added in one phase is located there, with intervals that cove
   constexpr int kSeeds = 200;
   const tests::RepeatedBaseline baseline(tests::make_gap_set({}, 2));
   std::vector<std::vector<Location>> found(kSeeds);
-  parallel_for(kSeeds, 0, [&](std::size_t i) {
-    const auto draw = baseline.draw(i + 1, add_force);
-    found[i] = diagnosis::find_locations(*draw.set, *draw.discrepancy, draw.null);
-  });
+  parallel_for(kSeeds, 0,
+               [&](std::size_t i) { found[i] = diagnosis::find_locations(*baseline.draw(i + 1, add_force)); });
   int alone = 0;
   int covered = 0;
   for (const auto& where : found) {
@@ -75,7 +71,7 @@ TEST_CASE("a force added in one phase is located on the fitted baseline", "[fast
   auto measured = tests::make_gap_set({}, 2);
   add_force(measured);
   const tests::FittedBaseline fitted(tests::add_noise(measured, 1));
-  const auto where = diagnosis::find_locations(fitted.set, fitted.discrepancy, fitted.null);
+  const auto where = diagnosis::find_locations(fitted);
   REQUIRE(!where.empty());
   const Location& at = where.front();
   CHECK(is_there(at));
@@ -92,7 +88,7 @@ TEST_CASE("bearings that warm are located in the torque of the first skims", "[f
   // Coefficients of the warm rig: the cold bearings resist more, by the rise that is still missing.
   const auto effect = tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0});
   const tests::FittedBaseline fitted(tests::add_noise(tests::make_gap_set({effect}, 3), 1));
-  const auto where = diagnosis::find_locations(fitted.set, fitted.discrepancy, fitted.null);
+  const auto where = diagnosis::find_locations(fitted);
   for (const std::string run : {"run_1", "run_2", "run_3"}) {
     INFO(run);
     const auto at = std::find_if(where.begin(), where.end(), [&](const Location& location) {
@@ -115,7 +111,7 @@ TEST_CASE("what a sensor's offset takes has no location", "[fast]") {
     tests::add_to_channel(measured.runs[0], channel, [&](double) { return offset; });
   }
   const tests::FittedBaseline fitted(measured);
-  CHECK(diagnosis::find_locations(fitted.set, fitted.discrepancy, fitted.null).empty());
+  CHECK(diagnosis::find_locations(fitted).empty());
 }
 
 TEST_CASE("sizes come in the unit of their channel, and long phases are cut", "[fast]") {
@@ -125,7 +121,7 @@ TEST_CASE("sizes come in the unit of their channel, and long phases are cut", "[
   tests::add_to_channel(measured.runs[0], "cavity_pressure_kPa", early(2e3));
   tests::add_to_channel(measured.runs[1], "liner_temperature_degC", early(-2.0));
   const tests::FittedBaseline fitted(tests::add_noise(measured, 3));
-  const auto where = diagnosis::find_locations(fitted.set, fitted.discrepancy, fitted.null);
+  const auto where = diagnosis::find_locations(fitted);
   const auto check = [&](const char* channel, const char* run, const char* phase, const char* unit, double size) {
     const auto at = std::find_if(where.begin(), where.end(), [&](const Location& location) {
       return location.channel == channel && location.run == run && location.phase == phase;
@@ -144,7 +140,7 @@ TEST_CASE("gross errors of the data give finite locations and shares", "[fast]")
   for (double& value : measured.runs[0].columns.at("liner_temperature_degC")) value = std::nan("");
   for (double& value : measured.runs[0].columns.at(kTorque)) value *= 3.6;
   const tests::FittedBaseline fitted(measured);
-  const auto where = diagnosis::find_locations(fitted.set, fitted.discrepancy, fitted.null);
+  const auto where = diagnosis::find_locations(fitted);
   CHECK(!where.empty());
   for (const Location& location : where) {
     CHECK(std::isfinite(location.size));
@@ -152,7 +148,7 @@ TEST_CASE("gross errors of the data give finite locations and shares", "[fast]")
     CHECK((location.share_percent >= 0.0 && location.share_percent <= 100.0 + 1e-9));
     CHECK(location.channel != "liner_temperature_degC");
   }
-  const auto balance = diagnosis::find_balance(fitted.set, fitted.base, fitted.discrepancy, fitted.null, 1);
+  const auto balance = diagnosis::find_balance(fitted);
   CHECK(!balance.empty());
   for (const auto& share : balance) CHECK((share.share_percent >= 1.0 && share.share_percent <= 100.0 + 1e-9));
 }

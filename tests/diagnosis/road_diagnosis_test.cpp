@@ -8,13 +8,13 @@
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/base_parameters.h"
-#include "diagnosis/comparison/model_comparison.h"
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/output/summary.h"
 #include "sim/core/error.h"
 #include "tests/diagnosis/answers.h"
 #include "tests/diagnosis/driving_sets.h"
+#include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
 
@@ -84,10 +84,8 @@ TEST_CASE("on the road the vehicle's own numbers are found again", "[fast]") {
     auto& now = heavy.runs[i].columns.at("traction_force_N");
     for (std::size_t row = 0; row < was.size(); ++row) now[row] = std::isnan(was[row]) ? was[row] : now[row];
   }
-  const diagnosis::PreparedSet prepared(tests::add_noise(with_quiet_sensor(heavy), 6));
-  const diagnosis::Discrepancy discrepancy(prepared);
-  const diagnosis::Comparison comparison = diagnosis::compare_models(prepared, base, discrepancy, {});
-  CHECK(base[1].prior_sd_SI * comparison.null.fit.unknowns[1] == Approx(0.06).epsilon(0.25));
+  const tests::FittedBaseline fitted(tests::add_noise(with_quiet_sensor(heavy), 6));
+  CHECK(base[1].prior_sd_SI * fitted.null.fit.unknowns[1] == Approx(0.06).epsilon(0.25));
 }
 
 TEST_CASE("a vehicle that is given by its road load cannot be diagnosed, and the file is named", "[fast]") {

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "diagnosis/checks/set_checks.h"
-#include "diagnosis/comparison/base_parameters.h"
 #include "diagnosis/comparison/screen.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/error.h"
@@ -37,6 +36,13 @@ std::vector<const models::Effect*> choose_effects(const measurements::Measuremen
   return effects;
 }
 
+diagnosis::StudySettings make_settings(const measurements::MeasurementSet& set, const Settings& settings) {
+  diagnosis::StudySettings of_study;
+  of_study.effects = choose_effects(set, settings);
+  of_study.threads = 1;
+  return of_study;
+}
+
 const EffectParameter& size_of(const TriedEffect& tried) { return tried.effect.effect->info.parameters.front(); }
 
 struct Size {
@@ -64,23 +70,19 @@ Eigen::VectorXd scale_own(const ChosenEffect& chosen) {
 }  // namespace
 
 LinearizedSet::LinearizedSet(const measurements::MeasurementSet& measured, const Settings& settings)
-    : set_(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).left_out)),
-      base_(diagnosis::find_base_parameters(measured, set_.context())),
-      discrepancy_(set_),
-      effects_(choose_effects(measured, settings)),
-      null_(expand({})) {
-  if (null_.fit.jacobian.size() == 0) throw RunFailure("the baseline as calibrated cannot be simulated");
+    : study_(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).left_out),
+             make_settings(measured, settings)) {
+  study_.null = expand({});
+  if (study_.null.fit.jacobian.size() == 0) throw RunFailure("the baseline as calibrated cannot be simulated");
 }
 
 std::vector<TriedEffect> LinearizedSet::try_effects() const {
-  const diagnosis::Model null(set_, base_, {});
   std::vector<TriedEffect> all;
-  for (diagnosis::Screened& screened :
-       diagnosis::screen(null, discrepancy_, null_.amplitudes, null_.fit, base_, effects_, 1)) {
+  for (diagnosis::Screened& screened : diagnosis::screen(study_, study_.null, study_.settings.effects)) {
     TriedEffect tried{screened.effect, std::move(screened.own), {}};
-    const diagnosis::Model model(set_, base_, diagnosis::Hypothesis{}.with(tried.effect));
+    const diagnosis::Model model = study_.make_model(diagnosis::Hypothesis{}.with(tried.effect));
     const auto simulate = [&] {
-      const Eigen::VectorXd unknowns = diagnosis::insert_own(model, null_.fit, *tried.effect.effect, tried.own);
+      const Eigen::VectorXd unknowns = diagnosis::insert_own(model, study_.null.fit, *tried.effect.effect, tried.own);
       return model.simulate(unknowns, 1, tried.change, nullptr);
     };
     bool done = simulate();
@@ -89,22 +91,22 @@ std::vector<TriedEffect> LinearizedSet::try_effects() const {
       done = simulate();
     }
     if (!done) continue;
-    tried.change -= null_.fit.simulated;
-    diagnosis::whiten(set_, tried.change);
+    tried.change -= study_.null.fit.simulated;
+    diagnosis::whiten(study_.set, tried.change);
     all.push_back(std::move(tried));
   }
   return all;
 }
 
 LinearData LinearizedSet::project(const std::vector<TriedEffect>& tried) const {
-  const BaseProjection projection(null_.fit.jacobian);
+  const BaseProjection projection(study_.null.fit.jacobian);
   LinearData data;
-  Eigen::MatrixXd changes(null_.fit.residuals.size(), at(tried.size()));
+  Eigen::MatrixXd changes(study_.null.fit.residuals.size(), at(tried.size()));
   for (std::size_t i = 0; i < tried.size(); ++i) {
     changes.col(at(i)) = tried[i].change;
     data.effects.push_back(tried[i].effect.effect->info.id);
   }
-  data.residual = projection.apply(null_.fit.residuals);
+  data.residual = projection.apply(study_.null.fit.residuals);
   data.signatures = projection.apply(changes);
   return data;
 }
@@ -118,7 +120,7 @@ diagnosis::Candidate LinearizedSet::expand(const std::vector<ChosenEffect>& chos
     candidate.fit.hypothesis = candidate.fit.hypothesis.with(one.tried.effect);
     acting.push_back(&one);
   }
-  const diagnosis::Model model(set_, base_, candidate.fit.hypothesis);
+  const diagnosis::Model model = study_.make_model(candidate.fit.hypothesis);
   diagnosis::Fit& fit = candidate.fit;
   fit.unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
   for (std::size_t i = 0; i < model.own_count(); ++i) {
@@ -129,7 +131,7 @@ diagnosis::Candidate LinearizedSet::expand(const std::vector<ChosenEffect>& chos
     const diagnosis::PriorBounds bounds = model.own_bounds(i);
     fit.unknowns[at(i)] = std::clamp(scale_own(**of)[at(own.index)], bounds.lower, bounds.upper);
   }
-  candidate.amplitudes.assign(set_.channels().size(), 0.0);
+  candidate.amplitudes.assign(study_.set.channels().size(), 0.0);
   const bool done = model.evaluate(fit.unknowns, 1, fit.residuals, &fit.jacobian) &&
                     model.simulate(fit.unknowns, 1, fit.simulated, nullptr);
   if (!done) fit.jacobian.resize(0, 0);
@@ -140,7 +142,7 @@ diagnosis::Gap LinearizedSet::find_gap(const std::vector<ChosenEffect>& chosen,
                                        const diagnosis::BlackBox& black_box) const {
   const diagnosis::Candidate cause = expand(chosen);
   const bool is_cause = !chosen.empty() && cause.fit.jacobian.size() > 0;
-  return diagnosis::find_gap(set_, base_, discrepancy_, null_, is_cause ? &cause : nullptr, 1, black_box);
+  return diagnosis::find_gap(study_, is_cause ? &cause : nullptr, black_box);
 }
 
 diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen) {

@@ -44,11 +44,7 @@ class LinearizedSet {
  private:
   diagnosis::Candidate expand(const std::vector<ChosenEffect>& chosen) const;
 
-  diagnosis::PreparedSet set_;
-  std::vector<estimation::FreeParameter> base_;
-  diagnosis::Discrepancy discrepancy_;  // of no size: the fits' linear algebra asks for one
-  std::vector<const models::Effect*> effects_;
-  diagnosis::Candidate null_;
+  diagnosis::Study study_;  // its discrepancy of no size: the fits' linear algebra asks for one
 };
 
 /// Size of a chosen effect: its distance from doing nothing goes by the amplitude.

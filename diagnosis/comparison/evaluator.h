@@ -1,0 +1,27 @@
+#pragma once
+/// Fits hypotheses to a set and says how well each predicts it.
+
+#include "diagnosis/comparison/screen.h"
+
+namespace rollrig::diagnosis {
+
+class Evaluator {
+ public:
+  explicit Evaluator(const Study& study);
+
+  /// The baseline through the same optimizer as everything else. Throws RunFailure where it cannot be fitted.
+  Candidate fit_null() const;
+
+  /// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
+  std::vector<Candidate> refit_all(const Candidate& from, const std::vector<Screened>& chosen) const;
+
+ private:
+  void weigh(Candidate& candidate) const;
+  Candidate fit_once(const Model& model, const RefitStart& start) const;
+  Candidate fit_to_end(const Model& model, const Eigen::VectorXd& start) const;
+
+  const Study& study_;
+  Discrepancy of_conditions_;  // an unknown effect that repeats from run to run
+};
+
+}  // namespace rollrig::diagnosis

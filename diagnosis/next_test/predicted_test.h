@@ -1,0 +1,50 @@
+#pragma once
+/// A test on paper: what each open hypothesis says that it would measure.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/comparison/information.h"
+#include "diagnosis/findings/open_questions.h"
+#include "diagnosis/next_test/test_menu.h"
+
+namespace rollrig::diagnosis {
+
+/// The runs of a test simulated at the parameters of each hypothesis, sensors' noise whitened as in a diagnosis, one
+/// new session: a row for each block mean, the difference of the clocks last.
+class PredictedTest {
+ public:
+  PredictedTest(const Study& study, const std::vector<OpenHypothesis>& open, const PlannedTest& test);
+
+  /// Whether every hypothesis can be simulated on it.
+  bool is_possible() const { return !predictions_.empty(); }
+
+  /// Outcomes as far as the channels of `wanted` show them: "" stands for the clocks.
+  /// Equation  covariance = 1 + (J L)(J L)^T + offsets, L L^T what the parameters are uncertain by after the
+  ///           measurement, all of it reduced to the directions in which means and covariances of the hypotheses differ
+  ///           from 1
+  /// Validity  linear in the parameters about the fit; model error as in the comparison, common to all hypotheses, in
+  ///           proportion to what they differ by on average. Noise and model error of a channel do not depend on
+  ///           another, so that whitened rows may be left out
+  /// Checked   tests/diagnosis/next_test_test.cpp
+  std::vector<PredictedOutcome> find_outcomes(const std::function<bool(const std::string&)>& wanted =
+                                                  [](const std::string&) { return true; }) const;
+
+ private:
+  /// Of one hypothesis: block means and how they move with the spread of its parameters.
+  struct Prediction {
+    Eigen::VectorXd mean;
+    RowMatrix spread;
+  };
+  bool simulate(const PreparedSet& set, const Study& study, const std::vector<OpenHypothesis>& open);
+  Amplitudes find_model_error(const PreparedSet& set) const;
+  void add_clock_reading(const Study& study, const std::vector<OpenHypothesis>& open);
+  static std::vector<PredictedOutcome> reduce(const std::vector<Prediction>& predictions, const RowMatrix& common);
+
+  std::vector<Prediction> predictions_;
+  RowMatrix offsets_;                  // columns of the new session's sensor offsets
+  std::vector<std::string> channels_;  // of each row
+};
+
+}  // namespace rollrig::diagnosis

@@ -1,0 +1,49 @@
+#pragma once
+/// One measured set under diagnosis: what every step of it works on, each made once.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnosis/comparison/refit.h"
+#include "diagnosis/thresholds.h"
+
+namespace rollrig::diagnosis {
+
+struct StudySettings {
+  std::vector<const models::Effect*> effects;  // in the comparison
+  RacePriors priors;
+  ModelError model_error;
+  int threads = 0;  // 0: as many as the machine has
+  std::function<void(double done, const std::string& stage)> progress = [](double, const std::string&) {};
+};
+
+/// A hypothesis that was fitted to the set, and how well it predicts the set.
+struct Candidate {
+  Fit fit;
+  Amplitudes amplitudes;         // of the discrepancy, after the measurement
+  Amplitudes signature;          // rms by channel of what it changes against the null's fit, in noise floors
+  Amplitudes whole;              // the same against its own fit without its effects
+  double log_evidence = 0.0;     // with the discrepancy as small as model error
+  double log_discrepancy = 0.0;  // with a free discrepancy on top
+  double probability = 0.0;      // with the small discrepancy
+  double discrepancy_probability = 0.0;
+
+  double posterior() const { return probability + discrepancy_probability; }
+};
+
+struct Study {
+  explicit Study(const measurements::MeasurementSet& measured, StudySettings settings = {});
+  Study(const Study&) = delete;
+  Study& operator=(const Study&) = delete;
+
+  Model make_model(const Hypothesis& hypothesis) const { return {set, base, hypothesis}; }
+
+  StudySettings settings;
+  PreparedSet set;
+  std::vector<estimation::FreeParameter> base;  // what a recalibration may move
+  Discrepancy discrepancy;                      // of time: model error, or what follows nothing recorded
+  Candidate null;                               // the baseline, recalibrated; compare_models() fits it
+};
+
+}  // namespace rollrig::diagnosis
