@@ -18,35 +18,24 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// Effects in the comparison: those that act on the rig and can be seen there, less those left out. Throws InputError.
-std::vector<const models::Effect*> choose_effects(const measurements::MeasurementSet& set,
-                                                  const DiagnosisOptions& options) {
-  const auto holds = [](const std::vector<std::string>& ids, const std::string& id) {
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
-  };
+/// Terms in the comparison: those that can be seen on the set's machine against its baseline, less those left out.
+/// Throws InputError.
+std::vector<const Term*> find_terms(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
   require_known_effects(options);
-  std::vector<const models::Effect*> effects;
-  const models::RigKind kind = kind_of(set).rig_kind();  // and the set's baseline: some effects it has already
-  for (const models::Effect* effect : models::all_effects()) {
-    const models::EffectInfo& info = effect->info;
-    const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();
-    if (!models::acts_in(info, kind, set.baseline) || faint) continue;
-    if (holds(options.without, info.id) || (!options.only.empty() && !holds(options.only, info.id))) continue;
-    effects.push_back(effect);
-  }
-  if (effects.empty() && !options.only.empty()) {
+  std::vector<const Term*> terms = choose_terms(kind_of(set).rig_kind(), set.baseline, options.only, options.without);
+  if (terms.empty() && !options.only.empty()) {
     throw InputError({"none of the effects that are to be compared can be seen on such a set", set.path, 0, "--only",
                       fmt::format("{}", fmt::join(options.only, ",")),
                       "effects that act there; --explain NAME says where one does", ""});
   }
-  return effects;
+  return terms;
 }
 
 /// The candidate of the first cause, where something beyond noise is there.
 const Candidate* find_lead(const Comparison& comparison, const std::vector<Cause>& causes) {
   if (causes.empty()) return nullptr;
   for (const Candidate& candidate : comparison.candidates) {
-    if (candidate.fit.hypothesis.ids() == causes.front().effects) return &candidate;
+    if (candidate.fit.hypothesis.names() == causes.front().effects) return &candidate;
   }
   return nullptr;
 }
@@ -86,7 +75,7 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
     if (options.progress) options.progress(done, stage);
   };
   StudySettings settings;
-  settings.effects = choose_effects(measured, options);
+  settings.terms = find_terms(measured, options);
   settings.threads = options.threads;
   settings.progress = [&report](double done, const std::string& stage) { report(0.7 * done, stage); };
   Study study(leave_out(measured, checks.left_out), settings);
@@ -159,7 +148,7 @@ double probability_of(const Diagnosis& diagnosis, const std::string& name) {
 
 void require_known_effects(const DiagnosisOptions& options) {
   for (const auto* named : {&options.without, &options.only}) {
-    for (const std::string& id : *named) models::find_effect(id);
+    for (const std::string& name : *named) find_term(name);
   }
 }
 

@@ -11,7 +11,7 @@
 namespace rollrig::diagnosis {
 
 struct StudySettings {
-  std::vector<const models::Effect*> effects;  // in the comparison
+  std::vector<const Term*> terms;  // in the comparison
   RacePriors priors;
   ModelError model_error;
   int threads = 0;  // 0: as many as the machine has
@@ -23,7 +23,7 @@ struct Candidate {
   Fit fit;
   Amplitudes amplitudes;         // of the discrepancy, after the measurement
   Amplitudes signature;          // rms by channel of what it changes against the null's fit, in noise floors
-  Amplitudes whole;              // the same against its own fit without its effects
+  Amplitudes whole;              // the same against its own fit without its terms
   double log_evidence = 0.0;     // with the discrepancy as small as model error
   double log_discrepancy = 0.0;  // with a free discrepancy on top
   double probability = 0.0;      // with the small discrepancy

@@ -6,6 +6,7 @@
 
 #include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/terms/term.h"
 #include "report/blocks.h"
 #include "report/diagnosis_sections.h"
 #include "report/set_comparison.h"
@@ -23,7 +24,7 @@ using diagnosis::Verdict;
 std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
   std::vector<models::ActiveEffect> active;
   for (const std::string& id : cause.effects) {
-    const models::Effect& effect = models::find_effect(id);
+    const models::Effect& effect = diagnosis::find_term(id).effect();
     models::ActiveEffect one{&effect, {}};
     for (const models::EffectParameter& parameter : effect.info.parameters) {
       const std::string name = id + "." + parameter.key;

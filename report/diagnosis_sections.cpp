@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/output/summary.h"
-#include "models/effect.h"
+#include "diagnosis/terms/term.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "sim/core/text.h"
@@ -25,9 +25,8 @@ constexpr double kListed = 0.005;  // probability from which an effect has a bar
 std::string summary_of(const std::string& id) {
   if (id == "none") return "no effect is needed";
   if (id == "unknown") return "something outside the catalog";
-  const std::vector<std::string> known = models::effect_ids();
-  const bool is_known = std::find(known.begin(), known.end(), id) != known.end();
-  return is_known ? models::find_effect(id).info.summary : id;
+  const diagnosis::Term* term = diagnosis::look_up_term(id);
+  return term != nullptr ? term->info().summary : id;
 }
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
@@ -259,11 +258,9 @@ Section make_explanations(const Diagnosis& diagnosis) {
   const Cause& cause = diagnosis.causes.front();
   std::vector<std::string> ids = cause.effects;
   ids.insert(ids.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
-  const std::vector<std::string> known = models::effect_ids();
   for (const std::string& id : ids) {
-    if (std::find(known.begin(), known.end(), id) != known.end()) {
-      section.blocks.push_back(make_explanation(models::find_effect(id).info));
-    }
+    const diagnosis::Term* term = diagnosis::look_up_term(id);
+    if (term != nullptr) section.blocks.push_back(make_explanation(term->info()));
   }
   return section;
 }

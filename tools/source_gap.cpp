@@ -9,7 +9,7 @@
 #include <limits>
 #include <map>
 
-#include "diagnosis/comparison/hypothesis.h"
+#include "diagnosis/terms/hypothesis.h"
 #include "scenarios/run/run_spec.h"
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
@@ -231,7 +231,7 @@ std::vector<GapCurve> simulate_gap_curves(const std::vector<const models::Effect
   std::vector<GapCurve> curves;
   for (const models::Effect* effect : effects) {
     if (!models::acts_on(effect->info, models::RigKind::kDyno)) continue;
-    for (const int sign : diagnosis::possible_signs(*effect)) {
+    for (const int sign : diagnosis::possible_signs(effect->info.parameters.front())) {
       GapCurve curve{effect, sign, {}, {}};
       for (double u = kFirst_u; u <= kLast_u + 1e-9; u += kStep_u) {
         if (diagnosis::from_prior_units(effect->info.parameters.front(), u, sign).allowed) curve.u.push_back(u);

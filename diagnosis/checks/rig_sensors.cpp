@@ -4,7 +4,6 @@
 #include <functional>
 #include <stdexcept>
 
-#include "diagnosis/comparison/hypothesis.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "rigs/trace_effects.h"
 

@@ -27,10 +27,10 @@ Amplitudes measure_in_floors(const PreparedSet& set, const Eigen::VectorXd& diff
   return sums;
 }
 
-/// What the laws of a candidate's effects, the loosest of them, and the baseline may be wrong by, in noise floors.
+/// What the laws of a candidate's terms, the loosest of them, and the baseline may be wrong by, in noise floors.
 Amplitudes expect_model_error(ModelError error, const Candidate& candidate) {
-  for (const ActingEffect& on : candidate.fit.hypothesis.effects) {
-    const models::LawError& own = on.effect->info.law_error;
+  for (const SignedTerm& one : candidate.fit.hypothesis.terms) {
+    const models::LawError& own = one.term->info().law_error;
     error.law_share = std::max(error.law_share, own.law_share);
     error.whole_share = std::max(error.whole_share, own.whole_share);
   }
@@ -42,7 +42,7 @@ Amplitudes expect_model_error(ModelError error, const Candidate& candidate) {
   return expected;
 }
 
-/// All that the effects of a fit change, its base parameters held.
+/// All that the terms of a fit change, its base parameters held.
 Amplitudes measure_whole(const Model& model, const Fit& fit) {
   const Model without(model.set(), model.base(), {});
   Eigen::VectorXd simulated;
@@ -76,10 +76,10 @@ void Evaluator::weigh(Candidate& candidate) const {
   const Evidence repeated(of_conditions_, candidate.fit);
   // An unknown effect repeats from run to run, or follows nothing recorded: as likely one as the other.
   std::vector<double> logs{evidence.integrate(free).log_value, repeated.integrate(free).log_value};
-  if (!candidate.fit.hypothesis.effects.empty()) {
-    // What the law of an effect leaves out comes back in like conditions, or does not: as likely one as the other.
+  if (!candidate.fit.hypothesis.terms.empty()) {
+    // What the law of a term leaves out comes back in like conditions, or does not: as likely one as the other.
     candidate.log_evidence = log_sum_exp({sum.log_value, repeated.integrate(small).log_value}) - std::log(2.0);
-    // On top of an effect an unknown one is as likely a distortion of what that effect does.
+    // On top of a term an unknown effect is as likely a distortion of what that term does.
     std::vector<AmplitudePrior> distorted;
     for (std::size_t c = 0; c < expected.size(); ++c) {
       const double look_alike = std::hypot(error.baseline_floors, error.look_alike_share * candidate.signature[c]);
@@ -134,12 +134,12 @@ Candidate Evaluator::fit_null() const {
 
 std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::vector<Screened>& chosen) const {
   std::vector<Candidate> candidates(chosen.size());
-  const auto model_of = [&](std::size_t i) { return study_.make_model(from.fit.hypothesis.with(chosen[i].effect)); };
+  const auto model_of = [&](std::size_t i) { return study_.make_model(from.fit.hypothesis.with(chosen[i].term)); };
   parallel_for(chosen.size(), study_.settings.threads, [&](std::size_t i) {
     const Model model = model_of(i);
     const bool is_faint = chosen[i].was_simulated && chosen[i].score < thresholds::kFaint_nats;
     const int steps = is_faint ? 1 : thresholds::kFirstSteps;
-    const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].effect.effect, chosen[i].own);
+    const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].term.term, chosen[i].own);
     candidates[i] = fit_once(model, {from.amplitudes, start, 1, steps});
     if (std::isfinite(candidates[i].fit.cost)) return;
     // Where it cannot be simulated with what makes up for its absence: from the middle of all priors.

@@ -12,7 +12,7 @@ class Evaluator {
   /// The baseline through the same optimizer as everything else. Throws RunFailure where it cannot be fitted.
   Candidate fit_null() const;
 
-  /// Every chosen effect on top of `from`: a few steps each, and those that come near the best to the end.
+  /// Every chosen term on top of `from`: a few steps each, and those that come near the best to the end.
   std::vector<Candidate> refit_all(const Candidate& from, const std::vector<Screened>& chosen) const;
 
  private:

@@ -64,9 +64,21 @@ Evidence::Evidence(const Discrepancy& discrepancy, const Fit& fit)
   }
 }
 
-Evidence::PerAmplitude Evidence::calc_channel(std::size_t channel, double amplitude) const {
+Evidence::Sums& Evidence::Sums::operator+=(const Sums& other) {
+  curvature += other.curvature;
+  gradient += other.gradient;
+  square += other.square;
+  log_determinant += other.log_determinant;
+  return *this;
+}
+
+Evidence::Sums Evidence::make_empty() const {
   const Eigen::Index n = unknowns_.size();
-  PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
+  return {Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+}
+
+Evidence::Sums Evidence::sum_channel(std::size_t channel, double amplitude) const {
+  Sums sum = make_empty();
   for (std::size_t b = 0; b < parts_.size(); ++b) {
     const Discrepancy::Basis& basis = discrepancy_.bases()[b];
     if (basis.channel != channel) continue;
@@ -81,71 +93,57 @@ Evidence::PerAmplitude Evidence::calc_channel(std::size_t channel, double amplit
   return sum;
 }
 
-Evidence::Term Evidence::solve(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& gradient, double square,
-                               double log_determinant, bool with_covariance) const {
+Evidence::Solution Evidence::solve(const Sums& sums, bool with_covariance) const {
   const Eigen::Index n = unknowns_.size();
-  const Eigen::MatrixXd m = curvature + Eigen::MatrixXd::Identity(n, n);
-  const Eigen::VectorXd g = gradient + unknowns_;
+  const Eigen::MatrixXd m = sums.curvature + Eigen::MatrixXd::Identity(n, n);
+  const Eigen::VectorXd g = sums.gradient + unknowns_;
   const Eigen::LLT<Eigen::MatrixXd> factor(m);
-  Term term;
-  term.step = -factor.solve(g);
-  term.chi2 = square + unknowns_.squaredNorm() + g.dot(term.step);
+  Solution solution;
+  solution.step = -factor.solve(g);
+  solution.chi2 = sums.square + unknowns_.squaredNorm() + g.dot(solution.step);
   const double log_m = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  term.log_value = -0.5 * (term.chi2 + log_determinant + log_determinant_below_ + log_m);
-  if (with_covariance) term.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
-  return term;
+  solution.log_value = -0.5 * (solution.chi2 + sums.log_determinant + log_determinant_below_ + log_m);
+  if (with_covariance) solution.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
+  return solution;
 }
 
-Evidence::Term Evidence::calc_term(const Amplitudes& amplitudes, bool with_covariance) const {
-  const Eigen::Index n = unknowns_.size();
-  PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
+Evidence::Solution Evidence::solve(const Amplitudes& amplitudes, bool with_covariance) const {
+  Sums sums = make_empty();
   for (std::size_t channel = 0; channel < amplitudes.size(); ++channel) {
-    const PerAmplitude one = calc_channel(channel, amplitudes[channel]);
-    sum.curvature += one.curvature;
-    sum.gradient += one.gradient;
-    sum.square += one.square;
-    sum.log_determinant += one.log_determinant;
+    sums += sum_channel(channel, amplitudes[channel]);
   }
-  return solve(sum.curvature, sum.gradient, sum.square, sum.log_determinant, with_covariance);
+  return solve(sums, with_covariance);
 }
 
 Evidence::Sum Evidence::integrate(const std::vector<AmplitudePrior>& priors) const {
-  std::vector<std::vector<PerAmplitude>> channels;
+  std::vector<std::vector<Sums>> channels(priors.size());
   for (std::size_t channel = 0; channel < priors.size(); ++channel) {
-    channels.emplace_back();
     for (const double amplitude : priors[channel].amplitudes) {
-      channels.back().push_back(calc_channel(channel, amplitude));
+      channels[channel].push_back(sum_channel(channel, amplitude));
     }
   }
   std::vector<std::size_t> index(priors.size(), 0);
   std::vector<double> logs;
   std::vector<Amplitudes> combinations;
-  const Eigen::Index n = unknowns_.size();
   while (true) {
-    PerAmplitude sum{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n), 0.0, 0.0};
+    Sums sums = make_empty();
     double log_weight = 0.0;
     Amplitudes amplitudes;
     for (std::size_t channel = 0; channel < priors.size(); ++channel) {
-      const PerAmplitude& one = channels[channel][index[channel]];
-      sum.curvature += one.curvature;
-      sum.gradient += one.gradient;
-      sum.square += one.square;
-      sum.log_determinant += one.log_determinant;
+      sums += channels[channel][index[channel]];
       log_weight += std::log(priors[channel].weights[index[channel]]);
       amplitudes.push_back(priors[channel].amplitudes[index[channel]]);
     }
-    logs.push_back(log_weight + solve(sum.curvature, sum.gradient, sum.square, sum.log_determinant, false).log_value);
+    logs.push_back(log_weight + solve(sums, false).log_value);
     combinations.push_back(std::move(amplitudes));
     std::size_t channel = 0;
     while (channel < priors.size() && ++index[channel] == priors[channel].amplitudes.size()) index[channel++] = 0;
     if (channel == priors.size()) break;
   }
-  Sum sum;
-  sum.log_value = log_sum_exp(logs);
-  sum.mean.assign(priors.size(), 0.0);
+  Sum sum{log_sum_exp(logs), Amplitudes(priors.size(), 0.0)};
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    for (std::size_t c = 0; c < priors.size(); ++c)
-      sum.mean[c] += std::exp(logs[i] - sum.log_value) * combinations[i][c];
+    const double weight = std::exp(logs[i] - sum.log_value);
+    for (std::size_t c = 0; c < priors.size(); ++c) sum.mean[c] += weight * combinations[i][c];
   }
   return sum;
 }

@@ -32,14 +32,14 @@ class Evidence {
  public:
   Evidence(const Discrepancy& discrepancy, const Fit& fit);
 
-  /// One combination of amplitudes, one a channel.
-  struct Term {
+  /// Under one combination of amplitudes, one a channel.
+  struct Solution {
     double log_value = 0.0;
     Eigen::VectorXd step;        // to the best unknowns
     Eigen::MatrixXd covariance;  // of the unknowns; where asked for
     double chi2 = 0.0;
   };
-  Term calc_term(const Amplitudes& amplitudes, bool with_covariance = false) const;
+  Solution solve(const Amplitudes& amplitudes, bool with_covariance = false) const;
 
   struct Sum {
     double log_value = 0.0;
@@ -49,15 +49,18 @@ class Evidence {
   Sum integrate(const std::vector<AmplitudePrior>& priors) const;
 
  private:
-  struct PerAmplitude {
+  /// Sums over data of J^T Sigma^-1 J, J^T Sigma^-1 r, r^T Sigma^-1 r and log |Sigma|.
+  struct Sums {
     Eigen::MatrixXd curvature;
     Eigen::VectorXd gradient;
     double square = 0.0;
     double log_determinant = 0.0;
+
+    Sums& operator+=(const Sums& other);
   };
-  PerAmplitude calc_channel(std::size_t channel, double amplitude) const;
-  Term solve(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& gradient, double square, double log_determinant,
-             bool with_covariance) const;
+  Sums make_empty() const;
+  Sums sum_channel(std::size_t channel, double amplitude) const;
+  Solution solve(const Sums& sums, bool with_covariance) const;
 
   const Discrepancy& discrepancy_;
   Eigen::VectorXd unknowns_;

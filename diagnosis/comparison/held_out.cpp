@@ -22,8 +22,9 @@ Bounds find_bounds(const Model& model) {
   const double infinity = std::numeric_limits<double>::infinity();
   Bounds bounds{Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};
   for (std::size_t i = 0; i < model.own_count(); ++i) {
-    bounds.lower[at(i)] = model.own_bounds(i).lower;
-    bounds.upper[at(i)] = model.own_bounds(i).upper;
+    const PriorBounds own = model.own_parameters()[i].bounds();
+    bounds.lower[at(i)] = own.lower;
+    bounds.upper[at(i)] = own.upper;
   }
   const std::vector<estimation::FreeParameter>& base = model.base();
   for (std::size_t i = 0; i < base.size(); ++i) {

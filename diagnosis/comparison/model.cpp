@@ -32,28 +32,17 @@ void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::s
 
 Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis)
     : set_(set), base_(std::move(base)), hypothesis_(std::move(hypothesis)) {
-  for (std::size_t e = 0; e < hypothesis_.effects.size(); ++e) {
-    for (std::size_t i = 0; i < hypothesis_.effects[e].effect->info.parameters.size(); ++i) own_.push_back({e, i});
+  for (std::size_t t = 0; t < hypothesis_.terms.size(); ++t) {
+    const auto& [term, sign] = hypothesis_.terms[t];
+    for (std::size_t i = 0; i < term->parameters().size(); ++i) {
+      own_.push_back({term, t, &term->parameters()[i], i, i == 0 ? sign : 1});
+    }
   }
-}
-
-const models::EffectParameter& Model::declaration(const OwnParameter& own) const {
-  return hypothesis_.effects[own.effect].effect->info.parameters[own.index];
-}
-
-int Model::sign_of(const OwnParameter& own) const { return own.index == 0 ? hypothesis_.effects[own.effect].sign : 1; }
-
-PriorUnits Model::own_value(std::size_t i, double u) const {
-  return from_prior_units(declaration(own_[i]), u, sign_of(own_[i]));
-}
-
-PriorBounds Model::own_bounds(std::size_t i) const {
-  return bounds_in_prior_units(declaration(own_[i]), sign_of(own_[i]));
 }
 
 bool Model::find_parameters(const Eigen::VectorXd& unknowns, std::vector<Parameter>& parameters) const {
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    const PriorUnits value = own_value(i, unknowns[at(i)]);
+    const PriorUnits value = own_[i].value_at(unknowns[at(i)]);
     if (!value.allowed) return false;
     parameters.push_back({value.value_SI, value.derivative_SI});
   }
@@ -86,13 +75,16 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   for (std::size_t i = 0; i < base_.size(); ++i) {
     estimation::find_parameter(context, base_[i].key) = scalar(own_.size() + i);
   }
+  const PreparedRun& run = set_.runs()[r];
   std::vector<models::ActiveEffect> active;
-  for (const ActingEffect& on : hypothesis_.effects) {
-    active.push_back({on.effect, std::vector<double>(on.effect->info.parameters.size(), 0.0)});
+  for (const SignedTerm& one : hypothesis_.terms) {
+    active.push_back({&one.term->effect(), one.term->list_known(run)});
+    active.back().parameters.resize(one.term->effect().info.parameters.size(), 0.0);
   }
   models::Corner<S> corner(std::move(context), active);
-  for (std::size_t i = 0; i < own_.size(); ++i) corner.effects()[own_[i].effect].parameters[own_[i].index] = scalar(i);
-  const PreparedRun& run = set_.runs()[r];
+  for (std::size_t i = 0; i < own_.size(); ++i) {
+    corner.effects()[own_[i].term_index].parameters[own_[i].term->known_count() + own_[i].index] = scalar(i);
+  }
   sim::Recording<S> recording;
   try {
     recording = run.replay->simulate(set_.source(), run.measured, corner,
@@ -136,6 +128,12 @@ bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
   return std::find(good.begin(), good.end(), 0) == good.end();
 }
 
+bool Model::derive_run(std::size_t run, const Eigen::VectorXd& unknowns, RowMatrix& derivatives) const {
+  std::vector<Parameter> parameters;
+  Eigen::VectorXd values(at(residual_count()));
+  return find_parameters(unknowns, parameters) && simulate_run<Jet>(run, parameters, 0, values, &derivatives);
+}
+
 Eigen::VectorXd Model::subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const {
   Eigen::VectorXd difference(at(residual_count()));
   for (const Series& series : set_.series()) {
@@ -158,8 +156,7 @@ bool Model::evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
     jacobian->setZero(at(residual_count()), at(unknown_count()));
     jacobian->leftCols(at(parameter_count())) = -derivatives;
     for (const Series& series : set_.series()) {
-      jacobian->block(at(series.first_residual), at(parameter_count() + series.offset), at(series.size()), 1)
-          .setConstant(-series.offset_sd);
+      series.rows_of(*jacobian).col(at(parameter_count() + series.offset)).setConstant(-series.offset_sd);
     }
   }
   whiten(set_, residuals);

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "diagnosis/comparison/eigen_index.h"
-#include "diagnosis/comparison/hypothesis.h"
 #include "diagnosis/comparison/prepared_set.h"
+#include "diagnosis/terms/hypothesis.h"
 #include "estimation/parameters.h"
 
 namespace rollrig::diagnosis {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Unknowns, each standard normal before the measurement: the effects' own parameters, then the base parameters, then
+/// Unknowns, each standard normal before the measurement: the terms' own parameters, then the base parameters, then
 /// the sensors' offsets (one a session and channel).
 class Model {
  public:
@@ -28,19 +28,26 @@ class Model {
   std::size_t unknown_count() const { return parameter_count() + set_.offset_count(); }
   std::size_t residual_count() const { return set_.residual_count(); }
 
-  /// An own parameter: its effect's place in the hypothesis, and its own in the effect.
+  /// An own parameter of a term: the size is the first.
   struct OwnParameter {
-    std::size_t effect;
-    std::size_t index;
+    const Term* term;
+    std::size_t term_index;  // in the hypothesis
+    const models::EffectParameter* declared;
+    std::size_t index;  // in the term
+    int sign;
+
+    bool is_size() const { return index == 0; }
+    PriorUnits value_at(double u) const { return from_prior_units(*declared, u, sign); }
+    PriorBounds bounds() const { return bounds_in_prior_units(*declared, sign); }
   };
   const std::vector<OwnParameter>& own_parameters() const { return own_; }
-  const models::EffectParameter& declaration(const OwnParameter& own) const;
-  PriorUnits own_value(std::size_t i, double u) const;
-  PriorBounds own_bounds(std::size_t i) const;
 
   /// Block means of every series, SI units, without offsets; `derivatives` by the parameters may be null. Runs are
   /// shared out over threads. False where a parameter leaves its range or the simulation its domain.
   bool simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives) const;
+
+  /// Of one run's block means the derivatives by the first kJetWidth parameters, into the rows of that run.
+  bool derive_run(std::size_t run, const Eigen::VectorXd& unknowns, RowMatrix& derivatives) const;
 
   /// Whitened residuals (measured - simulated - offset) and their derivatives by the unknowns.
   bool evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& residuals, RowMatrix* jacobian) const;
@@ -49,7 +56,6 @@ class Model {
   Eigen::VectorXd subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const;
 
  private:
-  int sign_of(const OwnParameter& own) const;
   struct Parameter {
     double value_SI = 0.0;
     double derivative_SI = 0.0;

@@ -34,26 +34,28 @@ void add_candidates(std::vector<Candidate> more, std::vector<Candidate>& all) {
   }
 }
 
-/// Of the two signs of one effect, both halves of its prior.
+/// Of the two signs of one size, both halves of its prior.
 double sign_share(const Hypothesis& hypothesis) {
   double share = 1.0;
-  for (const ActingEffect& on : hypothesis.effects) share /= static_cast<double>(possible_signs(*on.effect).size());
+  for (const SignedTerm& one : hypothesis.terms) {
+    share /= static_cast<double>(possible_signs(one.term->parameters().front()).size());
+  }
   return share;
 }
 
 void assign_probabilities(Study& study, Comparison& comparison) {
   const RacePriors& priors = study.settings.priors;
-  const auto n = static_cast<double>(study.settings.effects.size());
-  const auto prior_of = [&](std::size_t effects) {  // of each of its kind
-    if (effects == 1) return priors.singles / n;
-    if (effects == 2) return priors.pairs / std::max(1.0, n * (n - 1.0) / 2.0);
+  const auto n = static_cast<double>(study.settings.terms.size());
+  const auto prior_of = [&](std::size_t terms) {  // of each of its kind
+    if (terms == 1) return priors.singles / n;
+    if (terms == 2) return priors.pairs / std::max(1.0, n * (n - 1.0) / 2.0);
     return priors.triples / std::max(1.0, n * (n - 1.0) * (n - 2.0) / 6.0);
   };
   std::vector<double> logs{std::log(priors.none) + study.null.log_evidence,
                            std::log(priors.unknown) + study.null.log_discrepancy};
   for (const Candidate& candidate : comparison.candidates) {
     const double share = sign_share(candidate.fit.hypothesis);
-    const double prior = prior_of(candidate.fit.hypothesis.effects.size());
+    const double prior = prior_of(candidate.fit.hypothesis.terms.size());
     logs.push_back(std::log(share * prior) + candidate.log_evidence);
     const double look_alike = prior * priors.look_alike / priors.singles;
     logs.push_back(std::log(share * look_alike) + candidate.log_discrepancy);
@@ -70,10 +72,10 @@ void assign_probabilities(Study& study, Comparison& comparison) {
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
 }
 
-/// On top of the best `firsts` hypotheses of so many effects the `seconds` effects that gain most: those whose score
+/// On top of the best `firsts` hypotheses of so many terms the `seconds` terms that gain most: those whose score
 /// could make up for the smaller prior.
 struct Addition {
-  std::size_t effects;
+  std::size_t terms;
   std::size_t firsts;
   std::size_t seconds;
 };
@@ -81,13 +83,13 @@ struct Addition {
 void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& how, Comparison& comparison) {
   std::vector<Candidate> lower;
   for (const Candidate& candidate : comparison.candidates) {
-    if (candidate.fit.hypothesis.effects.size() == how.effects && lower.size() < how.firsts) lower.push_back(candidate);
+    if (candidate.fit.hypothesis.terms.size() == how.terms && lower.size() < how.firsts) lower.push_back(candidate);
   }
   for (const Candidate& first : lower) {
     if (!(first.log_evidence >= study.null.log_evidence)) continue;  // nor where it could not be fitted
-    std::vector<const models::Effect*> others;
-    for (const models::Effect* effect : study.settings.effects) {
-      if (!first.fit.hypothesis.contains(*effect)) others.push_back(effect);
+    std::vector<const Term*> others;
+    for (const Term* term : study.settings.terms) {
+      if (!first.fit.hypothesis.contains(*term)) others.push_back(term);
     }
     std::vector<Screened> screened = screen(study, first, others);
     screened.erase(std::remove_if(screened.begin(), screened.end(),
@@ -98,15 +100,23 @@ void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& 
   }
 }
 
-/// Whether the likeliest hypothesis is one of so many effects, alone or with a discrepancy.
-bool asks_for(const Comparison& comparison, std::size_t effects) {
+/// Whether the likeliest hypothesis is one of so many terms, alone or with a discrepancy.
+bool asks_for(const Comparison& comparison, std::size_t terms) {
   const auto likeliest =
       std::max_element(comparison.candidates.begin(), comparison.candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.posterior() < b.posterior(); });
-  return likeliest != comparison.candidates.end() && likeliest->fit.hypothesis.effects.size() == effects;
+  return likeliest != comparison.candidates.end() && likeliest->fit.hypothesis.terms.size() == terms;
 }
 
 }  // namespace
+
+double Comparison::find_detectability(const Term& term) const {
+  double detectability = 0.0;
+  for (const Screened& one : screened) {
+    if (one.term.term == &term) detectability = std::max(detectability, one.detectability);
+  }
+  return detectability;
+}
 
 Comparison compare_models(Study& study) {
   const Evaluator evaluator(study);
@@ -115,7 +125,7 @@ Comparison compare_models(Study& study) {
   progress(0.0, "baseline");
   study.null = evaluator.fit_null();
   progress(0.1, "screening");
-  comparison.screened = screen(study, study.null, study.settings.effects);
+  comparison.screened = screen(study, study.null, study.settings.terms);
   progress(0.2, "refit of effects");
   add_candidates(evaluator.refit_all(
                      study.null, choose(comparison.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats)),

@@ -9,12 +9,16 @@ namespace rollrig::diagnosis {
 
 struct Comparison {
   std::vector<Screened> screened;     // on top of the null
-  std::vector<Candidate> candidates;  // effects, pairs and triples, the likeliest first
+  std::vector<Candidate> candidates;  // of a term, pairs and triples, the likeliest first
   double unknown_probability = 0.0;   // all hypotheses with a free discrepancy
+
+  /// Size of a term's signature at the middle of its prior, in standard deviations: of its best trial; 0 where none
+  /// changes anything.
+  double find_detectability(const Term& term) const;
 };
 
-/// Fits the baseline (study.null), screens, refits every effect that could matter from its best start, then pairs on
-/// top of the best, then triples on top of the best pair where two effects are asked for, and weighs all.
+/// Fits the baseline (study.null), screens, refits every term that could matter from its best start, then pairs on
+/// top of the best, then triples on top of the best pair where two terms are asked for, and weighs all.
 /// Errors  RunFailure: the baseline cannot be fitted
 Comparison compare_models(Study& study);
 

@@ -68,7 +68,7 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   auto* residuals = new WhitenedResiduals(model, discrepancy, start);  // the problem's own
   problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
   for (std::size_t i = 0; i < model.own_count(); ++i) {
-    const PriorBounds bounds = model.own_bounds(i);
+    const PriorBounds bounds = model.own_parameters()[i].bounds();
     double& u = fit.unknowns[at(i)];
     u = std::clamp(u, bounds.lower, bounds.upper);
   }

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "diagnosis/comparison/linear_fit.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
-Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Effect& effect,
-                           const Eigen::VectorXd& own) {
+
+Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const Term& term, const Eigen::VectorXd& own) {
   Eigen::VectorXd unknowns(at(larger.unknown_count()));
   Eigen::Index from = 0;
   Eigen::Index next_own = 0;
   for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
     const auto place = static_cast<std::size_t>(i);
-    const bool is_new = place < larger.own_count() &&
-                        larger.hypothesis().effects[larger.own_parameters()[place].effect].effect == &effect;
+    const bool is_new = place < larger.own_count() && larger.own_parameters()[place].term == &term;
     unknowns[i] = is_new ? own[next_own++] : fit.unknowns[from++];
   }
   return unknowns;
@@ -24,16 +24,15 @@ Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Ef
 
 namespace {
 
-/// A size at which an effect is tried: its sign, and where in its prior.
+/// A size at which a term is tried: its sign, and where in its prior.
 struct SizeTrial {
   int sign;
   double u;
 };
 
 /// The middle of the prior with each sign that it may have; one prior unit to either side where the middle is the
-/// value at which the effect does nothing.
-std::vector<SizeTrial> find_size_trials(const models::Effect& effect) {
-  const models::EffectParameter& size = effect.info.parameters.front();
+/// value at which the term does nothing.
+std::vector<SizeTrial> find_size_trials(const models::EffectParameter& size) {
   if (size.prior.either_sign) return {{1, 0.0}, {-1, 0.0}};
   const double middle_off = std::abs(size.prior.center() - size.off.value_or(0.0));
   const bool is_two_sided =
@@ -43,8 +42,8 @@ std::vector<SizeTrial> find_size_trials(const models::Effect& effect) {
 }
 
 /// Own parameters at that size, and with each shape moved by one prior unit, one at a time.
-std::vector<Eigen::VectorXd> find_shape_trials(const models::Effect& effect, double size_u) {
-  Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(effect.info.parameters.size()));
+std::vector<Eigen::VectorXd> find_shape_trials(const Term& term, double size_u) {
+  Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(term.parameters().size()));
   middle[0] = size_u;
   std::vector<Eigen::VectorXd> trials{middle};
   for (Eigen::Index shape = 1; shape < middle.size(); ++shape) {
@@ -64,37 +63,38 @@ double scale_size(const models::EffectParameter& size, const SizeTrial& trial, d
   return to_prior_units(size, off_SI + std::max(ratio, kSmallest) * (tried_SI - off_SI));
 }
 
+/// One term with one sign or side of its size at the best of its shapes; at the first of them without a score where
+/// none can be simulated, none where nothing changes.
+std::optional<Screened> try_shapes(const Study& study, const LinearFit& linear, const Fit& fit, const Term& term,
+                                   const SizeTrial& size) {
+  const SignedTerm tried{&term, size.sign};
+  const Model larger = study.make_model(fit.hypothesis.with(tried));
+  const std::vector<Eigen::VectorXd> trials = find_shape_trials(term, size.u);
+  std::optional<Screened> best;
+  bool was_simulated = false;
+  for (const Eigen::VectorXd& own : trials) {
+    Eigen::VectorXd simulated;
+    if (!larger.simulate(insert_own(larger, fit, term, own), 1, simulated, nullptr)) continue;
+    was_simulated = true;
+    const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
+    if (!(variance > 0.0)) continue;
+    const double score = along > 0.0 ? 0.5 * along * along / variance : 0.0;
+    if (best.has_value() && !(score > best->score)) continue;
+    best = Screened{tried, own, score, std::sqrt(variance)};
+    best->own[0] = scale_size(term.parameters().front(), size, along / variance);
+  }
+  if (!was_simulated) best = Screened{tried, trials.front(), 0.0, 0.0, false};
+  return best;
+}
+
 }  // namespace
 
-std::vector<Screened> screen(const Study& study, const Candidate& from,
-                             const std::vector<const models::Effect*>& effects) {
-  const Fit& fit = from.fit;
+std::vector<Screened> screen(const Study& study, const Candidate& from, const std::vector<const Term*>& terms) {
   const LinearFit linear(study.discrepancy, from);
-  std::vector<std::vector<Screened>> found(effects.size());
-  parallel_for(effects.size(), study.settings.threads, [&](std::size_t e) {
-    const models::Effect& effect = *effects[e];
-    for (const SizeTrial& size : find_size_trials(effect)) {
-      const ActingEffect acting{&effect, size.sign};
-      const Model larger = study.make_model(fit.hypothesis.with(acting));
-      std::vector<Screened> of_shapes;
-      bool was_simulated = false;
-      for (const Eigen::VectorXd& own : find_shape_trials(effect, size.u)) {
-        Eigen::VectorXd simulated;
-        if (!larger.simulate(insert_own(larger, fit, effect, own), 1, simulated, nullptr)) continue;
-        was_simulated = true;
-        const auto [along, variance] = linear.calc_score(simulated - fit.simulated);
-        if (!(variance > 0.0)) continue;
-        Screened one{acting, own, along > 0.0 ? 0.5 * along * along / variance : 0.0, std::sqrt(variance)};
-        one.own[0] = scale_size(effect.info.parameters.front(), size, along / variance);
-        of_shapes.push_back(std::move(one));
-      }
-      const auto best = std::max_element(of_shapes.begin(), of_shapes.end(),
-                                         [](const auto& a, const auto& b) { return a.score < b.score; });
-      if (best != of_shapes.end()) {
-        found[e].push_back(*best);
-      } else if (!was_simulated) {
-        found[e].push_back({acting, find_shape_trials(effect, size.u).front(), 0.0, 0.0, false});
-      }
+  std::vector<std::vector<Screened>> found(terms.size());
+  parallel_for(terms.size(), study.settings.threads, [&](std::size_t t) {
+    for (const SizeTrial& size : find_size_trials(terms[t]->parameters().front())) {
+      if (auto one = try_shapes(study, linear, from.fit, *terms[t], size)) found[t].push_back(std::move(*one));
     }
   });
   std::vector<Screened> all;

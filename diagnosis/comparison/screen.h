@@ -1,29 +1,27 @@
 #pragma once
-/// Which effects could explain what the baseline leaves, to first order in their size.
+/// Which terms could explain what the baseline leaves, to first order in their size.
 
 #include "diagnosis/study.h"
 
 namespace rollrig::diagnosis {
 
-/// One effect at the best of a few shapes.
+/// One term at the best of a few shapes.
 struct Screened {
-  ActingEffect effect;
+  SignedTerm term;
   Eigen::VectorXd own;         // prior units: where a refit should start
   double score = 0.0;          // gain in -chi2/2 for the best size of the right sign
   double detectability = 0.0;  // d': size of the signature at the middle of its prior, in standard deviations
   bool was_simulated = true;   // not where the fit, which makes up for it, leaves no room: nothing is known of it then
 };
 
-/// The unknowns of `fit` with an effect's own put in at its place among the larger hypothesis's effects.
-Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const models::Effect& effect,
-                           const Eigen::VectorXd& own);
+/// The unknowns of `fit` with a term's own put in at its place among the terms of the larger hypothesis.
+Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const Term& term, const Eigen::VectorXd& own);
 
-/// Tries every effect on top of `from`, with a finite size, so that effects without a first order are seen too:
+/// Tries every term on top of `from`, with a finite size, so that those without a first order are seen too:
 /// signature g = difference at the middle of the prior and, one at a time, one prior unit off in each shape.
 /// Equation  z = s/sqrt(V), best size = s/V middles, s and V score and variance of g (linear_fit.h); score = z^2/2
-///           where the sign is one that the effect may have; d' = sqrt(V)
-/// An effect that cannot be simulated on top of the fit at all is listed without a score
-std::vector<Screened> screen(const Study& study, const Candidate& from,
-                             const std::vector<const models::Effect*>& effects);
+///           where the sign is one that the term may have; d' = sqrt(V)
+/// A term that cannot be simulated on top of the fit at all is listed without a score
+std::vector<Screened> screen(const Study& study, const Candidate& from, const std::vector<const Term*>& terms);
 
 }  // namespace rollrig::diagnosis

@@ -12,7 +12,7 @@ namespace rollrig::diagnosis {
 namespace {
 
 constexpr std::size_t kMost = 6;
-constexpr std::size_t kMostOnBaseline = 9;  // single effects are cheaper to simulate than two
+constexpr std::size_t kMostOnBaseline = 9;  // one term is cheaper to simulate than two
 constexpr double kRunnerUp = 0.01;
 constexpr double kLeastShare = 0.05;
 constexpr double kDetectable = 3.0;  // as for what is not excluded (verdict.cpp)
@@ -28,7 +28,7 @@ std::vector<const Candidate*> rank(const Study& study, const Comparison& compari
   std::vector<const Candidate*> ranked;
   for (const Candidate* one : all) {
     const bool seen = std::any_of(ranked.begin(), ranked.end(), [&](const Candidate* other) {
-      return other->fit.hypothesis.ids() == one->fit.hypothesis.ids();
+      return other->fit.hypothesis.names() == one->fit.hypothesis.names();
     });
     if (!seen) ranked.push_back(one);
   }
@@ -45,59 +45,55 @@ OpenHypothesis describe(const Study& study, const Hypothesis& hypothesis, const 
 OpenHypothesis describe(const Study& study, const Candidate& candidate) {
   const Evidence evidence(study.discrepancy, candidate.fit);
   return describe(study, candidate.fit.hypothesis, candidate.fit.unknowns,
-                  evidence.calc_term(candidate.amplitudes, true).covariance);
+                  evidence.solve(candidate.amplitudes, true).covariance);
 }
 
-bool adds_an_effect(const Candidate& lead, const Candidate& other) {
-  return other.fit.hypothesis.effects.size() > lead.fit.hypothesis.effects.size();
+bool adds_a_term(const Candidate& lead, const Candidate& other) {
+  return other.fit.hypothesis.terms.size() > lead.fit.hypothesis.terms.size();
 }
 
 /// Unknowns that are moved to where they are likeliest, those in `fixed` held where they are.
 /// Equation  x = m + C_xf C_ff^-1 (f - m_f): the middle of a normal distribution m, C given f
-Eigen::VectorXd move_to_likeliest(const Eigen::VectorXd& unknowns, const Evidence::Term& term,
+Eigen::VectorXd move_to_likeliest(const Eigen::VectorXd& unknowns, const Evidence::Solution& solution,
                                   const std::vector<Eigen::Index>& fixed) {
-  const Eigen::MatrixXd between = term.covariance(Eigen::all, fixed);
-  const Eigen::MatrixXd own = term.covariance(fixed, fixed);
-  const Eigen::VectorXd back = -term.step(fixed);
-  return unknowns + term.step + between * own.llt().solve(back);
+  const Eigen::MatrixXd between = solution.covariance(Eigen::all, fixed);
+  const Eigen::MatrixXd own = solution.covariance(fixed, fixed);
+  const Eigen::VectorXd back = -solution.step(fixed);
+  return unknowns + solution.step + between * own.llt().solve(back);
 }
 
-/// `lead` with one more effect at the middle of its prior, everything else moved so as to make up for it, and all as
+/// `lead` with one more term at the middle of its prior, everything else moved so as to make up for it, and all as
 /// uncertain as the set leaves it. None where it cannot be simulated there.
-std::optional<OpenHypothesis> add_unseen(const Study& study, const Candidate& lead, const models::Effect& effect) {
+std::optional<OpenHypothesis> add_unseen(const Study& study, const Candidate& lead, const Term& term) {
   Fit fit;
-  fit.hypothesis = lead.fit.hypothesis.with({&effect, 1});
+  fit.hypothesis = lead.fit.hypothesis.with({&term, 1});
   const Model larger = study.make_model(fit.hypothesis);
-  const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(effect.info.parameters.size()));
-  fit.unknowns = insert_own(larger, lead.fit, effect, middle);
+  const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(term.parameters().size()));
+  fit.unknowns = insert_own(larger, lead.fit, term, middle);
   if (!larger.evaluate(fit.unknowns, study.settings.threads, fit.residuals, &fit.jacobian)) return std::nullopt;
-  const Evidence::Term term = Evidence(study.discrepancy, fit).calc_term(lead.amplitudes, true);
+  const Evidence::Solution solution = Evidence(study.discrepancy, fit).solve(lead.amplitudes, true);
   std::vector<Eigen::Index> added;
   for (std::size_t i = 0; i < larger.own_count(); ++i) {
-    if (larger.hypothesis().effects[larger.own_parameters()[i].effect].effect == &effect) added.push_back(at(i));
+    if (larger.own_parameters()[i].term == &term) added.push_back(at(i));
   }
-  Eigen::VectorXd unknowns = move_to_likeliest(fit.unknowns, term, added);
+  Eigen::VectorXd unknowns = move_to_likeliest(fit.unknowns, solution, added);
   for (std::size_t i = 0; i < larger.own_count(); ++i) {
-    const PriorBounds bounds = larger.own_bounds(i);
+    const PriorBounds bounds = larger.own_parameters()[i].bounds();
     unknowns[at(i)] = std::clamp(unknowns[at(i)], bounds.lower, bounds.upper);
   }
-  return describe(study, fit.hypothesis, unknowns, term.covariance);
+  return describe(study, fit.hypothesis, unknowns, solution.covariance);
 }
 
-/// Effects that the set would not have shown, the best hidden first.
-std::vector<const models::Effect*> find_hidden(const Study& study, const Comparison& comparison) {
-  std::vector<std::pair<double, const models::Effect*>> hidden;
-  for (const models::Effect* effect : study.settings.effects) {
-    double detectability = 0.0;  // where no trial of it changes anything
-    for (const Screened& one : comparison.screened) {
-      if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);
-    }
-    if (detectability < kDetectable) hidden.emplace_back(detectability, effect);
+/// Terms that the set would not have shown, the best hidden first.
+std::vector<const Term*> find_hidden(const Study& study, const Comparison& comparison) {
+  std::vector<const Term*> hidden;
+  for (const Term* term : study.settings.terms) {
+    if (comparison.find_detectability(*term) < kDetectable) hidden.push_back(term);
   }
-  std::stable_sort(hidden.begin(), hidden.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<const models::Effect*> effects;
-  for (const auto& one : hidden) effects.push_back(one.second);
-  return effects;
+  std::stable_sort(hidden.begin(), hidden.end(), [&](const Term* a, const Term* b) {
+    return comparison.find_detectability(*a) < comparison.find_detectability(*b);
+  });
+  return hidden;
 }
 
 }  // namespace
@@ -117,7 +113,7 @@ std::vector<OpenHypothesis> find_open_hypotheses(const Study& study, const Compa
   std::vector<const Candidate*> runners_up;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     const bool told_apart = expected_log_bayes_factor(study, lead, *ranked[i]) >= thresholds::kToldApart_nats;
-    if (is_baseline || told_apart || adds_an_effect(lead, *ranked[i])) {
+    if (is_baseline || told_apart || adds_a_term(lead, *ranked[i])) {
       if (ranked[i]->posterior() >= kRunnerUp) runners_up.push_back(ranked[i]);
     } else if (open.size() < kMost) {
       add(describe(study, *ranked[i]), most);
@@ -127,11 +123,11 @@ std::vector<OpenHypothesis> find_open_hypotheses(const Study& study, const Compa
     if (open.size() < kMost) add(describe(study, *other), std::max(least, other->posterior()));
   }
   if (open.size() == 1 || is_baseline) {
-    for (const models::Effect* effect : find_hidden(study, comparison)) {
+    for (const Term* term : find_hidden(study, comparison)) {
       const bool is_in = std::any_of(open.begin(), open.end(),
-                                     [&](const OpenHypothesis& one) { return one.hypothesis.contains(*effect); });
+                                     [&](const OpenHypothesis& one) { return one.hypothesis.contains(*term); });
       if (is_in || open.size() >= (is_baseline ? kMostOnBaseline : kMost)) continue;
-      if (auto unseen = add_unseen(study, lead, *effect)) add(std::move(*unseen), least);
+      if (auto unseen = add_unseen(study, lead, *term)) add(std::move(*unseen), least);
     }
   }
   double sum = 0.0;

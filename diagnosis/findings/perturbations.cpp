@@ -32,7 +32,7 @@ struct TimePerturbation {
     info.id = name;
     info.summary = "A probe of one balance";
     const models::EffectParameter knot{"knot_s", {}, {}, "time of a knot"};
-    const models::EffectParameter size{"size", {}, {}, "perturbation at a knot", 0.0};
+    const models::EffectParameter size{"size", {}, {-1.0, 1.0}, "perturbation at a knot", 0.0};
     info.parameters.assign(kPerturbationKnots, knot);
     info.parameters.insert(info.parameters.end(), kPerturbationKnots, size);
     info.states = {{"elapsed_s", 1000.0, "time since the run's start"}};
@@ -139,18 +139,38 @@ struct BoundaryPerturbation : TimePerturbation {
   }
 };
 
-const models::Effect& effect_of(Perturbation perturbation) {
-  static const std::map<Perturbation, models::Effect> effects{
-      {Perturbation::kForce, models::make_effect<ForcePerturbation>()},
-      {Perturbation::kTireLoss, models::make_effect<TireLossPerturbation>()},
-      {Perturbation::kTireHeat, models::make_effect<TireHeatPerturbation>()},
-      {Perturbation::kGasHeat, models::make_effect<GasHeatPerturbation>()},
-      {Perturbation::kGasMass, models::make_effect<GasMassPerturbation>()},
-      {Perturbation::kBoundary, models::make_effect<BoundaryPerturbation>()},
-      {Perturbation::kSlip, models::make_effect<SlipPerturbation>()},
-      {Perturbation::kInertia, models::make_effect<InertiaPerturbation>()},
-      {Perturbation::kDrag, models::make_effect<DragPerturbation>()}};
-  return effects.at(perturbation);
+/// A perturbation as a term of a hypothesis: its own parameters are the sizes at the knots, in which a run is cut.
+class PerturbationTerm : public Term {
+ public:
+  template <class E>
+  static PerturbationTerm make() {
+    return PerturbationTerm(models::make_effect<E>());
+  }
+  const models::EffectInfo& info() const override { return info_; }
+  const models::Effect& effect() const override { return effect_; }
+  std::vector<double> list_known(const PreparedRun& run) const override { return find_perturbation_knots(run); }
+
+ private:
+  explicit PerturbationTerm(models::Effect effect) : effect_(std::move(effect)), info_(effect_.info) {
+    info_.parameters.erase(info_.parameters.begin(), info_.parameters.begin() + kPerturbationKnots);
+  }
+
+  models::Effect effect_;
+  models::EffectInfo info_;
+};
+
+const Term& find_term(Perturbation perturbation) {
+  static const std::map<Perturbation, PerturbationTerm> terms{
+      {Perturbation::kForce, PerturbationTerm::make<ForcePerturbation>()},
+      {Perturbation::kTireLoss, PerturbationTerm::make<TireLossPerturbation>()},
+      {Perturbation::kTireHeat, PerturbationTerm::make<TireHeatPerturbation>()},
+      {Perturbation::kGasHeat, PerturbationTerm::make<GasHeatPerturbation>()},
+      {Perturbation::kGasMass, PerturbationTerm::make<GasMassPerturbation>()},
+      {Perturbation::kBoundary, PerturbationTerm::make<BoundaryPerturbation>()},
+      {Perturbation::kSlip, PerturbationTerm::make<SlipPerturbation>()},
+      {Perturbation::kInertia, PerturbationTerm::make<InertiaPerturbation>()},
+      {Perturbation::kDrag, PerturbationTerm::make<DragPerturbation>()}};
+  return terms.at(perturbation);
 }
 
 /// A part of a run in which a perturbation is continuous.
@@ -181,29 +201,6 @@ std::vector<Piece> find_pieces(const PreparedRun& run) {
     pieces.erase(shortest);
   }
   return pieces;
-}
-
-/// Simulates a run with one perturbation at size 0, differentiated by its sizes.
-void simulate_perturbation(const PreparedSet& set, const models::Context<double>& context, std::size_t r,
-                           const std::vector<double>& knots_s, PerturbationFamily& family,
-                           const models::Effect& perturbation) {
-  const std::size_t parameters = 2 * kPerturbationKnots;
-  models::Corner<Jet> corner(models::convert_context<Jet>(context),
-                             {{&perturbation, std::vector<double>(parameters, 0.0)}});
-  for (std::size_t i = 0; i < kPerturbationKnots; ++i) {
-    corner.effects()[0].parameters[i] = Jet(knots_s[i]);
-    corner.effects()[0].parameters[kPerturbationKnots + i] = Jet(0.0, static_cast<int>(i));
-  }
-  const PreparedRun& run = set.runs()[r];
-  const auto recording = run.replay->simulate(set.source(), run.measured, corner, rigs::Detail::kMeasured);
-  for (const Series& series : set.series()) {
-    if (series.run != r) continue;
-    const std::vector<Jet>& simulated = recording.channel(set.channels()[series.channel]);
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      const Jet mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
-      family.columns.row(at(series.first_residual + k)) = mean.v.transpose();
-    }
-  }
 }
 
 /// A sensor's own perturbation: it moves its channel alone.
@@ -245,26 +242,21 @@ std::vector<double> find_perturbation_knots(const PreparedRun& run) {
 
 std::vector<PerturbationFamily> calc_perturbations(const Study& study) {
   const PreparedSet& set = study.set;
-  const std::vector<estimation::FreeParameter>& base = study.base;
-  const Eigen::VectorXd& unknowns = study.null.fit.unknowns;
-  models::Context<double> context = set.context();
-  for (std::size_t i = 0; i < base.size(); ++i) {
-    estimation::find_parameter(context, base[i].key) = base[i].start_SI + base[i].prior_sd_SI * unknowns[at(i)];
+  std::vector<PerturbationFamily> families;
+  std::vector<Model> models;
+  for (const NamedPerturbation& one : set.kind().perturbations()) {
+    families.push_back({one.name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))});
+    models.push_back(study.make_model({{{&find_term(one.perturbation), 1}}}));
   }
+  Eigen::VectorXd unknowns(at(kPerturbationKnots + study.base.size()));
+  unknowns << Eigen::VectorXd::Zero(at(kPerturbationKnots)), study.null.fit.unknowns.head(at(study.base.size()));
+  parallel_for(set.runs().size() * models.size(), study.settings.threads, [&](std::size_t job) {
+    const std::size_t f = job % models.size();
+    if (models[f].derive_run(job / models.size(), unknowns, families[f].columns)) return;
+    throw RunFailure("a perturbation of the fitted baseline cannot be simulated");
+  });
   std::vector<std::vector<double>> knots_s;
   for (const PreparedRun& run : set.runs()) knots_s.push_back(find_perturbation_knots(run));
-  const std::vector<NamedPerturbation> perturbations = set.kind().perturbations();
-  std::vector<PerturbationFamily> families;
-  for (const NamedPerturbation& perturbation : perturbations) {
-    families.push_back({perturbation.name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))});
-  }
-  const std::size_t runs = set.runs().size();
-  parallel_for(runs * perturbations.size(), study.settings.threads, [&](std::size_t job) {
-    const std::size_t run = job / perturbations.size();
-    const std::size_t perturbation = job % perturbations.size();
-    simulate_perturbation(set, context, run, knots_s[run], families[perturbation],
-                          effect_of(perturbations[perturbation].perturbation));
-  });
   constexpr std::array<std::pair<const char*, const char*>, 3> kSensors{
       {{"liner_temperature_degC", "temperature sensor"},
        {"cavity_pressure_kPa", "pressure sensor"},

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "diagnosis/comparison/evidence.h"
 #include "sim/core/units.h"
@@ -18,11 +19,10 @@ constexpr double kNormal95 = 1.959963984540054;
 
 bool was_fitted(const Candidate& candidate) { return std::isfinite(candidate.fit.cost); }
 
-/// How far a fitted size is from the value at which its effect does nothing, in prior units.
-double distance_from_off(const Model& model, const Candidate& candidate, std::size_t column) {
-  const models::EffectParameter& declared = model.declaration(model.own_parameters()[column]);
-  const PriorUnits value = model.own_value(column, candidate.fit.unknowns[at(column)]);
-  const double off_SI = declared.off.value_or(0.0) * unit_of_key(declared.key).factor;
+/// How far a fitted parameter is from the value at which its term does nothing, in prior units.
+double distance_from_off(const Model::OwnParameter& own, double u) {
+  const PriorUnits value = own.value_at(u);
+  const double off_SI = own.declared->off.value_or(0.0) * unit_of_key(own.declared->key).factor;
   return std::abs((value.value_SI - off_SI) / value.derivative_SI);
 }
 
@@ -31,27 +31,18 @@ double distance_from_off(const Model& model, const Candidate& candidate, std::si
 std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Candidate& candidate) {
   const Model model = study.make_model(candidate.fit.hypothesis);
   const Eigen::MatrixXd covariance =
-      Evidence(study.discrepancy, candidate.fit).calc_term(candidate.amplitudes, true).covariance;
+      Evidence(study.discrepancy, candidate.fit).solve(candidate.amplitudes, true).covariance;
   std::vector<ParameterEstimate> estimates;
   for (std::size_t i = 0; i < model.own_count(); ++i) {
-    const models::EffectParameter& declared = model.declaration(model.own_parameters()[i]);
-    const models::Effect& effect = *candidate.fit.hypothesis.effects[model.own_parameters()[i].effect].effect;
-    const Unit unit = unit_of_key(declared.key);
+    const Model::OwnParameter& own = model.own_parameters()[i];
+    const Unit unit = unit_of_key(own.declared->key);
     const double u = candidate.fit.unknowns[at(i)];
-    const bool is_size = model.own_parameters()[i].index == 0;
-    const double of_law_u =
-        is_size ? study.settings.model_error.size_share * distance_from_off(model, candidate, i) : 0.0;
+    const double of_law_u = own.is_size() ? study.settings.model_error.size_share * distance_from_off(own, u) : 0.0;
     const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
-    const auto value_at = [&](double shifted) { return model.own_value(i, shifted).value_SI / unit.factor; };
-    ParameterEstimate estimate;
-    estimate.name = fmt::format("{}.{}", effect.info.id, declared.key);
-    estimate.value = value_at(u);
-    estimate.sd = std::abs(model.own_value(i, u).derivative_SI) / unit.factor * sd_u;
-    const double ends[] = {value_at(u - kNormal95 * sd_u), value_at(u + kNormal95 * sd_u)};
-    estimate.low_95 = std::min(ends[0], ends[1]);
-    estimate.high_95 = std::max(ends[0], ends[1]);
-    estimate.unit = unit.symbol;
-    estimates.push_back(estimate);
+    const auto value_at = [&](double shifted) { return own.value_at(shifted).value_SI / unit.factor; };
+    const auto [low, high] = std::minmax({value_at(u - kNormal95 * sd_u), value_at(u + kNormal95 * sd_u)});
+    estimates.push_back({fmt::format("{}.{}", own.term->name(), own.declared->key), value_at(u),
+                         std::abs(own.value_at(u).derivative_SI) / unit.factor * sd_u, low, high, unit.symbol});
   }
   return estimates;
 }
@@ -112,16 +103,16 @@ std::vector<std::string> find_objections(const Study& study, const Candidate& ca
   const Model model = study.make_model(candidate.fit.hypothesis);
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
-    const std::string& id = candidate.fit.hypothesis.effects[own.effect].effect->info.id;
+    const char* key = own.declared->key;
     const double u = candidate.fit.unknowns[at(i)];
     if (std::abs(u) > thresholds::kTail_sd) {
-      objections.push_back(fmt::format(
-          "{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", model.declaration(own).key,
-          id, model.own_value(i, u).value_SI / unit_of_key(model.declaration(own).key).factor, std::abs(u)));
+      objections.push_back(
+          fmt::format("{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", key,
+                      own.term->name(), own.value_at(u).value_SI / unit_of_key(key).factor, std::abs(u)));
     }
-    if (own.index == 0 &&
-        differs_between_runs(study, candidate, i, thresholds::kRunSizeShare * distance_from_off(model, candidate, i))) {
-      objections.push_back(fmt::format("its size ({}) differs from run to run", model.declaration(own).key));
+    if (own.is_size() &&
+        differs_between_runs(study, candidate, i, thresholds::kRunSizeShare * distance_from_off(own, u))) {
+      objections.push_back(fmt::format("its size ({}) differs from run to run", key));
     }
   }
   return objections;
@@ -162,10 +153,10 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
 std::map<std::string, double> find_probabilities(const Study& study, const Comparison& comparison) {
   std::map<std::string, double> probability{{"none", study.null.probability},
                                             {"unknown", comparison.unknown_probability}};
-  for (const models::Effect* effect : study.settings.effects) {
-    double& sum = probability[effect->info.id];
+  for (const Term* term : study.settings.terms) {
+    double& sum = probability[term->name()];
     for (const Candidate& candidate : comparison.candidates) {
-      if (candidate.fit.hypothesis.contains(*effect)) sum += candidate.probability;
+      if (candidate.fit.hypothesis.contains(*term)) sum += candidate.probability;
     }
   }
   return probability;
@@ -184,16 +175,16 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     if (taken.count(lead) > 0) continue;
     if (!causes.empty() && lead->posterior() < thresholds::kWorthNaming) break;
     Cause cause;
-    cause.effects = lead->fit.hypothesis.ids();
+    cause.effects = lead->fit.hypothesis.names();
     std::map<std::string, double> beside;
     for (const Candidate* other : left) {
       if (taken.count(other) > 0) continue;
       if (other != lead && expected_log_bayes_factor(study, *lead, *other) >= thresholds::kToldApart_nats) continue;
       taken.insert(other);
       cause.probability += other->probability;
-      if (other->fit.hypothesis.effects.size() > lead->fit.hypothesis.effects.size()) continue;  // lead, and a trifle
+      if (other->fit.hypothesis.terms.size() > lead->fit.hypothesis.terms.size()) continue;  // the lead with one more
       if (!is_open_beside(*lead, *other)) continue;
-      for (const std::string& id : other->fit.hypothesis.ids()) beside[id] += other->posterior();
+      for (const std::string& name : other->fit.hypothesis.names()) beside[name] += other->posterior();
     }
     cause.indistinguishable_from = find_named_beside(cause.effects, lead->posterior(), std::move(beside));
     cause.parameters = estimate_parameters(study, *lead);
@@ -227,19 +218,16 @@ std::vector<std::string> find_not_excluded(const Study& study, const Comparison&
   const std::map<std::string, double> probability = find_probabilities(study, comparison);
   double likeliest = probability.at("none");
   for (const Cause& cause : causes) likeliest = std::max(likeliest, cause.probability);
+  const auto is_named = [&causes](const std::string& name) {
+    if (causes.empty()) return false;
+    const auto& [effects, alike] = std::tie(causes.front().effects, causes.front().indistinguishable_from);
+    return std::count(effects.begin(), effects.end(), name) + std::count(alike.begin(), alike.end(), name) > 0;
+  };
   std::vector<std::string> hidden;
-  for (const models::Effect* effect : study.settings.effects) {
-    double detectability = 0.0;
-    for (const Screened& one : comparison.screened) {
-      if (one.effect.effect == effect) detectability = std::max(detectability, one.detectability);
-    }
-    const std::string& id = effect->info.id;
-    const bool named =
-        !causes.empty() && (std::count(causes.front().effects.begin(), causes.front().effects.end(), id) +
-                            std::count(causes.front().indistinguishable_from.begin(),
-                                       causes.front().indistinguishable_from.end(), id)) > 0;
-    const bool is_open = probability.at(id) >= std::exp(-thresholds::kToldApart_nats) * likeliest;
-    if ((detectability < thresholds::kDetectableEffect_sd || is_open) && !named) hidden.push_back(id);
+  for (const Term* term : study.settings.terms) {
+    const bool is_open = probability.at(term->name()) >= std::exp(-thresholds::kToldApart_nats) * likeliest;
+    const bool would_show = comparison.find_detectability(*term) >= thresholds::kDetectableEffect_sd;
+    if ((!would_show || is_open) && !is_named(term->name())) hidden.push_back(term->name());
   }
   return hidden;
 }

@@ -31,10 +31,10 @@ Splits find_splits(const std::vector<OpenHypothesis>& open,
                    const std::function<bool(std::size_t, std::size_t)>& are_apart) {
   Splits splits;
   const auto add = [&](const Hypothesis& in, const Hypothesis& not_in) {
-    for (const ActingEffect& on : in.effects) {
-      const std::string& id = on.effect->info.id;
-      const bool known = std::find(splits.effects.begin(), splits.effects.end(), id) != splits.effects.end();
-      if (!known && !not_in.contains(*on.effect)) splits.effects.push_back(id);
+    for (const SignedTerm& one : in.terms) {
+      const std::string& name = one.term->name();
+      const bool known = std::find(splits.effects.begin(), splits.effects.end(), name) != splits.effects.end();
+      if (!known && !not_in.contains(*one.term)) splits.effects.push_back(name);
     }
   };
   const auto is_likeliest = [&](std::size_t i) { return open[i].probability >= open.front().probability; };

@@ -127,8 +127,8 @@ void PredictedTest::add_clock_reading(const Study& study, const std::vector<Open
     const Model model = study.make_model(open[h].hypothesis);
     for (std::size_t i = 0; i < model.own_count(); ++i) {
       const Model::OwnParameter& own = model.own_parameters()[i];
-      if (own.index != 0 || model.hypothesis().effects[own.effect].effect->info.id != "clock_shift") continue;
-      const PriorUnits shift_s = model.own_value(i, open[h].parameters[at(i)]);
+      if (!own.is_size() || own.term->name() != "clock_shift") continue;
+      const PriorUnits shift_s = own.value_at(open[h].parameters[at(i)]);
       prediction.mean[row] = shift_s.value_SI / sd_s;
       prediction.spread.row(row) = shift_s.derivative_SI / sd_s * open[h].spread.row(at(i));
     }

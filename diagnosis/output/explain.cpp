@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "models/effect.h"
+#include "diagnosis/terms/term.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -61,10 +61,9 @@ std::string describe_prior(const models::EffectParameter& parameter) {
 std::string describe_confusions(const models::EffectInfo& info) {
   if (info.confused_with.empty()) return "  none known\n";
   std::string text;
-  const std::vector<std::string> ids = models::effect_ids();
-  for (const std::string& id : info.confused_with) {
-    const bool known = std::find(ids.begin(), ids.end(), id) != ids.end();
-    text += wrap(known ? id + ": " + models::find_effect(id).info.summary : id, kIndent);
+  for (const std::string& name : info.confused_with) {
+    const Term* term = look_up_term(name);
+    text += wrap(term != nullptr ? name + ": " + term->info().summary : name, kIndent);
   }
   return text;
 }
@@ -107,7 +106,8 @@ std::string describe(const models::EffectInfo& info) {
 }  // namespace
 
 std::vector<std::string> explainable_names() {
-  std::vector<std::string> names = models::effect_ids();
+  std::vector<std::string> names;
+  for (const Term* term : all_terms()) names.push_back(term->name());
   names.insert(names.end(), {"none", "unknown"});
   return names;
 }
@@ -117,9 +117,7 @@ std::string explain_effect(const std::string& name) {
   if (name == "unknown") {
     return "unknown: something outside the catalog\n" + wrap(kUnknown, kIndent) + section("Next", kUnknownNext);
   }
-  for (const models::Effect* effect : models::all_effects()) {
-    if (effect->info.id == name) return describe(effect->info);
-  }
+  if (const Term* term = look_up_term(name)) return describe(term->info());
   InputProblem problem = unknown_name("effect", name, explainable_names());
   if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
   problem.file = "command line";

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/output/explain.h"
-#include "models/effect.h"
+#include "diagnosis/terms/term.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -118,14 +118,6 @@ std::string describe_alternatives(const Cause& cause) {
   return join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why;
 }
 
-/// The summary of an effect, where the catalog has it.
-std::string meaning_of(const std::string& id) {
-  for (const models::Effect* effect : models::all_effects()) {
-    if (effect->info.id == id) return effect->info.summary;
-  }
-  return id;
-}
-
 /// Why the files cannot be right, in full.
 std::string doubt_lines(const Diagnosis& diagnosis) {
   return line("Cause", "none is named until this is mended:") + note("", diagnosis.doubt);
@@ -144,7 +136,8 @@ std::string second_line(const Diagnosis& diagnosis) {
   }
   if (!more.empty()) return more;
   if (!cause.indistinguishable_from.empty()) return line("or as well", describe_alternatives(cause));
-  return line("", meaning_of(cause.effects.front()));
+  const Term* term = look_up_term(cause.effects.front());
+  return line("", term != nullptr ? term->info().summary : cause.effects.front());
 }
 
 std::string where_line(const Diagnosis& diagnosis) {

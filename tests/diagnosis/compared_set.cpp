@@ -13,9 +13,9 @@ using namespace rollrig::diagnosis;
 
 namespace {
 
-StudySettings with_effects(const std::vector<std::string>& effects) {
+StudySettings with_terms(const std::vector<std::string>& terms) {
   StudySettings settings;
-  for (const std::string& id : effects) settings.effects.push_back(&models::find_effect(id));
+  for (const std::string& id : terms) settings.terms.push_back(&find_term(id));
   return settings;
 }
 
@@ -65,8 +65,8 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
   return add_noise(set, kSeed);
 }
 
-ComparedSet::ComparedSet(const measurements::MeasurementSet& measured, const std::vector<std::string>& effects)
-    : study(measured, with_effects(effects)), comparison(compare_models(study)) {}
+ComparedSet::ComparedSet(const measurements::MeasurementSet& measured, const std::vector<std::string>& terms)
+    : study(measured, with_terms(terms)), comparison(compare_models(study)) {}
 
 ComparedSet bearings_or_zero() {
   return {measure_on_drum({act("bearing_warmup")}, {plan_skim_run()}), {"bearing_warmup", "torque_zero_drift"}};
@@ -77,7 +77,7 @@ std::vector<OpenHypothesis> make_open(const Study& study, const std::vector<std:
   const double share = 1.0 / static_cast<double>(effects.size());
   for (const std::string& id : effects) {
     Hypothesis hypothesis;
-    if (id != "none") hypothesis = hypothesis.with({&models::find_effect(id), 1});
+    if (id != "none") hypothesis = hypothesis.with({&find_term(id), 1});
     const auto count = static_cast<Eigen::Index>(study.make_model(hypothesis).parameter_count());
     const auto base = static_cast<Eigen::Index>(study.base.size());
     Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(count, count);

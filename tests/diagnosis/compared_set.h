@@ -20,7 +20,7 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
                                              std::vector<measurements::MeasuredRun> runs);
 
 struct ComparedSet {
-  ComparedSet(const measurements::MeasurementSet& measured, const std::vector<std::string>& effects);
+  ComparedSet(const measurements::MeasurementSet& measured, const std::vector<std::string>& terms);
 
   std::vector<diagnosis::OpenHypothesis> find_open() const { return find_open_hypotheses(study, comparison); }
   std::vector<diagnosis::NextTest> propose() const { return propose_tests(study, find_open()); }

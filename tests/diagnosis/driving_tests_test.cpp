@@ -17,7 +17,7 @@ namespace {
 /// A hypothesis whose parameters are known to a third of their priors.
 OpenHypothesis open(const diagnosis::Study& study, const std::string& effect) {
   diagnosis::Hypothesis hypothesis;
-  if (!effect.empty()) hypothesis = hypothesis.with({&models::find_effect(effect), 1});
+  if (!effect.empty()) hypothesis = hypothesis.with({&diagnosis::find_term(effect), 1});
   const auto count = static_cast<Eigen::Index>(study.make_model(hypothesis).parameter_count());
   return {hypothesis, Eigen::VectorXd::Zero(count), Eigen::MatrixXd::Identity(count, count) / 3.0, 0.5};
 }

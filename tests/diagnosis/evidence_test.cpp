@@ -128,10 +128,10 @@ TEST_CASE("the evidence of a linear problem is the integral over its unknowns", 
     for (const Amplitudes& amplitudes : all) {
       INFO(unknowns << " unknowns, amplitude " << amplitudes[0]);
       const Integral expected = integrate(Density(problem, amplitudes), unknowns);
-      const Evidence::Term term = problem.evidence().calc_term(amplitudes, true);
-      CHECK(term.log_value == Approx(expected.log_value).margin(1e-6));
-      CHECK((problem.fit.unknowns + term.step - expected.mean).norm() < 1e-6);
-      CHECK((term.covariance - expected.covariance).norm() < 1e-6);
+      const Evidence::Solution solution = problem.evidence().solve(amplitudes, true);
+      CHECK(solution.log_value == Approx(expected.log_value).margin(1e-6));
+      CHECK((problem.fit.unknowns + solution.step - expected.mean).norm() < 1e-6);
+      CHECK((solution.covariance - expected.covariance).norm() < 1e-6);
     }
   }
 }
@@ -142,15 +142,14 @@ TEST_CASE("a discrepancy that stands on another counts both", "[fast]") {
   const Amplitudes below{0.3, 2.0, 0.7};
   const Discrepancy of_conditions(problem.discrepancy, below);
   const Evidence above(of_conditions, problem.fit);
-  CHECK(above.calc_term({0.0, 0.0, 0.0}).log_value ==
-        Approx(problem.evidence().calc_term(below).log_value).margin(1e-6));
+  CHECK(above.solve({0.0, 0.0, 0.0}).log_value == Approx(problem.evidence().solve(below).log_value).margin(1e-6));
 }
 
 TEST_CASE("the step leads to the best unknowns, from wherever the problem is expanded", "[fast]") {
   const Problem problem(3);
   const Amplitudes amplitudes{0.3, 2.0, 0.7};
-  const Evidence::Term term = problem.evidence().calc_term(amplitudes);
-  const Eigen::VectorXd best = problem.fit.unknowns + term.step;
+  const Evidence::Solution solution = problem.evidence().solve(amplitudes);
+  const Eigen::VectorXd best = problem.fit.unknowns + solution.step;
   const Density density(problem, amplitudes);
   for (Eigen::Index i = 0; i < 3; ++i) {
     for (const double off : {-0.1, 0.1}) {
@@ -161,11 +160,11 @@ TEST_CASE("the step leads to the best unknowns, from wherever the problem is exp
   }
   Problem moved(3);
   moved.fit.unknowns = best;
-  moved.fit.residuals += moved.fit.jacobian * term.step;
-  const Evidence::Term there = moved.evidence().calc_term(amplitudes);
+  moved.fit.residuals += moved.fit.jacobian * solution.step;
+  const Evidence::Solution there = moved.evidence().solve(amplitudes);
   CHECK(there.step.norm() < 1e-9);
-  CHECK(there.log_value == Approx(term.log_value).margin(1e-7));
-  CHECK(there.chi2 == Approx(term.chi2));
+  CHECK(there.log_value == Approx(solution.log_value).margin(1e-7));
+  CHECK(there.chi2 == Approx(solution.chi2));
 }
 
 TEST_CASE("an unknown that nothing depends on costs nothing", "[fast]") {
@@ -176,8 +175,7 @@ TEST_CASE("an unknown that nothing depends on costs nothing", "[fast]") {
   two.fit.jacobian.col(0) = one.fit.jacobian.col(0);
   two.fit.jacobian.col(1).setZero();
   const Amplitudes amplitudes{0.3, 2.0, 0.7};
-  CHECK(two.evidence().calc_term(amplitudes).log_value ==
-        Approx(one.evidence().calc_term(amplitudes).log_value).margin(1e-9));
+  CHECK(two.evidence().solve(amplitudes).log_value == Approx(one.evidence().solve(amplitudes).log_value).margin(1e-9));
 }
 
 TEST_CASE("an evidence over amplitudes is the sum over all their combinations", "[fast]") {
@@ -191,7 +189,7 @@ TEST_CASE("an evidence over amplitudes is the sum over all their combinations", 
     for (std::size_t j = 0; j < 3; ++j) {
       combinations.push_back({priors[0].amplitudes[i], priors[1].amplitudes[j], 0.5});
       logs.push_back(std::log(priors[0].weights[i] * priors[1].weights[j]) +
-                     evidence.calc_term(combinations.back()).log_value);
+                     evidence.solve(combinations.back()).log_value);
     }
   }
   const Evidence::Sum sum = evidence.integrate(priors);

@@ -26,7 +26,7 @@ Gap find(const FittedBaseline& fitted, const Candidate* cause = nullptr) { retur
 /// An effect fitted to a set by itself.
 Candidate fit_effect(const FittedBaseline& fitted, const char* id) {
   diagnosis::StudySettings settings;
-  settings.effects = {&models::find_effect(id)};
+  settings.terms = {&diagnosis::find_term(id)};
   diagnosis::Study study(fitted.set.source(), settings);
   const diagnosis::Comparison comparison = diagnosis::compare_models(study);
   REQUIRE(comparison.candidates.size() == 1);

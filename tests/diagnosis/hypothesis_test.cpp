@@ -1,4 +1,4 @@
-#include "diagnosis/comparison/hypothesis.h"
+#include "diagnosis/terms/hypothesis.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include "sim/core/units.h"
 
 using namespace rollrig;
-using diagnosis::ActingEffect;
 using diagnosis::Hypothesis;
+using diagnosis::SignedTerm;
 using models::EffectParameter;
 
 namespace {
@@ -17,7 +17,8 @@ namespace {
 void for_each_parameter(const std::function<void(const EffectParameter& parameter, int sign)>& act) {
   for (const models::Effect* effect : models::all_effects()) {
     for (std::size_t i = 0; i < effect->info.parameters.size(); ++i) {
-      const std::vector<int> signs = i == 0 ? diagnosis::possible_signs(*effect) : std::vector<int>{1};
+      const std::vector<int> signs =
+          i == 0 ? diagnosis::possible_signs(effect->info.parameters.front()) : std::vector<int>{1};
       for (const int sign : signs) {
         INFO(effect->info.id << "." << effect->info.parameters[i].key << ", sign " << sign);
         act(effect->info.parameters[i], sign);
@@ -30,7 +31,7 @@ double in_key_unit(const EffectParameter& parameter, double value_SI) {
   return value_SI / unit_of_key(parameter.key).factor;
 }
 
-ActingEffect on(const char* id, int sign = 1) { return {&models::find_effect(id), sign}; }
+SignedTerm on(const char* id, int sign = 1) { return {&diagnosis::find_term(id), sign}; }
 
 }  // namespace
 
@@ -77,7 +78,7 @@ TEST_CASE("a size has the sign that is asked for", "[fast]") {
   int both = 0;
   for (const models::Effect* effect : models::all_effects()) {
     const EffectParameter& size = effect->info.parameters.front();
-    const std::vector<int> signs = diagnosis::possible_signs(*effect);
+    const std::vector<int> signs = diagnosis::possible_signs(effect->info.parameters.front());
     INFO(effect->info.id);
     CHECK(signs.size() == (size.prior.either_sign ? 2 : 1));
     if (signs.size() < 2) continue;
@@ -121,19 +122,19 @@ TEST_CASE("a start put into prior units lies inside of the bounds", "[fast]") {
   });
 }
 
-TEST_CASE("effects of a hypothesis stand in the order of the registry", "[fast]") {
+TEST_CASE("terms of a hypothesis stand in one order, however it was put together", "[fast]") {
   const Hypothesis none;
   CHECK(none.name() == "none");
-  CHECK(none.ids().empty());
+  CHECK(none.names().empty());
   const Hypothesis one = none.with(on("slow_leak")).with(on("bearing_warmup"));
   const Hypothesis other = none.with(on("bearing_warmup")).with(on("slow_leak"));
-  CHECK(one.ids() == other.ids());
+  CHECK(one.names() == other.names());
   CHECK(one.name() == other.name());
-  CHECK(one.ids().size() == 2);
-  CHECK(one.contains(models::find_effect("slow_leak")));
-  CHECK_FALSE(one.contains(models::find_effect("rim_heat")));
+  CHECK(one.names().size() == 2);
+  CHECK(one.contains(diagnosis::find_term("slow_leak")));
+  CHECK_FALSE(one.contains(diagnosis::find_term("rim_heat")));
   const Hypothesis late = none.with(on("clock_shift", -1)).with(on("rim_heat"));
-  for (const ActingEffect& acting : late.effects) {
-    CHECK(acting.sign == (acting.effect->info.id == "clock_shift" ? -1 : 1));
+  for (const SignedTerm& signed_term : late.terms) {
+    CHECK(signed_term.sign == (signed_term.term->name() == "clock_shift" ? -1 : 1));
   }
 }

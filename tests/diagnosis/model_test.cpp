@@ -30,7 +30,7 @@ const std::vector<estimation::FreeParameter>& base() {
 
 Hypothesis with(const std::vector<const char*>& ids, int sign = 1) {
   Hypothesis hypothesis;
-  for (const char* id : ids) hypothesis = hypothesis.with({&models::find_effect(id), sign});
+  for (const char* id : ids) hypothesis = hypothesis.with({&diagnosis::find_term(id), sign});
   return hypothesis;
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("residuals of the truth are of unit variance", "[fast]") {
 TEST_CASE("a parameter out of its range is no hypothesis", "[fast]") {
   const Model model(two_runs(), base(), with({"bearing_warmup"}));
   Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
-  unknowns[0] = model.own_bounds(0).upper + 0.1;
+  unknowns[0] = model.own_parameters()[0].bounds().upper + 0.1;
   Eigen::VectorXd residuals;
   CHECK_FALSE(model.evaluate(unknowns, 1, residuals, nullptr));
 }

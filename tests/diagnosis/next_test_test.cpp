@@ -68,8 +68,8 @@ TEST_CASE("warming bearings and a drifting zero are split by the torque at stand
   const Study& study = compared().study;
   std::vector<OpenHypothesis> open = compared().find_open();
   REQUIRE(open.size() >= 2);
-  CHECK(open[0].hypothesis.ids() == std::vector<std::string>{"bearing_warmup"});
-  CHECK(open[1].hypothesis.ids() == std::vector<std::string>{"torque_zero_drift"});
+  CHECK(open[0].hypothesis.names() == std::vector<std::string>{"bearing_warmup"});
+  CHECK(open[1].hypothesis.names() == std::vector<std::string>{"torque_zero_drift"});
   CHECK(open[0].probability == Approx(open[1].probability));  // the set cannot tell them apart
   const std::vector<NextTest> proposed = compared().propose();
   REQUIRE(!proposed.empty());
@@ -130,7 +130,7 @@ TEST_CASE("without a gap the test is proposed that would show what is not exclud
   const tests::ComparedSet compared(tests::measure_on_drum({}, {tests::plan_skim_run()}), {"standing_wave"});
   const std::vector<OpenHypothesis> open = compared.find_open();
   REQUIRE(open.size() == 2);
-  CHECK(open[0].hypothesis.effects.empty());
+  CHECK(open[0].hypothesis.terms.empty());
   const std::vector<NextTest> proposed = compared.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().test == find_judged(judge_tests(compared.study, open), "fast_steps").test.description);
@@ -173,7 +173,7 @@ TEST_CASE("to repeat a run that could not show an effect tells next to nothing o
 TEST_CASE("with nothing open no test is proposed", "[fast]") {
   tests::ComparedSet compared = tests::bearings_or_zero();
   compared.comparison.candidates.resize(1);
-  compared.study.settings.effects.clear();
+  compared.study.settings.terms.clear();
   CHECK(compared.propose().empty());
 }
 
@@ -199,5 +199,5 @@ TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
   REQUIRE(runs.size() >= 2);
   const tests::ComparedSet after(tests::measure_on_drum(truth, runs), effects);
   CHECK(find_factor(after) >= thresholds::kToldApart_nats);
-  CHECK(after.comparison.candidates.front().fit.hypothesis.contains(models::find_effect("tire_loss_in_skim")));
+  CHECK(after.comparison.candidates.front().fit.hypothesis.contains(find_term("tire_loss_in_skim")));
 }

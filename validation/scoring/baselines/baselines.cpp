@@ -40,9 +40,8 @@ diagnosis::Cause make_cause(const Naming& naming, const LinearData& data, const 
   cause.effects = find_named(data, naming.chosen);
   cause.probability = naming.named_probability;
   for (const std::string& effect : cause.effects) {
-    const auto of = std::find_if(chosen.begin(), chosen.end(), [&effect](const ChosenEffect& one) {
-      return one.tried.effect.effect->info.id == effect;
-    });
+    const auto of = std::find_if(chosen.begin(), chosen.end(),
+                                 [&effect](const ChosenEffect& one) { return one.tried.term.term->name() == effect; });
     cause.parameters.push_back(estimate_size(*of));
   }
   return cause;

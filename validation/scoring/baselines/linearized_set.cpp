@@ -17,33 +17,15 @@ using models::EffectParameter;
 
 namespace {
 
-bool holds(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-/// As in the diagnosis: effects that act on the rig and can be seen there, less those left out.
-std::vector<const models::Effect*> choose_effects(const measurements::MeasurementSet& set, const Settings& settings) {
-  std::vector<const models::Effect*> effects;
-  const models::RigKind kind = diagnosis::kind_of(set).rig_kind();
-  for (const models::Effect* effect : models::all_effects()) {
-    const models::EffectInfo& info = effect->info;
-    const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();
-    const bool in_race = settings.only.empty() || holds(settings.only, info.id);
-    if (models::acts_in(info, kind, set.baseline) && !faint && in_race && !holds(settings.without, info.id)) {
-      effects.push_back(effect);
-    }
-  }
-  return effects;
-}
-
 diagnosis::StudySettings make_settings(const measurements::MeasurementSet& set, const Settings& settings) {
   diagnosis::StudySettings of_study;
-  of_study.effects = choose_effects(set, settings);
+  of_study.terms =
+      diagnosis::choose_terms(diagnosis::kind_of(set).rig_kind(), set.baseline, settings.only, settings.without);
   of_study.threads = 1;
   return of_study;
 }
 
-const EffectParameter& size_of(const TriedEffect& tried) { return tried.effect.effect->info.parameters.front(); }
+const EffectParameter& size_of(const TriedEffect& tried) { return tried.term.term->parameters().front(); }
 
 struct Size {
   double off = 0.0;
@@ -54,7 +36,7 @@ struct Size {
 Size find_size(const TriedEffect& tried) {
   const EffectParameter& size = size_of(tried);
   const double factor = unit_of_key(size.key).factor;
-  return {size.off.value_or(0.0), diagnosis::from_prior_units(size, tried.own[0], tried.effect.sign).value_SI / factor};
+  return {size.off.value_or(0.0), diagnosis::from_prior_units(size, tried.own[0], tried.term.sign).value_SI / factor};
 }
 
 /// Own parameters with the size at its amplitude.
@@ -78,11 +60,11 @@ LinearizedSet::LinearizedSet(const measurements::MeasurementSet& measured, const
 
 std::vector<TriedEffect> LinearizedSet::try_effects() const {
   std::vector<TriedEffect> all;
-  for (diagnosis::Screened& screened : diagnosis::screen(study_, study_.null, study_.settings.effects)) {
-    TriedEffect tried{screened.effect, std::move(screened.own), {}};
-    const diagnosis::Model model = study_.make_model(diagnosis::Hypothesis{}.with(tried.effect));
+  for (diagnosis::Screened& screened : diagnosis::screen(study_, study_.null, study_.settings.terms)) {
+    TriedEffect tried{screened.term, std::move(screened.own), {}};
+    const diagnosis::Model model = study_.make_model(diagnosis::Hypothesis{}.with(tried.term));
     const auto simulate = [&] {
-      const Eigen::VectorXd unknowns = diagnosis::insert_own(model, study_.null.fit, *tried.effect.effect, tried.own);
+      const Eigen::VectorXd unknowns = diagnosis::insert_own(model, study_.null.fit, *tried.term.term, tried.own);
       return model.simulate(unknowns, 1, tried.change, nullptr);
     };
     bool done = simulate();
@@ -104,7 +86,7 @@ LinearData LinearizedSet::project(const std::vector<TriedEffect>& tried) const {
   Eigen::MatrixXd changes(study_.null.fit.residuals.size(), at(tried.size()));
   for (std::size_t i = 0; i < tried.size(); ++i) {
     changes.col(at(i)) = tried[i].change;
-    data.effects.push_back(tried[i].effect.effect->info.id);
+    data.effects.push_back(tried[i].term.term->name());
   }
   data.residual = projection.apply(study_.null.fit.residuals);
   data.signatures = projection.apply(changes);
@@ -116,8 +98,8 @@ diagnosis::Candidate LinearizedSet::expand(const std::vector<ChosenEffect>& chos
   std::vector<const ChosenEffect*> acting;
   diagnosis::Candidate candidate;
   for (const ChosenEffect& one : chosen) {
-    if (candidate.fit.hypothesis.contains(*one.tried.effect.effect)) continue;
-    candidate.fit.hypothesis = candidate.fit.hypothesis.with(one.tried.effect);
+    if (candidate.fit.hypothesis.contains(*one.tried.term.term)) continue;
+    candidate.fit.hypothesis = candidate.fit.hypothesis.with(one.tried.term);
     acting.push_back(&one);
   }
   const diagnosis::Model model = study_.make_model(candidate.fit.hypothesis);
@@ -125,10 +107,9 @@ diagnosis::Candidate LinearizedSet::expand(const std::vector<ChosenEffect>& chos
   fit.unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const diagnosis::Model::OwnParameter& own = model.own_parameters()[i];
-    const models::Effect* effect = fit.hypothesis.effects[own.effect].effect;
     const auto of = std::find_if(acting.begin(), acting.end(),
-                                 [&](const ChosenEffect* one) { return one->tried.effect.effect == effect; });
-    const diagnosis::PriorBounds bounds = model.own_bounds(i);
+                                 [&](const ChosenEffect* one) { return one->tried.term.term == own.term; });
+    const diagnosis::PriorBounds bounds = own.bounds();
     fit.unknowns[at(i)] = std::clamp(scale_own(**of)[at(own.index)], bounds.lower, bounds.upper);
   }
   candidate.amplitudes.assign(study_.set.channels().size(), 0.0);
@@ -150,7 +131,7 @@ diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen) {
   const EffectParameter& declared = size_of(chosen.tried);
   const Size size = find_size(chosen.tried);
   diagnosis::ParameterEstimate estimate;
-  estimate.name = fmt::format("{}.{}", chosen.tried.effect.effect->info.id, declared.key);
+  estimate.name = fmt::format("{}.{}", chosen.tried.term.term->name(), declared.key);
   estimate.unit = unit_of_key(declared.key).symbol;
   estimate.value = size.off + chosen.amplitude * (size.tried - size.off);
   estimate.sd = chosen.sd * std::abs(size.tried - size.off);

@@ -9,7 +9,7 @@ namespace rollrig::proof {
 
 /// An effect at one size and shape.
 struct TriedEffect {
-  diagnosis::ActingEffect effect;
+  diagnosis::SignedTerm term;
   Eigen::VectorXd own;     // prior units
   Eigen::VectorXd change;  // by it to the baseline as calibrated, whitened by the sensors
 };

@@ -1,31 +1,31 @@
 #pragma once
-/// What may be true of a measured set: the baseline, with none, one or two effects on top.
+/// What may be true of a measured set: the baseline, alone or with terms on top.
 
 #include <string>
 #include <vector>
 
-#include "models/effect.h"
+#include "diagnosis/terms/term.h"
 
 namespace rollrig::diagnosis {
 
-/// An effect that acts, with the sign of its size where its prior leaves that open.
-struct ActingEffect {
-  const models::Effect* effect = nullptr;
+/// A term with the sign of its size, where its prior leaves that open.
+struct SignedTerm {
+  const Term* term = nullptr;
   int sign = 1;
 
-  bool operator==(const ActingEffect& other) const { return effect == other.effect && sign == other.sign; }
+  bool operator==(const SignedTerm& other) const { return term == other.term && sign == other.sign; }
 };
 
-/// Effects in the order of the registry.
+/// Terms in the order of all_terms().
 struct Hypothesis {
-  std::vector<ActingEffect> effects;
+  std::vector<SignedTerm> terms;
 
-  std::vector<std::string> ids() const;
+  std::vector<std::string> names() const;
   std::string name() const;  // "bearing_warmup", "load_exponent + slow_leak", "none"
-  bool operator==(const Hypothesis& other) const { return effects == other.effects; }
-  bool contains(const models::Effect& effect) const;
-  /// With one more effect, in its place.
-  Hypothesis with(const ActingEffect& added) const;
+  bool operator==(const Hypothesis& other) const { return terms == other.terms; }
+  bool contains(const Term& term) const;
+  /// With one more term, in its place.
+  Hypothesis with(const SignedTerm& added) const;
 };
 
 /// A parameter in units of its prior: u is standard normal before any measurement.
@@ -47,7 +47,7 @@ struct PriorBounds {
 };
 PriorBounds bounds_in_prior_units(const models::EffectParameter& parameter, int sign);
 
-/// Signs that an effect's size may have: 1, or both.
-std::vector<int> possible_signs(const models::Effect& effect);
+/// Signs that a size may have: 1, or both.
+std::vector<int> possible_signs(const models::EffectParameter& size);
 
 }  // namespace rollrig::diagnosis

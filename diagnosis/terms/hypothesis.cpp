@@ -1,4 +1,4 @@
-#include "diagnosis/comparison/hypothesis.h"
+#include "diagnosis/terms/hypothesis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,8 @@ namespace {
 
 using models::Prior;
 
-std::size_t place_of(const models::Effect& effect) {
-  const auto& all = models::all_effects();
-  return static_cast<std::size_t>(std::find(all.begin(), all.end(), &effect) - all.begin());
+std::size_t place_of(const Term* term) {
+  return static_cast<std::size_t>(std::find(all_terms().begin(), all_terms().end(), term) - all_terms().begin());
 }
 
 struct NormalForm {
@@ -32,23 +31,23 @@ NormalForm normal_form_of(const Prior& prior) {
 
 }  // namespace
 
-std::vector<std::string> Hypothesis::ids() const {
-  std::vector<std::string> ids;
-  for (const ActingEffect& on : effects) ids.push_back(on.effect->info.id);
-  return ids;
+std::vector<std::string> Hypothesis::names() const {
+  std::vector<std::string> names;
+  for (const SignedTerm& one : terms) names.push_back(one.term->name());
+  return names;
 }
 
-std::string Hypothesis::name() const { return effects.empty() ? "none" : fmt::format("{}", fmt::join(ids(), " + ")); }
+std::string Hypothesis::name() const { return terms.empty() ? "none" : fmt::format("{}", fmt::join(names(), " + ")); }
 
-bool Hypothesis::contains(const models::Effect& effect) const {
-  return std::any_of(effects.begin(), effects.end(), [&](const ActingEffect& on) { return on.effect == &effect; });
+bool Hypothesis::contains(const Term& term) const {
+  return std::any_of(terms.begin(), terms.end(), [&](const SignedTerm& one) { return one.term == &term; });
 }
 
-Hypothesis Hypothesis::with(const ActingEffect& added) const {
+Hypothesis Hypothesis::with(const SignedTerm& added) const {
   Hypothesis more = *this;
-  more.effects.push_back(added);
-  std::sort(more.effects.begin(), more.effects.end(),
-            [](const auto& a, const auto& b) { return place_of(*a.effect) < place_of(*b.effect); });
+  more.terms.push_back(added);
+  std::sort(more.terms.begin(), more.terms.end(),
+            [](const auto& a, const auto& b) { return place_of(a.term) < place_of(b.term); });
   return more;
 }
 
@@ -92,8 +91,8 @@ PriorBounds bounds_in_prior_units(const models::EffectParameter& parameter, int 
   return {place(lower) + kInside, place(upper) - kInside};
 }
 
-std::vector<int> possible_signs(const models::Effect& effect) {
-  if (effect.info.parameters.front().prior.either_sign) return {1, -1};
+std::vector<int> possible_signs(const models::EffectParameter& size) {
+  if (size.prior.either_sign) return {1, -1};
   return {1};
 }
 

@@ -1,0 +1,51 @@
+#include "diagnosis/terms/term.h"
+
+#include <algorithm>
+
+#include "sim/core/error.h"
+
+namespace rollrig::diagnosis {
+
+// The kinds of terms, a file each.
+std::vector<const Term*> list_effect_terms();
+
+const std::vector<const Term*>& all_terms() {
+  static const std::vector<const Term*> all = [] {
+    std::vector<const Term*> terms;
+    for (const auto list_kind : {list_effect_terms}) {
+      for (const Term* term : list_kind()) terms.push_back(term);
+    }
+    return terms;
+  }();
+  return all;
+}
+
+std::vector<const Term*> choose_terms(models::RigKind machine, models::Baseline baseline,
+                                      const std::vector<std::string>& only, const std::vector<std::string>& without) {
+  const auto holds = [](const auto& list, const auto& one) {
+    return std::find(list.begin(), list.end(), one) != list.end();
+  };
+  std::vector<const Term*> terms;
+  for (const Term* term : all_terms()) {
+    const bool is_seen = models::acts_in(term->info(), machine, baseline) && !holds(term->info().faint_on, machine);
+    const bool is_wanted = (only.empty() || holds(only, term->name())) && !holds(without, term->name());
+    if (is_seen && is_wanted) terms.push_back(term);
+  }
+  return terms;
+}
+
+const Term* look_up_term(const std::string& name) {
+  const auto of_name =
+      std::find_if(all_terms().begin(), all_terms().end(), [&](const Term* term) { return term->name() == name; });
+  return of_name == all_terms().end() ? nullptr : *of_name;
+}
+
+const Term& find_term(const std::string& name) {
+  const Term* term = look_up_term(name);
+  if (term != nullptr) return *term;
+  std::vector<std::string> names;
+  for (const Term* known : all_terms()) names.push_back(known->name());
+  throw InputError(unknown_name("effect", name, names));
+}
+
+}  // namespace rollrig::diagnosis

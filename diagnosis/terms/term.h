@@ -1,0 +1,46 @@
+#pragma once
+/// Terms of hypotheses: what may be added to the baseline.
+
+#include <string>
+#include <vector>
+
+#include "models/effect.h"
+
+namespace rollrig::diagnosis {
+
+struct PreparedRun;
+
+/// A term changes a simulated run by the ports of an effect (models/ports.h): input, losses, heat, and by the port
+/// "trace" what its sensors record. Terms live as long as the program. A kind of terms is a file of this folder and its
+/// line in term.cpp.
+class Term {
+ public:
+  virtual ~Term() = default;
+
+  /// Its name (`id`), own parameters with their priors, the size first, on which machines it acts, how wrong its law
+  /// may be, and what is said of it.
+  virtual const models::EffectInfo& info() const = 0;
+  /// Its parameters: numbers that are known, then the own parameters.
+  virtual const models::Effect& effect() const = 0;
+  /// The known numbers in a run, SI units.
+  virtual std::vector<double> list_known(const PreparedRun& /*run*/) const { return {}; }
+
+  const std::string& name() const { return info().id; }
+  const std::vector<models::EffectParameter>& parameters() const { return info().parameters; }
+  std::size_t known_count() const { return effect().info.parameters.size() - parameters().size(); }
+};
+
+/// Every term that a comparison may try, in the order in which a hypothesis lists them.
+const std::vector<const Term*>& all_terms();
+
+/// Those that act on such a machine against such a baseline and can be seen there: of these the ones in `only` (all
+/// where it is empty), less those in `without`.
+std::vector<const Term*> choose_terms(models::RigKind machine, models::Baseline baseline,
+                                      const std::vector<std::string>& only, const std::vector<std::string>& without);
+
+/// The term of that name, or nullptr.
+const Term* look_up_term(const std::string& name);
+/// Throws InputError with the nearest known name.
+const Term& find_term(const std::string& name);
+
+}  // namespace rollrig::diagnosis
