@@ -1,5 +1,5 @@
 // Sets that cannot be what they are said to be are met before the comparison, and sets that can are let through.
-#include "diagnosis/checks/set_checks.h"
+#include "diagnosis/checks/sample_checks.h"
 
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
