@@ -72,10 +72,11 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
 
 }  // namespace
 
-sim::Recording<double> replay_baseline(const MeasurementSet& set, const MeasuredRun& run) {
+sim::Recording<double> resimulate_baseline(const MeasurementSet& set, const MeasuredRun& run) {
   const MeasurementKind& kind = kind_of(set);
   models::Corner<double> corner(kind.make_context(set), {});
-  sim::Recording<double> recording = kind.make_replay(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
+  sim::Recording<double> recording =
+      kind.make_resimulation(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
   for (std::size_t c = 0; c < recording.channels.size(); ++c) {
     const std::vector<double>& values = recording.values[c];
     if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
@@ -115,7 +116,7 @@ RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const s
 
 RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run) {
   try {
-    return calc_misfit(set, run, replay_baseline(set, run));
+    return calc_misfit(set, run, resimulate_baseline(set, run));
   } catch (const RunFailure& failure) {
     RunMisfit misfit;
     misfit.failure = failure.what();
@@ -123,17 +124,17 @@ RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run) {
   }
 }
 
-Replays replay_all(const MeasurementSet& set, int threads) {
-  Replays replays{std::vector<sim::Recording<double>>(set.runs.size()), std::vector<RunMisfit>(set.runs.size())};
+BaselineRuns resimulate_baseline(const MeasurementSet& set, int threads) {
+  BaselineRuns baseline{std::vector<sim::Recording<double>>(set.runs.size()), std::vector<RunMisfit>(set.runs.size())};
   parallel_for(set.runs.size(), threads, [&](std::size_t r) {
     try {
-      replays.recordings[r] = replay_baseline(set, set.runs[r]);
-      replays.misfits[r] = calc_misfit(set, set.runs[r], replays.recordings[r]);
+      baseline.recordings[r] = resimulate_baseline(set, set.runs[r]);
+      baseline.misfits[r] = calc_misfit(set, set.runs[r], baseline.recordings[r]);
     } catch (const RunFailure& failure) {
-      replays.misfits[r].failure = failure.what();
+      baseline.misfits[r].failure = failure.what();
     }
   });
-  return replays;
+  return baseline;
 }
 
 std::string name_runs(const MeasurementSet& set, const std::vector<std::size_t>& runs) {

@@ -11,7 +11,8 @@ namespace rollrig::diagnosis {
 
 /// A run with the inputs that it recorded, simulated with tire and machine as the files give them, no effect on.
 /// Throws RunFailure.
-sim::Recording<double> replay_baseline(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run);
+sim::Recording<double> resimulate_baseline(const measurements::MeasurementSet& set,
+                                           const measurements::MeasuredRun& run);
 
 /// Rows of a channel that are compared, as the set's kind has it; none where the run does not have the channel.
 std::vector<std::size_t> find_compared_rows(const measurements::MeasurementSet& set,
@@ -28,9 +29,8 @@ constexpr double kLargestMisfit = 10.0;
 
 /// How far a run lies from its simulation, in units of what uncertain parameters and effects of the
 /// catalog can make.
-/// Equation  u = (y - h)/tolerance; tolerance of a force as the set's kind has it (of a drum's torque 20 N R + 0.3
-/// |h|), of a
-///           temperature 5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|
+/// Equation  u = (y - h)/tolerance; tolerance of a force as the set's kind has it (of a drum's torque
+///           20 N R + 0.3 |h|), of a temperature 5 K + 0.4 |h - T_amb|, of a pressure 15 kPa + 0.4 |h - p_cold|
 /// Symbols   y measured, h simulated, R drum radius [m]
 ///           A force with samples of which none can be compared counts as just outside: its speed may not be one.
 /// Source    Assumed: an effect at the upper end of its prior, with the pressure record off by 15 kPa and the air
@@ -45,15 +45,15 @@ struct RunMisfit {
 };
 RunMisfit calc_misfit(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                       const sim::Recording<double>& simulated);
-/// The same with a replay of its own; a run that cannot be simulated has the largest misfit.
+/// The same with a resimulation of its own; a run that cannot be simulated has the largest misfit.
 RunMisfit calc_misfit(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run);
 
 /// Every run of a set as the baseline has it.
-struct Replays {
+struct BaselineRuns {
   std::vector<sim::Recording<double>> recordings;  // empty where a run cannot be simulated
   std::vector<RunMisfit> misfits;
 };
-Replays replay_all(const measurements::MeasurementSet& set, int threads);
+BaselineRuns resimulate_baseline(const measurements::MeasurementSet& set, int threads);
 
 /// "run a", "runs a, b" in the order of their names, or "all runs", for messages.
 std::string name_runs(const measurements::MeasurementSet& set, const std::vector<std::size_t>& runs);

@@ -85,15 +85,15 @@ void report_repair(const MeasurementSet& set, const Repair& repair, SetChecks& c
 /// Whether no sensor of these runs stands still once the mistake is undone.
 bool moves_without(const Repair& repair, MeasurementSet set, const std::vector<std::size_t>& runs, int threads) {
   for (const std::size_t r : runs) repair.undo(set.runs[r]);
-  const Stuck left = find_stuck(set, replay_all(set, threads));
+  const Stuck left = find_stuck(set, resimulate_baseline(set, threads));
   return std::none_of(left.rows.begin(), left.rows.end(), [&runs](const DoubtfulRows& rows) {
     return std::find(runs.begin(), runs.end(), rows.run) != runs.end();
   });
 }
 
 /// A column that stands still where it should not: another's under its heading, or a stuck sensor.
-void check_stuck(const MeasurementSet& set, const Replays& replays, int threads, SetChecks& checks) {
-  const Stuck stuck = find_stuck(set, replays);
+void check_stuck(const MeasurementSet& set, const BaselineRuns& baseline, int threads, SetChecks& checks) {
+  const Stuck stuck = find_stuck(set, baseline);
   if (stuck.rows.empty()) return;
   std::vector<std::size_t> runs;
   for (const DoubtfulRows& rows : stuck.rows) {
@@ -131,8 +131,8 @@ bool lacks_loss(const MeasurementSet& set, const RunMisfit& misfit) {
 }
 
 /// Columns and units.
-void check_plausibility(const MeasurementSet& kept, const Replays& replays, int threads, SetChecks& checks) {
-  const std::vector<RunMisfit>& misfits = replays.misfits;
+void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline, int threads, SetChecks& checks) {
+  const std::vector<RunMisfit>& misfits = baseline.misfits;
   std::vector<std::size_t> odd;
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
     if (misfits[r].worst() > kOdd || lacks_loss(kept, misfits[r])) odd.push_back(r);
@@ -160,18 +160,18 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   SetChecks checks;
   check_assumed(set, checks);
   check_samples(set, checks);
-  Replays replays = replay_all(set, threads);
-  check_stuck(set, replays, threads, checks);
+  BaselineRuns baseline = resimulate_baseline(set, threads);
+  check_stuck(set, baseline, threads, checks);
   if (checks.is_implausible()) return checks;
   const MeasurementSet kept = leave_out(set, checks.left_out);
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
-    const bool simulated = replays.misfits[r].failure.empty();
-    if (simulated) replays.misfits[r] = calc_misfit(kept, kept.runs[r], replays.recordings[r]);
+    const bool simulated = baseline.misfits[r].failure.empty();
+    if (simulated) baseline.misfits[r] = calc_misfit(kept, kept.runs[r], baseline.recordings[r]);
   }
   require_rest(kept, checks);
-  check_plausibility(kept, replays, threads, checks);
+  check_plausibility(kept, baseline, threads, checks);
   if (checks.is_implausible()) return checks;
-  const std::vector<std::string> of_tire = check_tire(kept, replays, threads);
+  const std::vector<std::string> of_tire = check_tire(kept, baseline, threads);
   checks.warnings.insert(checks.warnings.end(), of_tire.begin(), of_tire.end());
   return checks;
 }

@@ -47,13 +47,13 @@ void find_stuck_rows(const MeasurementSet& set, std::size_t r, const std::string
 
 }  // namespace
 
-Stuck find_stuck(const MeasurementSet& set, const Replays& replays) {
+Stuck find_stuck(const MeasurementSet& set, const BaselineRuns& baseline) {
   Stuck stuck;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
-    if (!replays.misfits[r].failure.empty()) continue;
+    if (!baseline.misfits[r].failure.empty()) continue;
     for (const std::string& channel : measurements::measured_channels(set.kind)) {
       if (set.runs[r].has(channel)) {
-        find_stuck_rows(set, r, channel, replays.recordings[r].channel(channel), stuck);
+        find_stuck_rows(set, r, channel, baseline.recordings[r].channel(channel), stuck);
       }
     }
   }

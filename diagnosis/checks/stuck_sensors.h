@@ -26,6 +26,6 @@ struct Stuck {
 /// Validity  a sensor stuck while nothing moves cannot be told from one that works, and does no harm
 /// Source    Assumed: 30 samples, 60 s, six times
 /// Checked   tests/diagnosis/set_checks_test.cpp
-Stuck find_stuck(const measurements::MeasurementSet& set, const Replays& replays);
+Stuck find_stuck(const measurements::MeasurementSet& set, const BaselineRuns& baseline);
 
 }  // namespace rollrig::diagnosis

@@ -69,9 +69,9 @@ void add_level(const MeasurementSet& set, const MeasuredRun& run, const sim::Rec
   }
 }
 
-void check_level(const MeasurementSet& set, const Replays& replays, std::vector<std::string>& warnings) {
+void check_level(const MeasurementSet& set, const BaselineRuns& baseline, std::vector<std::string>& warnings) {
   Level level;
-  for (std::size_t r = 0; r < set.runs.size(); ++r) add_level(set, set.runs[r], replays.recordings[r], level);
+  for (std::size_t r = 0; r < set.runs.size(); ++r) add_level(set, set.runs[r], baseline.recordings[r], level);
   if (level.simulated_N <= 0.0) return;
   const double off = level.measured_N / level.simulated_N - 1.0;
   if (std::abs(off) <= kOddLevel) return;
@@ -82,7 +82,7 @@ void check_level(const MeasurementSet& set, const Replays& replays, std::vector<
 }
 
 /// Another tire of the assets, of another size, that fits the set far better as it stands.
-void check_other_tires(const MeasurementSet& set, const Replays& replays, int threads,
+void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, int threads,
                        std::vector<std::string>& warnings) {
   const auto sum_of = [](const std::vector<RunMisfit>& misfits) {
     double sum = 0.0;
@@ -90,14 +90,14 @@ void check_other_tires(const MeasurementSet& set, const Replays& replays, int th
     return sum;
   };
   if (set.baseline != models::Baseline::kCombined) return;  // a coefficient alone does not tell tires apart
-  const double own = sum_of(replays.misfits);
+  const double own = sum_of(baseline.misfits);
   if (own < kVisible * static_cast<double>(set.runs.size())) return;
   for (const std::string& name : list_assets("tires")) {
     MeasurementSet other = set;
     other.tire = models::read_tire(read_config(find_asset("tires", name)));
     const bool whole = other.tire.has_rolling_resistance && other.tire.has_thermal;
     if (!whole || other.tire.designation == set.tire.designation) continue;
-    if (sum_of(replay_all(other, threads).misfits) > kFarBetter * own) continue;
+    if (sum_of(resimulate_baseline(other, threads).misfits) > kFarBetter * own) continue;
     warnings.push_back(fmt::format("tire {} ({}) fits these runs far better than tire {} ({}): was it that one?", name,
                                    other.tire.designation, set.tire.name, set.tire.designation));
   }
@@ -105,11 +105,11 @@ void check_other_tires(const MeasurementSet& set, const Replays& replays, int th
 
 }  // namespace
 
-std::vector<std::string> check_tire(const MeasurementSet& set, const Replays& replays, int threads) {
+std::vector<std::string> check_tire(const MeasurementSet& set, const BaselineRuns& baseline, int threads) {
   std::vector<std::string> warnings;
   check_conditions(set, warnings);
-  check_level(set, replays, warnings);
-  check_other_tires(set, replays, threads, warnings);
+  check_level(set, baseline, warnings);
+  check_other_tires(set, baseline, threads, warnings);
   return warnings;
 }
 

@@ -15,6 +15,6 @@ namespace rollrig::diagnosis {
 ///           among the assets is not known
 /// Source    Assumed: all limits
 /// Checked   tests/diagnosis/set_checks_test.cpp
-std::vector<std::string> check_tire(const measurements::MeasurementSet& set, const Replays& replays, int threads);
+std::vector<std::string> check_tire(const measurements::MeasurementSet& set, const BaselineRuns& baseline, int threads);
 
 }  // namespace rollrig::diagnosis

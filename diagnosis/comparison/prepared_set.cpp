@@ -94,7 +94,7 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   }
   std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
   for (const measurements::MeasuredRun& run : set_.runs) {
-    runs_.push_back({run, kind_->make_replay(set_, run), kind_->find_phases(set_, run)});
+    runs_.push_back({run, kind_->make_resimulation(set_, run), kind_->find_phases(set_, run)});
     for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
       if (!run.has(channels_[channel])) continue;
       const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());

@@ -14,7 +14,7 @@
 namespace rollrig::diagnosis {
 
 class MeasurementKind;
-class RunReplay;
+class Resimulation;
 
 using measurements::Block;
 using measurements::Whitener;
@@ -51,7 +51,7 @@ struct Series {
 
 struct PreparedRun {
   measurements::MeasuredRun measured;
-  std::shared_ptr<const RunReplay> replay;
+  std::shared_ptr<const Resimulation> resimulation;
   std::vector<RunPhase> phases;
 };
 

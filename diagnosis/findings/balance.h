@@ -22,12 +22,11 @@ namespace rollrig::diagnosis {
 /// and "tire loss". The torque sensor is part of "drum torque".
 ///
 /// Equation  r = sum_f X_f a_f + noise, a_f ~ N(0, (s_f c_f)^2), c_f: a constant perturbation of it moves some channel
-/// by one
-///           noise floor (rms over the set); ln Z = 1/2 b^T (Q + S^-1)^-1 b - 1/2 ln |1 + S^1/2 Q S^1/2|,
+///           by one noise floor (rms over the set); ln Z = 1/2 b^T (Q + S^-1)^-1 b - 1/2 ln |1 + S^1/2 Q S^1/2|,
 ///           Q = X^T C^-1 X, b = X^T C^-1 r;  share of f = max(0, a_f.b_f)/sum
 /// Symbols   r measured - simulated, C covariance of noise, discrepancy, base parameters and offsets, S of the
-/// perturbations Source    evidence of a linear model; Markov's inequality for a ratio of evidences (sets without a
-/// gap).
+///           perturbations
+/// Source    evidence of a linear model; Markov's inequality for a ratio of evidences (sets without a gap).
 ///           Assumed: no perturbation is as likely as any beforehand, all families are alike, s from 0.5 to 256
 /// Errors    RunFailure: a run cannot be simulated at the null
 /// Checked   tests/diagnosis/balance_test.cpp

@@ -31,9 +31,10 @@ std::vector<double> find_perturbation_knots(const PreparedRun& run);
 /// the rubber), "tire heat" (into the rubber node), "gas heat", "gas mass", "boundary" (ambient and surface
 /// temperature), forces that go with the square of drive and brake force ("slip"), with acceleration ("inertia"), with
 /// the square of speed ("air drag"), as far as the set's kind names them, and a sensor's own "temperature sensor",
-/// "pressure sensor", "gas temperature sensor" where it is there. Equation  perturbation = sum_i a_i hat_i(t),
-/// derivatives by a_i at 0, by forward differentiation of the replay Errors    RunFailure: a run cannot be simulated at
-/// the null Checked   tests/diagnosis/balance_test.cpp
+/// "pressure sensor", "gas temperature sensor" where it is there.
+/// Equation  perturbation = sum_i a_i hat_i(t), derivatives by a_i at 0, by forward differentiation of the resimulation
+/// Errors    RunFailure: a run cannot be simulated at the null
+/// Checked   tests/diagnosis/balance_test.cpp
 std::vector<PerturbationFamily> calc_perturbations(const Study& study);
 
 }  // namespace rollrig::diagnosis

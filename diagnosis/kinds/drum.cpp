@@ -13,9 +13,9 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-class DrumReplay : public RunReplay {
+class DrumResimulation : public Resimulation {
  public:
-  explicit DrumReplay(const MeasuredRun& run) : program_(measurements::make_drum_replay(run)) {}
+  explicit DrumResimulation(const MeasuredRun& run) : program_(measurements::make_drum_replay(run)) {}
 
   sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
                                   rigs::Detail detail) const override {
@@ -34,8 +34,8 @@ class DrumKind : public KindWithRig {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kDrum; }
 
-  std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<DrumReplay>(run);
+  std::shared_ptr<const Resimulation> make_resimulation(const MeasurementSet&, const MeasuredRun& run) const override {
+    return std::make_shared<DrumResimulation>(run);
   }
 
   ForceChannel force_channel(const MeasurementSet& set) const override {

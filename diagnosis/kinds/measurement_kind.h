@@ -18,9 +18,9 @@
 namespace rollrig::diagnosis {
 
 /// A measured run made ready to be simulated again from its recorded inputs.
-class RunReplay {
+class Resimulation {
  public:
-  virtual ~RunReplay() = default;
+  virtual ~Resimulation() = default;
   /// What the sensors would have shown, rows at the run's own times; of the set and run that it was made for.
   /// Throws RunFailure.
   virtual sim::Recording<double> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
@@ -45,8 +45,8 @@ class MeasurementKind {
   // How a run is simulated.
   /// Throws InputError where the set's files lack what its kind needs.
   virtual models::Context<double> make_context(const measurements::MeasurementSet& set) const = 0;
-  virtual std::shared_ptr<const RunReplay> make_replay(const measurements::MeasurementSet& set,
-                                                       const measurements::MeasuredRun& run) const = 0;
+  virtual std::shared_ptr<const Resimulation> make_resimulation(const measurements::MeasurementSet& set,
+                                                                const measurements::MeasuredRun& run) const = 0;
   /// Adds the columns that every method reads and that this kind does not record.
   virtual void complete(const measurements::MeasurementSet& /*set*/, measurements::MeasuredRun& /*run*/) const {}
 

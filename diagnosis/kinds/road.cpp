@@ -4,7 +4,7 @@
 
 #include "diagnosis/kinds/driving_phases.h"
 #include "diagnosis/kinds/kinds.h"
-#include "diagnosis/kinds/wheel_replay.h"
+#include "diagnosis/kinds/wheel_resimulation.h"
 #include "measurements/sample_selection.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
@@ -25,9 +25,9 @@ class RoadKind : public MeasurementKind {
     return measurements::make_road_context(set);
   }
 
-  std::shared_ptr<const RunReplay> make_replay(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelReplay>(run, measurements::replay_road_run<double>,
-                                         measurements::replay_road_run<Jet>);
+  std::shared_ptr<const Resimulation> make_resimulation(const MeasurementSet&, const MeasuredRun& run) const override {
+    return std::make_shared<WheelResimulation>(run, measurements::replay_road_run<double>,
+                                               measurements::replay_road_run<Jet>);
   }
 
   /// Every tire carries its share of the weight.

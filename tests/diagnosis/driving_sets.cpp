@@ -91,7 +91,7 @@ void measure_again(measurements::MeasurementSet& set, const std::vector<models::
   if (change) change(context);
   for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, effects);
-    const auto recording = kind.make_replay(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
+    const auto recording = kind.make_resimulation(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
   }
 }

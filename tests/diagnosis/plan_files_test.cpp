@@ -157,13 +157,13 @@ void visit_rehearsals(const measurements::MeasurementSet& set, const PlannedTest
   }
 }
 
-/// Largest difference of a set's channels from their replay, as a share; `replayed` is the set measured again.
-double find_worst_share(const measurements::MeasurementSet& set, const measurements::MeasurementSet& replayed) {
+/// Largest difference of a set's channels from their resimulation, as a share; `resimulated` is the set measured again.
+double find_worst_share(const measurements::MeasurementSet& set, const measurements::MeasurementSet& resimulated) {
   double worst = 0.0;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     for (const auto& [channel, sensor] : set.sensors) {
       const std::vector<double>& written = set.runs[r].columns.at(channel);
-      const std::vector<double>& simulated = replayed.runs[r].columns.at(channel);
+      const std::vector<double>& simulated = resimulated.runs[r].columns.at(channel);
       for (std::size_t row = 0; row < written.size(); ++row) {
         if (std::isnan(written[row])) continue;
         // A traction force near zero is the difference of forces a hundred times as large.
@@ -177,7 +177,7 @@ double find_worst_share(const measurements::MeasurementSet& set, const measureme
 
 }  // namespace
 
-TEST_CASE("plans of wheel and vehicle are run as a set whose replay is what was written", "[fast]") {
+TEST_CASE("plans of wheel and vehicle are run as a set whose resimulation is what was written", "[fast]") {
   const measurements::MeasurementSet sets[] = {tests::make_dyno_set({}, 1), tests::make_road_set({}, 1),
                                                tests::make_road_set({}, 1, models::Baseline::kCombined)};
   for (const measurements::MeasurementSet& set : sets) {
@@ -193,12 +193,12 @@ TEST_CASE("plans of wheel and vehicle are run as a set whose replay is what was 
                            CHECK(rehearsed.kind == set.kind);
                            CHECK(rehearsed.baseline == set.baseline);
                            CHECK(rehearsed.tire.name == set.tire.name);
-                           measurements::MeasurementSet replayed = rehearsed;
-                           tests::measure_again(replayed, spec.effects);
-                           CHECK(find_worst_share(rehearsed, replayed) < 1e-6);
+                           measurements::MeasurementSet resimulated = rehearsed;
+                           tests::measure_again(resimulated, spec.effects);
+                           CHECK(find_worst_share(rehearsed, resimulated) < 1e-6);
                            if (spec.effects.empty()) return;
-                           tests::measure_again(replayed, {});
-                           CHECK(find_worst_share(rehearsed, replayed) > 1e-2);  // the effect was there
+                           tests::measure_again(resimulated, {});
+                           CHECK(find_worst_share(rehearsed, resimulated) > 1e-2);  // the effect was there
                          });
         CHECK(runs == test.runs.size());
       }

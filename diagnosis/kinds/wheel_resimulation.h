@@ -10,14 +10,14 @@ namespace rollrig::diagnosis {
 
 /// A run whose intervals are made once and simulated by one of the functions of measurements/wheel_replay.h. Those
 /// record the measured channels alone, whatever the detail.
-class WheelReplay : public RunReplay {
+class WheelResimulation : public Resimulation {
  public:
   template <class S>
   using Function = sim::Recording<S> (*)(const measurements::MeasurementSet&, const measurements::MeasuredRun&,
                                          const std::vector<measurements::WheelInterval>&, models::Corner<S>&,
                                          measurements::ReplayObserver<S>*);
 
-  WheelReplay(const measurements::MeasuredRun& run, Function<double> plain, Function<Jet> derived)
+  WheelResimulation(const measurements::MeasuredRun& run, Function<double> plain, Function<Jet> derived)
       : intervals_(measurements::make_wheel_intervals(run)), plain_(plain), derived_(derived) {}
 
   sim::Recording<double> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
