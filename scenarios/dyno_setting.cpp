@@ -47,8 +47,8 @@ Load sum(const Load& a, const Load& b, double factor) {
 
 double find_largest_N(const Load& difference) {
   double largest_N = 0.0;
-  for (const double speed_km_h : road_load_speeds_km_h()) {
-    largest_N = std::max(largest_N, std::abs(models::calc_road_load_N(difference, speed_km_h / 3.6)));
+  for (const double speed_m_s : road_load_speeds_m_s()) {
+    largest_N = std::max(largest_N, std::abs(models::calc_road_load_N(difference, speed_m_s)));
   }
   return largest_N;
 }
@@ -139,8 +139,8 @@ void report(const Settings& settings, const Load& target, const Load& set, const
   outcome.result["within_criterion"] = largest_N <= settings.criterion_N;
   outcome.result["differences"] = Json::array();
   ResultTable table{"Force at the wheels", {"km/h", "road N", "rollers N", "off N", "set N"}, {}};
-  for (const double speed_km_h : road_load_speeds_km_h()) {
-    const double speed_m_s = speed_km_h / 3.6;
+  for (const double speed_m_s : road_load_speeds_m_s()) {
+    const double speed_km_h = unit_of_key("speed_km_h").from_si(speed_m_s);
     const double road_N = models::calc_road_load_N(target, speed_m_s);
     const double found_N = models::calc_road_load_N(found, speed_m_s);
     outcome.result["differences"].push_back(

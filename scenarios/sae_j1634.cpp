@@ -111,7 +111,7 @@ Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, co
     json["rr_energy_iso_Wh"] = json["difference_percent"] = Json();
   }
   json["mean_rrc_N_per_kN"] =
-      counted_s > 0.0 ? Json(1e3 * section.wheel(WheelIntegral::kCountedRrc, 0) / counted_s) : Json();
+      counted_s > 0.0 ? Json(1e3 * (section.wheel(WheelIntegral::kCountedRrc, 0) / counted_s)) : Json();
   json["temperature_start_degC"] = temperature_K[recording.row_at(span.start_s)] - kZeroCelsius_K;
   json["temperature_end_degC"] = temperature_K[recording.row_at(span.end_s - spec.sample_interval_s)] - kZeroCelsius_K;
   double all_tires_J = 0.0;

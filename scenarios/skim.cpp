@@ -36,7 +36,7 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const double rig_N = simulated("parasitic_N");
   const double tire_N = simulated("rolling_resistance_N");
   outcome.result = {{"skim_load_N", cycle.skim.load_N},
-                    {"speed_km_h", 3.6 * cycle.skim.speed_m_s},
+                    {"speed_km_h", unit_of_key("speed_km_h").from_si(cycle.skim.speed_m_s)},
                     {"drum_torque_Nm", cycle.skim.drum_torque_Nm},
                     {"parasitic_N", cycle.parasitic_N},
                     {"rig_alone_N", rig_N},

@@ -103,7 +103,7 @@ void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   outcome.result["band_B_per_degC"] = or_null(curve.B_per_K);
   outcome.result["band_low_N"] = or_null(curve.band_low_N);
   outcome.result["band_drop_N"] = or_null(drop_N);
-  outcome.result["band_drop_percent"] = or_null(100.0 * drop_N / curve.band_low_N);
+  outcome.result["band_drop_percent"] = or_null(100.0 * (drop_N / curve.band_low_N));
   const auto add = [&outcome](const std::string& label, std::string value) {
     outcome.lines.push_back({label, std::move(value)});
   };

@@ -46,7 +46,10 @@ void evaluate(const Settings& settings, const RunSpec&, Outcome& outcome) {
   outcome.settings["program_sha256"] = calc_sha256(read_text_file(conditions.program.path));
   outcome.result["duration_s"] = duration_s;
   outcome.result["distance_km"] = distance_km;
-  outcome.result["loss_energy_Wh"] = tire_Wh + slip_Wh + bearing_Wh;
+  outcome.result["loss_energy_Wh"] =
+      -(recording.audit.find_term_J("tire_loss") + recording.audit.find_term_J("slip_loss") +
+        recording.audit.find_term_J("bearing_loss")) /
+      kWh_J;
   outcome.result["rr_energy_Wh"] = tire_Wh;
   outcome.result["slip_energy_Wh"] = slip_Wh;
   outcome.result["loss_force_end_N"] = recording.channel("loss_force_N").back();

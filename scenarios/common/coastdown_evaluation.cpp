@@ -11,6 +11,7 @@ constexpr double kRunUp_m_s2 = 1.5;       // Assumed: brisk, so that tires do no
 constexpr double kLongest_s = 3600.0;     // of one coastdown
 constexpr double kStandstill_m_s = 0.05;  // below, rolling forces fade and the vehicle creeps to rest
 constexpr const char* kPrefix = "coastdown ";
+constexpr double kKmh = 1e3 / 3600.0;  // in m/s
 
 /// +1 for the first direction of a pair, -1 for the second, from the phase's name.
 int heading_of(const std::string& phase) { return phase.back() == '+' ? 1 : -1; }
@@ -100,8 +101,9 @@ estimation::RoadLoadFit fit_vehicle_coastdowns(const estimation::CoastdownData& 
   return estimation::fit_road_load(data, options);
 }
 
-const std::vector<double>& road_load_speeds_km_h() {
-  static const std::vector<double> speeds{20.0, 40.0, 60.0, 80.0, 100.0, 120.0, 130.0};
+const std::vector<double>& road_load_speeds_m_s() {
+  static const std::vector<double> speeds{20.0 * kKmh,  40.0 * kKmh,  60.0 * kKmh, 80.0 * kKmh,
+                                          100.0 * kKmh, 120.0 * kKmh, 130.0 * kKmh};
   return speeds;
 }
 
@@ -129,8 +131,8 @@ Json road_load_to_json(const estimation::RoadLoadFit& fit) {
     json[key + "_sd"] = fit.sd(i++) / unit_of_key(key).factor;
   }
   json["force_N"] = Json::array();
-  for (const double speed_km_h : road_load_speeds_km_h()) {
-    json["force_N"].push_back({{"speed_km_h", speed_km_h}, {"force_N", fit.force_N(speed_km_h / 3.6)}});
+  for (const double speed_m_s : road_load_speeds_m_s()) {
+    json["force_N"].push_back({{"speed_km_h", speed_m_s / kKmh}, {"force_N", fit.force_N(speed_m_s)}});
   }
   return json;
 }
@@ -141,8 +143,8 @@ void add_road_load_lines(const RunSpec& spec, const estimation::RoadLoadFit& fit
   const bool road = spec.rig.kind == rigs::RigKind::kFlat;
   ResultTable table{
       road ? "Force at reference conditions" : "Force of rollers and vehicle, as tested", {"km/h", "N"}, {}};
-  for (const double speed_km_h : road_load_speeds_km_h()) {
-    table.rows.push_back({fmt::format("{:.0f}", speed_km_h), fmt::format("{:.1f}", fit.force_N(speed_km_h / 3.6))});
+  for (const double speed_m_s : road_load_speeds_m_s()) {
+    table.rows.push_back({fmt::format("{:.0f}", speed_m_s / kKmh), fmt::format("{:.1f}", fit.force_N(speed_m_s))});
   }
   outcome.tables.push_back(std::move(table));
 }

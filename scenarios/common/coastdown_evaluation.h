@@ -52,14 +52,14 @@ estimation::CoastdownData collect_coastdowns(const sim::Recording<double>& recor
 estimation::RoadLoadFit fit_vehicle_coastdowns(const estimation::CoastdownData& data, const RunSpec& spec);
 
 /// Speeds at which forces are shown and judged: 20 to 130 km/h.
-const std::vector<double>& road_load_speeds_km_h();
+const std::vector<double>& road_load_speeds_m_s();
 
 /// Sets A, B, C in the keys and units of files, each key after `prefix`.
 void put_road_load(const models::RoadLoad<double>& load, const std::string& prefix, Json& json);
 /// A, B, C as a person reads them, with their units.
 std::array<std::string, 3> write_road_load(const models::RoadLoad<double>& load);
 
-/// A, B, C, each with `<key>_sd`, and the force over road_load_speeds_km_h().
+/// A, B, C, each with `<key>_sd`, and the force over road_load_speeds_m_s().
 Json road_load_to_json(const estimation::RoadLoadFit& fit);
 void add_road_load_lines(const RunSpec& spec, const estimation::RoadLoadFit& fit, Outcome& outcome);
 
