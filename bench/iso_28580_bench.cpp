@@ -26,7 +26,7 @@ double find_peak_MB() {
 
 void run_scenario(benchmark::State& state, const char* fidelity) {
   const scenarios::RunSpec spec = make_spec(fidelity);
-  for (auto _ : state) benchmark::DoNotOptimize(spec.scenario->run(spec, {}));
+  for (auto _ : state) benchmark::DoNotOptimize(scenarios::run_scenario(spec, {}));
   state.counters["peak_MB"] = find_peak_MB();
 }
 

@@ -24,7 +24,7 @@ void run_scenario(benchmark::State& state, const char* scenario, const char* fid
                   const std::vector<std::string>& settings) {
   const scenarios::RunSpec spec = make_spec(scenario, fidelity, settings);
   scenarios::Outcome outcome;
-  for (auto _ : state) outcome = spec.scenario->run(spec, {});
+  for (auto _ : state) outcome = scenarios::run_scenario(spec, {});
   state.counters["mechanical_closure"] = outcome.recording.audit.calc_closure(sim::EnergyTerm::Ledger::kMechanical);
 }
 

@@ -30,6 +30,7 @@ struct Options {
 
 int run_command(const Options& options) {
   const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
+  const scenarios::PreparedRun run = scenarios::prepare_run(spec);
   if (!options.set_folder.empty() && !spec.scenario->set_kind.has_value()) {
     throw InputError({fmt::format("scenario '{}' writes no measurement set", spec.scenario->text.name), "command line",
                       0, "--write-set", options.set_folder,
@@ -46,7 +47,7 @@ int run_command(const Options& options) {
   const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
   if (!options.set_folder.empty()) set.emplace(options.set_folder, options.force);
   ProgressLine progress(spec.scenario->text.name, options.quiet);
-  const scenarios::Outcome outcome = scenarios::run_scenario(spec, progress.callback());
+  const scenarios::Outcome outcome = run(progress.callback());
   const std::string result = scenarios::make_result_json(spec, outcome).dump(2) + "\n";
   files.require_no_input();
   if (out.has_value()) {

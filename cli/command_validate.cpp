@@ -82,7 +82,7 @@ Finding validate_toml(const std::string& path) {
   }
   if (kind == "rollrig-run") {
     const scenarios::RunSpec spec = scenarios::read_run_spec(config, fs::path(path).parent_path().string());
-    spec.scenario->check(spec);
+    scenarios::prepare_run(spec);
     return {fmt::format("run of scenario '{}'", spec.scenario->text.name)};
   }
   InputProblem problem = unknown_name("format", kind,

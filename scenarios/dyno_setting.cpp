@@ -53,19 +53,7 @@ double find_largest_N(const Load& difference) {
   return largest_N;
 }
 
-VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
-  settings.coastdowns.check(spec);
-  VehicleProgram program(settings.conditions, spec.sample_interval_s, 0.0);
-  const SpeedTrace highway = read_speed_trace("hwfet");
-  program.drive(highway, "highway 1");
-  program.drive(highway, "highway 2");
-  settings.coastdowns.append_coastdowns_to(program);
-  return program;
-}
-
-Settings read(const RunSpec& spec) {
-  Settings settings = read_settings<Settings>(spec);
-  settings.conditions.complete(spec);
+void check_target(const RunSpec& spec) {
   const std::array<const char*, 3> keys{"target_A_N", "target_B_N_per_km_h", "target_C_N_per_km_h2"};
   const auto is_given = [&spec](const char* key) { return spec.settings.find(key) != nullptr; };
   const auto given = std::find_if(keys.begin(), keys.end(), is_given);
@@ -73,7 +61,17 @@ Settings read(const RunSpec& spec) {
     throw InputError(setting_problem(spec, *given, "a target is given by all three of its coefficients",
                                      fmt::format("{}, or none of them", fmt::join(keys, ", "))));
   }
-  return settings;
+}
+
+VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
+  check_target(spec);
+  settings.coastdowns.check(spec);
+  VehicleProgram program(settings.conditions, spec.sample_interval_s, 0.0);
+  const SpeedTrace highway = read_speed_trace("hwfet");
+  program.drive(highway, "highway 1");
+  program.drive(highway, "highway 2");
+  settings.coastdowns.append_coastdowns_to(program);
+  return program;
 }
 
 /// The vehicle's coastdown on the road, from the same tires.
@@ -96,13 +94,10 @@ Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Pr
       .load;
 }
 
-/// What vehicle and rollers resist together when the rollers do `set`.
-Load measure(const RunSpec& spec, Settings& settings, const Load& set, const sim::Progress& progress,
-             Outcome& outcome) {
-  settings.conditions.set_A_N = set.A_N;
-  settings.conditions.set_B_N_s_per_m = set.B_N_s_per_m;
-  settings.conditions.set_C_N_s2_per_m2 = set.C_N_s2_per_m2;
-  simulate_vehicle(spec, settings.conditions, plan(settings, spec), progress, outcome);
+/// What vehicle and rollers resist together.
+Load measure(const RunSpec& spec, const Settings& settings, const VehicleProgram& program,
+             const sim::Progress& progress, Outcome& outcome) {
+  simulate_vehicle(spec, settings.conditions, program, progress, outcome);
   return fit_vehicle_coastdowns(collect_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns),
                                 spec)
       .load;
@@ -160,9 +155,8 @@ void report(const Settings& settings, const Load& target, const Load& set, const
   }
 }
 
-Outcome run(const RunSpec& spec, const sim::Progress& progress) {
-  Settings settings = read(spec);
-  Outcome outcome;
+void run(const RunSpec& spec, Settings settings, const VehicleProgram& program, const sim::Progress& progress,
+         Outcome& outcome) {
   // Every iteration is a whole test; progress runs towards one and stays below it.
   double done = 0.0;
   const auto part = [&](double share) -> sim::Progress {
@@ -175,7 +169,10 @@ Outcome run(const RunSpec& spec, const sim::Progress& progress) {
   Load found{};
   int iteration = 0;
   while (true) {
-    found = measure(spec, settings, set, part(0.4), outcome);
+    settings.conditions.set_A_N = set.A_N;
+    settings.conditions.set_B_N_s_per_m = set.B_N_s_per_m;
+    settings.conditions.set_C_N_s2_per_m2 = set.C_N_s2_per_m2;
+    found = measure(spec, settings, program, part(0.4), outcome);
     done += 0.4 * (1.0 - done);
     if (find_largest_N(sum(found, target, -1.0)) <= kShareOfCriterion * settings.criterion_N ||
         iteration == settings.iterations) {
@@ -187,34 +184,31 @@ Outcome run(const RunSpec& spec, const sim::Progress& progress) {
   outcome.settings = settings_to_json(settings);
   report(settings, target, set, found, iteration, outcome);
   put_highway(spec, settings, outcome);
-  return outcome;
 }
 
 }  // namespace
 
 const Scenario& scenario_dyno_setting() {
   static const Scenario scenario = [] {
-    Scenario made;
-    made.text = {"dyno_setting",
-                 "Dynamometer setting: the rollers' force with which the vehicle coasts down as on the road",
-                 "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is "
-                 "corrected by what the road load and the force found differ, and the whole is done again, until they "
-                 "agree. The road load is given, the vehicle's own, or found by coastdowns on rig flat.",
-                 "source §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N",
-                 {{"set_A_N", "of the rollers; with set_B_N_per_km_h, set_C_N_per_km_h2"},
-                  {"target_A_N", "of the road; with target_B_N_per_km_h, target_C_N_per_km_h2"},
-                  {"differences", "per speed: speed_km_h, target_N, found_N, difference_N"},
-                  {"largest_difference_N", "over those speeds"},
-                  {"within_criterion", "whether it is within criterion_N"},
-                  {"iterations", "corrections of the set force"},
-                  {"highway_rr_energy_Wh", "of all tires that roll, over both highway cycles"},
-                  {"highway_rr_energy_iso_Wh", "the same by the tire's ISO coefficient; null where it has none"}}};
-    made.settings = list_settings<Settings>();
+    ScenarioText text = {
+        "dyno_setting",
+        "Dynamometer setting: the rollers' force with which the vehicle coasts down as on the road",
+        "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is "
+        "corrected by what the road load and the force found differ, and the whole is done again, until they "
+        "agree. The road load is given, the vehicle's own, or found by coastdowns on rig flat.",
+        "source §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N",
+        {{"set_A_N", "of the rollers; with set_B_N_per_km_h, set_C_N_per_km_h2"},
+         {"target_A_N", "of the road; with target_B_N_per_km_h, target_C_N_per_km_h2"},
+         {"differences", "per speed: speed_km_h, target_N, found_N, difference_N"},
+         {"largest_difference_N", "over those speeds"},
+         {"within_criterion", "whether it is within criterion_N"},
+         {"iterations", "corrections of the set force"},
+         {"highway_rr_energy_Wh", "of all tires that roll, over both highway cycles"},
+         {"highway_rr_energy_iso_Wh", "the same by the tire's ISO coefficient; null where it has none"}}};
+    Scenario made = make_scenario<Settings>(std::move(text), &plan, &run);
     made.rig_kinds = {rigs::RigKind::kDyno};
     made.default_rig = "dyno_1m2";
     made.has_vehicle = true;
-    made.check = [](const RunSpec& spec) { plan(read(spec), spec); };
-    made.run = &run;
     return made;
   }();
   return scenario;

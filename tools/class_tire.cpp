@@ -21,7 +21,7 @@ double find_loss_factor(double rrc_N_per_kN) {
   const auto miss = [&](double factor) {
     scenarios::RunSpec spec = plain;
     scale_loss(spec.tire, factor);
-    return spec.scenario->run(spec, {}).result["rrc_25degC_2m_N_per_kN"].get<double>() - rrc_N_per_kN;
+    return scenarios::run_scenario(spec, {}).result["rrc_25degC_2m_N_per_kN"].get<double>() - rrc_N_per_kN;
   };
   std::uintmax_t iterations = 60;
   const auto bracket =

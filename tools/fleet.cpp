@@ -108,7 +108,7 @@ Load read_load(const Json& json, const std::string& prefix) {
 }
 
 void refit(const scenarios::RunSpec& spec, const TestCar& car, FleetResult& result) {
-  result.refit = read_load(spec.scenario->run(spec, {}).result, "");
+  result.refit = read_load(scenarios::run_scenario(spec, {}).result, "");
   for (int speed_km_h = 20; speed_km_h <= 130; ++speed_km_h) {
     const double speed_m_s = speed_km_h / 3.6;
     const double given_N = models::calc_road_load_N(car.target, speed_m_s);
@@ -120,7 +120,7 @@ void refit(const scenarios::RunSpec& spec, const TestCar& car, FleetResult& resu
 }
 
 Load find_set(const scenarios::RunSpec& spec, FleetResult& result) {
-  const Json json = spec.scenario->run(spec, {}).result;
+  const Json json = scenarios::run_scenario(spec, {}).result;
   result.largest_off_N = std::max(result.largest_off_N, json["largest_difference_N"].get<double>());
   return read_load(json, "set_");
 }

@@ -33,7 +33,7 @@ std::vector<std::string> find_roller_settings(const MultiCycleTest& test, const 
   scenarios::RunSpec setting = make_virtual_test("dyno_setting", "dyno_48in", tires);
   scale_loss(setting.tire, loss_factor);
   setting.vehicle = vehicle;
-  const Json result = setting.scenario->run(setting, {}).result;
+  const Json result = scenarios::run_scenario(setting, {}).result;
   if (!result["within_criterion"].get<bool>()) throw RunFailure("rollers not set for " + test.vehicle);
   std::vector<std::string> settings;
   for (const char* key : {"set_A_N", "set_B_N_per_km_h", "set_C_N_per_km_h2"}) {
@@ -81,7 +81,7 @@ std::vector<SimulatedSection> simulate_multi_cycle(const MultiCycleTest& test,
   scale_loss(spec.tire, loss_factor);
   spec.vehicle = vehicle;
   std::vector<SimulatedSection> sections;
-  const Json result = spec.scenario->run(spec, {}).result;
+  const Json result = scenarios::run_scenario(spec, {}).result;
   for (const Json& section : result["sections"]) {
     sections.push_back({section["name"].get<std::string>(), 1e3 * section["distance_km"].get<double>(),
                         3600.0 * section["wheel_energy_Wh"].get<double>(),

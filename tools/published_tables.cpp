@@ -23,7 +23,7 @@ Json run(const std::string& scenario, const std::string& tire, const std::vector
   set_config_value(document, "fidelity", fidelity, "tools/published_tables");
   for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
   const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
-  return spec.scenario->run(spec, {}).result;
+  return scenarios::run_scenario(spec, {}).result;
 }
 
 double number(const Json& result, const char* key) { return result[key].get<double>(); }

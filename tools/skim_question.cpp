@@ -50,7 +50,7 @@ measurements::MeasurementSet measure(const std::string& tire, const std::string&
   const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
   const Scratch scratch;
   for (const auto& [name, content] :
-       scenarios::write_measurement_set(spec, spec.scenario->run(spec, {}), "transient")) {
+       scenarios::write_measurement_set(spec, scenarios::run_scenario(spec, {}), "transient")) {
     write_output((scratch.path() / name).string(), content);
   }
   return measurements::read_measurement_set(scratch.path().string());

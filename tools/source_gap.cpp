@@ -42,7 +42,7 @@ DrivenPower drive(const std::string& tire, const std::vector<models::ActiveEffec
   for (const char* setting : {"variant=source", "wheels=1"}) scenarios::set_run_value(document, setting);
   scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
   spec.effects = effects;
-  const sim::Recording<double> recording = spec.scenario->run(spec, {}).recording;
+  const sim::Recording<double> recording = scenarios::run_scenario(spec, {}).recording;
   DrivenPower driven;
   std::vector<std::size_t> kind_of_phase;
   for (const sim::PhaseSpan& span : recording.phases) {

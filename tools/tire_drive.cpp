@@ -79,7 +79,7 @@ double DriveSection::at_degC(double after_s) const {
 
 TireDrive drive_source_test(const std::string& tire) {
   const scenarios::RunSpec spec = make_spec(tire);
-  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   return read_sections(spec, make_conditions(spec).make_layout(spec), outcome.recording);
 }
 

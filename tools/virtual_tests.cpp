@@ -45,7 +45,7 @@ scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tir
 
 Json run(scenarios::RunSpec spec, const Calibration& at) {
   at.put(spec.tire);
-  return spec.scenario->run(spec, {}).result;
+  return scenarios::run_scenario(spec, {}).result;
 }
 
 double number(const Json& result, const char* key) {

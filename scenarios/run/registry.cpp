@@ -8,14 +8,18 @@ namespace rollrig::scenarios {
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
 
-Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) {
-  try {
-    return spec.scenario->run(spec, progress);
-  } catch (const RunFailure& failure) {
-    if (spec.effects.empty()) throw;
-    throw RunFailure(std::string(failure.what()) + "\neffects that were on: " + describe_effects(spec.effects));
-  }
+PreparedRun prepare_run(const RunSpec& spec) {
+  return [&spec, run = spec.scenario->prepare(spec)](const sim::Progress& progress) {
+    try {
+      return run(progress);
+    } catch (const RunFailure& failure) {
+      if (spec.effects.empty()) throw;
+      throw RunFailure(std::string(failure.what()) + "\neffects that were on: " + describe_effects(spec.effects));
+    }
+  };
 }
+
+Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) { return prepare_run(spec)(progress); }
 
 const std::vector<const Scenario*>& all_scenarios() {
   static const std::vector<const Scenario*> scenarios{

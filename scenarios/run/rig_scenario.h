@@ -1,38 +1,51 @@
 #pragma once
-/// A scenario that is one program on one rig, whichever the rig.
+/// Scenarios from their parts: settings are read once, planned once, then carried out.
+
+#include <memory>
 
 #include "scenarios/run/settings.h"
 
 namespace rollrig::scenarios {
 
-/// Settings (with a member `conditions`) are read and completed, `plan` makes the program, `simulate` runs it,
-/// `evaluate` fills result, lines and tables; `check_tire` throws InputError when the tire lacks what the rig takes.
+/// Settings (with a member `conditions`) are read and completed, `plan(settings, spec)` makes the program and throws
+/// InputError where it cannot, `carry_out(spec, settings, program, progress, outcome)` fills `outcome`.
+template <class Settings, class Plan, class CarryOut>
+Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
+  Scenario scenario;
+  scenario.text = std::move(text);
+  scenario.settings = list_settings<Settings>();
+  scenario.prepare = [plan, carry_out](const RunSpec& spec) -> PreparedRun {
+    const auto settings = std::make_shared<Settings>(read_settings<Settings>(spec));
+    settings->conditions.complete(spec);
+    using Program = decltype(plan(*settings, spec));
+    const auto program = std::make_shared<const Program>(plan(*settings, spec));
+    return [&spec, carry_out, settings, program](const sim::Progress& progress) {
+      Outcome outcome;
+      outcome.settings = settings_to_json(*settings);
+      carry_out(spec, *settings, *program, progress, outcome);
+      return outcome;
+    };
+  };
+  return scenario;
+}
+
+/// A scenario that is one program on one rig, whichever the rig: `simulate` runs it, `evaluate` fills result, lines and
+/// tables; `check_tire` throws InputError when the tire lacks what the rig takes.
 template <class Settings, class Program, class Simulate, class CheckTire>
 Scenario make_rig_scenario(ScenarioText text, Program (*plan)(const Settings&, const RunSpec&),
                            void (*evaluate)(const Settings&, const RunSpec&, Outcome&), Simulate simulate,
                            CheckTire check_tire) {
-  const auto read = [](const RunSpec& spec) {
-    Settings settings = read_settings<Settings>(spec);
-    settings.conditions.complete(spec);
-    return settings;
-  };
-  Scenario scenario;
-  scenario.text = std::move(text);
-  scenario.settings = list_settings<Settings>();
-  scenario.check = [read, plan, check_tire](const RunSpec& spec) {
-    const Settings settings = read(spec);
-    plan(settings, spec);
+  const auto plan_checked = [plan, check_tire](const Settings& settings, const RunSpec& spec) {
+    Program program = plan(settings, spec);
     check_tire(spec);
+    return program;
   };
-  scenario.run = [read, plan, evaluate, simulate](const RunSpec& spec, const sim::Progress& progress) {
-    const Settings settings = read(spec);
-    Outcome outcome;
-    outcome.settings = settings_to_json(settings);
-    simulate(spec, settings.conditions, plan(settings, spec), progress, outcome);
+  const auto carry_out = [simulate, evaluate](const RunSpec& spec, const Settings& settings, const Program& program,
+                                              const sim::Progress& progress, Outcome& outcome) {
+    simulate(spec, settings.conditions, program, progress, outcome);
     evaluate(settings, spec, outcome);
-    return outcome;
   };
-  return scenario;
+  return make_scenario<Settings>(std::move(text), plan_checked, carry_out);
 }
 
 }  // namespace rollrig::scenarios

@@ -95,6 +95,10 @@ struct ScenarioText {
   std::vector<ResultInfo> results;
 };
 
+/// A run whose settings are read and whose program is planned: calling it carries it out. Its spec must outlive it.
+/// Throws RunFailure, Interrupted.
+using PreparedRun = std::function<Outcome(const sim::Progress&)>;
+
 struct Scenario {
   ScenarioText text;
   std::vector<rigs::RigKind> rig_kinds{rigs::RigKind::kDrum};  // on which it can be carried out
@@ -104,16 +108,17 @@ struct Scenario {
   std::optional<measurements::SetKind>
       set_kind;  // of the measurement sets that it writes; none: it records without sensors
   std::vector<SettingInfo> settings;
-  /// Reads spec.settings and plans, without running. Throws InputError.
-  std::function<void(const RunSpec& spec)> check;
-  /// Reads spec.settings, runs, evaluates: what run_scenario() calls. Throws InputError, RunFailure, Interrupted.
-  std::function<Outcome(const RunSpec& spec, const sim::Progress& progress)> run;
+  /// Reads spec.settings and plans: what prepare_run() calls. Throws InputError.
+  std::function<PreparedRun(const RunSpec& spec)> prepare;
 
   bool has_rig() const { return !default_rig.empty(); }
 };
 
-/// Runs the scenario of `spec`. A run that fails says which effects were on. Throws InputError, RunFailure,
-/// Interrupted.
+/// Reads the settings of `spec` and plans its scenario, which finds whatever is wrong with them. A run that fails then
+/// says which effects were on. Throws InputError.
+PreparedRun prepare_run(const RunSpec& spec);
+
+/// Prepares and runs. Throws InputError, RunFailure, Interrupted.
 Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress);
 
 /// All scenarios, in the order of scenarios.def.

@@ -82,7 +82,7 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
       const measurements::MeasuredRun& wanted = test.runs[i];
       const std::string file = folder.file("run-" + std::to_string(i + 1) + ".toml");
       const scenarios::RunSpec spec = scenarios::read_run_spec(read_config(file), folder.path());
-      CHECK_NOTHROW(spec.scenario->check(spec));
+      CHECK_NOTHROW(scenarios::prepare_run(spec));
       CHECK(spec.scenario->text.name == "program");
       CHECK(spec.sample_interval_s == Approx(0.5));  // the set's own
       CHECK(spec.sensors->size() == set.sensors.size());
@@ -150,7 +150,7 @@ void visit_rehearsals(const measurements::MeasurementSet& set, const PlannedTest
     CHECK(spec.sensors->size() == set.sensors.size());
     for (auto& [channel, sensor] : *spec.sensors) sensor = {};  // without error
     const tests::TemporaryFolder written;
-    for (const auto& [name, content] : scenarios::write_measurement_set(spec, spec.scenario->run(spec, {}), "paper")) {
+    for (const auto& [name, content] : scenarios::write_measurement_set(spec, scenarios::run_scenario(spec, {}), "paper")) {
       tests::write_file(written.file(name), content);
     }
     visit(measurements::read_measurement_set(written.path()), spec);

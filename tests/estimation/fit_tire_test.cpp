@@ -170,7 +170,7 @@ TEST_CASE("a map over load is fitted where there are several loads at two speeds
                                        {"loads_N=[7000, 4000]", "measurement_min=5", std::string("speed_km_h=") + speed,
                                         "effects.load_exponent.exponent=1.1"},
                                        "quasi_static");
-    const auto outcome = spec.scenario->run(spec, {});
+    const auto outcome = scenarios::run_scenario(spec, {});
     measurements::MeasuredRun run = set.runs[0];
     run.id = std::string("loads-") + speed;
     run.time_s.clear();

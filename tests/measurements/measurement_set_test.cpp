@@ -24,7 +24,7 @@ struct WrittenSet {
     for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
       (*spec.sensors)[channel] = {};
     }
-    outcome = spec.scenario->run(spec, {});
+    outcome = scenarios::run_scenario(spec, {});
     for (const auto& [name, content] : scenarios::write_measurement_set(spec, outcome, "test")) {
       tests::write_file(folder.file(name), content);
     }

@@ -22,7 +22,7 @@ const std::vector<std::string> kTires{"a40", "a50", "a60"};
 Json run_sections(const std::string& tire) {
   const std::string path = kFolder + "/table_4_4_and_4_5/" + tire + ".toml";
   const scenarios::RunSpec spec = scenarios::read_run_spec(read_config(path), kFolder + "/table_4_4_and_4_5");
-  return spec.scenario->run(spec, {}).result["sections"];
+  return scenarios::run_scenario(spec, {}).result["sections"];
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace {
 double number(const std::string& scenario, const std::string& tire, const char* key,
               const std::vector<std::string>& settings = {}, const std::string& fidelity = "multibody") {
   const scenarios::RunSpec spec = make_spec(scenario, tire, settings, fidelity);
-  return spec.scenario->run(spec, {}).result[key].get<double>();
+  return scenarios::run_scenario(spec, {}).result[key].get<double>();
 }
 
 const std::vector<std::string> kVehicle{"load_N=5400", "pressure_kPa=280"};

@@ -30,7 +30,7 @@ double value_at(const Json& series, double time_s) {
 
 TEST_CASE("the drum's animation has the recorded heights and angles", "[fast]") {
   const scenarios::RunSpec spec = make_spec("warm_up", {"warm_up_min=5", "load_N=5400", "speed_km_h=80"});
-  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const Json block = report::make_animation(spec, outcome.recording);
   REQUIRE(block["machine"] == "drum");
   const Json& wheel = block["wheels"][0];
@@ -46,9 +46,9 @@ TEST_CASE("the drum's animation has the recorded heights and angles", "[fast]") 
 TEST_CASE("without bodies the animation follows from speed and load, alike", "[fast]") {
   const std::vector<std::string> settings{"warm_up_min=5"};
   scenarios::RunSpec spec = make_spec("warm_up", settings);
-  const Json with_bodies = report::make_animation(spec, spec.scenario->run(spec, {}).recording);
+  const Json with_bodies = report::make_animation(spec, scenarios::run_scenario(spec, {}).recording);
   spec.fidelity = scenarios::Fidelity::kQuasiStatic;
-  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   CHECK(outcome.recording.poses.empty());
   const Json without = report::make_animation(spec, outcome.recording);
   for (const double time_s : {50.0, 250.0}) {
@@ -59,7 +59,7 @@ TEST_CASE("without bodies the animation follows from speed and load, alike", "[f
 
 TEST_CASE("on the road the vehicle moves on, its axles carry it at the loaded radius", "[fast]") {
   const scenarios::RunSpec spec = make_spec("coastdown", {"warm_up_min=1"});
-  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const Json block = report::make_animation(spec, outcome.recording);
   REQUIRE(block["machine"] == "road");
   REQUIRE(block["wheels"].size() == 2);

@@ -23,7 +23,7 @@ double take_off_N(const std::string& rig, const std::string& fidelity, double sp
   scenarios::RunSpec spec = tests::make_spec(
       "dyno_setting", "a50", {"target_A_N=150", "target_B_N_per_km_h=0", "target_C_N_per_km_h2=0.03"}, fidelity);
   spec.rig = read_rig(rig);
-  const Json result = spec.scenario->run(spec, {}).result;
+  const Json result = scenarios::run_scenario(spec, {}).result;
   const auto at = [&](const std::string& prefix) {
     const double speed_km_h = 3.6 * speed_m_s;
     return result[prefix + "A_N"].get<double>() +

@@ -39,8 +39,8 @@ std::vector<bool> find_comparable(const sim::Recording<double>& recording) {
 void compare(const std::string& scenario, const std::string& tire, const std::vector<std::string>& settings = {}) {
   const scenarios::RunSpec multibody_spec = tests::make_spec(scenario, tire, settings, "multibody");
   const scenarios::RunSpec quasi_static_spec = tests::make_spec(scenario, tire, settings, "quasi_static");
-  const auto multibody = multibody_spec.scenario->run(multibody_spec, {}).recording;
-  const auto quasi_static = quasi_static_spec.scenario->run(quasi_static_spec, {}).recording;
+  const auto multibody = scenarios::run_scenario(multibody_spec, {}).recording;
+  const auto quasi_static = scenarios::run_scenario(quasi_static_spec, {}).recording;
   REQUIRE(multibody.time_s == quasi_static.time_s);
   const std::vector<bool> comparable = find_comparable(multibody);
   const auto& torque_m = multibody.channel("drum_torque_Nm");

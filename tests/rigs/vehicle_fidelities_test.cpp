@@ -29,7 +29,7 @@ Pair run_both(const std::string& scenario, const std::vector<std::string>& setti
   Pair pair;
   for (const bool multibody : {true, false}) {
     const auto spec = tests::make_spec(scenario, "a50", settings, multibody ? "multibody" : "quasi_static");
-    (multibody ? pair.multibody : pair.quasi_static) = spec.scenario->run(spec, {});
+    (multibody ? pair.multibody : pair.quasi_static) = scenarios::run_scenario(spec, {});
   }
   return pair;
 }
@@ -149,7 +149,7 @@ void compare_coastdown(const std::vector<std::string>& settings, const std::stri
     set_config_value(document, "fidelity", multibody ? "multibody" : "quasi_static", "test");
     for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
     const auto spec = scenarios::read_run_spec(document, "");
-    (multibody ? pair.multibody : pair.quasi_static) = spec.scenario->run(spec, {});
+    (multibody ? pair.multibody : pair.quasi_static) = scenarios::run_scenario(spec, {});
   }
   const bool pitches = rig == "flat" && channels_of(pair.multibody.recording, "loss_force").size() > 1;
   compare_liners(pair, !pitches);

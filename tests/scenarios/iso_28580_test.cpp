@@ -41,7 +41,7 @@ TEST_CASE("a known coefficient comes back from the whole test", "[fast]") {
   spec.baseline = models::Baseline::kConstantRrc;
   spec.tire.has_constant = true;
   spec.tire.values.constant.rrc = 0.0075;
-  const auto outcome = spec.scenario->run(spec, {});
+  const auto outcome = scenarios::run_scenario(spec, {});
   CHECK(number(outcome, "rolling_resistance_N") == Approx(0.0075 * (6865.0 - 200.0)).epsilon(1e-6));
 }
 
@@ -89,16 +89,16 @@ TEST_CASE("measurement cycles repeat and settle", "[fast]") {
 
 TEST_CASE("halving all tolerances changes RRc by less than 1e-5", "[fast]") {
   scenarios::RunSpec spec = make_spec("iso_28580", "a50");
-  const double rrc = number(spec.scenario->run(spec, {}), "rrc_N_per_kN");
+  const double rrc = number(scenarios::run_scenario(spec, {}), "rrc_N_per_kN");
   spec.tolerance_factor = 0.5;
-  CHECK(number(spec.scenario->run(spec, {}), "rrc_N_per_kN") == Approx(rrc).epsilon(1e-5));
+  CHECK(number(scenarios::run_scenario(spec, {}), "rrc_N_per_kN") == Approx(rrc).epsilon(1e-5));
 }
 
 TEST_CASE("halving the grid of the quasi-static run changes RRc by less than 1e-5", "[fast]") {
   scenarios::RunSpec spec = make_spec("iso_28580", "a50", {}, "quasi_static");
-  const double rrc = number(spec.scenario->run(spec, {}), "rrc_N_per_kN");
+  const double rrc = number(scenarios::run_scenario(spec, {}), "rrc_N_per_kN");
   spec.tolerance_factor = 0.5;
-  CHECK(number(spec.scenario->run(spec, {}), "rrc_N_per_kN") == Approx(rrc).epsilon(1e-5));
+  CHECK(number(scenarios::run_scenario(spec, {}), "rrc_N_per_kN") == Approx(rrc).epsilon(1e-5));
 }
 
 TEST_CASE("results are bit-identical from one or two threads", "[fast]") {
@@ -122,7 +122,7 @@ TEST_CASE("with sensors on, the offset cancels and the uncertainty covers what n
   double largest_offset_Nm = 0.0;
   for (int seed = 1; seed <= kSeeds; ++seed) {
     spec.seed = static_cast<std::uint64_t>(seed);
-    const auto outcome = spec.scenario->run(spec, {});
+    const auto outcome = scenarios::run_scenario(spec, {});
     largest_offset_Nm = std::max(largest_offset_Nm, std::abs(outcome.recording.channel("drum_torque_Nm")[0]));
     if (std::abs(number(outcome, "rrc_N_per_kN") - exact) < number(outcome, "rrc_uncertainty_N_per_kN")) ++within;
   }

@@ -127,7 +127,7 @@ TEST_CASE("a lossless wheel that is run up and down closes its audits", "[fast]"
                                          "rig.parasitic.c1_N_s_per_m=0.0", "rig.parasitic.c2_N_s2_per_m2=0.0"},
                                         fidelity);
     spec.baseline = models::Baseline::kConstantRrc;
-    const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
     for (const auto& cycle : outcome.result["cycles"]) CHECK(std::abs(cycle["rrc_N_per_kN"].get<double>()) < 1e-6);
   }
 }

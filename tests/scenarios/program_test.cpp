@@ -150,7 +150,7 @@ TEST_CASE("a program written as a set is replayed to the same channels, memory a
       "quasi_static");
   spec.sensors = models::SensorSet{};
   for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC"}) (*spec.sensors)[channel] = {};
-  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   for (const auto& [name, content] : scenarios::write_measurement_set(spec, outcome, "test")) {
     tests::write_file(folder.file(name), content);
   }

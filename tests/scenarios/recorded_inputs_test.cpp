@@ -36,7 +36,7 @@ struct Follow {
     settings.push_back("program=" + folder.file("rows.csv"));
     spec = tests::make_spec(scenario, "a50", settings, "quasi_static");
   }
-  scenarios::Outcome run() const { return spec.scenario->run(spec, {}); }
+  scenarios::Outcome run() const { return scenarios::run_scenario(spec, {}); }
 };
 
 Follow on_roller(const std::vector<std::string>& settings = {}) { return {"wheel_program", kOnRoller, settings}; }

@@ -19,7 +19,7 @@ scenarios::Outcome run_on(const std::string& rig, const std::string& scenario, c
   set_config_value(document, "fidelity", fidelity, "test");
   for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
   const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
-  return spec.scenario->run(spec, {});
+  return scenarios::run_scenario(spec, {});
 }
 
 double first_time_s(const scenarios::Outcome& outcome) {

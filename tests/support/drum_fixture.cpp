@@ -79,7 +79,7 @@ scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tir
 scenarios::Outcome run(const std::string& scenario, const std::string& tire, const std::vector<std::string>& settings,
                        const std::string& fidelity) {
   const scenarios::RunSpec spec = make_spec(scenario, tire, settings, fidelity);
-  return spec.scenario->run(spec, {});
+  return scenarios::run_scenario(spec, {});
 }
 
 double number(const scenarios::Outcome& outcome, const char* key) { return outcome.result[key].get<double>(); }

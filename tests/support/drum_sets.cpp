@@ -61,7 +61,7 @@ measurements::MeasurementSet simulate_campaign(const Campaign& campaign, std::ui
     const auto& [scenario, settings] = campaign.parts[part];
     scenarios::RunSpec spec = make_spec(scenario, campaign.tire, settings, "quasi_static");
     spec.effects = campaign.effects;
-    const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
     for (const scenarios::SetRun& cut : outcome.set_runs) {
       set.runs.push_back(cut_run(std::to_string(part + 1) + "-" + cut.id, outcome.recording, cut));
     }

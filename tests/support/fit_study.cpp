@@ -12,7 +12,7 @@ namespace {
 measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity) {
   const scenarios::RunSpec spec = make_spec(
       "warm_up", tire, {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
-  const scenarios::Outcome outcome = spec.scenario->run(spec, {});
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const scenarios::SetRun& cut = outcome.set_runs.front();
   measurements::MeasuredRun run;
   run.id = cut.id;

@@ -10,7 +10,7 @@ int main() {
     rollrig::ConfigTable document = scenarios::make_run_document("iso_28580");
     rollrig::set_config_value(document, "tire", "a50", "program");
     const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
-    const scenarios::Outcome outcome = spec.scenario->run(spec, nullptr);
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, nullptr);
     const rollrig::Json result = scenarios::make_result_json(spec, outcome);
     fmt::print("{}\n{}\n", result["result"]["rrc_25degC_2m_N_per_kN"].get<double>(), spec.tire.path);
   } catch (const rollrig::InputError& error) {
