@@ -27,24 +27,29 @@ Variable require(matvar_t* variable) {
   return {variable, Mat_VarFree};
 }
 
-/// A variable of `rows` x `columns` elements, which are copied. Its name is where it is put.
-Variable make_variable(matio_classes kind, matio_types type, std::size_t rows, std::size_t columns, const void* data,
-                       int options = 0) {
-  std::array<std::size_t, 2> extents{rows, columns};
-  return require(Mat_VarCreate(nullptr, kind, type, 2, extents.data(), const_cast<void*>(data), options));
+struct Type {
+  matio_classes in_matlab;
+  matio_types in_file;
+};
+constexpr Type kDouble{MAT_C_DOUBLE, MAT_T_DOUBLE};
+
+/// A variable of `extents` rows and columns, which are copied. Its name is where it is put.
+Variable make_variable(Type type, std::array<std::size_t, 2> extents, const void* data, int options = 0) {
+  return require(
+      Mat_VarCreate(nullptr, type.in_matlab, type.in_file, 2, extents.data(), const_cast<void*>(data), options));
 }
 
 Variable make_text(const std::string& text) {
   const std::u16string wide = boost::locale::conv::utf_to_utf<char16_t>(text);
-  return make_variable(MAT_C_CHAR, MAT_T_UTF16, wide.empty() ? 0 : 1, wide.size(), wide.data());
+  return make_variable({MAT_C_CHAR, MAT_T_UTF16}, {wide.empty() ? 0U : 1U, wide.size()}, wide.data());
 }
 
-/// A cell; takes what it holds.
-Variable make_cell(std::vector<Variable> items, std::size_t rows, std::size_t columns) {
+/// A column of cells; takes what it holds.
+Variable make_cell(std::vector<Variable> items) {
   std::vector<matvar_t*> pointers;
   pointers.reserve(items.size());
   for (Variable& item : items) pointers.push_back(item.release());
-  return make_variable(MAT_C_CELL, MAT_T_CELL, rows, columns, pointers.data());
+  return make_variable({MAT_C_CELL, MAT_T_CELL}, {pointers.size(), 1}, pointers.data());
 }
 
 /// A letter first, then letters, digits and '_', as many as MATLAB reads.
@@ -93,25 +98,25 @@ Fields make_fields(const Group& group) {
 }
 
 struct ValueMaker {
-  Variable operator()(double value) const { return make_variable(MAT_C_DOUBLE, MAT_T_DOUBLE, 1, 1, &value); }
+  Variable operator()(double value) const { return make_variable(kDouble, {1, 1}, &value); }
   Variable operator()(const Column& column) const {
-    return make_variable(MAT_C_DOUBLE, MAT_T_DOUBLE, column.size(), column.empty() ? 0 : 1, column.data());
+    return make_variable(kDouble, {column.size(), column.empty() ? 0U : 1U}, column.data());
   }
   Variable operator()(bool flag) const {
     const mat_uint8_t value = flag ? 1 : 0;
-    return make_variable(MAT_C_UINT8, MAT_T_UINT8, 1, 1, &value, MAT_F_LOGICAL);
+    return make_variable({MAT_C_UINT8, MAT_T_UINT8}, {1, 1}, &value, MAT_F_LOGICAL);
   }
   Variable operator()(const std::string& text) const { return make_text(text); }
   Variable operator()(const Texts& texts) const {
     std::vector<Variable> items;
     for (const std::string& text : texts) items.push_back(make_text(text));
-    return make_cell(std::move(items), texts.size(), 1);
+    return make_cell(std::move(items));
   }
   Variable operator()(const Group& group) const { return make_struct(make_fields(group)); }
   Variable operator()(const List& list) const {
     std::vector<Variable> items;
     for (const Node& item : list.items) items.push_back(make_value(item));
-    return make_cell(std::move(items), list.items.size(), 1);
+    return make_cell(std::move(items));
   }
 };
 

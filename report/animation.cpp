@@ -11,6 +11,7 @@
 namespace rollrig::report {
 namespace {
 
+namespace quantities = models::quantities;
 using scenarios::RunSpec;
 using Column = std::vector<double>;
 using Recording = sim::Recording<double>;
@@ -33,7 +34,7 @@ const Column* find_channel(const Recording& recording, const std::string& name) 
 
 /// Way at the recorded speed, in meters.
 Column integrate_speed(const Recording& recording) {
-  const Column& speed_m_s = recording.channel("speed_km_h");
+  const Column& speed_m_s = recording.channel(quantities::kSpeed);
   Column way_m(speed_m_s.size(), 0.0);
   for (std::size_t i = 1; i < way_m.size(); ++i) {
     way_m[i] = way_m[i - 1] + 0.5 * (speed_m_s[i] + speed_m_s[i - 1]) * (recording.time_s[i] - recording.time_s[i - 1]);
@@ -50,6 +51,7 @@ Column scaled(Column values, double factor) {
 std::string named(const std::string& channel, const std::string& position) {
   return rigs::wheel_channel(channel, {position});
 }
+std::string named(const Quantity& quantity, const std::string& position) { return named(quantity.header(), position); }
 
 class Scene {
  public:
@@ -88,12 +90,13 @@ class Scene {
 
   /// What every wheel has: load, temperature, angles; the height is the machine's to add.
   Json make_wheel(const std::string& position, const std::string& surface_pose) const {
-    const Column& load_N = recording_.channel(named("contact_load_N", position));
+    const Column& load_N = recording_.channel(named(quantities::kContactLoad, position));
     const double rolling_m = height_by_load({load_N[load_N.size() / 2]}).front();
-    Json wheel = {{"x_m", 0.0},
-                  {"load_N", series(load_N, "load_N")},
-                  {"temperature_degC", series(recording_.channel(named("liner_temperature_degC", position)), "x_degC")},
-                  {"angle_rad", series(angle_of(named("wheel_angle_rad", position), rolling_m), "angle_rad")}};
+    Json wheel = {
+        {"x_m", 0.0},
+        {"load_N", series(load_N, "load_N")},
+        {"temperature_degC", series(recording_.channel(named(quantities::kLinerTemperature, position)), "x_degC")},
+        {"angle_rad", series(angle_of(named("wheel_angle_rad", position), rolling_m), "angle_rad")}};
     if (surface_radius_m() > 0.0) {
       wheel["surface_angle_rad"] = series(angle_of(surface_pose, surface_radius_m()), "angle_rad");
     }
@@ -104,7 +107,7 @@ class Scene {
     double low = 1e9;
     double high = -1e9;
     for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
-      if (without_wheel(recording_.channels[i].name) != "liner_temperature_degC") continue;
+      if (without_wheel(recording_.channels[i].name) != quantities::kLinerTemperature.header()) continue;
       const Column& values = recording_.values[i];
       low = std::min(low, *std::min_element(values.begin(), values.end()));
       high = std::max(high, *std::max_element(values.begin(), values.end()));
@@ -123,7 +126,7 @@ class Scene {
 Json make_drum_wheel(const Scene& scene) {
   Json wheel = scene.make_wheel("", "drum_angle_rad");
   const Column* pose = find_pose(scene.recording(), "axle_height_m");
-  Column height_m = scene.height_by_load(scene.recording().channel("contact_load_N"));
+  Column height_m = scene.height_by_load(scene.recording().channel(quantities::kContactLoad));
   for (double& height : height_m) height += scene.surface_radius_m();
   wheel["axle_height_m"] = scene.series(pose != nullptr ? *pose : height_m, "height_m");
   return wheel;
@@ -132,7 +135,7 @@ Json make_drum_wheel(const Scene& scene) {
 /// Height of an axle: the body's heave and pitch and the axle's own travel on top of the static one.
 Column find_axle_height_m(const Scene& scene, const std::string& position, double axle_x_m, double static_load_N) {
   const Recording& recording = scene.recording();
-  Column height_m = scene.height_by_load(recording.channel(named("contact_load_N", position)));
+  Column height_m = scene.height_by_load(recording.channel(named(quantities::kContactLoad, position)));
   const Column* heave_m = find_pose(recording, "body_heave_m");
   const Column* travel_m = find_pose(recording, named("axle_travel_m", position));
   if (heave_m == nullptr || travel_m == nullptr) return height_m;
@@ -147,11 +150,11 @@ Column find_axle_height_m(const Scene& scene, const std::string& position, doubl
 
 Json make_vehicle_wheel(const Scene& scene, const std::string& position, double axle_x_m) {
   const Recording& recording = scene.recording();
-  const double static_load_N = recording.channel(named("load_N", position)).front();
+  const double static_load_N = recording.channel(named(quantities::kLoad, position)).front();
   Json wheel = scene.make_wheel(position, named("roller_angle_rad", position));
   wheel["x_m"] = axle_x_m;
   wheel["axle_height_m"] = scene.series(find_axle_height_m(scene, position, axle_x_m, static_load_N), "height_m");
-  wheel["force_N"] = scene.series(recording.channel(named("longitudinal_force_N", position)), "force_N");
+  wheel["force_N"] = scene.series(recording.channel(named(quantities::kLongitudinalForce, position)), "force_N");
   return wheel;
 }
 
@@ -167,14 +170,14 @@ void add_vehicle(const Scene& scene, Block& block) {
   };
   Json body = {{"height_m", geometry.centre_of_gravity_height_m},
                {"heave_m", scene.series(pose_or_still("body_heave_m"), "height_m")}};
-  if (find_channel(recording, "load_N") != nullptr) {
+  if (find_channel(recording, named(quantities::kLoad, "")) != nullptr) {
     block["wheels"].push_back(make_vehicle_wheel(scene, "", 0.0));
   } else {
     body["wheelbase_m"] = geometry.wheelbase_m;
     body["front_x_m"] = front_x_m;
     body["pitch_rad"] = scene.series(pose_or_still("body_pitch_rad"), "angle_rad");
     for (const char* position : {"front_left", "rear_left"}) {
-      if (find_channel(recording, named("load_N", position)) == nullptr) continue;  // its axle stands
+      if (find_channel(recording, named(quantities::kLoad, position)) == nullptr) continue;  // its axle stands
       const double x_m = std::string(position) == "front_left" ? front_x_m : front_x_m - geometry.wheelbase_m;
       block["wheels"].push_back(make_vehicle_wheel(scene, position, x_m));
     }
@@ -205,7 +208,7 @@ Block make_animation(const RunSpec& spec, const Recording& recording) {
                  {"caption", std::string(of) + " The tire has the color of its liner temperature."},
                  {"tire", scene.make_tire()},
                  {"temperature_degC", scene.temperature_range_degC()},
-                 {"speed_km_h", scene.series(recording.channel("speed_km_h"), "speed_km_h")},
+                 {"speed_km_h", scene.series(recording.channel(quantities::kSpeed), "speed_km_h")},
                  {"wheels", Json::array()}};
   if (!is_road) block["drum_radius_m"] = scene.surface_radius_m();
   if (is_vehicle) {

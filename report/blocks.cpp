@@ -51,6 +51,37 @@ Block make_table(const scenarios::ResultTable& table) {
   return block;
 }
 
+Block make_curves(const Axis& x, const Axis& y, Json series, const std::string& caption) {
+  const auto to_json = [](const Axis& axis) {
+    Json json = {{"label", axis.label}, {"unit", axis.unit}};
+    if (axis.from_zero) json["from_zero"] = true;
+    return json;
+  };
+  Block block = {{"type", "curves"}, {"x", to_json(x)}, {"y", to_json(y)}, {"series", std::move(series)}};
+  if (!caption.empty()) block["caption"] = caption;
+  return block;
+}
+
+Block make_bars(const Axis& y, Json categories, Json series, const std::string& caption) {
+  Block block = {{"type", "bars"},
+                 {"label", y.label},
+                 {"unit", y.unit},
+                 {"categories", std::move(categories)},
+                 {"series", std::move(series)}};
+  if (!caption.empty()) block["caption"] = caption;
+  return block;
+}
+
+Section make_document(const Json& document, const std::string& folded) {
+  return {"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, folded};
+}
+
+Section begin_section(const std::string& title, const std::vector<std::string>& warnings) {
+  Section section{title};
+  if (!warnings.empty()) section.blocks.push_back(make_warnings(warnings));
+  return section;
+}
+
 Block make_warnings(const std::vector<std::string>& warnings) { return {{"type", "warnings"}, {"items", warnings}}; }
 
 Block make_paragraph(const std::string& text) { return {{"type", "text"}, {"paragraphs", Json::array({text})}}; }

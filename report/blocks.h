@@ -22,6 +22,22 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
 
 Block make_lines(const std::vector<scenarios::ResultLine>& lines);
 Block make_table(const scenarios::ResultTable& table);
+
+/// What an axis of a chart shows.
+struct Axis {
+  std::string label;
+  std::string unit;
+  bool from_zero = false;
+};
+
+/// Lines or points over a quantity.
+Block make_curves(const Axis& x, const Axis& y, Json series, const std::string& caption = "");
+/// Bars over categories.
+Block make_bars(const Axis& y, Json categories, Json series, const std::string& caption = "");
+/// A document as it stands, folded away.
+Section make_document(const Json& document, const std::string& folded);
+/// A section that begins with warnings, where there are some.
+Section begin_section(const std::string& title, const std::vector<std::string>& warnings);
 Block make_warnings(const std::vector<std::string>& warnings);
 Block make_paragraph(const std::string& text);
 /// A sentence on top; tone: good, doubt or bad.

@@ -81,7 +81,7 @@ std::string describe_set(const measurements::MeasurementSet& set) {
 Page make_diagnosis_page(const measurements::MeasurementSet& set, const Diagnosis& diagnosis) {
   const diagnosis::PreparedSet prepared(set);
   const std::vector<SimulatedSet> simulated = simulate_before_and_after(prepared, diagnosis);
-  Page page{"diagnose", fmt::format("Diagnosis of {}", diagnosis.set), describe_set(set), {}, false, {}};
+  Page page{"diagnose", fmt::format("Diagnosis of {}", diagnosis.set), describe_set(set)};
   page.add(make_verdict(diagnosis));
   page.add(make_causes(diagnosis));
   page.add(make_gap(diagnosis));
@@ -94,8 +94,7 @@ Page make_diagnosis_page(const measurements::MeasurementSet& set, const Diagnosi
   page.add(make_next(diagnosis));
   page.add(make_explanations(diagnosis));
   page.add(make_runs(prepared, simulated));
-  Json document = diagnosis::make_diagnosis_json(diagnosis);
-  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The diagnosis as JSON"});
+  page.add(make_document(diagnosis::make_diagnosis_json(diagnosis), "The diagnosis as JSON"));
   return page;
 }
 

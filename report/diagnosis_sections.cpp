@@ -188,16 +188,11 @@ Section make_gap(const Diagnosis& diagnosis) {
                                           ? fmt::format("Judged on {}, each left out of the fit in turn: {}.",
                                                         format_count(gap.held_out.size(), "run"), join(gap.held_out))
                                           : "There is one run, so nothing can be left out: judged on the fitted data."};
-  section.blocks.push_back(
-      {{"type", "bars"},
-       {"label", "Gap without noise"},
-       {"unit", "noise floors"},
-       {"categories", {"as calibrated, numbers of the files", "recalibrated, held-out runs"}},
-       {"series",
-        {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
-         {{"name", "with the cause"},
-          {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}}},
-       {"caption", "One noise floor is the standard deviation of a mean over ten seconds."}});
+  section.blocks.push_back(make_bars(
+      {"Gap without noise", "noise floors"}, {"as calibrated, numbers of the files", "recalibrated, held-out runs"},
+      {{{"name", "before"}, {"values", {rounded(gap.as_calibrated.before), rounded(gap.recalibrated.before)}}},
+       {{"name", "with the cause"}, {"values", {rounded(gap.as_calibrated.after), rounded(gap.recalibrated.after)}}}},
+      "One noise floor is the standard deviation of a mean over ten seconds."));
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
   };

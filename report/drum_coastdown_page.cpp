@@ -53,11 +53,8 @@ Block make_net_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
     }
     series.push_back(points.finish(fmt::format("{:.0f} kPa", pressure_Pa / 1e3)));
   }
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", forces ? "Rolling resistance" : "Net deceleration"}, {"unit", forces ? "N" : "mm/s²"}}},
-          {"series", series},
-          {"caption", "Net of the drum's own loss, with 95 % intervals."}};
+  return make_curves({"Speed", "km/h"}, {forces ? "Rolling resistance" : "Net deceleration", forces ? "N" : "mm/s²"},
+                     series, "Net of the drum's own loss, with 95 % intervals.");
 }
 
 Block make_exponent_chart(const DrumCoastdownFit& fit) {
@@ -65,31 +62,53 @@ Block make_exponent_chart(const DrumCoastdownFit& fit) {
   for (const SpeedPoint& point : fit.points) {
     if (point.pressure_exponent.has_value()) points.add(kKmhPerMs * point.speed_m_s, *point.pressure_exponent, 1.0);
   }
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", "Exponent of gauge pressure"}, {"unit", ""}}},
-          {"series", Json::array({points.finish("exponent")})},
-          {"caption", "With 95 % intervals."}};
+  return make_curves({"Speed", "km/h"}, {"Exponent of gauge pressure", ""}, Json::array({points.finish("exponent")}),
+                     "With 95 % intervals.");
 }
 
-std::string show(const std::optional<Interval>& interval, double scale, int decimals) {
+std::string show(const std::optional<Interval>& interval, double unit = 1.0, const char* digits = "{:.3f}") {
   if (!interval.has_value()) return "-";
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", scale * interval->value, decimals, scale * interval->lower,
-                     decimals, scale * interval->upper, decimals);
+  const auto number = [digits](double value) { return fmt::format(fmt::runtime(digits), value); };
+  return fmt::format("{} ({} to {})", number(interval->value / unit), number(interval->lower / unit),
+                     number(interval->upper / unit));
 }
 
-Block make_levels(const DrumCoastdownFit& fit) {
-  scenarios::ResultTable table{"Net of the drum's own loss, with 95 % intervals; * interpolated",
-                               {"speed km/h", "pressure kPa", "runs", "net mm/s²", "force N", "over the reference"},
+scenarios::ResultTable make_level_table(const DrumCoastdownFit& fit, bool forces) {
+  scenarios::ResultTable table{"Net of the drum's own loss, with 95 % interval; * interpolated",
+                               {"km/h", "kPa", "runs", forces ? "force N" : "net mm/s2", "over the reference"},
                                {}};
   for (const SpeedPoint& point : fit.points) {
     for (const PressureLevel& level : point.levels) {
-      table.rows.push_back({fmt::format("{:.1f}{}", kKmhPerMs * point.speed_m_s, level.in_range_left_out ? "*" : ""),
+      table.rows.push_back({fmt::format("{:.1f}{}", 3.6 * point.speed_m_s, level.in_range_left_out ? "*" : ""),
                             fmt::format("{:.0f}", level.pressure_Pa / 1e3), fmt::format("{}", level.runs),
-                            show(level.net_m_s2, 1e3, 2), show(level.force_N, 1.0, 2), show(level.ratio, 1.0, 3)});
+                            forces ? show(level.force_N, 1.0, "{:.2f}") : show(level.net_m_s2, 1e-3, "{:.2f}"),
+                            show(level.ratio)});
     }
   }
-  return make_table(table);
+  return table;
+}
+
+scenarios::ResultTable make_speed_table(const DrumCoastdownFit& fit) {
+  scenarios::ResultTable table{
+      "Drum alone; its standard deviation from run to run", {"km/h", "drum alone mm/s2", "repeatability %"}, {}};
+  for (const SpeedPoint& point : fit.points) {
+    table.rows.push_back({fmt::format("{:.1f}", 3.6 * point.speed_m_s), show(point.drum_alone_m_s2, 1e-3, "{:.2f}"),
+                          show(point.drum_repeatability, 1e-2, "{:.2f}")});
+  }
+  return table;
+}
+
+scenarios::ResultTable make_law_table(const DrumCoastdownFit& fit) {
+  const std::string difference =
+      fit.directions.size() == 2 ? fmt::format("{} over {} %", fit.directions[0], fit.directions[1]) : "directions %";
+  scenarios::ResultTable table{
+      "Exponent of gauge pressure; difference of directions", {"km/h", "exponent", difference, "sd of one %"}, {}};
+  for (const SpeedPoint& point : fit.points) {
+    table.rows.push_back({fmt::format("{:.1f}", 3.6 * point.speed_m_s), show(point.pressure_exponent),
+                          show(point.direction_ratio, 1e-2, "{:+.2f}"),
+                          point.direction_ratio.has_value() ? fmt::format("{:.2f}", 100.0 * point.direction_sd) : "-"});
+  }
+  return table;
 }
 
 /// What the fits leave of the coasts' speeds; of long coasts every so many-th row.
@@ -117,35 +136,32 @@ Block make_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
   for (const auto& [name, points] : by_state) {
     series.push_back({{"name", name}, {"kind", "points"}, {"x", points.x}, {"y", points.y}});
   }
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", "Measured less fitted speed"}, {"unit", "mm/s"}}},
-          {"marks", {0.0}},
-          {"series", series},
-          {"caption", stride > 1 ? fmt::format("Every {}th row.", stride) : std::string("Every row.")}};
+  Block block = make_curves({"Speed", "km/h"}, {"Measured less fitted speed", "mm/s"}, series,
+                            stride > 1 ? fmt::format("Every {}th row.", stride) : "Every row.");
+  block["marks"] = {0.0};
+  return block;
 }
 
 }  // namespace
 
+std::vector<scenarios::ResultTable> make_drum_coastdown_tables(const CoastSet& set, const DrumCoastdownFit& fit) {
+  return {make_level_table(fit, set.calc_drum_mass_kg().has_value()), make_speed_table(fit), make_law_table(fit)};
+}
+
 Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) {
-  Page page{"fit drum-coastdown",
-            fmt::format("Rolling resistance from coast-downs: {}", set.name),
+  Page page{"fit drum-coastdown", fmt::format("Rolling resistance from coast-downs: {}", set.name),
             fmt::format("{}; reference {:.1f} kPa, {:.1f} km/h", format_count(set.runs.size(), "run"),
-                        fit.reference_pressure_Pa / 1e3, kKmhPerMs * set.reference_speed_m_s),
-            {},
-            false,
-            {}};
-  Section result{"Result"};
-  if (!fit.warnings.empty()) result.blocks.push_back(make_warnings(fit.warnings));
+                        fit.reference_pressure_Pa / 1e3, kKmhPerMs * set.reference_speed_m_s)};
+  Section result = begin_section("Result", fit.warnings);
   result.blocks.push_back(make_net_chart(set, fit));
-  result.blocks.push_back(make_levels(fit));
+  for (const scenarios::ResultTable& table : make_drum_coastdown_tables(set, fit))
+    result.blocks.push_back(make_table(table));
   page.add(std::move(result));
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
   if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});
   page.add({"Residuals", "", {make_residual_chart(set, fit)}});
-  Json document = estimation::make_coastdown_json(set, fit);
-  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
+  page.add(make_document(estimation::make_coastdown_json(set, fit), "The fit as JSON"));
   return page;
 }
 

@@ -6,6 +6,7 @@
 #include "estimation/road_load/road_load_checks.h"
 #include "estimation/tire_fit/fit_tire.h"
 #include "report/page.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::report {
 
@@ -15,6 +16,13 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const estimatio
 /// A, B, C with their intervals, points and curve, residuals, checks of the standards.
 Page make_road_load_page(const estimation::CoastdownFile& file, const estimation::RoadLoadFitOptions& options,
                          const estimation::RoadLoadFit& fit, const estimation::RoadLoadChecks& checks);
+
+/// A, B, C with standard deviation and 95 % interval, or their bound.
+scenarios::ResultTable make_coefficient_table(const estimation::RoadLoadFit& fit, const std::string& title);
+
+/// Net force or deceleration by speed and pressure, the drum alone, exponent of pressure and difference of directions.
+std::vector<scenarios::ResultTable> make_drum_coastdown_tables(const estimation::CoastSet& set,
+                                                               const estimation::DrumCoastdownFit& fit);
 
 /// Net force or deceleration by speed and pressure with intervals, exponent of pressure, residuals of the coasts.
 Page make_drum_coastdown_page(const estimation::CoastSet& set, const estimation::DrumCoastdownFit& fit);

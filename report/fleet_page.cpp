@@ -5,6 +5,7 @@
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
 #include "report/diagnosis_sections.h"
+#include "sim/core/text.h"
 
 namespace rollrig::report {
 namespace {
@@ -70,11 +71,8 @@ Block make_gaps(const Fleet& fleet) {
     const bool has_cause = member.diagnosis->verdict == diagnosis::Verdict::kExplained;
     after.push_back(has_cause ? rounded(member.diagnosis->gap.recalibrated.after) : Json(nullptr));
   }
-  return {{"type", "bars"},
-          {"label", "Gap on held-out runs"},
-          {"unit", "noise floors"},
-          {"categories", names},
-          {"series", {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}}}};
+  return make_bars({"Gap on held-out runs", "noise floors"}, names,
+                   {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}});
 }
 
 /// The verdict on a set in a sentence, or why there is none, and what is warned of.
@@ -98,10 +96,7 @@ Section make_member(const FleetMember& member) {
 }  // namespace
 
 Page make_fleet_page(const Fleet& fleet) {
-  Page page{
-      "diagnose", fmt::format("Diagnosis of {} set{}", fleet.members.size(), fleet.members.size() == 1 ? "" : "s"),
-      "",         {},
-      false,      {}};
+  Page page{"diagnose", "Diagnosis of " + format_count(fleet.members.size(), "set"), ""};
   page.add({"Sets", "", {make_members(fleet), make_gaps(fleet)}});
   Section back{"What comes back"};
   back.blocks.push_back(fleet.recurrences.empty()

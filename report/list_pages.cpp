@@ -48,63 +48,72 @@ Block make_sweep_chart(const Json& sweep, const std::vector<std::string>& axes, 
     (*at)["y"].push_back(value.is_number() ? rounded(value.get<double>()) : Json(nullptr));
   }
   const std::string axis = axes.front().substr(axes.front().rfind('.') + 1);
-  return {{"type", "curves"},
-          {"x", {{"label", plain_name(axis)}, {"unit", shown_unit(axis)}}},
-          {"y", {{"label", plain_name(result)}, {"unit", shown_unit(result)}}},
-          {"series", series}};
+  return make_curves({plain_name(axis), shown_unit(axis)}, {plain_name(result), shown_unit(result)}, series);
 }
 
-/// Single numbers of the result that are not the same in every run; times of evaluation do not count.
-std::vector<std::string> find_changing(const Json& sweep) {
+/// A result at every point, null where a point has none.
+std::vector<Json> list_values(const Json& sweep, const std::string& key) {
+  std::vector<Json> values;
+  for (const Json& point : sweep["points"]) values.push_back(point["result"].value(key, Json()));
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::string> list_numbers(const Json& sweep) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : sweep["points"].front()["result"].items()) {
+    const std::vector<Json> values = list_values(sweep, key);
+    if (std::any_of(values.begin(), values.end(), [](const Json& at) { return at.is_number(); })) keys.push_back(key);
+  }
+  return keys;
+}
+
+std::vector<std::string> list_changing(const Json& sweep) {
   constexpr double kSame = 1e-6;  // relative
   std::vector<std::string> keys;
-  for (const auto& [key, first] : sweep["points"].front()["result"].items()) {
-    if (!first.is_number() || unit_of_key(key).symbol == "s") continue;
-    const bool changes =
-        std::any_of(sweep["points"].begin(), sweep["points"].end(), [&key = key, &first = first](const Json& point) {
-          const Json& result = point["result"];
-          const double value = result.contains(key) && result[key].is_number() ? result[key].get<double>() : 0.0;
-          return std::abs(value - first.get<double>()) > kSame * std::abs(first.get<double>());
-        });
+  for (const std::string& key : list_numbers(sweep)) {
+    if (unit_of_key(key).symbol == "s") continue;
+    const std::vector<Json> values = list_values(sweep, key);
+    const bool changes = std::any_of(values.begin(), values.end(), [&values](const Json& value) {
+      if (!value.is_number() || !values.front().is_number()) return value.is_number() != values.front().is_number();
+      const double first = values.front();
+      return std::abs(value.get<double>() - first) > kSame * std::abs(first);
+    });
     if (changes) keys.push_back(key);
   }
   return keys;
 }
 
-/// A row a point: what is set, then every single number of the result.
-Block make_sweep_table(const Json& sweep, const std::vector<std::string>& axes) {
-  scenarios::ResultTable table{"All " + format_count(sweep["points"].size(), "run"), axes, {}};
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : sweep["points"].front()["result"].items()) {
-    if (value.is_number()) keys.push_back(key);
-  }
+scenarios::ResultTable make_sweep_table(const Json& sweep, const std::string& title,
+                                        const std::vector<std::string>& keys) {
+  scenarios::ResultTable table{title, find_axes(sweep), {}};
   table.columns.insert(table.columns.end(), keys.begin(), keys.end());
   for (const Json& point : sweep["points"]) {
     std::vector<std::string> row;
-    for (const std::string& axis : axes) row.push_back(point["set"][axis].get<std::string>());
+    for (const auto& [axis, value] : point["set"].items()) row.push_back(value.get<std::string>());
     for (const std::string& key : keys) {
-      const Json value = point["result"].value(key, Json(nullptr));
+      const Json value = point["result"].value(key, Json());
       row.push_back(value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "-");
     }
     table.rows.push_back(row);
   }
-  return make_table(table);
+  return table;
 }
 
-}  // namespace
-
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle) {
-  if (shown.empty()) shown = find_changing(sweep);
+  if (shown.empty()) shown = list_changing(sweep);
   const std::vector<std::string> axes = find_axes(sweep);
-  Page page{"sweep",  fmt::format("Sweep of {} over {}", sweep["scenario"].get<std::string>(), fmt::join(axes, ", ")),
-            subtitle, {},
-            false,    {}};
+  const std::string scenario = sweep["scenario"];
+  Page page{"sweep", fmt::format("Sweep of {} over {}", scenario, fmt::join(axes, ", ")), subtitle};
   Section charts{"Results"};
   if (is_numeric(sweep, axes.front()) && sweep["points"].size() > 1) {
     for (const std::string& result : shown) charts.blocks.push_back(make_sweep_chart(sweep, axes, result));
   }
   page.add(std::move(charts));
-  page.add({"All runs", "", {make_sweep_table(sweep, axes)}});
+  const std::vector<std::string> keys = list_numbers(sweep);
+  const std::string title = "All " + format_count(sweep["points"].size(), "run");
+  page.add({"All runs", "", {make_table(make_sweep_table(sweep, title, keys))}});
   return page;
 }
 
@@ -127,18 +136,15 @@ Page make_regress_page(const Json& regression) {
     shares.push_back(rounded(worst));
   }
   const bool is_good = good == runs.size();
-  Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run"), {}, false, {}};
+  Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run")};
   Section verdict{"Verdict"};
   verdict.blocks.push_back(make_lead(
       is_good ? "good" : "bad",
       is_good ? fmt::format("As their goldens: {}.", format_count(runs.size(), "run"))
               : fmt::format("{} of {} differ from the golden.", runs.size() - good, format_count(runs.size(), "run"))));
-  verdict.blocks.push_back({{"type", "bars"},
-                            {"label", "Worst difference of each run"},
-                            {"unit", "of its tolerance"},
-                            {"categories", names},
-                            {"series", Json::array({{{"name", "worst"}, {"values", shares}}})},
-                            {"caption", "A run differs where its bar is above 1."}});
+  verdict.blocks.push_back(make_bars({"Worst difference of each run", "of its tolerance"}, names,
+                                     Json::array({{{"name", "worst"}, {"values", shares}}}),
+                                     "A run differs where its bar is above 1."));
   verdict.blocks.push_back(make_table(table));
   page.add(std::move(verdict));
   if (!problems.empty()) page.add({"What differs", "", {{{"type", "text"}, {"items", problems}}}});

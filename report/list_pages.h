@@ -5,8 +5,18 @@
 #include <vector>
 
 #include "report/page.h"
+#include "scenarios/run/scenario.h"
 
 namespace rollrig::report {
+
+/// Keys of the results of a sweep's document that are single numbers, at one point at least, in order.
+std::vector<std::string> list_numbers(const Json& sweep);
+/// Those that are not the same at every point; times of evaluation do not count.
+std::vector<std::string> list_changing(const Json& sweep);
+
+/// A row a point of a sweep's document: what is set, then the results of `keys`.
+scenarios::ResultTable make_sweep_table(const Json& sweep, const std::string& title,
+                                        const std::vector<std::string>& keys);
 
 /// Of the sweep's document (rollrig-sweep/1): results over what is varied, and a table of all points. `shown` are the
 /// results that have a chart; where none is named, those that change.

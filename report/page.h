@@ -29,9 +29,9 @@ struct Page {
   std::string command;
   std::string title;
   std::string subtitle;
-  std::vector<Section> sections;
+  std::vector<Section> sections = {};
   bool has_clock = false;
-  PageClock clock;
+  PageClock clock = {};
 
   /// Adds a section, unless it would be empty.
   void add(Section section);

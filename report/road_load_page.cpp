@@ -16,25 +16,6 @@ constexpr double kKmhPerMs = 3.6;
 
 std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s²" : "N"; }
 
-Block make_coefficients(const RoadLoadFit& fit) {
-  scenarios::ResultTable table{
-      "At reference conditions, with 95 % intervals", {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
-  for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };
-    const std::string unit = pretty_unit(unit_of_key(estimation::road_load_key(i, fit.per_mass)).symbol);
-    std::vector<std::string> row{std::string(1, "ABC"[i]), number(fit.values()[at])};
-    if (fit.on_bound[at]) {
-      row.insert(row.end(), {"on its bound", "", ""});
-    } else {
-      row.insert(row.end(), {number(fit.sd(i)), number(fit.interval_95(i)[0]), number(fit.interval_95(i)[1])});
-    }
-    row.push_back(unit);
-    table.rows.push_back(row);
-  }
-  return make_table(table);
-}
-
 /// The fitted curve with its interval over the speeds that the data cover.
 Json make_curve(const RoadLoadFit& fit) {
   constexpr int kPoints = 40;
@@ -83,23 +64,18 @@ Block make_force_chart(const estimation::CoastdownFile& file, const RoadLoadFit&
   Json series = Json::array({make_curve(fit)});
   add_headings(
       file, fit, [](const RoadLoadPoint& point) { return point.force_N; }, series);
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", fit.per_mass ? "Deceleration" : "Force"}, {"unit", force_unit(fit)}, {"from_zero", true}}},
-          {"series", series},
-          {"caption", "Points: mean force over a speed bin as tested, with that run's wind, slope and weather."}};
+  return make_curves({"Speed", "km/h"}, {fit.per_mass ? "Deceleration" : "Force", force_unit(fit), true}, series,
+                     "Points: mean force over a speed bin as tested, with that run's wind, slope and weather.");
 }
 
 Block make_residual_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array();
   add_headings(
       file, fit, [](const RoadLoadPoint& point) { return point.residual_N; }, series);
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", "Measured less fitted"}, {"unit", force_unit(fit)}}},
-          {"marks", {0.0}},
-          {"series", series},
-          {"caption", "Fit as tested: wind, slope and weather are in it."}};
+  Block block = make_curves({"Speed", "km/h"}, {"Measured less fitted", force_unit(fit)}, series,
+                            "Fit as tested: wind, slope and weather are in it.");
+  block["marks"] = {0.0};
+  return block;
 }
 
 Block make_checks(const estimation::RoadLoadChecks& checks) {
@@ -112,25 +88,36 @@ Block make_checks(const estimation::RoadLoadChecks& checks) {
 
 }  // namespace
 
+scenarios::ResultTable make_coefficient_table(const RoadLoadFit& fit, const std::string& title) {
+  scenarios::ResultTable table{title, {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };
+    std::vector<std::string> row{std::string(1, "ABC"[i]), number(fit.values()[at])};
+    if (fit.on_bound[at]) {
+      row.insert(row.end(), {"on its bound", "", ""});
+    } else {
+      row.insert(row.end(), {number(fit.sd(i)), number(fit.interval_95(i)[0]), number(fit.interval_95(i)[1])});
+    }
+    row.push_back(unit_of_key(estimation::road_load_key(i, fit.per_mass)).symbol);
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
 Page make_road_load_page(const estimation::CoastdownFile& file, const estimation::RoadLoadFitOptions& options,
                          const RoadLoadFit& fit, const estimation::RoadLoadChecks& checks) {
-  Page page{"fit road-load",
-            "Road load from coastdowns",
+  Page page{"fit road-load", "Road load from coastdowns",
             fmt::format("{}, {}, {}", format_count(file.data.runs.size(), "run"),
                         format_count(fit.points.size(), "speed bin"),
-                        file.is_trace ? "from speed traces" : "from times through bins"),
-            {},
-            false,
-            {}};
-  Section result{"Coefficients"};
-  if (!fit.warnings.empty()) result.blocks.push_back(make_warnings(fit.warnings));
-  result.blocks.push_back(make_coefficients(fit));
+                        file.is_trace ? "from speed traces" : "from times through bins")};
+  Section result = begin_section("Coefficients", fit.warnings);
+  result.blocks.push_back(make_table(make_coefficient_table(fit, "At reference conditions, with 95 % intervals")));
   page.add(std::move(result));
   page.add({"Data and fit", "", {make_force_chart(file, fit)}});
   page.add({"Residuals", "", {make_residual_chart(file, fit)}});
   page.add({"Checks", "", {make_checks(checks)}});
-  Json document = estimation::make_road_load_json(file, options, fit, checks);
-  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
+  page.add(make_document(estimation::make_road_load_json(file, options, fit, checks), "The fit as JSON"));
   return page;
 }
 

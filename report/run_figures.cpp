@@ -13,30 +13,25 @@ Json column(const Json& rows, const char* key) {
   return values;
 }
 
+Json make_bar_series(const std::string& name, const Json& rows, const char* key) {
+  return {{"name", name}, {"values", column(rows, key)}};
+}
+
 /// The source's figure of a multi-cycle test.
 Block make_section_energies(const Json& sections) {
-  Json labels = Json::array();
+  Json model = make_bar_series("model, tire warming up", sections, "rr_energy_Wh");
   for (const Json& section : sections) {
-    labels.push_back(fmt::format("{:+.1f} %", section.value("difference_percent", 0.0)));
+    model["labels"].push_back(fmt::format("{:+.1f} %", section.value("difference_percent", 0.0)));
   }
-  return {{"type", "bars"},
-          {"label", "Energy of rolling resistance, one tire"},
-          {"unit", "Wh"},
-          {"categories", column(sections, "name")},
-          {"series",
-           {{{"name", "model, tire warming up"}, {"values", column(sections, "rr_energy_Wh")}, {"labels", labels}},
-            {{"name", "constant ISO coefficient"}, {"values", column(sections, "rr_energy_iso_Wh")}}}},
-          {"caption", "Above the bars: how much the model needs more than the coefficient of ISO 28580 says."}};
+  return make_bars({"Energy of rolling resistance, one tire", "Wh"}, column(sections, "name"),
+                   {model, make_bar_series("constant ISO coefficient", sections, "rr_energy_iso_Wh")},
+                   "Above the bars: how much the model needs more than the coefficient of ISO 28580 says.");
 }
 
 Block make_section_temperatures(const Json& sections) {
-  return {{"type", "bars"},
-          {"label", "Temperature of the tire's liner"},
-          {"unit", "°C"},
-          {"categories", column(sections, "name")},
-          {"series",
-           {{{"name", "at the start of the section"}, {"values", column(sections, "temperature_start_degC")}},
-            {{"name", "at its end"}, {"values", column(sections, "temperature_end_degC")}}}}};
+  return make_bars({"Temperature of the tire's liner", "°C"}, column(sections, "name"),
+                   {make_bar_series("at the start of the section", sections, "temperature_start_degC"),
+                    make_bar_series("at its end", sections, "temperature_end_degC")});
 }
 
 Json make_cycle_names(const Json& cycles) {
@@ -49,21 +44,14 @@ Json make_cycle_names(const Json& cycles) {
 }
 
 Block make_cycle_forces(const Json& cycles) {
-  return {{"type", "bars"},
-          {"label", "Force, mean over the window"},
-          {"unit", "N"},
-          {"categories", make_cycle_names(cycles)},
-          {"series",
-           {{{"name", "rolling resistance"}, {"values", column(cycles, "rolling_resistance_N")}},
-            {{"name", "parasitic loss"}, {"values", column(cycles, "parasitic_N")}}}}};
+  return make_bars({"Force, mean over the window", "N"}, make_cycle_names(cycles),
+                   {make_bar_series("rolling resistance", cycles, "rolling_resistance_N"),
+                    make_bar_series("parasitic loss", cycles, "parasitic_N")});
 }
 
 Block make_cycle_coefficients(const Json& cycles) {
-  return {{"type", "bars"},
-          {"label", "Rolling resistance coefficient"},
-          {"unit", "N/kN"},
-          {"categories", make_cycle_names(cycles)},
-          {"series", Json::array({{{"name", "RRc"}, {"values", column(cycles, "rrc_N_per_kN")}}})}};
+  return make_bars({"Rolling resistance coefficient", "N/kN"}, make_cycle_names(cycles),
+                   Json::array({make_bar_series("RRc", cycles, "rrc_N_per_kN")}));
 }
 
 Json make_curve(const char* name, const Json& rows, const char* x, const char* y) {
@@ -71,27 +59,20 @@ Json make_curve(const char* name, const Json& rows, const char* x, const char* y
 }
 
 Block make_road_load(const Json& forces) {
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", "Road load"}, {"unit", "N"}, {"from_zero", true}}},
-          {"series", Json::array({make_curve("A + B v + C v²", forces, "speed_km_h", "force_N")})}};
+  return make_curves({"Speed", "km/h"}, {"Road load", "N", true},
+                     Json::array({make_curve("A + B v + C v²", forces, "speed_km_h", "force_N")}));
 }
 
 Block make_setting(const Json& differences) {
-  return {{"type", "curves"},
-          {"x", {{"label", "Speed"}, {"unit", "km/h"}}},
-          {"y", {{"label", "Road load"}, {"unit", "N"}, {"from_zero", true}}},
-          {"series",
-           {make_curve("target, from the road", differences, "speed_km_h", "target_N"),
-            make_curve("found on the rollers", differences, "speed_km_h", "found_N")}}};
+  return make_curves({"Speed", "km/h"}, {"Road load", "N", true},
+                     {make_curve("target, from the road", differences, "speed_km_h", "target_N"),
+                      make_curve("found on the rollers", differences, "speed_km_h", "found_N")});
 }
 
 Block make_skim_line(const Json& points) {
-  return {{"type", "curves"},
-          {"x", {{"label", "Load"}, {"unit", "N"}, {"from_zero", true}}},
-          {"y", {{"label", "Force in skim"}, {"unit", "N"}}},
-          {"series", Json::array({make_curve("measured", points, "load_N", "force_N")})},
-          {"caption", "Where the line meets load zero is the loss of the rig alone."}};
+  return make_curves({"Load", "N", true}, {"Force in skim", "N"},
+                     Json::array({make_curve("measured", points, "load_N", "force_N")}),
+                     "Where the line meets load zero is the loss of the rig alone.");
 }
 
 }  // namespace

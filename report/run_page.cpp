@@ -29,8 +29,7 @@ std::string make_subtitle(const scenarios::RunSpec& spec) {
 }
 
 Section make_result(const scenarios::Outcome& outcome) {
-  Section section{"Result"};
-  if (!outcome.warnings.empty()) section.blocks.push_back(make_warnings(outcome.warnings));
+  Section section = begin_section("Result", outcome.warnings);
   if (!outcome.lines.empty()) section.blocks.push_back(make_lines(outcome.lines));
   for (const scenarios::ResultTable& table : outcome.tables) section.blocks.push_back(make_table(table));
   return section;

@@ -50,32 +50,36 @@ std::vector<std::size_t> keep_extremes(const std::vector<double>& values, std::s
   return kept;
 }
 
-/// Whether all rows between two lie on their straight line.
-bool are_on_line(const std::vector<double>& time_s, const std::vector<double>& values,
-                 const std::vector<std::size_t>& kept, std::size_t from, std::size_t to, double tolerance) {
-  const double start = values[kept[from]];
-  const double span_s = time_s[kept[to]] - time_s[kept[from]];
-  for (std::size_t k = from + 1; k < to; ++k) {
-    const double share = span_s > 0.0 ? (time_s[kept[k]] - time_s[kept[from]]) / span_s : 0.0;
-    const double line = start + share * (values[kept[to]] - start);
-    if (!(std::abs(values[kept[k]] - line) <= tolerance)) return false;  // not finite: not on it
-  }
-  return true;
-}
+/// Rows of a series that are kept so far.
+struct Kept {
+  const std::vector<double>& time_s;
+  const std::vector<double>& values;
+  std::vector<std::size_t> rows;
 
-std::vector<std::size_t> drop_collinear(const std::vector<double>& time_s, const std::vector<double>& values,
-                                        const std::vector<std::size_t>& kept, double tolerance) {
+  /// Whether all rows between two lie on their straight line.
+  bool are_on_line(std::size_t from, std::size_t to, double tolerance) const {
+    const double start = values[rows[from]];
+    const double span_s = time_s[rows[to]] - time_s[rows[from]];
+    for (std::size_t k = from + 1; k < to; ++k) {
+      const double share = span_s > 0.0 ? (time_s[rows[k]] - time_s[rows[from]]) / span_s : 0.0;
+      const double line = start + share * (values[rows[to]] - start);
+      if (!(std::abs(values[rows[k]] - line) <= tolerance)) return false;  // not finite: not on it
+    }
+    return true;
+  }
+};
+
+std::vector<std::size_t> drop_collinear(const Kept& kept, double tolerance) {
   constexpr std::size_t kLongest = 400;  // rows that one line stands for; bounds the work
-  if (kept.size() < 3) return kept;
-  std::vector<std::size_t> fewer{kept.front()};
+  if (kept.rows.size() < 3) return kept.rows;
+  std::vector<std::size_t> fewer{kept.rows.front()};
   std::size_t from = 0;
-  for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
-    const bool goes_on = k + 1 - from < kLongest && are_on_line(time_s, values, kept, from, k + 1, tolerance);
-    if (goes_on) continue;
-    fewer.push_back(kept[k]);
+  for (std::size_t k = 1; k + 1 < kept.rows.size(); ++k) {
+    if (k + 1 - from < kLongest && kept.are_on_line(from, k + 1, tolerance)) continue;
+    fewer.push_back(kept.rows[k]);
     from = k;
   }
-  fewer.push_back(kept.back());
+  fewer.push_back(kept.rows.back());
   return fewer;
 }
 
@@ -83,7 +87,7 @@ std::vector<std::size_t> drop_collinear(const std::vector<double>& time_s, const
 
 std::vector<std::size_t> thin(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t most,
                               double tolerance) {
-  return drop_collinear(time_s, values, keep_extremes(values, std::max<std::size_t>(most, 8)), tolerance);
+  return drop_collinear({time_s, values, keep_extremes(values, std::max<std::size_t>(most, 8))}, tolerance);
 }
 
 }  // namespace rollrig::report

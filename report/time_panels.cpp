@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "models/quantities.h"
 #include "report/blocks.h"
 #include "sim/core/units.h"
 
@@ -86,7 +87,7 @@ std::vector<double> in_file_units(const std::string& channel, const std::vector<
 
 /// The load that a wheel is given stays as it is on a vehicle: what its contact carries says more.
 bool says_nothing(const sim::Recording<double>& recording, std::size_t channel) {
-  return without_wheel(recording.channels[channel].name) == "load_N" &&
+  return without_wheel(recording.channels[channel].name) == models::quantities::kLoad.header() &&
          !find_wheel(recording.channels[channel].name).empty();
 }
 
@@ -121,7 +122,7 @@ PageClock find_view(const sim::Recording<double>& recording) {
   constexpr double kBefore_s = 60.0;
   constexpr double kNow = 0.5;  // of what is shown: where the slider stands at first
   PageClock view{recording.time_s.front(), recording.time_s.back(), 0.0};
-  const std::vector<double>& speed_m_s = recording.channel("speed_km_h");
+  const std::vector<double>& speed_m_s = recording.channel(models::quantities::kSpeed);
   for (std::size_t row = 0; row < speed_m_s.size(); ++row) {
     if (!(std::abs(speed_m_s[row]) > kRolls_m_s)) continue;
     view.start_s = std::max(view.start_s, recording.time_s[row] - kBefore_s);

@@ -64,11 +64,9 @@ Block make_intervals(const TireFit& fit) {
     low.push_back(rounded(-half_percent));
     high.push_back(rounded(half_percent));
   }
-  return {{"type", "bars"},
-          {"label", "95 % interval of each parameter (whiskers) and two-step regression less fit (bars)"},
-          {"unit", "% of the value"},
-          {"categories", names},
-          {"series", Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}})}};
+  return make_bars(
+      {"95 % interval of each parameter (whiskers) and two-step regression less fit (bars)", "% of the value"}, names,
+      Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}}));
 }
 
 Block make_channels(const TireFit& fit) {
@@ -113,14 +111,10 @@ models::Context<double> make_fitted_context(const diagnosis::PreparedSet& prepar
 }  // namespace
 
 Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& fit) {
-  Page page{"fit tire",
-            fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
-            fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run")),
-            {},
-            false,
-            {}};
-  Section result{"Parameters"};
-  if (!fit.warnings.empty()) result.blocks.push_back(make_warnings(fit.warnings));
+  Page page{
+      "fit tire", fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
+      fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run"))};
+  Section result = begin_section("Parameters", fit.warnings);
   result.blocks.push_back(make_parameters(fit));
   result.blocks.push_back(make_intervals(fit));
   page.add(std::move(result));
@@ -133,8 +127,7 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
   }
   page.add(std::move(runs));
   page.add({"Correlations", "", {make_correlations(fit)}});
-  Json document = estimation::make_fit_json(set, fit);
-  page.add({"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, "The fit as JSON"});
+  page.add(make_document(estimation::make_fit_json(set, fit), "The fit as JSON"));
   return page;
 }
 
