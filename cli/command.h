@@ -4,6 +4,11 @@
 #include <CLI/CLI.hpp>
 
 #include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "sim/core/error.h"
 
 namespace rollrig::cli {
 
@@ -12,6 +17,22 @@ enum ExitStatus { kDone = 0, kDiffers = 1, kInputError = 2, kRunFailed = 3, kInt
 
 /// What a subcommand does when it is called; set by the add_ functions below.
 using Action = std::function<int()>;
+
+/// A subcommand that calls `run` with its options, which are the caller's to declare.
+template <class Options, class Run>
+std::pair<CLI::App*, std::shared_ptr<Options>> add_command(CLI::App& parent, Action& action, const std::string& name,
+                                                           const std::string& doc, Run run) {
+  CLI::App* command = parent.add_subcommand(name, doc);
+  auto options = std::make_shared<Options>();
+  command->callback([options, run, &action] { action = [options, run] { return run(*options); }; });
+  return {command, options};
+}
+
+/// A mistake on the command line.
+inline InputError usage_error(const std::string& what, const std::string& option, const std::string& value,
+                              const std::string& allowed) {
+  return InputError({what, "command line", 0, option, value, allowed, ""});
+}
 
 /// Each adds one subcommand with its options to `app` and sets `action` when that subcommand is called.
 void add_run_command(CLI::App& app, Action& action);

@@ -33,16 +33,11 @@ struct Options {
   std::string json;
 };
 
-InputError bad_option(const std::string& what, const std::string& option, const std::string& value,
-                      const std::string& allowed) {
-  return InputError({what, "command line", 0, option, value, allowed, ""});
-}
-
 void require_in(const Range& range, const std::optional<double>& value, const std::string& option,
                 const std::string& unit) {
   if (!value.has_value() || (std::isfinite(*value) && range.contains(*value))) return;
-  throw bad_option(option + " is out of range", option, fmt::format("{:g}", *value),
-                   fmt::format("a number {} in {}", range.to_string(), unit));
+  throw usage_error(option + " is out of range", option, fmt::format("{:g}", *value),
+                    fmt::format("a number {} in {}", range.to_string(), unit));
 }
 
 /// 1/R of a diameter in m, 0 of "flat".
@@ -51,7 +46,7 @@ std::optional<double> read_curvature(const std::string& text, const std::string&
   if (text == "flat") return 0.0;
   const std::optional<double> diameter_m = parse_number(text);
   if (!diameter_m.has_value() || *diameter_m <= 0.0) {
-    throw bad_option(fmt::format("'{}' is not a drum", text), option, text, "a diameter in m, > 0, or flat");
+    throw usage_error(fmt::format("'{}' is not a drum", text), option, text, "a diameter in m, > 0, or flat");
   }
   return 2.0 / *diameter_m;
 }
@@ -59,8 +54,8 @@ std::optional<double> read_curvature(const std::string& text, const std::string&
 void require_both(bool from_given, bool to_given, const std::string& from, const std::string& to) {
   if (from_given == to_given) return;
   const std::string& missing = from_given ? to : from;
-  throw bad_option(fmt::format("{} is given without {}", from_given ? from : to, missing), missing, "",
-                   "both, or neither");
+  throw usage_error(fmt::format("{} is given without {}", from_given ? from : to, missing), missing, "",
+                    "both, or neither");
 }
 
 /// The tire of --tire, with its diameter and its pressure exponent; those given by hand come first.
@@ -75,7 +70,7 @@ void apply_tire(Options& options, bool exponent_given) {
 
 void check(const Options& options) {
   if (options.force_N.has_value() == options.rrc_N_per_kN.has_value()) {
-    throw bad_option("a loss is given once", "--force", "", "either --force <N> or --rrc <N/kN>");
+    throw usage_error("a loss is given once", "--force", "", "either --force <N> or --rrc <N/kN>");
   }
   require_in(positive(), options.force_N, "--force", "N");
   require_in(positive(), options.rrc_N_per_kN, "--rrc", "N/kN");

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <optional>
 
 #include "cli/command.h"
 #include "cli/comparison_options.h"
-#include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -18,7 +16,6 @@
 #include "diagnosis/output/summary.h"
 #include "report/diagnosis_page.h"
 #include "sim/core/error.h"
-#include "sim/core/file_io.h"
 
 namespace rollrig::cli {
 namespace {
@@ -26,26 +23,22 @@ namespace {
 struct Options {
   std::string set;
   std::string explain;
-  std::string json;
-  HtmlOption html;
+  OutputOptions output;
   std::string plan;
   bool force = false;
   RaceOptions comparison;
   int threads = 0;
-  bool quiet = false;
 };
 
 void require_consistent(const Options& options) {
-  const auto usage = [](const std::string& what, const char* key, const std::string& value, const char* allowed) {
-    return InputError({what, "command line", 0, key, value, allowed, ""});
-  };
   if (options.set.empty() == options.explain.empty()) {
-    throw usage(options.set.empty() ? "nothing to diagnose or to explain" : "a set and --explain exclude each other",
-                options.set.empty() ? "set" : "--explain", options.explain,
-                "a folder with a measurement set, or --explain and the name of an effect");
+    throw usage_error(
+        options.set.empty() ? "nothing to diagnose or to explain" : "a set and --explain exclude each other",
+        options.set.empty() ? "set" : "--explain", options.explain,
+        "a folder with a measurement set, or --explain and the name of an effect");
   }
   if (!options.plan.empty() && options.set.empty()) {
-    throw usage("there is no test to plan without a set", "--plan", options.plan, "a set beside it");
+    throw usage_error("there is no test to plan without a set", "--plan", options.plan, "a set beside it");
   }
   options.comparison.check();
 }
@@ -53,7 +46,7 @@ void require_consistent(const Options& options) {
 /// Calls `diagnose` with what the options ask for, and shows how far it is.
 template <class Diagnose>
 auto with_progress(const Options& options, const Diagnose& diagnose) {
-  ProgressLine progress("diagnose", options.quiet);
+  ProgressLine progress("diagnose", options.output.quiet);
   diagnosis::DiagnosisOptions how{options.comparison.without, options.comparison.only, options.threads};
   how.progress = [&progress](double done, const std::string& stage) {
     progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
@@ -61,28 +54,17 @@ auto with_progress(const Options& options, const Diagnose& diagnose) {
   return diagnose(how);
 }
 
-/// `make_page` is called where a page is wanted.
-template <class MakePage>
-void give(const Options& options, const Json& json, const std::string& text, const MakePage& make_page) {
-  if (!options.json.empty()) write_output(options.json, json.dump(2) + "\n");
-  if (options.html.is_wanted()) options.html.write(make_page());
-  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return;
-  std::cout << text << options.html.note();
-}
-
 /// A folder of sets.
 int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
-  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
+  Output output(options.output);
   const diagnosis::Fleet fleet = with_progress(
       options, [&sets](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose_fleet(sets, how); });
-  files.require_no_input();
-  give(options, diagnosis::make_fleet_json(fleet), diagnosis::format_fleet(fleet),
-       [&fleet] { return report::make_fleet_page(fleet); });
-  const bool is_table_shown = !options.quiet && options.json != "-" && !options.html.is_standard_output();
+  output.write({}, to_text(diagnosis::make_fleet_json(fleet)), [&fleet] { return report::make_fleet_page(fleet); });
+  output.print(diagnosis::format_fleet(fleet));
   int status = kDone;
   for (const diagnosis::FleetMember& member : fleet.members) {
     if (member.failure.empty()) continue;
-    if (!is_table_shown) std::cerr << "error: " << member.folder << ": " << member.failure << '\n';
+    if (options.output.is_silent()) std::cerr << "error: " << member.folder << ": " << member.failure << '\n';
     if (status != kInputError) status = member.problem ? kInputError : kRunFailed;
   }
   return status;
@@ -107,45 +89,43 @@ int diagnose_command(const Options& options) {
   const std::vector<std::string> sets = diagnosis::find_sets(options.set);
   if (!sets.empty()) {
     if (!options.plan.empty()) {
-      throw InputError({"a plan is made for one set", "command line", 0, "--plan", options.plan,
-                        "the folder of one set, without sets below it", ""});
+      throw usage_error("a plan is made for one set", "--plan", options.plan,
+                        "the folder of one set, without sets below it");
     }
-    if (!options.quiet) warn_of_undescribed(options.set);
+    if (!options.output.quiet) warn_of_undescribed(options.set);
     return diagnose_all(options, sets);
   }
   const measurements::MeasurementSet set = measurements::read_measurement_set(options.set);
-  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
+  Output output(options.output);
   std::optional<OutputFolder> plan;
   if (!options.plan.empty()) plan.emplace(options.plan, options.force);
   const auto result =
       with_progress(options, [&set](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose(set, how); });
-  files.require_no_input();
+  output.require_no_input();
   const std::string planned = plan.has_value() ? write_plan(set, result, *plan) : "";
-  give(options, diagnosis::make_diagnosis_json(result), diagnosis::format_summary(result) + planned,
-       [&set, &result] { return report::make_diagnosis_page(set, result); });
+  output.write({}, to_text(diagnosis::make_diagnosis_json(result)),
+               [&set, &result] { return report::make_diagnosis_page(set, result); });
+  output.print(diagnosis::format_summary(result) + planned);
   return kDone;
 }
 
 }  // namespace
 
 void add_diagnose_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("diagnose", "Why a measurement and the simulation differ: where, by which effect, how much");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = add_command<Options>(
+      app, action, "diagnose", "Why a measurement and the simulation differ: where, by which effect, how much",
+      &diagnose_command);
   command->add_option("set", options->set, "Folder of a measurement set, or its set.toml; or a folder of such folders");
   command->add_option("--explain", options->explain,
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
                       "which test splits them; also none, unknown");
-  command->add_option("--json", options->json, "File for the diagnosis, - for standard output");
-  options->html.add_to(*command);
+  options->output.add_to(*command, "File for the diagnosis, - for standard output");
   command->add_option("--plan", options->plan,
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
   options->comparison.add_to(*command);
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return diagnose_command(*options); }; });
 }
 
 }  // namespace rollrig::cli

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 
 #include "cli/command.h"
 #include "cli/output_files.h"
@@ -48,9 +47,9 @@ int export_command(const Options& options) {
 }  // namespace
 
 void add_export_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("export", "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = add_command<Options>(
+      app, action, "export", "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5",
+      &export_command);
   command
       ->add_option("source", options->source,
                    "Folder that run --out or --write-set wrote, a measurement set, or a recording.csv")
@@ -58,7 +57,6 @@ void add_export_command(CLI::App& app, Action& action) {
   command->add_option("--mat", options->mat, "File for MATLAB, version 5; - for standard output");
   command->add_option("--hdf5", options->hdf5, "File in HDF5; - for standard output");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return export_command(*options); }; });
 }
 
 }  // namespace rollrig::cli

@@ -1,11 +1,6 @@
 #include <fmt/format.h>
 
-#include <iostream>
-#include <memory>
-#include <optional>
-
 #include "cli/command.h"
-#include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -13,22 +8,17 @@
 #include "estimation/tire_fit/fit_tire.h"
 #include "report/fit_pages.h"
 #include "sim/core/error.h"
-#include "sim/core/file_io.h"
 
 namespace rollrig::cli {
 namespace {
 
 struct Options {
   std::string set;
-  std::string out;
-  std::string json;
-  HtmlOption html;
+  OutputOptions output;
   std::string name;
   bool load_map = false;
   bool free_H = false;
   int threads = 0;
-  bool force = false;
-  bool quiet = false;
 };
 
 std::string short_name(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
@@ -84,14 +74,12 @@ estimation::TireFit fit_checked(const measurements::MeasurementSet& set, const e
 
 int fit_tire_command(const Options& options) {
   measurements::MeasurementSet set = measurements::read_measurement_set(options.set);
-  std::optional<OutputFolder> out;
-  if (!options.out.empty()) out.emplace(options.out, options.force);
-  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
+  Output output(options.output);
   estimation::FitOptions fit_options;
   fit_options.load_map = options.load_map;
   fit_options.threads = options.threads;
   if (options.free_H) fit_options.free_H = true;
-  ProgressLine progress("fit tire", options.quiet);
+  ProgressLine progress("fit tire", options.output.quiet);
   fit_options.progress = [&progress](int iteration) { progress.show(fmt::format("iteration {}", iteration)); };
   const diagnosis::SetChecks checks = diagnosis::check_set(set, options.threads);
   const std::string& suspicion = checks.suspicion;
@@ -102,21 +90,11 @@ int fit_tire_command(const Options& options) {
         "samples of stuck sensors or that stand alone were left out: rollrig validate tells which");
   }
   fit.tire.name = options.name.empty() ? set.tire.name + "_fit" : options.name;
-  const std::string json = estimation::make_fit_json(set, fit).dump(2) + "\n";
-  const std::string tire_file = fit.tire.name + ".toml";
-  files.require_no_input();
-  if (out.has_value()) {
-    out->add(tire_file, models::write_tire(fit.tire, fit.notes));
-    out->add("fit.json", json);
-    out->commit();
-  }
-  if (!options.json.empty()) write_output(options.json, json);
-  if (options.html.is_wanted()) options.html.write(report::make_tire_fit_page(set, fit));
-  const int status = suspicion.empty() ? kDone : kDiffers;  // as of validate
-  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return status;
-  std::cout << format_fit(set, fit) << options.html.note();
-  if (out.has_value()) std::cout << fmt::format("  written to {}/: {} fit.json\n", options.out, tire_file);
-  return status;
+  const std::string json = to_text(estimation::make_fit_json(set, fit));
+  output.write({{fit.tire.name + ".toml", models::write_tire(fit.tire, fit.notes)}, {"fit.json", json}}, json,
+               [&] { return report::make_tire_fit_page(set, fit); });
+  output.print(format_fit(set, fit));
+  return suspicion.empty() ? kDone : kDiffers;  // as of validate
 }
 
 }  // namespace
@@ -125,20 +103,15 @@ void add_fit_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("fit", "Fit a model to measurements");
   command->require_subcommand(1);
   add_fit_road_load(*command, action);
-  CLI::App* tire = command->add_subcommand("tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds");
+  const auto [tire, options] = add_command<Options>(
+      *command, action, "tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds", &fit_tire_command);
   add_fit_drum_coastdown_command(*command, action);
-  auto options = std::make_shared<Options>();
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();
   tire->add_option("--name", options->name, "Name of the fitted tire [<tire>_fit]");
-  tire->add_option("--out", options->out, "Folder for the tire file and fit.json");
-  tire->add_option("--json", options->json, "File for fit.json, - for standard output");
-  options->html.add_to(*tire);
+  options->output.add_to(*tire, "File for fit.json, - for standard output", "Folder for the tire file and fit.json");
   tire->add_flag("--load-map", options->load_map, "Fit A0, A1, B0, B1 at each load of the set");
   tire->add_flag("--free-h", options->free_H, "Fit H even where the gas temperature was not measured");
   tire->add_option("--threads", options->threads, "Threads [as many as the machine has]")->check(CLI::Range(1, 1024));
-  tire->add_flag("--force", options->force, "Write into a folder that holds files");
-  tire->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  tire->callback([options, &action] { action = [options] { return fit_tire_command(*options); }; });
 }
 
 }  // namespace rollrig::cli

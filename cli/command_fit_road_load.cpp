@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
-#include <iostream>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "cli/command.h"
-#include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "estimation/road_load/road_load_report.h"
 #include "report/fit_pages.h"
-#include "sim/core/file_io.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
@@ -31,9 +27,7 @@ constexpr double kPerKmh = 1.0 / 3.6;
 
 struct Options {
   std::string csv;
-  std::string out;
-  std::string json;
-  HtmlOption html;
+  OutputOptions output;
   std::string bounds;
   std::vector<std::string> sessions;
   std::optional<double> mass_kg;
@@ -47,19 +41,12 @@ struct Options {
   double reference_pressure_kPa = 98.21;
   double rolling_fall_per_K = 8.6e-3;
   bool per_mass = false;
-  bool force = false;
-  bool quiet = false;
 };
-
-InputError option_error(const std::string& what, const std::string& option, const std::string& value,
-                        const std::string& allowed) {
-  return InputError({what, "command line", 0, option, value, allowed, ""});
-}
 
 double parse_edge(const std::string& text, double empty, const std::string& given) {
   if (text.empty()) return empty;
   if (const std::optional<double> value = parse_number(text)) return *value;
-  throw option_error(fmt::format("'{}' is not a number", text), "--bounds", given, "A=from:to,B=from:to,C=from:to");
+  throw usage_error(fmt::format("'{}' is not a number", text), "--bounds", given, "A=from:to,B=from:to,C=from:to");
 }
 
 /// "not-negative", or "A=0:300,C=0:" in N, N/(km/h), N/(km/h)^2.
@@ -75,13 +62,13 @@ estimation::RoadLoadBounds parse_bounds(const std::string& given) {
     const std::size_t colon = part.find(':');
     const std::size_t which = part.empty() ? std::string::npos : std::string("ABC").find(part[0]);
     if (which == std::string::npos || part.size() < 3 || part[1] != '=' || colon == std::string::npos) {
-      throw option_error(fmt::format("bound '{}' is not understood", part), "--bounds", given, allowed);
+      throw usage_error(fmt::format("bound '{}' is not understood", part), "--bounds", given, allowed);
     }
     const double unit = unit_of_key(estimation::road_load_key(static_cast<int>(which), false)).factor;
     bounds.lower[which] = unit * parse_edge(part.substr(2, colon - 2), -none, given);
     bounds.upper[which] = unit * parse_edge(part.substr(colon + 1), none, given);
     if (bounds.lower[which] > bounds.upper[which]) {
-      throw option_error(fmt::format("bound '{}' has its ends swapped", part), "--bounds", given, "from <= to");
+      throw usage_error(fmt::format("bound '{}' has its ends swapped", part), "--bounds", given, "from <= to");
     }
   }
   return bounds;
@@ -90,21 +77,21 @@ estimation::RoadLoadBounds parse_bounds(const std::string& given) {
 void set_mass(const Options& options, RoadLoadFitOptions& to) {
   if (options.per_mass) {
     if (options.mass_kg.has_value() || options.effective_mass_kg.has_value() || options.rotating_mass_kg.has_value()) {
-      throw option_error("--per-mass and a mass exclude each other", "--per-mass", "", "one of them");
+      throw usage_error("--per-mass and a mass exclude each other", "--per-mass", "", "one of them");
     }
     return;
   }
   if (!options.mass_kg.has_value()) {
-    throw option_error("the mass is missing: a coastdown alone gives force per mass", "--mass", "",
-                       "--mass <kg>, the test mass; or --per-mass for A, B and C per unit of effective mass");
+    throw usage_error("the mass is missing: a coastdown alone gives force per mass", "--mass", "",
+                      "--mass <kg>, the test mass; or --per-mass for A, B and C per unit of effective mass");
   }
   to.mass_kg = options.mass_kg;
   to.rotating_mass_kg = options.rotating_mass_kg;
   if (!options.effective_mass_kg.has_value()) return;
   if (options.rotating_mass_kg.has_value() || *options.effective_mass_kg < *options.mass_kg) {
-    throw option_error("--effective-mass is test mass and rotating mass together", "--effective-mass",
-                       fmt::format("{:.6g}", *options.effective_mass_kg),
-                       "at least --mass, and without --rotating-mass");
+    throw usage_error("--effective-mass is test mass and rotating mass together", "--effective-mass",
+                      fmt::format("{:.6g}", *options.effective_mass_kg),
+                      "at least --mass, and without --rotating-mass");
   }
   to.rotating_mass_kg = *options.effective_mass_kg - *options.mass_kg;
 }
@@ -120,31 +107,12 @@ RoadLoadFitOptions make_fit_options(const Options& options) {
   if (options.speed_to_km_h.has_value()) to.speed_to_m_s = kPerKmh * *options.speed_to_km_h;
   to.bin_width_m_s = kPerKmh * options.bin_width_km_h;
   if (options.speed_to_km_h.has_value() && *options.speed_to_km_h <= options.speed_from_km_h) {
-    throw option_error("--speed-to is not above --speed-from", "--speed-to",
-                       fmt::format("{:.6g}", *options.speed_to_km_h),
-                       fmt::format("more than {:.6g}", options.speed_from_km_h));
+    throw usage_error("--speed-to is not above --speed-from", "--speed-to",
+                      fmt::format("{:.6g}", *options.speed_to_km_h),
+                      fmt::format("more than {:.6g}", options.speed_from_km_h));
   }
   if (!options.bounds.empty()) to.bounds = parse_bounds(options.bounds);
   return to;
-}
-
-std::string format_coefficients(const RoadLoadFit& fit) {
-  scenarios::ResultTable table{"At reference conditions, with standard deviation and 95 % interval",
-                               {"coefficient", "value", "sd", "from", "to", "unit"},
-                               {}};
-  for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };
-    const std::string unit = unit_of_key(estimation::road_load_key(i, fit.per_mass)).symbol;
-    if (fit.on_bound[at]) {
-      table.rows.push_back({std::string(1, "ABC"[i]), number(fit.values()[at]), "on its bound", "", "", unit});
-      continue;
-    }
-    const std::array<double, 2> interval = fit.interval_95(i);
-    table.rows.push_back({std::string(1, "ABC"[i]), number(fit.values()[at]), number(fit.sd(i)), number(interval[0]),
-                          number(interval[1]), unit});
-  }
-  return format_table(table);
 }
 
 std::string format_forces(const RoadLoadFit& fit) {
@@ -212,7 +180,9 @@ std::string format_fit(const Options& options, const CoastdownFile& file, const 
                             ? ""
                             : ", of which 3 % of the test mass rotate (Assumed)");
   }
-  text += format_coefficients(fit) + format_forces(fit) + format_scatter(fit) + format_checks(checks);
+  text += format_table(
+      report::make_coefficient_table(fit, "At reference conditions, with standard deviation and 95 % interval"));
+  text += format_forces(fit) + format_scatter(fit) + format_checks(checks);
   for (const std::string& warning : fit.warnings) text += wrap("warning: " + warning, 2);
   return text;
 }
@@ -253,24 +223,14 @@ int fit_road_load_command(const Options& options) {
   const RoadLoadFitOptions fit_options = make_fit_options(options);
   CoastdownFile file = estimation::read_coastdowns(options.csv);
   select_sessions(options.sessions, file);
-  std::optional<OutputFolder> out;
-  if (!options.out.empty()) out.emplace(options.out, options.force);
-  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
+  Output output(options.output);
   RoadLoadFit fit = fit_file(file, options, fit_options);
   if (file.rows_off > 0) fit.warnings.push_back(format_count(file.rows_off, "row") + " left out: use = Off");
   const RoadLoadChecks checks = estimation::check_road_load(file.data, fit);
-  const std::string json = estimation::make_road_load_json(file, fit_options, fit, checks).dump(2) + "\n";
-  files.require_no_input();
-  if (out.has_value()) {
-    out->add("road_load.json", json);
-    out->add("residuals.csv", estimation::write_road_load_residuals(file, fit));
-    out->commit();
-  }
-  if (!options.json.empty()) write_output(options.json, json);
-  if (options.html.is_wanted()) options.html.write(report::make_road_load_page(file, fit_options, fit, checks));
-  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
-  std::cout << format_fit(options, file, fit, checks) << options.html.note();
-  if (out.has_value()) std::cout << fmt::format("  written to {}/: road_load.json residuals.csv\n", options.out);
+  const std::string json = to_text(estimation::make_road_load_json(file, fit_options, fit, checks));
+  output.write({{"road_load.json", json}, {"residuals.csv", estimation::write_road_load_residuals(file, fit)}}, json,
+               [&] { return report::make_road_load_page(file, fit_options, fit, checks); });
+  output.print(format_fit(options, file, fit, checks));
   return kDone;
 }
 
@@ -305,17 +265,13 @@ void add_method_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_fit_road_load(CLI::App& fit, Action& action) {
-  CLI::App* command = fit.add_subcommand("road-load", "A, B, C from coastdowns on a road or a dyno");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = add_command<Options>(
+      fit, action, "road-load", "A, B, C from coastdowns on a road or a dyno", &fit_road_load_command);
   command->add_option("csv", options->csv, "Speed traces, or times through speed bins")->required();
   add_vehicle_options(*command, *options);
   add_method_options(*command, *options);
-  command->add_option("--out", options->out, "Folder for road_load.json and residuals.csv");
-  command->add_option("--json", options->json, "File for road_load.json, - for standard output");
-  options->html.add_to(*command);
-  command->add_flag("--force", options->force, "Write into a folder that holds files");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return fit_road_load_command(*options); }; });
+  options->output.add_to(*command, "File for road_load.json, - for standard output",
+                         "Folder for road_load.json and residuals.csv");
 }
 
 }  // namespace rollrig::cli

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 
 #include "cli/command.h"
 #include "cli/output_files.h"
@@ -103,9 +102,9 @@ int import_command(const Options& options) {
 }  // namespace
 
 void add_import_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("import", "Join a torque log and a tire log, each on its own clock, into a measurement set");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = add_command<Options>(
+      app, action, "import", "Join a torque log and a tire log, each on its own clock, into a measurement set",
+      &import_command);
   command->add_option("mapping", options->mapping, "Mapping file (.toml): columns, units, time stamps, runs")
       ->required();
   command->add_option("--data", options->data, "Folder of the logs [that of the mapping]");
@@ -113,7 +112,6 @@ void add_import_command(CLI::App& app, Action& action) {
   command->add_option("--json", options->json, "File for the report, - for standard output");
   command->add_flag("--force", options->force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return import_command(*options); }; });
 }
 
 }  // namespace rollrig::cli

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 
 #include "cli/command.h"
 #include "cli/print.h"
@@ -15,6 +14,8 @@
 namespace rollrig::cli {
 namespace {
 
+constexpr const char* kAssetFolders[]{"tires", "rigs", "vehicles", "cycles", "sensors"};
+
 Json list_everything() {
   Json json = {{"scenarios", Json::array()}, {"effects", Json::array()}};
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
@@ -23,7 +24,7 @@ Json list_everything() {
   for (const models::Effect* effect : models::all_effects()) {
     json["effects"].push_back({{"name", effect->info.id}, {"summary", effect->info.summary}});
   }
-  for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"}) json[folder] = list_assets(folder);
+  for (const char* folder : kAssetFolders) json[folder] = list_assets(folder);
   return json;
 }
 
@@ -37,7 +38,7 @@ int list_command(const std::string& json_file) {
       std::cout << "  " << item["name"].get<std::string>() << '\n' << wrap(item["summary"].get<std::string>(), 6);
     }
   }
-  for (const char* kind : {"tires", "rigs", "vehicles", "cycles", "sensors"}) {
+  for (const char* kind : kAssetFolders) {
     std::cout << kind << '\n' << wrap(fmt::format("{}", fmt::join(all[kind].get<std::vector<std::string>>(), "  ")), 2);
   }
   return kDone;
@@ -61,13 +62,12 @@ std::string join_or_none(const std::vector<std::string>& words) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string list_kinds(const std::vector<models::RigKind>& kinds) {
-  std::vector<std::string> names;
-  for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
-  return join_or_none(names);
-}
-
 void describe_effect(const models::EffectInfo& info) {
+  const auto list_kinds = [](const std::vector<models::RigKind>& kinds) {
+    std::vector<std::string> names;
+    for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
+    return join_or_none(names);
+  };
   std::cout << info.id << ": effect\n" << wrap(info.summary, 2) << '\n';
   std::cout << "Equation\n" << wrap(info.equation, 2) << "Source\n" << wrap(info.source, 2);
   std::cout << fmt::format("Parameters ([effects.{}])\n", info.id);
@@ -108,28 +108,27 @@ void describe_cycle(const std::string& path) {
 }
 
 int describe_command(const std::string& name) {
-  std::vector<std::string> known = scenarios::scenario_names();
+  std::vector<std::string> known;
+  const auto is_asked = [&](const std::string& each) {
+    known.push_back(each);
+    return each == name;
+  };
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
-    if (scenario->text.name == name) {
-      describe_scenario(*scenario);
-      return kDone;
-    }
+    if (!is_asked(scenario->text.name)) continue;
+    describe_scenario(*scenario);
+    return kDone;
   }
   for (const models::Effect* effect : models::all_effects()) {
-    if (effect->info.id == name) {
-      describe_effect(effect->info);
-      return kDone;
-    }
-    known.push_back(effect->info.id);
+    if (!is_asked(effect->info.id)) continue;
+    describe_effect(effect->info);
+    return kDone;
   }
-  for (const char* folder : {"tires", "rigs", "vehicles", "cycles", "sensors"}) {
+  for (const std::string folder : kAssetFolders) {
     for (const std::string& asset : list_assets(folder)) {
-      if (asset == name) {
-        const std::string path = find_asset(folder, name);
-        std::string(folder) == "cycles" ? describe_cycle(path) : describe_file(path);
-        return kDone;
-      }
-      known.push_back(asset);
+      if (!is_asked(asset)) continue;
+      const std::string path = find_asset(folder, name);
+      folder == "cycles" ? describe_cycle(path) : describe_file(path);
+      return kDone;
     }
   }
   throw InputError(unknown_name("scenario, effect or asset", name, known));
@@ -138,18 +137,15 @@ int describe_command(const std::string& name) {
 }  // namespace
 
 void add_list_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("list", "List scenarios, effects, tires, rigs, vehicles, cycles, sensors");
-  auto json = std::make_shared<std::string>();
+  const auto [command, json] = add_command<std::string>(
+      app, action, "list", "List scenarios, effects, tires, rigs, vehicles, cycles, sensors", &list_command);
   command->add_option("--json", *json, "File for the list, - for standard output");
-  command->callback([json, &action] { action = [json] { return list_command(*json); }; });
 }
 
 void add_describe_command(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("describe", "Explain a scenario, an effect, a tire, a rig, a vehicle or sensors");
-  auto name = std::make_shared<std::string>();
+  const auto [command, name] = add_command<std::string>(
+      app, action, "describe", "Explain a scenario, an effect, a tire, a rig, a vehicle or sensors", &describe_command);
   command->add_option("name", *name, "Scenario, effect or asset")->required();
-  command->callback([name, &action] { action = [name] { return describe_command(*name); }; });
 }
 
 }  // namespace rollrig::cli

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
-#include <iostream>
-#include <memory>
 
 #include "cli/command.h"
-#include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -25,11 +22,9 @@ namespace {
 
 struct Options {
   std::string folder;
-  std::string json;
-  HtmlOption html;
+  OutputOptions output;
   int threads = 0;
   bool update = false;
-  bool quiet = false;
 };
 
 struct Case {
@@ -125,25 +120,26 @@ int settle_cases(std::vector<Case>& cases, bool update) {
   return status;
 }
 
-void print_cases(const std::vector<Case>& cases) {
+std::string format_cases(const std::vector<Case>& cases) {
   scenarios::ResultTable table{"", {"run", "status", "values", "worst, share of tolerance"}, {}};
   for (const Case& each : cases) {
     const std::string worst =
         each.comparison.worst_quantity.empty() ? "-" : fmt::format("{:.2g}", each.comparison.worst_share);
     table.rows.push_back({each.name, each.status, fmt::format("{}", each.comparison.compared), worst});
   }
-  std::cout << format_table(table);
+  std::string text = format_table(table);
   constexpr std::size_t kShownProblems = 5;
   for (const Case& each : cases) {
     if (each.status == "same" || each.comparison.problems.empty()) continue;
-    std::cout << each.name << '\n';
+    text += each.name + "\n";
     for (std::size_t i = 0; i < std::min(kShownProblems, each.comparison.problems.size()); ++i) {
-      std::cout << wrap(each.comparison.problems[i], 4);
+      text += wrap(each.comparison.problems[i], 4);
     }
     if (each.comparison.problems.size() > kShownProblems) {
-      std::cout << fmt::format("    and {} more\n", each.comparison.problems.size() - kShownProblems);
+      text += fmt::format("    and {} more\n", each.comparison.problems.size() - kShownProblems);
     }
   }
+  return text;
 }
 
 Json cases_to_json(const std::vector<Case>& cases) {
@@ -163,9 +159,9 @@ int regress_command(const Options& options) {
   const std::string folder =
       options.folder.empty() ? (fs::path(find_assets_folder()) / "regression").string() : options.folder;
   std::vector<Case> cases = find_cases(folder);
-  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
+  Output output(options.output);
   {
-    ProgressLine progress("regress", options.quiet);
+    ProgressLine progress("regress", options.output.quiet);
     std::atomic<std::size_t> done{0};
     parallel_for(cases.size(), options.threads, [&](std::size_t i) {
       run_case(cases[i]);
@@ -173,30 +169,24 @@ int regress_command(const Options& options) {
     });
   }
   add_orphans(folder, cases);
-  files.require_no_input();
+  output.require_no_input();
   const int status = settle_cases(cases, options.update);
-  if (!options.json.empty()) write_output(options.json, cases_to_json(cases).dump(2) + "\n");
-  if (options.html.is_wanted()) options.html.write(report::make_regress_page(cases_to_json(cases)));
-  if (!options.quiet && options.json != "-" && !options.html.is_standard_output()) {
-    print_cases(cases);
-    std::cout << options.html.note();
-  }
+  const Json json = cases_to_json(cases);
+  output.write({}, to_text(json), [&json] { return report::make_regress_page(json); });
+  output.print(format_cases(cases));
   return status;
 }
 
 }  // namespace
 
 void add_regress_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("regress", "Rerun all regression scenarios against their goldens");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = add_command<Options>(
+      app, action, "regress", "Rerun all regression scenarios against their goldens", &regress_command);
   command->add_option("folder", options->folder, "Folder of run files [assets/regression]");
   command->add_flag("--update", options->update, "Write new goldens where results differ");
-  command->add_option("--json", options->json, "File for the comparison, - for standard output");
-  options->html.add_to(*command);
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return regress_command(*options); }; });
+  options->output.add_to(*command, "File for the comparison, - for standard output");
 }
 
 }  // namespace rollrig::cli

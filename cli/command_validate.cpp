@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <memory>
 
 #include "cli/command.h"
 #include "cli/print.h"
@@ -132,16 +131,15 @@ int validate_command(const std::vector<std::string>& paths) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "validate",
-      "Check files; of a measurement set also whether columns and units can be right: exit status 1 where they cannot");
-  auto paths = std::make_shared<std::vector<std::string>>();
+  const auto [command, paths] = add_command<std::vector<std::string>>(
+      app, action, "validate",
+      "Check files; of a measurement set also whether columns and units can be right: exit status 1 where they cannot",
+      &validate_command);
   command
       ->add_option("file", *paths,
                    "Tire, rig, run, sensors, vehicle or set.toml, a set's folder or one with such folders, or a "
                    "cycle's CSV")
       ->required();
-  command->callback([paths, &action] { action = [paths] { return validate_command(*paths); }; });
 }
 
 }  // namespace rollrig::cli

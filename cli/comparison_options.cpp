@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "cli/command.h"
 #include "models/effect.h"
-#include "sim/core/error.h"
 
 namespace rollrig::cli {
 namespace {
@@ -31,8 +31,7 @@ void RaceOptions::check() const {
   require_effects("--only", only);
   for (const std::string& name : only) {
     if (std::find(without.begin(), without.end(), name) == without.end()) continue;
-    throw InputError({"an effect is asked for and left out", "command line", 0, "--without", name,
-                      "effects that --only does not name", ""});
+    throw usage_error("an effect is asked for and left out", "--without", name, "effects that --only does not name");
   }
 }
 

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <utility>
+#include <iostream>
 
-#include "sim/core/error.h"
-#include "sim/core/file_io.h"
+#include "cli/command.h"
 
 namespace fs = std::filesystem;
 
@@ -15,7 +14,7 @@ namespace rollrig::cli {
 namespace {
 
 InputError bad_place(const std::string& what, const OutputFile& file) {
-  return InputError({what, "command line", 0, file.option, file.path, "another file", ""});
+  return usage_error(what, file.option, file.path, "another file");
 }
 
 }  // namespace
@@ -47,6 +46,40 @@ void OutputFiles::require_no_input() const {
     if (file.path == "-" || !was_read(file.path)) continue;
     throw bad_place(fmt::format("'{}' is read by this command, and would be lost", file.path), file);
   }
+}
+
+void OutputOptions::add_to(CLI::App& command, const char* json_doc, const char* folder_doc) {
+  if (folder_doc != nullptr) command.add_option("--out", folder, folder_doc);
+  command.add_option("--json", json, json_doc);
+  html.add_to(command);
+  if (folder_doc != nullptr) command.add_flag("--force", force, "Write into a folder that holds files");
+  command.add_flag("--quiet", quiet, "Print nothing but errors");
+}
+
+Output::Output(const OutputOptions& options)
+    : options_(options),
+      folder_(options.folder.empty() ? std::nullopt : std::optional<OutputFolder>({options.folder, options.force})),
+      files_({{"--json", options.json}, {"--html", options.html.path}}) {}
+
+void Output::write(const std::vector<std::pair<std::string, std::string>>& files, const std::string& json,
+                   const std::function<report::Page()>& make_page) {
+  files_.require_no_input();
+  if (folder_.has_value()) {
+    for (const auto& [name, content] : files) {
+      folder_->add(name, content);
+      const std::string shown = name.substr(0, name.find('/') == std::string::npos ? name.size() : name.find('/') + 1);
+      if (written_.empty() || written_.back() != shown) written_.push_back(shown);
+    }
+    folder_->commit();
+  }
+  if (!options_.json.empty()) write_output(options_.json, json);
+  if (options_.html.is_wanted()) options_.html.write(make_page());
+}
+
+void Output::print(const std::string& text) const {
+  if (options_.is_silent()) return;
+  std::cout << text << options_.html.note();
+  if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
 }
 
 }  // namespace rollrig::cli

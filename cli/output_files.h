@@ -1,8 +1,15 @@
 #pragma once
-/// Single files that a command writes: --json, --html and their like.
+/// What a command writes: --out, --json, --html and their like.
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "cli/html_option.h"
+#include "sim/core/file_io.h"
+#include "sim/core/json.h"
 
 namespace rollrig::cli {
 
@@ -29,5 +36,43 @@ class OutputFiles {
  private:
   std::vector<OutputFile> files_;
 };
+
+/// --json, --html and --quiet of a command, with --out and --force where it fills a folder.
+struct OutputOptions {
+  std::string folder;
+  std::string json;
+  HtmlOption html;
+  bool force = false;
+  bool quiet = false;
+
+  /// `folder_doc` says what --out is for; without it there is no such option.
+  void add_to(CLI::App& command, const char* json_doc, const char* folder_doc = nullptr);
+  /// Whether nothing is to be printed, since that was asked for or standard output is taken.
+  bool is_silent() const { return quiet || json == "-" || html.is_standard_output(); }
+};
+
+/// The output of one command. To be made before the work, so that what cannot be written is refused before it.
+class Output {
+ public:
+  /// Throws InputError as OutputFolder and OutputFiles do.
+  explicit Output(const OutputOptions& options);
+
+  /// Throws InputError where a file to be written has been read; write() does so as well.
+  void require_no_input() const { files_.require_no_input(); }
+  /// Writes `files` into --out, `json` to --json, the page to --html, as far as they are wanted.
+  void write(const std::vector<std::pair<std::string, std::string>>& files, const std::string& json,
+             const std::function<report::Page()>& make_page);
+  /// Prints `text` and where the page and the files are, unless nothing is to be printed.
+  void print(const std::string& text) const;
+
+ private:
+  const OutputOptions& options_;
+  std::optional<OutputFolder> folder_;
+  OutputFiles files_;
+  std::vector<std::string> written_;  // names in the folder; a folder in it stands for its files
+};
+
+/// A JSON document as text, as it is written to files.
+inline std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
 
 }  // namespace rollrig::cli

@@ -7,29 +7,56 @@
 namespace rollrig::cli {
 namespace {
 
-/// The app whose options were being read: the subcommand named by the leading words, where there is one.
-const CLI::App& find_called(const CLI::App& app, int argc, char** argv, int& next) {
-  const CLI::App* called = &app;
-  for (next = 1; next < argc; ++next) {
-    const CLI::App* found = find_subcommand(*called, argv[next]);
-    if (found == nullptr) break;
-    called = found;
+/// A call as far as it was understood.
+struct Call {
+  const CLI::App& app;
+  const CLI::App* called;           // whose options were being read: the subcommand that the leading words name
+  std::vector<std::string> words;   // as typed
+  std::string command = "rollrig";  // the program and its subcommands
+  std::size_t next = 0;             // the first word that names none
+
+  /// The word in place of a subcommand, where one is wanted; otherwise nothing.
+  std::string find_unknown_command() const {
+    const bool wants_command = !list_subcommands(*called).empty();
+    return wants_command && next < words.size() && words[next][0] != '-' ? words[next] : "";
   }
-  return *called;
+};
+
+Call read_call(const CLI::App& app, int argc, char** argv) {
+  Call call{app, &app, {argv + 1, argv + argc}};
+  for (; call.next < call.words.size(); ++call.next) {
+    const CLI::App* found = find_subcommand(*call.called, call.words[call.next]);
+    if (found == nullptr) break;
+    call.called = found;
+    call.command += " " + call.words[call.next];
+  }
+  return call;
 }
 
-std::string suggest(const CLI::App& app, const CLI::App& called, int argc, char** argv, int next) {
-  const std::vector<std::string> subcommands = list_subcommands(called);
-  if (next < argc && !subcommands.empty() && argv[next][0] != '-') return nearest_name(argv[next], subcommands);
-  std::vector<std::string> options = list_options(called);
-  for (const std::string& option : list_options(app)) options.push_back(option);
-  for (int i = next; i < argc; ++i) {
-    const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-    const bool unknown_option =
-        word.rfind("--", 0) == 0 && std::find(options.begin(), options.end(), word) == options.end();
-    if (unknown_option) return nearest_name(word, options);
+std::string suggest(const Call& call) {
+  const std::string command = call.find_unknown_command();
+  if (!command.empty()) return nearest_name(command, list_subcommands(*call.called));
+  std::vector<std::string> options = list_options(*call.called);
+  for (const std::string& option : list_options(call.app)) options.push_back(option);
+  for (std::size_t i = call.next; i < call.words.size(); ++i) {
+    const std::string word = call.words[i].substr(0, call.words[i].find('='));
+    const bool is_known = std::find(options.begin(), options.end(), word) != options.end();
+    if (word.rfind("--", 0) == 0 && !is_known) return nearest_name(word, options);
   }
   return {};
+}
+
+/// What is wrong in one sentence: CLI11's, or ours where it names words back to front or not at all.
+std::string describe_problem(const Call& call, const CLI::ParseError& error) {
+  const std::string command = call.find_unknown_command();
+  if (!command.empty()) return fmt::format("unknown command '{}'", command);
+  std::vector<std::string> left = call.app.remaining(true);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty()) return error.what();
+  // An unknown option comes with words that would have been its values.
+  const auto option = std::find_if(left.begin(), left.end(), [](const std::string& w) { return w.rfind('-', 0) == 0; });
+  if (option != left.end()) return fmt::format("unknown option '{}'", option->substr(0, option->find('=')));
+  return fmt::format("{} not expected: {}", left.size() == 1 ? "one word was" : "these words were",
+                     fmt::join(left, " "));
 }
 
 }  // namespace
@@ -57,36 +84,9 @@ std::vector<std::string> list_subcommands(const CLI::App& app) {
   return names;
 }
 
-namespace {
-
-/// What is wrong in one sentence: CLI11's, or ours where it names words back to front or not at all.
-std::string describe_problem(const CLI::App& app, const CLI::App& called, const CLI::ParseError& error, int argc,
-                             char** argv, int next) {
-  const bool wants_command = !list_subcommands(called).empty();
-  if (wants_command && next < argc && argv[next][0] != '-') return fmt::format("unknown command '{}'", argv[next]);
-  std::vector<std::string> left = app.remaining(true);
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || left.empty()) return error.what();
-  // An unknown option comes with words that would have been its values.
-  const auto option = std::find_if(left.begin(), left.end(), [](const std::string& w) { return w.rfind('-', 0) == 0; });
-  if (option != left.end()) return fmt::format("unknown option '{}'", option->substr(0, option->find('=')));
-  return fmt::format("{} not expected: {}", left.size() == 1 ? "one word was" : "these words were",
-                     fmt::join(left, " "));
-}
-
-}  // namespace
-
 InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  int next = 1;
-  const CLI::App& called = find_called(app, argc, argv, next);
-  std::string command = "rollrig";
-  for (int i = 1; i < next; ++i) command += std::string(" ") + argv[i];
-  return {describe_problem(app, called, error, argc, argv, next),
-          "",
-          0,
-          "",
-          "",
-          fmt::format("see {} --help", command),
-          suggest(app, called, argc, argv, next)};
+  const Call call = read_call(app, argc, argv);
+  return {describe_problem(call, error), "", 0, "", "", fmt::format("see {} --help", call.command), suggest(call)};
 }
 
 }  // namespace rollrig::cli
