@@ -2,21 +2,17 @@
 
 #include <atomic>
 #include <cmath>
-#include <iostream>
-#include <memory>
 #include <optional>
 
 #include <boost/algorithm/string/split.hpp>
 
 #include "cli/command.h"
-#include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/run_options.h"
 #include "report/list_pages.h"
 #include "sim/core/csv.h"
-#include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
 
@@ -28,11 +24,7 @@ struct Options {
   std::vector<std::string> vary;
   std::vector<std::string> show;
   int threads = 0;
-  std::string out;
-  std::string json;
-  HtmlOption html;
-  bool force = false;
-  bool quiet = false;
+  OutputOptions output;
 };
 
 /// A key of --set with the values that it takes.
@@ -42,8 +34,8 @@ struct Axis {
 };
 
 InputError bad_axis(const std::string& text) {
-  return InputError({fmt::format("--vary '{}' is not understood", text), "command line", 0, "--vary", text,
-                     "key=a,b,c or key=from:to:step, with the keys of --set", ""});
+  return usage_error(fmt::format("--vary '{}' is not understood", text), "--vary", text,
+                     "key=a,b,c or key=from:to:step, with the keys of --set");
 }
 
 Axis parse_axis(const std::string& text) {
@@ -86,65 +78,43 @@ std::vector<std::vector<std::string>> make_grid(const std::vector<Axis>& axes) {
   return grid;
 }
 
-/// Keys of `result` that are numbers, in order.
-std::vector<std::string> number_keys(const Json& result) {
-  std::vector<std::string> keys;
-  for (const auto& [key, value] : result.items()) {
-    if (value.is_number()) keys.push_back(key);
-  }
-  return keys;
-}
-
-std::string make_csv(const std::vector<Axis>& axes, const std::vector<std::vector<std::string>>& grid,
-                     const std::vector<Json>& results) {
-  const std::vector<std::string> keys = number_keys(results.front());
+/// All single numbers of the sweep's document; a field is empty where a point has none.
+std::string make_csv(const Json& sweep, const std::vector<Axis>& axes) {
+  const std::vector<std::string> keys = report::list_numbers(sweep);
   std::vector<std::string> columns;
   for (const Axis& axis : axes) columns.push_back(axis.key);
   columns.insert(columns.end(), keys.begin(), keys.end());
   CsvWriter csv(columns);
-  for (std::size_t i = 0; i < grid.size(); ++i) {
+  for (const Json& point : sweep["points"]) {
     csv.begin_row();
-    for (const std::string& value : grid[i]) csv.add(value);
-    for (const std::string& key : keys) csv.add(results[i].value(key, std::nan("")), 12);
+    for (const Json& value : point["set"]) csv.add(value.get<std::string>());
+    for (const std::string& key : keys) {
+      const Json value = point["result"].value(key, Json());
+      csv.add(value.is_number() ? value.get<double>() : std::nan(""), 12);
+    }
     csv.end_row();
   }
   return csv.take();
 }
 
-/// Results shown in the terminal: as asked for, else the scenario's first that fit 80 columns.
-std::vector<std::string> choose_shown(const Options& options, const scenarios::Scenario& scenario, const Json& result,
-                                      const std::vector<Axis>& axes) {
-  const std::vector<std::string> keys = number_keys(result);
+/// Results shown in the terminal: as asked for, else the first of those that change, as many as fit 80 columns.
+std::vector<std::string> choose_shown(const Options& options, const Json& sweep, const std::vector<Axis>& axes) {
+  const std::vector<std::string> numbers = report::list_numbers(sweep);
   for (const std::string& key : options.show) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) throw InputError(unknown_name("result", key, keys));
+    if (std::find(numbers.begin(), numbers.end(), key) != numbers.end()) continue;
+    throw InputError(unknown_name("result", key, numbers));
   }
   if (!options.show.empty()) return options.show;
   std::size_t width = 2;
   for (const Axis& axis : axes) width += axis.key.size() + 1;
+  const std::vector<std::string> changing = report::list_changing(sweep);
   std::vector<std::string> shown;
-  for (const scenarios::ResultInfo& info : scenario.text.results) {
-    if (std::find(keys.begin(), keys.end(), info.key) == keys.end()) continue;
-    if (width + info.key.size() + 1 > 80 && !shown.empty()) continue;
-    width += info.key.size() + 1;
-    shown.push_back(info.key);
+  for (const std::string& key : changing.empty() ? numbers : changing) {
+    if (width + key.size() + 1 > 80 && !shown.empty()) continue;
+    width += key.size() + 1;
+    shown.push_back(key);
   }
   return shown;
-}
-
-scenarios::ResultTable make_table(const std::vector<Axis>& axes, const std::vector<std::vector<std::string>>& grid,
-                                  const std::vector<Json>& results, const std::vector<std::string>& shown) {
-  scenarios::ResultTable table{format_count(grid.size(), "run"), {}, {}};
-  for (const Axis& axis : axes) table.columns.push_back(axis.key);
-  table.columns.insert(table.columns.end(), shown.begin(), shown.end());
-  for (std::size_t i = 0; i < grid.size(); ++i) {
-    std::vector<std::string> row = grid[i];
-    for (const std::string& key : shown) {
-      const Json& value = results[i][key];
-      row.push_back(value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "-");
-    }
-    table.rows.push_back(row);
-  }
-  return table;
 }
 
 int sweep_command(const Options& options) {
@@ -157,17 +127,15 @@ int sweep_command(const Options& options) {
     for (std::size_t i = 0; i < axes.size(); ++i) scenarios::set_run_value(document, axes[i].key + "=" + point[i]);
     specs.push_back(scenarios::read_run_spec(document, options.run.base_folder()));
   }
-  std::optional<OutputFolder> out;
-  if (!options.out.empty()) out.emplace(options.out, options.force);
-  const OutputFiles files({{"--json", options.json}, {"--html", options.html.path}});
+  Output output(options.output);
   std::vector<Json> results(specs.size());
-  std::vector<std::string> manifests(specs.size());
-  ProgressLine progress("sweep", options.quiet);
+  std::vector<std::pair<std::string, std::string>> files(specs.size() + 2);
+  ProgressLine progress("sweep", options.output.quiet);
   std::atomic<std::size_t> done{0};
   parallel_for(specs.size(), options.threads, [&](std::size_t i) {
     const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
     results[i] = outcome.result;
-    manifests[i] = scenarios::make_manifest(specs[i], outcome).dump(2) + "\n";
+    files[i + 2] = {fmt::format("manifests/{:04}.json", i + 1), to_text(scenarios::make_manifest(specs[i], outcome))};
     progress.update(static_cast<double>(++done) / static_cast<double>(specs.size()));
   });
   Json json = {
@@ -177,30 +145,22 @@ int sweep_command(const Options& options) {
     for (std::size_t a = 0; a < axes.size(); ++a) varied[axes[a].key] = grid[i][a];
     json["points"].push_back({{"set", varied}, {"result", results[i]}});
   }
-  const std::vector<std::string> shown = choose_shown(options, *specs.front().scenario, results.front(), axes);
-  files.require_no_input();
-  if (out.has_value()) {
-    out->add("sweep.csv", make_csv(axes, grid, results));
-    out->add("sweep.json", json.dump(2) + "\n");
-    for (std::size_t i = 0; i < grid.size(); ++i) out->add(fmt::format("manifests/{:04}.json", i + 1), manifests[i]);
-    out->commit();
-  }
-  if (!options.json.empty()) write_output(options.json, json.dump(2) + "\n");
-  if (options.html.is_wanted()) {
+  const std::vector<std::string> shown = choose_shown(options, json, axes);
+  files[0] = {"sweep.csv", make_csv(json, axes)};
+  files[1] = {"sweep.json", to_text(json)};
+  output.write(files, to_text(json), [&] {
     const std::string of = fmt::format("Tire {}, rig {}", specs.front().tire.name, specs.front().rig.name);
-    options.html.write(report::make_sweep_page(json, options.show, of));
-  }
-  if (options.quiet || options.json == "-" || options.html.is_standard_output()) return kDone;
-  std::cout << format_table(make_table(axes, grid, results, shown)) << options.html.note();
-  if (out.has_value()) std::cout << fmt::format("  written to {}/: sweep.csv sweep.json manifests/\n", options.out);
+    return report::make_sweep_page(json, options.show, of);
+  });
+  output.print(format_table(report::make_sweep_table(json, format_count(grid.size(), "run"), shown)));
   return kDone;
 }
 
 }  // namespace
 
 void add_sweep_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("sweep", "Run a scenario at every point of a grid");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] =
+      add_command<Options>(app, action, "sweep", "Run a scenario at every point of a grid", &sweep_command);
   options->run.add_to(*command);
   command->add_option("--vary", options->vary, "key=a,b,c or key=from:to:step; may be repeated")
       ->required()
@@ -209,12 +169,8 @@ void add_sweep_command(CLI::App& app, Action& action) {
   command->add_option("--show", options->show, "Results in the terminal's table")->delimiter(',');
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--out", options->out, "Folder for sweep.csv, sweep.json, manifests/");
-  command->add_option("--json", options->json, "File for the results, - for standard output");
-  options->html.add_to(*command);
-  command->add_flag("--force", options->force, "Write into a folder that holds files");
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return sweep_command(*options); }; });
+  options->output.add_to(*command, "File for the results, - for standard output",
+                         "Folder for sweep.csv, sweep.json, manifests/");
 }
 
 }  // namespace rollrig::cli
