@@ -88,9 +88,15 @@ class Scene {
     return recorded != nullptr ? *recorded : scaled(integrate_speed(recording_), 1.0 / radius_m);
   }
 
+  /// What the contact carries: as recorded, or the load that the wheel is given where nothing else is.
+  const Column& contact_load_N(const std::string& position) const {
+    const Column* recorded = find_channel(recording_, named(quantities::kContactLoad, position));
+    return recorded != nullptr ? *recorded : recording_.channel(named(quantities::kLoad, position));
+  }
+
   /// What every wheel has: load, temperature, angles; the height is the machine's to add.
   Json make_wheel(const std::string& position, const std::string& surface_pose) const {
-    const Column& load_N = recording_.channel(named(quantities::kContactLoad, position));
+    const Column& load_N = contact_load_N(position);
     const double rolling_m = height_by_load({load_N[load_N.size() / 2]}).front();
     Json wheel = {
         {"x_m", 0.0},
@@ -126,7 +132,7 @@ class Scene {
 Json make_drum_wheel(const Scene& scene) {
   Json wheel = scene.make_wheel("", "drum_angle_rad");
   const Column* pose = find_pose(scene.recording(), "axle_height_m");
-  Column height_m = scene.height_by_load(scene.recording().channel(quantities::kContactLoad));
+  Column height_m = scene.height_by_load(scene.contact_load_N(""));
   for (double& height : height_m) height += scene.surface_radius_m();
   wheel["axle_height_m"] = scene.series(pose != nullptr ? *pose : height_m, "height_m");
   return wheel;
@@ -135,7 +141,7 @@ Json make_drum_wheel(const Scene& scene) {
 /// Height of an axle: the body's heave and pitch and the axle's own travel on top of the static one.
 Column find_axle_height_m(const Scene& scene, const std::string& position, double axle_x_m, double static_load_N) {
   const Recording& recording = scene.recording();
-  Column height_m = scene.height_by_load(recording.channel(named(quantities::kContactLoad, position)));
+  Column height_m = scene.height_by_load(scene.contact_load_N(position));
   const Column* heave_m = find_pose(recording, "body_heave_m");
   const Column* travel_m = find_pose(recording, named("axle_travel_m", position));
   if (heave_m == nullptr || travel_m == nullptr) return height_m;
