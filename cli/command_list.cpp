@@ -53,7 +53,7 @@ void describe_scenario(const scenarios::Scenario& scenario) {
     std::cout << fmt::format("  {} [{}{}]\n", setting.key, setting.fallback, range) << wrap(setting.doc, 6);
   }
   std::cout << "Results\n";
-  for (const scenarios::ResultInfo& result : scenario.text.results) {
+  for (const scenarios::ResultInfo& result : scenario.results) {
     std::cout << "  " << result.key << '\n' << wrap(result.doc, 6);
   }
 }

@@ -64,8 +64,8 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
     }
     text += wrap("effects on:" + names, 2);
   }
-  text += format_lines(outcome.lines);
-  for (const scenarios::ResultTable& table : outcome.tables) text += format_table(table);
+  text += format_lines(outcome.sheet.lines);
+  for (const scenarios::ResultTable& table : outcome.sheet.tables) text += format_table(table);
   const sim::EnergyAudit& audit = outcome.recording.audit;
   text += fmt::format("  energy closes to {:.1e} (mechanical) and {:.1e} (thermal) of the work\n",
                       audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));

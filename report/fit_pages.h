@@ -6,7 +6,7 @@
 #include "estimation/road_load/road_load_checks.h"
 #include "estimation/tire_fit/fit_tire.h"
 #include "report/page.h"
-#include "scenarios/run/scenario.h"
+#include "scenarios/run/results.h"
 
 namespace rollrig::report {
 

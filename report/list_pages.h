@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "report/page.h"
-#include "scenarios/run/scenario.h"
+#include "scenarios/run/results.h"
 
 namespace rollrig::report {
 

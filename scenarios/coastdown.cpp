@@ -16,6 +16,50 @@ struct Settings {
   }
 };
 
+struct ForcePoint {
+  double speed_m_s = 0.0;
+  double force_N = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"speed_km_h", "", ".0f", "speed"}, speed_m_s);
+    visit(Result{"force_N", "", ".1f", "A + B v + C v^2"}, force_N);
+  }
+};
+
+struct CoastdownTime {
+  std::string name;
+  double duration_s = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"name", "coastdown", "", "its phase"}, name);
+    visit(Result{"duration_s", "", ".2f", "time that it takes"}, duration_s);
+  }
+};
+
+struct Results {
+  models::RoadLoad<double> load;
+  std::array<double, 3> sd{};
+  std::vector<ForcePoint> forces;
+  std::vector<CoastdownTime> coastdowns;
+  bool on_road = false;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"A_N", "", ".2f", "force at standstill"}, load.A_N);
+    visit(Result{"A_N_sd", "", ".2f", "its standard deviation"}, sd[0]);
+    visit(Result{"B_N_per_km_h", "", ".4f", "rise with speed"}, load.B_N_s_per_m);
+    visit(Result{"B_N_per_km_h_sd", "", ".4f", "its standard deviation"}, sd[1]);
+    visit(Result{"C_N_per_km_h2", "", ".5f", "rise with the square of speed"}, load.C_N_s2_per_m2);
+    visit(Result{"C_N_per_km_h2_sd", "", ".5f", "its standard deviation"}, sd[2]);
+    visit(JointLine{"A", "{A_N} +- {A_N_sd}"});
+    visit(JointLine{"B", "{B_N_per_km_h} +- {B_N_per_km_h_sd}"});
+    visit(JointLine{"C", "{C_N_per_km_h2} +- {C_N_per_km_h2_sd}"});
+    visit(ResultList{"force_N", on_road ? "Force at reference conditions" : "Force of rollers and vehicle, as tested",
+                     "at speeds of 20 to 130 km/h"},
+          forces);
+    visit(ResultList{"coastdowns", "Coastdowns", "each coastdown"}, coastdowns);
+  }
+};
+
 VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
   VehicleProgram program(settings.conditions, spec.sample_interval_s, 0.0);
   settings.coastdowns.check(spec);
@@ -23,38 +67,30 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
   return program;
 }
 
-void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const estimation::CoastdownData data =
-      collect_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
-  const estimation::RoadLoadFit fit = fit_vehicle_coastdowns(data, spec);
-  outcome.result = road_load_to_json(fit);
-  outcome.result["coastdowns"] = Json::array();
+Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+  const estimation::RoadLoadFit fit = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
+  Results results;
+  results.load = fit.load;
+  results.sd = {fit.sd(0), fit.sd(1), fit.sd(2)};
+  for (const double speed_m_s : road_load_speeds_m_s()) results.forces.push_back({speed_m_s, fit.force_N(speed_m_s)});
   for (const sim::PhaseSpan& phase : outcome.recording.phases) {
-    if (!is_coastdown(phase.name)) continue;
-    outcome.result["coastdowns"].push_back({{"name", phase.name}, {"duration_s", phase.end_s - phase.start_s}});
-    outcome.lines.push_back({phase.name, fmt::format("{:.2f} s", phase.end_s - phase.start_s)});
+    if (is_coastdown(phase.name)) results.coastdowns.push_back({phase.name, phase.end_s - phase.start_s});
   }
-  add_road_load_lines(spec, fit, outcome);
-  for (const std::string& warning : fit.warnings) outcome.warnings.push_back(warning);
+  results.on_road = spec.rig.kind == rigs::RigKind::kFlat;
+  outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  return results;
 }
 
 }  // namespace
 
-const Scenario& scenario_coastdown() {
-  static const Scenario scenario = make_vehicle_scenario<Settings>(
-      {"coastdown",
-       "Coastdowns of a vehicle on the road or on a dynamometer, and A, B, C from them",
+Scenario scenario_coastdown() {
+  return make_vehicle_scenario(
+      {"coastdown", "Coastdowns of a vehicle on the road or on a dynamometer, and A, B, C from them",
        "Warm-up at constant speed, then pairs of coastdowns in both directions in neutral from 130 km/h to standstill. "
        "Slope and wind of the road, where given, turn round with the direction. A, B, C by generalized least squares "
        "on force against speed, at reference conditions (20 degC, 98.21 kPa, still air).",
-       "source §3.4.1, §3.4.3, (3.20); SAE J2263",
-       {{"A_N", "with A_N_sd"},
-        {"B_N_per_km_h", "with B_N_per_km_h_sd"},
-        {"C_N_per_km_h2", "with C_N_per_km_h2_sd"},
-        {"force_N", "at speeds of 20 to 130 km/h"},
-        {"coastdowns", "of each: name, duration_s"}}},
+       "source §3.4.1, §3.4.3, (3.20); SAE J2263"},
       {rigs::RigKind::kFlat, rigs::RigKind::kDyno}, "flat", &plan, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

@@ -38,6 +38,54 @@ struct Settings {
   }
 };
 
+struct Difference {
+  double speed_m_s = 0.0;
+  double target_N = 0.0;
+  double found_N = 0.0;
+  double set_N = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"speed_km_h", "", ".0f", "speed"}, speed_m_s);
+    visit(Result{"target_N", "road", ".1f", "force on the road"}, target_N);
+    visit(Result{"found_N", "rollers", ".1f", "force on the rollers"}, found_N);
+    visit(Result{"difference_N", "off", "+.2f", "the second less the first"}, found_N - target_N);
+    visit(Remark{"set N"}, fmt::format("{:.1f}", set_N));
+  }
+};
+
+struct Results {
+  Load set{};
+  Load target{};
+  int corrections = 0;
+  double largest_difference_N = 0.0;
+  bool within_criterion = false;
+  std::vector<Difference> differences;
+  double highway_J = 0.0;
+  std::optional<double> highway_iso_J;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"set_A_N", "", ".2f", "force of the rollers at standstill"}, set.A_N);
+    visit(Result{"set_B_N_per_km_h", "", ".4f", "its rise with speed"}, set.B_N_s_per_m);
+    visit(Result{"set_C_N_per_km_h2", "", ".5f", "its rise with the square of speed"}, set.C_N_s2_per_m2);
+    visit(Result{"target_A_N", "", ".2f", "road load at standstill"}, target.A_N);
+    visit(Result{"target_B_N_per_km_h", "", ".4f", "its rise with speed"}, target.B_N_s_per_m);
+    visit(Result{"target_C_N_per_km_h2", "", ".5f", "its rise with the square of speed"}, target.C_N_s2_per_m2);
+    visit(JointLine{"Target", "{target_A_N}, {target_B_N_per_km_h}, {target_C_N_per_km_h2}"});
+    visit(JointLine{"Set", "{set_A_N}, {set_B_N_per_km_h}, {set_C_N_per_km_h2}"});
+    visit(Result{"iterations", "Corrections", "", "corrections of the set force"}, corrections);
+    visit(Result{"largest_difference_N", "Largest difference", ".2f", "over the speeds of differences"},
+          largest_difference_N);
+    visit(Result{"within_criterion", "  within criterion_N", "", "whether it is within criterion_N"}, within_criterion);
+    visit(ResultList{"differences", "Force at the wheels", "at speeds of 20 to 130 km/h"}, differences);
+    visit(Result{"highway_rr_energy_Wh", "Rolling resistance on both highways", ".0f",
+                 "of all tires that roll, over both highway cycles"},
+          highway_J);
+    visit(Result{"highway_rr_energy_iso_Wh", "  by the ISO coefficient alone", ".0f",
+                 "the same by the tire's ISO coefficient; null where it has none"},
+          highway_iso_J);
+  }
+};
+
 /// What is left between vehicle on the rollers and target is found to a tenth of the criterion.
 constexpr double kShareOfCriterion = 0.1;
 
@@ -90,128 +138,80 @@ Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Pr
   settings.coastdowns.append_to(program);
   Outcome outcome;
   simulate_vehicle(road, conditions, program, progress, outcome);
-  return fit_vehicle_coastdowns(collect_coastdowns(outcome.recording, road, conditions, settings.coastdowns), road)
-      .load;
-}
-
-/// What vehicle and rollers resist together.
-Load measure(const RunSpec& spec, const Settings& settings, const VehicleProgram& program,
-             const sim::Progress& progress, Outcome& outcome) {
-  simulate_vehicle(spec, settings.conditions, program, progress, outcome);
-  return fit_vehicle_coastdowns(collect_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns),
-                                spec)
-      .load;
+  return fit_coastdowns(outcome.recording, road, conditions, settings.coastdowns).load;
 }
 
 /// Energies of rolling resistance of all tires over the highway sections (Table 4.2).
-void put_highway(const RunSpec& spec, const Settings& settings, Outcome& outcome) {
+void add_highway(const RunSpec& spec, const Settings& settings, const sim::Recording<double>& recording,
+                 Results& results) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
-  double model_J = 0.0;
   double distance_m = 0.0;
-  for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
-    if (outcome.recording.phases[i].name.rfind("highway", 0) != 0) continue;
-    const SectionReader section(outcome.recording, layout, i);
+  for (std::size_t i = 0; i < recording.phases.size(); ++i) {
+    if (recording.phases[i].name.rfind("highway", 0) != 0) continue;
+    const SectionReader section(recording, layout, i);
     for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
-      model_J += section.wheel(rigs::WheelIntegral::kRollingEnergy, wheel) / layout.share;
+      results.highway_J += section.wheel(rigs::WheelIntegral::kRollingEnergy, wheel) / layout.share;
     }
     distance_m += section.common(rigs::VehicleIntegral::kDistance);
   }
-  outcome.result["highway_rr_energy_Wh"] = model_J / 3600.0;
-  outcome.result["highway_rr_energy_iso_Wh"] =
-      spec.tire.iso_28580.has_value()
-          ? Json(spec.tire.iso_28580->rrc * layout.rolling_load_N / layout.share * distance_m / 3600.0)
-          : Json();
+  if (!spec.tire.iso_28580.has_value()) return;
+  results.highway_iso_J = spec.tire.iso_28580->rrc * layout.rolling_load_N / layout.share * distance_m;
 }
 
-void report(const Settings& settings, const Load& target, const Load& set, const Load& found, int iterations,
+Results run(const RunSpec& spec, Settings settings, const VehicleProgram& program, const sim::Progress& progress,
             Outcome& outcome) {
-  const Load difference = sum(found, target, -1.0);
-  const double largest_N = find_largest_N(difference);
-  put_road_load(set, "set_", outcome.result);
-  put_road_load(target, "target_", outcome.result);
-  outcome.result["iterations"] = iterations;
-  outcome.result["largest_difference_N"] = largest_N;
-  outcome.result["within_criterion"] = largest_N <= settings.criterion_N;
-  outcome.result["differences"] = Json::array();
-  ResultTable table{"Force at the wheels", {"km/h", "road N", "rollers N", "off N", "set N"}, {}};
-  for (const double speed_m_s : road_load_speeds_m_s()) {
-    const double speed_km_h = unit_of_key("speed_km_h").from_si(speed_m_s);
-    const double road_N = models::calc_road_load_N(target, speed_m_s);
-    const double found_N = models::calc_road_load_N(found, speed_m_s);
-    outcome.result["differences"].push_back(
-        {{"speed_km_h", speed_km_h}, {"target_N", road_N}, {"found_N", found_N}, {"difference_N", found_N - road_N}});
-    table.rows.push_back({fmt::format("{:.0f}", speed_km_h), fmt::format("{:.1f}", road_N),
-                          fmt::format("{:.1f}", found_N), fmt::format("{:+.2f}", found_N - road_N),
-                          fmt::format("{:.1f}", models::calc_road_load_N(set, speed_m_s))});
-  }
-  outcome.tables.push_back(std::move(table));
-  outcome.lines.push_back({"Target", fmt::format("{}", fmt::join(write_road_load(target), ", "))});
-  outcome.lines.push_back({"Set", fmt::format("{}", fmt::join(write_road_load(set), ", "))});
-  outcome.lines.push_back({"Corrections", fmt::format("{}", iterations)});
-  outcome.lines.push_back(
-      {"Largest difference", fmt::format("{:.2f} N (criterion {:g} N)", largest_N, settings.criterion_N)});
-  if (largest_N > settings.criterion_N) {
-    outcome.warnings.push_back(fmt::format("the vehicle on the rollers is off by up to {:.1f} N", largest_N));
-  }
-}
-
-void run(const RunSpec& spec, Settings settings, const VehicleProgram& program, const sim::Progress& progress,
-         Outcome& outcome) {
   // Every iteration is a whole test; progress runs towards one and stays below it.
   double done = 0.0;
   const auto part = [&](double share) -> sim::Progress {
     if (!progress) return {};
     return [&, share](double part_done) { progress(done + (1.0 - done) * share * part_done); };
   };
-  const Load target = find_road_load(spec, settings, part(0.2));
+  Results results;
+  results.target = find_road_load(spec, settings, part(0.2));
   done = 0.2;
-  Load set = target;
+  results.set = results.target;
   Load found{};
-  int iteration = 0;
   while (true) {
-    settings.conditions.set_A_N = set.A_N;
-    settings.conditions.set_B_N_s_per_m = set.B_N_s_per_m;
-    settings.conditions.set_C_N_s2_per_m2 = set.C_N_s2_per_m2;
-    found = measure(spec, settings, program, part(0.4), outcome);
+    settings.conditions.set_A_N = results.set.A_N;
+    settings.conditions.set_B_N_s_per_m = results.set.B_N_s_per_m;
+    settings.conditions.set_C_N_s2_per_m2 = results.set.C_N_s2_per_m2;
+    simulate_vehicle(spec, settings.conditions, program, part(0.4), outcome);
+    found = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns).load;
     done += 0.4 * (1.0 - done);
-    if (find_largest_N(sum(found, target, -1.0)) <= kShareOfCriterion * settings.criterion_N ||
-        iteration == settings.iterations) {
-      break;
-    }
-    set = sum(set, sum(target, found, -1.0), 1.0);
-    ++iteration;
+    results.largest_difference_N = find_largest_N(sum(found, results.target, -1.0));
+    if (results.largest_difference_N <= kShareOfCriterion * settings.criterion_N) break;
+    if (results.corrections == settings.iterations) break;
+    results.set = sum(results.set, sum(results.target, found, -1.0), 1.0);
+    ++results.corrections;
   }
   outcome.settings = settings_to_json(settings);
-  report(settings, target, set, found, iteration, outcome);
-  put_highway(spec, settings, outcome);
+  results.within_criterion = results.largest_difference_N <= settings.criterion_N;
+  for (const double speed_m_s : road_load_speeds_m_s()) {
+    const auto force_N = [speed_m_s](const Load& load) { return models::calc_road_load_N(load, speed_m_s); };
+    results.differences.push_back({speed_m_s, force_N(results.target), force_N(found), force_N(results.set)});
+  }
+  add_highway(spec, settings, outcome.recording, results);
+  if (!results.within_criterion) {
+    outcome.warnings.push_back(
+        fmt::format("the vehicle on the rollers is off by up to {:.1f} N", results.largest_difference_N));
+  }
+  return results;
 }
 
 }  // namespace
 
-const Scenario& scenario_dyno_setting() {
-  static const Scenario scenario = [] {
-    ScenarioText text = {
-        "dyno_setting",
-        "Dynamometer setting: the rollers' force with which the vehicle coasts down as on the road",
-        "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is "
-        "corrected by what the road load and the force found differ, and the whole is done again, until they "
-        "agree. The road load is given, the vehicle's own, or found by coastdowns on rig flat.",
-        "source §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N",
-        {{"set_A_N", "of the rollers; with set_B_N_per_km_h, set_C_N_per_km_h2"},
-         {"target_A_N", "of the road; with target_B_N_per_km_h, target_C_N_per_km_h2"},
-         {"differences", "per speed: speed_km_h, target_N, found_N, difference_N"},
-         {"largest_difference_N", "over those speeds"},
-         {"within_criterion", "whether it is within criterion_N"},
-         {"iterations", "corrections of the set force"},
-         {"highway_rr_energy_Wh", "of all tires that roll, over both highway cycles"},
-         {"highway_rr_energy_iso_Wh", "the same by the tire's ISO coefficient; null where it has none"}}};
-    Scenario made = make_scenario<Settings>(std::move(text), &plan, &run);
-    made.rig_kinds = {rigs::RigKind::kDyno};
-    made.default_rig = "dyno_1m2";
-    made.has_vehicle = true;
-    return made;
-  }();
-  return scenario;
+Scenario scenario_dyno_setting() {
+  Scenario made = make_scenario<Settings, Results>(
+      {"dyno_setting", "Dynamometer setting: the rollers' force with which the vehicle coasts down as on the road",
+       "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is corrected by "
+       "what the road load and the force found differ, and the whole is done again, until they agree. The road load "
+       "is given, the vehicle's own, or found by coastdowns on rig flat.",
+       "source §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N"},
+      &plan, &run);
+  made.rig_kinds = {rigs::RigKind::kDyno};
+  made.default_rig = "dyno_1m2";
+  made.has_vehicle = true;
+  return made;
 }
 
 }  // namespace rollrig::scenarios

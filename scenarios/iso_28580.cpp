@@ -1,6 +1,6 @@
 /// ISO 28580: the whole rolling-resistance test of one tire, as in §3.2.3.
-#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
@@ -8,16 +8,13 @@
 namespace rollrig::scenarios {
 namespace {
 
-struct Settings {
-  DrumConditions conditions;
-  CycleTimes times;
+struct Settings : CycleSettings {
   int measurement_cycles = 0;
   double measurement_s = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    DrumConditions::visit(p.conditions, visit);
-    CycleTimes::visit(p.times, visit);
+    CycleSettings::visit(p, visit);
     visit(Field{"measurement_cycles", between(0.0, 100.0), "Measurement cycles after the warm-up cycle (§3.2.1 item 8)",
                 0.0},
           p.measurement_cycles);
@@ -26,17 +23,58 @@ struct Settings {
   }
 };
 
+struct Results {
+  Cycle cycle;  // the measurement: the last cycle, which is the warm-up's own end when no measurement cycle follows
+  double corrected_rrc = 0.0;
+  RrcUncertainty uncertainty;
+  double pressure_set_Pa = 0.0;
+  double pressure_verified_Pa = 0.0;
+  std::vector<Cycle> cycles;
+  std::optional<double> mean_rrc;
+  std::optional<double> rrc_sd;
+  std::string tire_file_says;
+
+  void visit(ResultSheet& visit) const {
+    cycle.visit(visit);
+    visit(Result{"rrc_25degC_2m_N_per_kN", "", ".3f", "RRc corrected to 25 degC and the 2 m drum"}, corrected_rrc);
+    visit(Result{"rrc_uncertainty_N_per_kN", "", ".3f", "expanded (k = 2), from the torque sensor, offset canceled"},
+          uncertainty.offset_cancelled);
+    visit(Result{"rrc_uncertainty_offset_kept_N_per_kN", "", ".3f", "the same from the offset alone, not canceled"},
+          uncertainty.offset_kept);
+    visit(Result{"pressure_set_kPa", "", ".1f", "as set after the soak, gauge"}, pressure_set_Pa);
+    visit(Result{"pressure_verified_kPa", "", ".1f", "at the end of the check, which the standard asks for, gauge"},
+          pressure_verified_Pa);
+    visit(ResultList{"cycles", "Cycles", "every cycle, when there are several", kCycleWindows, true}, cycles);
+    visit(Result{"rrc_cycles_mean_N_per_kN", "", ".3f", "mean of RRc over the cycles"}.or_left_out(), mean_rrc);
+    visit(Result{"rrc_cycles_sd_N_per_kN", "", ".3f", "sample standard deviation of RRc over the cycles"}.or_left_out(),
+          rrc_sd);
+    visit(JointLine{"Load", "{load_N}"});
+    visit(JointLine{"Speed", "{speed_km_h}"});
+    visit(JointLine{"Pressure set / verified / warm",
+                    "{pressure_set_kPa} / {pressure_verified_kPa} / {cavity_pressure_kPa}"});
+    visit(JointLine{"Liner temperature", "{liner_temperature_degC}"});
+    Cycle::visit_lines(visit);
+    visit(JointLine{"Rolling resistance", "{rolling_resistance_N}"});
+    visit(JointLine{"  by the force method", "{force_method_N}"});
+    visit(JointLine{"RRc", "{rrc_N_per_kN}"});
+    visit(JointLine{"RRc at 25 degC, 2 m drum",
+                    "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN} (k = 2, torque)"});
+    visit(
+        JointLine{"  from its offset alone", "+- {rrc_uncertainty_offset_kept_N_per_kN}, which the skim test cancels"});
+    visit(Remark{"  tire file says"}, tire_file_says);
+    visit(
+        JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
+  }
+};
+
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
-  const DrumConditions& conditions = settings.conditions;
-  const double skim_N = spec.rig.skim.load_N;
-  DrumProgram program(conditions, spec.rig, spec.sample_interval_s);
-  program.begin_test("iso-28580", *conditions.pressure_Pa, conditions.speed_m_s);
-  program.mark_time_zero();
-  program.roll("warm-up", settings.times.warm_up_s, *conditions.load_N);
-  program.roll("skim", settings.times.skim_s, skim_N);
+  DrumProgram program(settings.conditions, spec);
+  program.begin_test("iso-28580");
+  program.roll("warm-up", settings.warm_up_s);
+  program.skim("skim", settings.skim_s);
   for (int i = 1; i <= settings.measurement_cycles; ++i) {
-    program.roll(fmt::format("measurement {}", i), settings.measurement_s, *conditions.load_N);
-    program.roll(fmt::format("skim {}", i), settings.times.skim_s, skim_N);
+    program.roll(fmt::format("measurement {}", i), settings.measurement_s);
+    program.skim(fmt::format("skim {}", i), settings.skim_s);
   }
   return program;
 }
@@ -53,83 +91,44 @@ std::pair<double, double> calc_repeatability(const std::vector<Cycle>& cycles) {
 /// The pressure after the check, against what was set: the standard asks to verify it.
 double find_verified_pressure_Pa(const sim::Recording<double>& recording) {
   const double end_s = recording.phase_named("pressure check").end_s;
-  return recording.channel("cavity_pressure_kPa")[recording.row_at(end_s)];
+  return recording.channel(quantities::kCavityPressure)[recording.row_at(end_s)];
 }
 
-void fill_lines(const Settings& settings, const RunSpec& spec, const Cycle& cycle, double corrected,
-                const RrcUncertainty& uncertainty, double verified_Pa, Outcome& outcome) {
-  const auto add = [&outcome](const char* label, std::string value) {
-    outcome.lines.push_back({label, std::move(value)});
-  };
-  add("Load", fmt::format("{:.0f} N", cycle.loaded.load_N));
-  add("Speed", fmt::format("{:.1f} km/h", 3.6 * cycle.loaded.speed_m_s));
-  add("Pressure set / verified / warm",
-      fmt::format("{:.1f} / {:.1f} / {:.1f} kPa", *settings.conditions.pressure_Pa / 1e3, verified_Pa / 1e3,
-                  cycle.loaded.pressure_Pa / 1e3));
-  add("Liner temperature", fmt::format("{:.1f} degC", cycle.loaded.liner_temperature_K - kZeroCelsius_K));
-  add("Drum torque", fmt::format("{:.2f} Nm", cycle.loaded.drum_torque_Nm));
-  add("Parasitic loss (skim)", fmt::format("{:.2f} N", cycle.parasitic_N));
-  add("Rolling resistance", fmt::format("{:.2f} N", cycle.rolling_resistance_N));
-  add("  by the force method", fmt::format("{:.2f} N", cycle.force_method_N));
-  add("RRc", fmt::format("{:.3f} N/kN", 1e3 * cycle.rrc));
-  add("RRc at 25 degC, 2 m drum",
-      fmt::format("{:.3f} +- {:.3f} N/kN (k = 2, torque)", 1e3 * corrected, 1e3 * uncertainty.offset_cancelled));
+Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+  const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
+  Results results;
+  results.cycle = cycles.back();
+  const double ambient_K = results.cycle.loaded.ambient_K;
+  results.corrected_rrc = correct_rrc(results.cycle.rrc, ambient_K, spec);
+  results.uncertainty = calc_rrc_uncertainty(results.cycle, spec);
+  results.pressure_set_Pa = *settings.conditions.pressure_Pa;
+  results.pressure_verified_Pa = find_verified_pressure_Pa(outcome.recording);
+  if (cycles.size() > 1) {
+    std::tie(results.mean_rrc, results.rrc_sd) = calc_repeatability(cycles);
+    results.cycles = cycles;
+  }
   if (spec.tire.iso_28580.has_value()) {
     const double reference = spec.tire.iso_28580->rrc;
-    add("  tire file says",
-        fmt::format("{:.3f} N/kN, difference {:+.2f} %", 1e3 * reference, 100.0 * (corrected / reference - 1.0)));
+    results.tire_file_says = fmt::format("{}, difference {:+.2f} %", show_number("rrc_N_per_kN", ".3f", reference),
+                                         100.0 * (results.corrected_rrc / reference - 1.0));
   }
-}
-
-void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions, 0.0);
-  // The measurement is the last cycle's: the warm-up's own end when no measurement cycle follows.
-  const Cycle& cycle = cycles.back();
-  const double corrected = correct_rrc(cycle.rrc, cycle.loaded.ambient_K, spec);
-  const RrcUncertainty uncertainty = calc_rrc_uncertainty(cycle, spec);
-  const double verified_Pa = find_verified_pressure_Pa(outcome.recording);
-  outcome.result = to_json(cycle);
-  outcome.result["rrc_25degC_2m_N_per_kN"] = 1e3 * corrected;
-  outcome.result["rrc_uncertainty_N_per_kN"] = 1e3 * uncertainty.offset_cancelled;
-  outcome.result["rrc_uncertainty_offset_kept_N_per_kN"] = 1e3 * uncertainty.offset_kept;
-  outcome.result["pressure_set_kPa"] = *settings.conditions.pressure_Pa / 1e3;
-  outcome.result["pressure_verified_kPa"] = verified_Pa / 1e3;
-  fill_lines(settings, spec, cycle, corrected, uncertainty, verified_Pa, outcome);
-  if (cycles.size() > 1) {
-    const auto [mean, sd] = calc_repeatability(cycles);
-    add_cycles("Cycles", cycles, outcome);
-    outcome.result["rrc_cycles_mean_N_per_kN"] = 1e3 * mean;
-    outcome.result["rrc_cycles_sd_N_per_kN"] = 1e3 * sd;
-  }
-  if (!is_correction_valid(cycle.loaded.ambient_K)) {
+  if (!is_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
+  return results;
 }
 
 }  // namespace
 
-const Scenario& scenario_iso_28580() {
-  static const Scenario scenario = make_drum_scenario<Settings>(
-      {"iso_28580",
-       "Whole ISO 28580 test: soak, pressure, run-up, warm-up, measurement, skim",
+Scenario scenario_iso_28580() {
+  return make_drum_scenario(
+      {"iso_28580", "Whole ISO 28580 test: soak, pressure, run-up, warm-up, measurement, skim",
        "3 h soak at test temperature; pressure set and verified after 10 min; run-up at skim load; 30 min under "
        "load at 80 km/h, of which the last minute is the measurement; 3 min skim at 200 N, of which the last "
        "minute gives the parasitic loss. With measurement_cycles, further cycles of 10 min load and 3 min skim "
        "follow, and the last of them is the measurement. Ranges are found from the load signal.",
-       "ISO 28580:2009 as in source §3.2.1, §3.2.3, B.2",
-       {{"drum_torque_Nm", "mean motor torque of the measurement"},
-        {"parasitic_N", "skim torque over drum radius"},
-        {"rolling_resistance_N", "F_r = T_t/R - F_pl"},
-        {"force_method_N", "F_r from the spindle force"},
-        {"rrc_N_per_kN", "F_r over load"},
-        {"rrc_25degC_2m_N_per_kN", "corrected to 25 degC and the 2 m drum"},
-        {"rrc_uncertainty_N_per_kN", "expanded (k = 2), from the torque sensor, offset canceled"},
-        {"rrc_uncertainty_offset_kept_N_per_kN", "the same from the offset alone, not canceled"},
-        {"liner_temperature_degC", "mean of the measurement"},
-        {"cavity_pressure_kPa", "mean of the measurement, gauge"},
-        {"cycles", "every cycle, when there are several"}}},
+       "ISO 28580:2009 as in source §3.2.1, §3.2.3, B.2"},
       &plan, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

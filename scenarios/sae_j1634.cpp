@@ -1,7 +1,5 @@
 /// SAE J1634 multi-cycle test on a dynamometer, in the standard's order or the source's (§3.4.4).
-#include <algorithm>
-
-#include <boost/algorithm/string/replace.hpp>
+#include <cmath>
 
 #include "scenarios/common/vehicle_bench.h"
 
@@ -53,6 +51,66 @@ struct Settings {
   double count_from() const { return count_from_m_s.value_or(is_source() ? 20.0 / 3.6 : 0.0); }
 };
 
+/// One section, or all of them together: of one tire (the first that is simulated), and of the whole vehicle.
+struct Section {
+  std::string name;
+  double distance_m = 0.0;
+  double rr_J = 0.0;
+  std::optional<double> rr_iso_J;
+  std::optional<double> mean_rrc;
+  double start_K = 0.0;
+  double end_K = 0.0;
+  double vehicle_rr_J = 0.0;
+  double drive_J = 0.0;
+  double recuperated_J = 0.0;
+  double battery_J = 0.0;
+
+  std::optional<double> calc_difference() const {
+    if (!rr_iso_J.has_value() || *rr_iso_J <= 0.0) return std::nullopt;
+    return rr_J / *rr_iso_J - 1.0;
+  }
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"name", "section", "", "its phase", Column::kBoth}, name);
+    visit(Result{"distance_km", "", ".2f", "driven in it"}, distance_m);
+    visit(Result{"rr_energy_Wh", "model", ".1f", "energy of rolling resistance of one tire, counted stretches"}, rr_J);
+    visit(Result{"rr_energy_iso_Wh", "ISO", ".1f",
+                 "the same by the tire's ISO coefficient; null where it has none, or no loss of its own"},
+          rr_iso_J);
+    visit(Result{"difference_percent", "diff.", ".1f", "of the first from the second"}, calc_difference());
+    visit(Result{"mean_rrc_N_per_kN", "RRc", ".2f", "mean over time of F_rr/Fz, counted stretches"}, mean_rrc);
+    visit(Result{"temperature_start_degC", "start", ".1f", "of the liner", Column::kSecond}, start_K);
+    visit(Result{"temperature_end_degC", "end", ".1f", "of the liner", Column::kSecond}, end_K);
+    visit(Result{"vehicle_rr_energy_Wh", "tires", ".1f",
+                 "energy of rolling resistance of all tires that roll, counted stretches"},
+          vehicle_rr_J);
+    visit(Result{"wheel_energy_Wh", "hubs", ".0f", "given out at the driven hubs, whole vehicle", Column::kSecond},
+          drive_J);
+    visit(Result{"recuperated_Wh", "recup.", ".0f", "taken in by the motor while it brakes", Column::kSecond},
+          recuperated_J);
+    visit(Result{"battery_energy_Wh", "battery", ".0f", "through the constant efficiency of the powertrain, both ways",
+                 Column::kSecond},
+          battery_J);
+  }
+};
+
+struct Results {
+  std::string wheels;
+  double load_N = 0.0;
+  double count_from_m_s = 0.0;
+  std::vector<Section> sections;
+  std::optional<Section> total;
+
+  void visit(ResultSheet& visit) const {
+    visit(Remark{"Wheels simulated"}, wheels);
+    visit(Remark{"Load of the tire"}, show_number("load_N", ".0f", load_N));
+    visit(Remark{"Counted above"}, show_number("speed_km_h", ".0f", count_from_m_s));
+    visit(ResultList{"sections", "Rolling resistance of one tire, by model and by ISO coefficient; of all tires",
+                     "each section", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
+          sections, total);
+  }
+};
+
 VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
   const SpeedTrace city = read_speed_trace("udds");
   const SpeedTrace highway = read_speed_trace("hwfet");
@@ -83,160 +141,85 @@ bool is_section(const std::string& phase) {
   return phase.rfind("city", 0) == 0 || phase.rfind("highway", 0) == 0 || phase.rfind("constant speed", 0) == 0;
 }
 
-/// One section: of one tire (the first that is simulated), and of the whole vehicle at its wheels.
-Json evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout, const sim::Recording<double>& recording,
-                      std::size_t phase) {
+Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
+                         const sim::Recording<double>& recording, std::size_t phase) {
   using rigs::VehicleIntegral;
   using rigs::WheelIntegral;
-  const SectionReader section(recording, layout, phase);
+  const SectionReader reader(recording, layout, phase);
   const sim::PhaseSpan& span = recording.phases[phase];
-  const double counted_s = section.common(VehicleIntegral::kCountedTime);
-  const double rr_J = section.wheel(WheelIntegral::kCountedRollingEnergy, 0);
-  const std::vector<double>& temperature_K =
-      recording.channel(rigs::wheel_channel("liner_temperature_degC", layout.wheels.front()));
-  const double drive_J = section.vehicle(VehicleIntegral::kDriveEnergy);
-  const double recuperated_J = section.vehicle(VehicleIntegral::kRecuperated);
-  const double efficiency = spec.vehicle->powertrain.efficiency;
-  constexpr double kWh_J = 3600.0;
-  Json json = {{"name", span.name},
-               {"distance_km", section.common(VehicleIntegral::kDistance) / 1e3},
-               {"rr_energy_Wh", rr_J / kWh_J}};
+  Section section;
+  section.name = span.name;
+  section.distance_m = reader.common(VehicleIntegral::kDistance);
+  section.rr_J = reader.wheel(WheelIntegral::kCountedRollingEnergy, 0);
   const bool tires_lose = spec.rig.kind == rigs::RigKind::kDyno || !spec.vehicle->road_load.has_value();
   if (spec.tire.iso_28580.has_value() && tires_lose) {
-    const double iso_J = spec.tire.iso_28580->rrc * layout.wheels.front().static_load_N *
-                         section.common(VehicleIntegral::kCountedDistance);
-    json["rr_energy_iso_Wh"] = iso_J / kWh_J;
-    json["difference_percent"] = iso_J > 0.0 ? Json(100.0 * (rr_J / iso_J - 1.0)) : Json();
-  } else {
-    json["rr_energy_iso_Wh"] = json["difference_percent"] = Json();
+    section.rr_iso_J = spec.tire.iso_28580->rrc * layout.wheels.front().static_load_N *
+                       reader.common(VehicleIntegral::kCountedDistance);
   }
-  json["mean_rrc_N_per_kN"] =
-      counted_s > 0.0 ? Json(1e3 * (section.wheel(WheelIntegral::kCountedRrc, 0) / counted_s)) : Json();
-  json["temperature_start_degC"] = temperature_K[recording.row_at(span.start_s)] - kZeroCelsius_K;
-  json["temperature_end_degC"] = temperature_K[recording.row_at(span.end_s - spec.sample_interval_s)] - kZeroCelsius_K;
-  double all_tires_J = 0.0;
+  const double counted_s = reader.common(VehicleIntegral::kCountedTime);
+  if (counted_s > 0.0) section.mean_rrc = reader.wheel(WheelIntegral::kCountedRrc, 0) / counted_s;
+  const std::vector<double>& temperature_K =
+      recording.channel(rigs::wheel_channel(quantities::kLinerTemperature.header(), layout.wheels.front()));
+  section.start_K = temperature_K[recording.row_at(span.start_s)];
+  section.end_K = temperature_K[recording.row_at(span.end_s - spec.sample_interval_s)];
   for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
-    all_tires_J += section.wheel(WheelIntegral::kCountedRollingEnergy, wheel) / layout.share;
+    section.vehicle_rr_J += reader.wheel(WheelIntegral::kCountedRollingEnergy, wheel) / layout.share;
   }
-  json["vehicle_rr_energy_Wh"] = all_tires_J / kWh_J;
-  json["wheel_energy_Wh"] = drive_J / kWh_J;
-  json["recuperated_Wh"] = recuperated_J / kWh_J;
-  json["battery_energy_Wh"] = (drive_J / efficiency - recuperated_J * efficiency) / kWh_J;
-  return json;
+  section.drive_J = reader.vehicle(VehicleIntegral::kDriveEnergy);
+  section.recuperated_J = reader.vehicle(VehicleIntegral::kRecuperated);
+  const double efficiency = spec.vehicle->powertrain.efficiency;
+  section.battery_J = section.drive_J / efficiency - section.recuperated_J * efficiency;
+  return section;
 }
 
-std::string show(const Json& value, int digits) {
-  return value.is_number() ? fmt::format("{:.{}f}", value.get<double>(), digits) : "-";
-}
-
-/// "constant 105 km/h", so that a line holds.
-std::string shorten(const std::string& section) {
-  return boost::algorithm::replace_first_copy(section, "constant speed", "constant");
-}
-
-/// The sum over all sections; null where one of them has none.
-Json add_up(const Json& sections, const char* key) {
-  double sum = 0.0;
-  for (const Json& section : sections) {
-    if (!section[key].is_number()) return {};
-    sum += section[key].get<double>();
+/// The whole test; without ISO energy where a section has none.
+Section add_up(const std::vector<Section>& sections) {
+  Section total;
+  total.name = "all sections";
+  total.start_K = total.end_K = std::nan("");
+  total.mean_rrc = std::nan("");
+  total.rr_iso_J = 0.0;
+  for (const Section& section : sections) {
+    total.distance_m += section.distance_m;
+    total.rr_J += section.rr_J;
+    total.rr_iso_J = total.rr_iso_J.has_value() && section.rr_iso_J.has_value()
+                         ? std::optional(*total.rr_iso_J + *section.rr_iso_J)
+                         : std::nullopt;
+    total.vehicle_rr_J += section.vehicle_rr_J;
+    total.drive_J += section.drive_J;
+    total.recuperated_J += section.recuperated_J;
+    total.battery_J += section.battery_J;
   }
-  return sum;
+  return total;
 }
 
-struct SectionColumn {
-  const char* heading;
-  const char* key;  // of a section's result
-  int digits;
-  std::optional<Json> total = {};  // of the whole test; none: an empty field
-};
-
-/// A row a section, the whole test last.
-ResultTable make_section_table(const std::string& title, const std::vector<SectionColumn>& columns,
-                               const Json& sections) {
-  ResultTable table{title, {"section"}, {}};
-  std::vector<std::string> totals{"all sections"};
-  for (const SectionColumn& column : columns) {
-    table.columns.push_back(column.heading);
-    totals.push_back(column.total.has_value() ? show(*column.total, column.digits) : "");
-  }
-  for (const Json& section : sections) {
-    std::vector<std::string> row{shorten(section["name"].get<std::string>())};
-    for (const SectionColumn& column : columns) row.push_back(show(section[column.key], column.digits));
-    table.rows.push_back(std::move(row));
-  }
-  table.rows.push_back(std::move(totals));
-  return table;
-}
-
-/// Loss of one tire by the model and by the ISO coefficient.
-ResultTable make_tire_table(const Json& sections) {
-  const Json model_Wh = add_up(sections, "rr_energy_Wh");
-  const Json iso_Wh = add_up(sections, "rr_energy_iso_Wh");
-  const bool has_iso = iso_Wh.is_number() && iso_Wh.get<double>() > 0.0;
-  const Json difference = has_iso ? Json(100.0 * (model_Wh.get<double>() / iso_Wh.get<double>() - 1.0)) : Json();
-  return make_section_table("Rolling resistance of one tire: by the model, and by its ISO coefficient alone",
-                            {{"km", "distance_km", 2, add_up(sections, "distance_km")},
-                             {"model Wh", "rr_energy_Wh", 1, model_Wh},
-                             {"ISO Wh", "rr_energy_iso_Wh", 1, iso_Wh},
-                             {"difference %", "difference_percent", 1, difference},
-                             {"mean RRc N/kN", "mean_rrc_N_per_kN", 2}},
-                            sections);
-}
-
-/// Temperatures of that tire and energies of the vehicle.
-ResultTable make_vehicle_table(const Json& sections) {
-  return make_section_table("Liner of that tire; energy of the whole vehicle, at its hubs and its battery",
-                            {{"start degC", "temperature_start_degC", 1},
-                             {"end degC", "temperature_end_degC", 1},
-                             {"hubs Wh", "wheel_energy_Wh", 0, add_up(sections, "wheel_energy_Wh")},
-                             {"recuperated Wh", "recuperated_Wh", 0, add_up(sections, "recuperated_Wh")},
-                             {"battery Wh", "battery_energy_Wh", 0, add_up(sections, "battery_energy_Wh")}},
-                            sections);
-}
-
-void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
-  Json sections = Json::array();
+  Results results;
+  results.wheels = settings.conditions.wheels == 4 ? "4; the tire shown is the front left"
+                                                   : "a quarter, " + settings.conditions.quarter.value;
+  results.load_N = layout.wheels.front().static_load_N;
+  results.count_from_m_s = settings.count_from();
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (!is_section(outcome.recording.phases[i].name)) continue;
-    sections.push_back(evaluate_section(spec, layout, outcome.recording, i));
+    results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));
   }
-  outcome.tables = {make_tire_table(sections), make_vehicle_table(sections)};
-  outcome.result["sections"] = std::move(sections);
-  outcome.lines.push_back({"Wheels simulated", settings.conditions.wheels == 4
-                                                   ? "4; the tire shown is the front left"
-                                                   : fmt::format("a quarter, {}", settings.conditions.quarter.value)});
-  outcome.lines.push_back({"Load of the tire", fmt::format("{:.0f} N", layout.wheels.front().static_load_N)});
-  outcome.lines.push_back({"Counted above", fmt::format("{:.0f} km/h", 3.6 * settings.count_from())});
+  results.total = add_up(results.sections);
+  return results;
 }
 
 }  // namespace
 
-const Scenario& scenario_sae_j1634() {
-  static const Scenario scenario = make_vehicle_scenario<Settings>(
-      {"sae_j1634",
-       "SAE J1634 multi-cycle test: city, highway and constant-speed sections with their pauses and soaks",
+Scenario scenario_sae_j1634() {
+  return make_vehicle_scenario(
+      {"sae_j1634", "SAE J1634 multi-cycle test: city, highway and constant-speed sections with their pauses and soaks",
        "Standard: UDDS 1, 15 s, HFEDS 1, 10 min soak, UDDS 2, constant speed, UDDS 3, 15 s, HFEDS 2, 10 min soak, "
        "UDDS 4, constant speed. Source: the same without pauses, soaks of 10 min after the highway sections, "
        "constant speeds 105 and 80 km/h. Of each section, for one tire: energy of rolling resistance by the model "
        "and by the constant ISO coefficient, temperatures, mean coefficient; for the vehicle: energy at the wheels. On "
        "rig flat a vehicle with [road_load] needs exactly that at the wheels, and its tires nothing of their own.",
-       "SAE J1634 as fixed by 40 CFR 600.116-12(a); source §3.4.4, §3.4.5, Tables 4.4 and 4.5",
-       {{"sections", "a list; of each: name, distance_km"},
-        {"sections[].rr_energy_Wh", "energy of rolling resistance of one tire, counted stretches"},
-        {"sections[].rr_energy_iso_Wh",
-         "the same by the tire's ISO coefficient; null where it has none, or no loss of its own"},
-        {"sections[].difference_percent", "of the first from the second"},
-        {"sections[].mean_rrc_N_per_kN", "mean over time of F_rr/Fz, counted stretches"},
-        {"sections[].temperature_start_degC", "of the liner"},
-        {"sections[].temperature_end_degC", "of the liner"},
-        {"sections[].vehicle_rr_energy_Wh", "energy of rolling resistance of all tires that roll, counted stretches"},
-        {"sections[].wheel_energy_Wh", "given out at the driven hubs, whole vehicle"},
-        {"sections[].recuperated_Wh", "taken in by the motor while it brakes"},
-        {"sections[].battery_energy_Wh", "through the constant efficiency of the powertrain, both ways"}}},
+       "SAE J1634 as fixed by 40 CFR 600.116-12(a); source §3.4.4, §3.4.5, Tables 4.4 and 4.5"},
       {rigs::RigKind::kDyno, rigs::RigKind::kFlat}, "dyno_1m2", &plan, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

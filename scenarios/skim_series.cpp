@@ -9,17 +9,54 @@
 namespace rollrig::scenarios {
 namespace {
 
-struct Settings {
-  DrumConditions conditions;
-  CycleTimes times;
+struct Settings : CycleSettings {
   std::vector<double> skim_loads_N{400.0, 300.0, 200.0, 100.0, 50.0};
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    DrumConditions::visit(p.conditions, visit);
-    CycleTimes::visit(p.times, visit);
+    CycleSettings::visit(p, visit);
     visit(Field{"skim_loads_N", between(10.0, 2000.0), "Loads of the series, in the order in which they are run"},
           p.skim_loads_N);
+  }
+};
+
+struct Point {
+  Reading reading;
+  double force_N = 0.0;
+  double tire_N = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"load_N", "load", ".0f", "mean load"}, reading.load_N);
+    visit(Result{"force_N", "force", ".3f", "motor torque over drum radius"}, force_N);
+    visit(Remark{"tire N (simulated)"}, fmt::format("{:.3f}", tire_N));
+    visit(Remark{"tire degC"}, fmt::format("{:.1f}", reading.liner_temperature_K - kZeroCelsius_K));
+  }
+};
+
+/// Straight line through force over load.
+struct Extrapolation {
+  double intercept_N = 0.0;
+  double slope = 0.0;  // N/N
+  double intercept_sd_N = 0.0;
+};
+
+struct Results {
+  std::vector<Point> points;
+  Extrapolation zero_load;
+  double rig_alone_N = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(ResultList{"points", "Skim series", "load and force of each skim test"}, points);
+    visit(
+        Result{"intercept_N", "", ".3f", "force at zero load: the rig alone, as far as the tire's loss goes with load"},
+        zero_load.intercept_N);
+    visit(Result{"intercept_sd_N", "", ".3f", "its standard error from the torque sensor's noise and drift"},
+          zero_load.intercept_sd_N);
+    visit(JointLine{"Parasitic loss at zero load", "{intercept_N} +- {intercept_sd_N} (standard error, offset aside)"});
+    visit(Result{"slope_N_per_kN", "Slope over load", ".3f", "rise of the force with load"}, zero_load.slope);
+    visit(Result{"rig_alone_N", "Rig alone (simulated)", ".3f",
+                 "what the rig alone loses, which only a simulation knows"},
+          rig_alone_N);
   }
 };
 
@@ -36,32 +73,24 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
     throw TableReader(spec.settings, "[settings]")
         .problem("skim_loads_N", "a straight line needs two loads at least", "two or more different loads");
   }
-  const DrumConditions& conditions = settings.conditions;
-  DrumProgram program(conditions, spec.rig, spec.sample_interval_s);
-  program.begin_test("skim-series", *conditions.pressure_Pa, conditions.speed_m_s);
-  program.mark_time_zero();
-  program.roll("warm-up", settings.times.warm_up_s, *conditions.load_N);
+  DrumProgram program(settings.conditions, spec);
+  program.begin_test("skim-series");
+  program.roll("warm-up", settings.warm_up_s);
   for (const double load_N : settings.skim_loads_N) {
-    program.roll(fmt::format("skim {:.6g} N", load_N), settings.times.skim_s, load_N);
+    program.roll(fmt::format("skim {:.6g} N", load_N), settings.skim_s, load_N);
   }
   return program;
 }
 
-/// Straight line through force over load, with standard errors.
-struct Extrapolation {
-  double intercept_N = 0.0;
-  double slope = 0.0;  // N/N
-  double intercept_sd_N = 0.0;
-};
-
-Extrapolation extrapolate(const std::vector<Reading>& readings, double radius_m, double force_sd_N) {
-  const auto n = static_cast<Eigen::Index>(readings.size());
+/// The line by least squares, with the standard error that a force's own makes.
+Extrapolation extrapolate(const std::vector<Point>& points, double force_sd_N) {
+  const auto n = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd design(n, 2);
   Eigen::VectorXd force_N(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Reading& reading = readings[static_cast<std::size_t>(i)];
-    design.row(i) << 1.0, reading.load_N;
-    force_N[i] = reading.drum_torque_Nm / radius_m;
+    const Point& point = points[static_cast<std::size_t>(i)];
+    design.row(i) << 1.0, point.reading.load_N;
+    force_N[i] = point.force_N;
   }
   const Eigen::Vector2d line = design.colPivHouseholderQr().solve(force_N);
   const Eigen::Matrix2d normal = design.transpose() * design;
@@ -69,64 +98,41 @@ Extrapolation extrapolate(const std::vector<Reading>& readings, double radius_m,
   return {line[0], line[1], std::sqrt(covariance(0, 0))};
 }
 
-void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const double radius_m = spec.rig.drum.diameter_m / 2.0;
-  std::vector<Reading> readings;
-  ResultTable table{"Skim series", {"load N", "torque Nm", "force N", "tire N (simulated)", "liner C"}, {}};
-  outcome.result["points"] = Json::array();
-  double rig_alone_N = 0.0;
-  const std::vector<LoadRange> ranges = find_test_ranges(outcome.recording, spec, 0.0);
+  const sim::Recording<double>& recording = outcome.recording;
+  const std::vector<LoadRange> ranges = find_test_ranges(recording, spec);
   if (ranges.size() != settings.skim_loads_N.size() + 1) {
     throw RunFailure(
         fmt::format("{} ranges of load were found, {} were run", ranges.size(), settings.skim_loads_N.size() + 1));
   }
+  Results results;
   for (std::size_t i = 1; i < ranges.size(); ++i) {
-    const double load_N = ranges[i].load_N;
     const Window window = find_last_window(ranges[i], settings.conditions.window_s, settings.conditions.margin_s);
-    const Reading reading = take_reading(outcome.recording, window, spec.sample_interval_s);
-    const auto simulated = [&](const char* channel) {
-      return calc_window_mean(outcome.recording.time_s, outcome.recording.channel(channel), window,
-                              spec.sample_interval_s);
+    const auto mean = [&](const Quantity& quantity) {
+      return calc_window_mean(recording.time_s, recording.channel(quantity), window, spec.sample_interval_s);
     };
-    const double force_N = reading.drum_torque_Nm / radius_m;
-    rig_alone_N = simulated("parasitic_N");
-    outcome.result["points"].push_back({{"load_N", reading.load_N}, {"force_N", force_N}});
-    table.rows.push_back({fmt::format("{:.0f}", load_N), fmt::format("{:.3f}", reading.drum_torque_Nm),
-                          fmt::format("{:.3f}", force_N), fmt::format("{:.3f}", simulated("rolling_resistance_N")),
-                          fmt::format("{:.1f}", reading.liner_temperature_K - kZeroCelsius_K)});
-    readings.push_back(reading);
+    const Reading reading = take_reading(recording, window, spec.sample_interval_s);
+    results.points.push_back({reading, reading.drum_torque_Nm / radius_m, mean(quantities::kRollingResistance)});
+    results.rig_alone_N = mean(quantities::kParasiticLoss);
   }
   const models::SensorParameters sensor = find_torque_sensor(spec);
+  const int samples = results.points.front().reading.samples;
   const double mean_sd_Nm =
-      std::sqrt(0.5 * models::calc_difference_variance(sensor, readings.front().samples, spec.sample_interval_s, 1e9));
-  const Extrapolation zero_load = extrapolate(readings, radius_m, mean_sd_Nm / radius_m);
-  outcome.tables.push_back(table);
-  outcome.result["intercept_N"] = zero_load.intercept_N;
-  outcome.result["intercept_sd_N"] = zero_load.intercept_sd_N;
-  outcome.result["slope_N_per_kN"] = 1e3 * zero_load.slope;
-  outcome.result["rig_alone_N"] = rig_alone_N;
-  outcome.lines = {{"Parasitic loss at zero load", fmt::format("{:.3f} +- {:.3f} N (standard error, offset aside)",
-                                                               zero_load.intercept_N, zero_load.intercept_sd_N)},
-                   {"Slope over load", fmt::format("{:.3f} N/kN", 1e3 * zero_load.slope)},
-                   {"Rig alone", fmt::format("{:.3f} N (simulated)", rig_alone_N)}};
+      std::sqrt(0.5 * models::calc_difference_variance(sensor, samples, spec.sample_interval_s, 1e9));
+  results.zero_load = extrapolate(results.points, mean_sd_Nm / radius_m);
+  return results;
 }
 
 }  // namespace
 
-const Scenario& scenario_skim_series() {
-  static const Scenario scenario = make_drum_scenario<Settings>(
-      {"skim_series",
-       "Skim tests at several small loads, extrapolated to zero load",
+Scenario scenario_skim_series() {
+  return make_drum_scenario(
+      {"skim_series", "Skim tests at several small loads, extrapolated to zero load",
        "Soak, pressure, run-up, 30 min under load, then a skim test of 3 min at each of several small loads; a "
        "straight line through the forces gives the loss at zero load.",
-       "source §5.2",
-       {{"intercept_N", "force at zero load: the rig alone, as far as the tire's loss goes with load"},
-        {"intercept_sd_N", "its standard error from the torque sensor's noise and drift"},
-        {"slope_N_per_kN", "rise of the force with load"},
-        {"rig_alone_N", "what the rig alone loses, which only a simulation knows"},
-        {"points", "load and force of each skim test"}}},
+       "source §5.2"},
       &plan, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

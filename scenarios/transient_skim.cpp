@@ -29,50 +29,50 @@ struct Settings {
   }
 };
 
+struct Results {
+  std::vector<Cycle> cycles;
+  double parasitic_fall_N = 0.0;
+  double rolling_resistance_fall_N = 0.0;
+  double parasitic_last_N = 0.0;
+  double uncertainty_N = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(ResultList{"cycles", "Skim tests during the warm-up", "every load and its skim", kCycleWindows}, cycles);
+    visit(Result{"parasitic_fall_N", "Parasitic loss, first less last", ".3f", "of skim readings"}, parasitic_fall_N);
+    visit(Result{"rolling_resistance_fall_N", "F_r, first less last", ".2f", "of F_r"}, rolling_resistance_fall_N);
+    visit(Result{"parasitic_last_N", "Parasitic loss, last", ".3f", "last skim reading"}, parasitic_last_N);
+    visit(Result{"uncertainty_N", "Uncertainty of F_r (k = 2)", ".3f", "expanded, of one F_r, offset canceled"},
+          uncertainty_N);
+  }
+};
+
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
-  const DrumConditions& conditions = settings.conditions;
-  DrumProgram program(conditions, spec.rig, spec.sample_interval_s);
-  program.begin_test("transient-skim", *conditions.pressure_Pa, conditions.speed_m_s);
-  program.mark_time_zero();
+  DrumProgram program(settings.conditions, spec);
+  program.begin_test("transient-skim");
   for (int i = 1; i <= settings.repeats; ++i) {
-    program.roll(fmt::format("load {}", i), settings.load_s, *conditions.load_N);
-    program.roll(fmt::format("skim {}", i), settings.skim_s, spec.rig.skim.load_N);
+    program.roll(fmt::format("load {}", i), settings.load_s);
+    program.skim(fmt::format("skim {}", i), settings.skim_s);
   }
   return program;
 }
 
-void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions, 0.0);
-  add_cycles("Skim tests during the warm-up", cycles, outcome);
-  const double fall_N = cycles.front().parasitic_N - cycles.back().parasitic_N;
-  outcome.result["parasitic_fall_N"] = fall_N;
-  outcome.result["rolling_resistance_fall_N"] =
-      cycles.front().rolling_resistance_N - cycles.back().rolling_resistance_N;
-  outcome.result["parasitic_last_N"] = cycles.back().parasitic_N;
-  outcome.result["uncertainty_N"] =
-      calc_rrc_uncertainty(cycles.back(), spec).offset_cancelled * cycles.back().loaded.load_N;
-  outcome.lines = {
-      {"Parasitic loss, first to last",
-       fmt::format("{:.3f} to {:.3f} N", cycles.front().parasitic_N, cycles.back().parasitic_N)},
-      {"Rolling resistance, first to last",
-       fmt::format("{:.2f} to {:.2f} N", cycles.front().rolling_resistance_N, cycles.back().rolling_resistance_N)}};
+Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+  const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions);
+  const Cycle& first = cycles.front();
+  const Cycle& last = cycles.back();
+  return {cycles, first.parasitic_N - last.parasitic_N, first.rolling_resistance_N - last.rolling_resistance_N,
+          last.parasitic_N, calc_rrc_uncertainty(last, spec).offset_cancelled * last.loaded.load_N};
 }
 
 }  // namespace
 
-const Scenario& scenario_transient_skim() {
-  static const Scenario scenario = make_drum_scenario<Settings>(
-      {"transient_skim",
-       "Skim tests spread over the warm-up of a cold tire",
+Scenario scenario_transient_skim() {
+  return make_drum_scenario(
+      {"transient_skim", "Skim tests spread over the warm-up of a cold tire",
        "Soak, pressure, run-up, then loads of 5 min with a skim test of 3 min after each; the last minute of every "
        "load and skim is averaged, and F_r is taken with the skim test that follows.",
-       "source §3.2.7, §4.1.7",
-       {{"cycles", "every load with its skim test"},
-        {"parasitic_fall_N", "first skim reading less the last"},
-        {"rolling_resistance_fall_N", "first F_r less the last"},
-        {"uncertainty_N", "expanded (k = 2), of one F_r, offset canceled"}}},
+       "source §3.2.7, §4.1.7"},
       &plan, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

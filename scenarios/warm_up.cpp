@@ -12,9 +12,7 @@ using boost::math::statistics::simple_ordinary_least_squares;
 
 namespace {
 
-struct Settings {
-  DrumConditions conditions;
-  CycleTimes times;
+struct Settings : CycleSettings {
   double start_window_s = 0.0;
   double band_low_K = 0.0;
   double band_high_K = 0.0;
@@ -22,8 +20,7 @@ struct Settings {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    DrumConditions::visit(p.conditions, visit);
-    CycleTimes::visit(p.times, visit);
+    CycleSettings::visit(p, visit);
     visit(Field{"start_window_s", between(10.0, 600.0),
                 "The loss at the start is a straight line through this long, drawn back to 0 s. Assumed: 60 s", 60.0},
           p.start_window_s);
@@ -37,37 +34,66 @@ struct Settings {
 };
 
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
-  const DrumConditions& conditions = settings.conditions;
-  DrumProgram program(conditions, spec.rig, spec.sample_interval_s);
-  program.begin_test(fmt::format("warm-up-{:.0f}", 3.6 * conditions.speed_m_s), *conditions.pressure_Pa,
-                     conditions.speed_m_s);
-  program.mark_time_zero();
-  program.roll("warm-up", settings.times.warm_up_s, *conditions.load_N);
+  DrumProgram program(settings.conditions, spec);
+  program.begin_test(fmt::format("warm-up-{:.0f}", 3.6 * settings.conditions.speed_m_s));
+  program.roll("warm-up", settings.warm_up_s);
   if (settings.until_tire_K.has_value()) program.end_at_tire_temperature(*settings.until_tire_K);
-  program.roll("skim", settings.times.skim_s, spec.rig.skim.load_N);
+  program.skim("skim", settings.skim_s);
   return program;
 }
 
-/// Loss over the load phase, and what the source reads off the curve.
+/// What the source reads off the loss over the load phase.
 struct WarmUpCurve {
   double start_N = 0.0;
-  bool has_band = false;
-  double B_per_K = 0.0;
-  double band_low_N = 0.0;
-  double band_high_N = 0.0;
+  std::optional<double> B_per_K;  // these where the band was passed
+  std::optional<double> band_low_N;
+  std::optional<double> band_drop_N;
+  std::optional<double> band_drop;  // of band_low_N
+};
+
+struct Results {
+  Cycle cycle;
+  WarmUpCurve curve;
+  double start_excess = 0.0;
+  double warm_up_s = 0.0;
+  double pressure_set_kPa = 0.0;
+  std::string band;
+
+  void visit(ResultSheet& visit) const {
+    cycle.visit(visit);
+    visit(JointLine{"Load, speed", "{load_N}, {speed_km_h}"});
+    visit(JointLine{"Pressure set / warm", fmt::format("{:.1f} / ", pressure_set_kPa) + "{cavity_pressure_kPa}"});
+    visit(JointLine{"Liner temperature at the end", "{liner_temperature_degC}"});
+    Cycle::visit_lines(visit);
+    visit(Result{"start_rolling_resistance_N", "Rolling resistance, start", ".2f",
+                 "loss at 0 s, drawn back from the first minute"},
+          curve.start_N);
+    visit(JointLine{"Rolling resistance, end", "{rolling_resistance_N}, RRc {rrc_N_per_kN}"});
+    visit(JointLine{"  by the force method", "{force_method_N}"});
+    visit(Result{"start_excess_percent", "Start above end", ".1f", "how far the start is above the end"}, start_excess);
+    visit(Result{"warm_up_s", "Time under load", ".0f", "end of the time under load"}, warm_up_s);
+    visit(Result{"band_B_per_degC", "", ".5f",
+                 "relative fall of the loss per degC between the two temperatures; null when not reached"},
+          curve.B_per_K);
+    visit(Result{"band_low_N", "", ".2f", "loss at the lower of the two temperatures"}, curve.band_low_N);
+    visit(Result{"band_drop_N", "", ".2f", "fall between the two temperatures"}, curve.band_drop_N);
+    visit(Result{"band_drop_percent", "", ".2f", "the same, of the loss at the lower"}, curve.band_drop);
+    visit(JointLine{"Fall from " + band, "{band_drop_percent} ({band_drop_N} of {band_low_N}), B = {band_B_per_degC}"});
+  }
 };
 
 WarmUpCurve read_curve(const Settings& settings, const RunSpec& spec, const Cycle& cycle, const Outcome& outcome) {
   constexpr double kSettled_s = 5.0;       // speed controller and load cylinder have settled
   constexpr std::size_t kEnoughRows = 10;  // for a straight line through noise
   const sim::PhaseSpan& phase = outcome.recording.phase_named("warm-up");
+  const std::vector<double>& torque_Nm = outcome.recording.channel(quantities::kDrumTorque);
+  const std::vector<double>& liner_temperature_K = outcome.recording.channel(quantities::kLinerTemperature);
   std::vector<double> start_times_s, start_N, band_dK, band_log;
   for (std::size_t i = 0; i < outcome.recording.row_count(); ++i) {
     const double time_s = outcome.recording.time_s[i];
     if (time_s < phase.start_s + kSettled_s || time_s > phase.end_s - settings.conditions.margin_s) continue;
-    const double torque_Nm = outcome.recording.channel("drum_torque_Nm")[i];
-    const double loss_N = torque_Nm / (spec.rig.drum.diameter_m / 2.0) - cycle.parasitic_N;
-    const double liner_K = outcome.recording.channel("liner_temperature_degC")[i];
+    const double loss_N = torque_Nm[i] / (spec.rig.drum.diameter_m / 2.0) - cycle.parasitic_N;
+    const double liner_K = liner_temperature_K[i];
     if (time_s <= kSettled_s + settings.start_window_s) {
       start_times_s.push_back(time_s);
       start_N.push_back(loss_N);
@@ -79,66 +105,37 @@ WarmUpCurve read_curve(const Settings& settings, const RunSpec& spec, const Cycl
   }
   WarmUpCurve curve;
   curve.start_N = simple_ordinary_least_squares(start_times_s, start_N).first;
-  curve.has_band = band_dK.size() >= kEnoughRows;
-  if (curve.has_band) {
+  if (band_dK.size() >= kEnoughRows) {
     const auto [intercept, slope] = simple_ordinary_least_squares(band_dK, band_log);
     curve.B_per_K = -slope;
     curve.band_low_N = std::exp(intercept);
-    curve.band_high_N = std::exp(intercept + slope * (settings.band_high_K - settings.band_low_K));
+    curve.band_drop_N = *curve.band_low_N - std::exp(intercept + slope * (settings.band_high_K - settings.band_low_K));
+    curve.band_drop = *curve.band_drop_N / *curve.band_low_N;
   }
   return curve;
 }
 
-void evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const std::vector<Cycle> cycles = find_cycles(outcome.recording, spec, settings.conditions, 0.0);
-  const Cycle& cycle = cycles.back();
-  const WarmUpCurve curve = read_curve(settings, spec, cycle, outcome);
-  const double excess = curve.start_N / cycle.rolling_resistance_N - 1.0;
-  outcome.result = to_json(cycle);
-  outcome.result["start_rolling_resistance_N"] = curve.start_N;
-  outcome.result["start_excess_percent"] = 100.0 * excess;
-  outcome.result["warm_up_s"] = outcome.recording.phase_named("warm-up").end_s;
-  const auto or_null = [&curve](double value) { return curve.has_band ? Json(value) : Json(); };
-  const double drop_N = curve.band_low_N - curve.band_high_N;
-  outcome.result["band_B_per_degC"] = or_null(curve.B_per_K);
-  outcome.result["band_low_N"] = or_null(curve.band_low_N);
-  outcome.result["band_drop_N"] = or_null(drop_N);
-  outcome.result["band_drop_percent"] = or_null(100.0 * (drop_N / curve.band_low_N));
-  const auto add = [&outcome](const std::string& label, std::string value) {
-    outcome.lines.push_back({label, std::move(value)});
-  };
-  add("Load, speed", fmt::format("{:.0f} N, {:.1f} km/h", cycle.loaded.load_N, 3.6 * cycle.loaded.speed_m_s));
-  add("Pressure set / warm",
-      fmt::format("{:.1f} / {:.1f} kPa", *settings.conditions.pressure_Pa / 1e3, cycle.loaded.pressure_Pa / 1e3));
-  add("Liner temperature at the end", fmt::format("{:.1f} degC", cycle.loaded.liner_temperature_K - kZeroCelsius_K));
-  add("Rolling resistance, start", fmt::format("{:.2f} N", curve.start_N));
-  add("Rolling resistance, end", fmt::format("{:.2f} N, RRc {:.3f} N/kN", cycle.rolling_resistance_N, 1e3 * cycle.rrc));
-  add("Start above end", fmt::format("{:.1f} %", 100.0 * excess));
-  if (curve.has_band) {
-    add(fmt::format("Fall from {:.0f} to {:.0f} degC", settings.band_low_K - kZeroCelsius_K,
-                    settings.band_high_K - kZeroCelsius_K),
-        fmt::format("{:.2f} % ({:.2f} N of {:.2f} N), B = {:.5f} 1/degC", 100.0 * drop_N / curve.band_low_N, drop_N,
-                    curve.band_low_N, curve.B_per_K));
-  }
+Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
+  Results results;
+  results.cycle = find_cycles(outcome.recording, spec, settings.conditions).back();
+  results.curve = read_curve(settings, spec, results.cycle, outcome);
+  results.start_excess = results.curve.start_N / results.cycle.rolling_resistance_N - 1.0;
+  results.warm_up_s = outcome.recording.phase_named("warm-up").end_s;
+  results.pressure_set_kPa = *settings.conditions.pressure_Pa / 1e3;
+  results.band =
+      fmt::format("{:.0f} to {:.0f} degC", settings.band_low_K - kZeroCelsius_K, settings.band_high_K - kZeroCelsius_K);
+  return results;
 }
 
 }  // namespace
 
-const Scenario& scenario_warm_up() {
-  static const Scenario scenario = make_drum_scenario<Settings>(
-      {"warm_up",
-       "Warm-up cycle of a soaked tire: loss against temperature",
+Scenario scenario_warm_up() {
+  return make_drum_scenario(
+      {"warm_up", "Warm-up cycle of a soaked tire: loss against temperature",
        "Soak, pressure, run-up, then the warm-up cycle: 30 min under load at constant speed and 3 min skim. Reads off "
        "the loss at the start and at the end, and its relative fall per degC between two liner temperatures.",
-       "source §3.2.6, §4.1.6, §6",
-       {{"start_rolling_resistance_N", "loss at 0 s, drawn back from the first minute"},
-        {"rolling_resistance_N", "loss of the last minute"},
-        {"start_excess_percent", "how far the start is above the end"},
-        {"band_B_per_degC", "relative fall of the loss per degC between the two temperatures; null when not reached"},
-        {"band_drop_percent", "fall between the two temperatures"},
-        {"band_drop_N", "the same in N"}}},
+       "source §3.2.6, §4.1.6, §6"},
       &plan, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

@@ -1,8 +1,5 @@
 /// One wheel on its roller through rows that a file gives: speed, load, drive and brake force, air.
-#include <algorithm>
-
 #include "scenarios/common/wheel_bench.h"
-#include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -22,70 +19,48 @@ struct WheelConditions : RecordedInputs {
   }
 };
 
-struct Settings {
-  WheelConditions conditions;
+using Settings = OnlyConditions<WheelConditions>;
 
-  template <class Self, class Visit>
-  static void visit(Self& p, Visit&& visit) {
-    WheelConditions::visit(p.conditions, visit);
+struct Results {
+  FollowedRows rows;
+  double tire_J = 0.0;
+  double slip_J = 0.0;
+  double bearing_J = 0.0;
+  double loss_force_end_N = 0.0;
+  TireCourse tire;
+
+  void visit(ResultSheet& visit) const {
+    rows.visit(visit);
+    visit(Result{"loss_energy_Wh", "Lost between hub and roller", ".1f", "by tire, slip and bearings, run-up included"},
+          tire_J + slip_J + bearing_J);
+    visit(Result{"rr_energy_Wh", "  by the tire", ".1f", "of it, by the tire"}, tire_J);
+    visit(Result{"slip_energy_Wh", "  by slip", ".1f", "of it, by slip"}, slip_J);
+    visit(Result{"loss_force_end_N", "Loss force at the end", ".2f", "loss force of the last row"}, loss_force_end_N);
+    tire.visit(visit);
   }
 };
 
-void evaluate(const Settings& settings, const RunSpec&, Outcome& outcome) {
-  const WheelConditions& conditions = settings.conditions;
+Results evaluate(const Settings& settings, const RunSpec&, Outcome& outcome) {
   const sim::Recording<double>& recording = outcome.recording;
-  constexpr double kWh_J = 3600.0;
-  const std::vector<double>& liner_K = recording.channel("liner_temperature_degC");
-  const double duration_s = conditions.run.time_s.back() - conditions.run.time_s.front();
-  const double distance_km = calc_distance_m(conditions.run) / 1e3;
-  const double hottest_degC = *std::max_element(liner_K.begin(), liner_K.end()) - kZeroCelsius_K;
-  const double pressure_end_kPa = recording.channel("cavity_pressure_kPa").back() / 1e3;
-  const double tire_Wh = -recording.audit.find_term_J("tire_loss") / kWh_J;
-  const double slip_Wh = -recording.audit.find_term_J("slip_loss") / kWh_J;
-  const double bearing_Wh = -recording.audit.find_term_J("bearing_loss") / kWh_J;
-  outcome.settings["program_sha256"] = calc_sha256(read_text_file(conditions.program.path));
-  outcome.result["duration_s"] = duration_s;
-  outcome.result["distance_km"] = distance_km;
-  outcome.result["loss_energy_Wh"] =
-      -(recording.audit.find_term_J("tire_loss") + recording.audit.find_term_J("slip_loss") +
-        recording.audit.find_term_J("bearing_loss")) /
-      kWh_J;
-  outcome.result["rr_energy_Wh"] = tire_Wh;
-  outcome.result["slip_energy_Wh"] = slip_Wh;
-  outcome.result["loss_force_end_N"] = recording.channel("loss_force_N").back();
-  outcome.result["liner_temperature_max_degC"] = hottest_degC;
-  outcome.result["liner_temperature_end_degC"] = liner_K.back() - kZeroCelsius_K;
-  outcome.result["cavity_pressure_end_kPa"] = pressure_end_kPa;
-  outcome.lines = {
-      {"Program", conditions.run.id},
-      {"Duration, distance", fmt::format("{:.1f} min, {:.2f} km", duration_s / 60.0, distance_km)},
-      {"Lost by tire, slip, roller", fmt::format("{:.1f}, {:.1f}, {:.1f} Wh", tire_Wh, slip_Wh, bearing_Wh)},
-      {"Highest liner temperature", fmt::format("{:.1f} degC", hottest_degC)},
-      {"Pressure set / at the end",
-       fmt::format("{:.1f} / {:.1f} kPa", *conditions.pressure_Pa / 1e3, pressure_end_kPa)}};
+  const auto lost_J = [&](const char* term) { return -recording.audit.find_term_J(term); };
+  return {measure_rows(settings.conditions.run),
+          lost_J("tire_loss"),
+          lost_J("slip_loss"),
+          lost_J("bearing_loss"),
+          recording.channel(quantities::kLossForce).back(),
+          read_tire_course(recording, *settings.conditions.pressure_Pa)};
 }
 
 }  // namespace
 
-const Scenario& scenario_wheel_program() {
-  static const Scenario scenario = make_wheel_scenario<Settings>(
-      {"wheel_program",
-       "One wheel on its roller, through speed, load and force that a file gives, row by row",
+Scenario scenario_wheel_program() {
+  return make_wheel_scenario(
+      {"wheel_program", "One wheel on its roller, through speed, load and force that a file gives, row by row",
        "Run-up to the first row's speed, then speed, load, longitudinal force and air as the file has them; its first "
        "row is 0 s. Quasi-static alone, by the steps with which the diagnosis replays a dyno set, so that the set that "
        "--write-set writes is replayed to what it says. `rollrig diagnose --plan` writes such files for a dyno set.",
-       "formats.md: a run of a measurement set; baseline.md, \"Rig\"",
-       {{"duration_s", "of the file's rows"},
-        {"distance_km", "rolled in them"},
-        {"loss_energy_Wh", "lost between hub and roller, run-up included: tire, slip, roller bearings"},
-        {"rr_energy_Wh", "of it, by the tire"},
-        {"slip_energy_Wh", "of it, by slip"},
-        {"loss_force_end_N", "loss force of the last row"},
-        {"liner_temperature_max_degC", "highest liner temperature"},
-        {"liner_temperature_end_degC", "liner temperature at the end"},
-        {"cavity_pressure_end_kPa", "pressure at the end"}}},
+       "formats.md: a run of a measurement set; baseline.md, \"Rig\""},
       measurements::SetKind::kDyno, &evaluate);
-  return scenario;
 }
 
 }  // namespace rollrig::scenarios

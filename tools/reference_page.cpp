@@ -43,7 +43,7 @@ std::string describe(const scenarios::Scenario& scenario) {
         fmt::format("| `{}` | {} | {} | {} |\n", setting.key, cell(setting.range), setting.fallback, cell(setting.doc));
   }
   text += "\n| result | meaning |\n|---|---|\n";
-  for (const scenarios::ResultInfo& result : about.results) {
+  for (const scenarios::ResultInfo& result : scenario.results) {
     text += fmt::format("| `{}` | {} |\n", result.key, cell(result.doc));
   }
   return text;

@@ -16,6 +16,29 @@ constexpr double kKmh = 1e3 / 3600.0;  // in m/s
 /// +1 for the first direction of a pair, -1 for the second, from the phase's name.
 int heading_of(const std::string& phase) { return phase.back() == '+' ? 1 : -1; }
 
+/// Speed over time in a phase.
+estimation::CoastdownRun take_trace(const sim::Recording<double>& recording, const sim::PhaseSpan& phase) {
+  if (phase.end_s - phase.start_s >= kLongest_s - 1.0) {
+    throw RunFailure(
+        fmt::format("{} does not come to its end speed within {:.0f} s: something drives the vehicle as much as it "
+                    "resists, such as slope_percent, wind_m_s or an effect with a negative force",
+                    phase.name, kLongest_s));
+  }
+  estimation::CoastdownRun run;
+  run.id = phase.name.substr(std::string(kPrefix).size());
+  run.session = "session";
+  run.heading = heading_of(phase.name);
+  run.start_s = phase.start_s;
+  const std::vector<double>& speed_m_s = recording.channel(quantities::kSpeed);
+  for (std::size_t row = 0; row < recording.row_count(); ++row) {
+    const double time_s = recording.time_s[row];
+    if (time_s < phase.start_s || time_s > phase.end_s) continue;
+    run.time_s.push_back(time_s);
+    run.speed_m_s.push_back(speed_m_s[row]);
+  }
+  return run;
+}
+
 }  // namespace
 
 void Coastdowns::check(const RunSpec& spec) const {
@@ -53,29 +76,12 @@ void Coastdowns::append_coastdowns_to(VehicleProgram& program) const {
 
 bool is_coastdown(const std::string& phase) { return phase.rfind(kPrefix, 0) == 0; }
 
-estimation::CoastdownData collect_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
-                                             const VehicleConditions& conditions, const Coastdowns& coastdowns) {
+estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
+                                       const VehicleConditions& conditions, const Coastdowns& coastdowns) {
   estimation::CoastdownData data;
-  const std::vector<double>& speed_m_s = recording.channel("speed_km_h");
   for (const sim::PhaseSpan& phase : recording.phases) {
     if (!is_coastdown(phase.name)) continue;
-    if (phase.end_s - phase.start_s >= kLongest_s - 1.0) {
-      throw RunFailure(
-          fmt::format("{} does not come to its end speed within {:.0f} s: something drives the vehicle as "
-                      "much as it resists, such as slope_percent, wind_m_s or an effect with a negative force",
-                      phase.name, kLongest_s));
-    }
-    estimation::CoastdownRun run;
-    run.id = phase.name.substr(std::string(kPrefix).size());
-    run.session = "session";
-    run.heading = heading_of(phase.name);
-    run.start_s = phase.start_s;
-    for (std::size_t row = 0; row < recording.row_count(); ++row) {
-      const double time_s = recording.time_s[row];
-      if (time_s < phase.start_s || time_s > phase.end_s) continue;
-      run.time_s.push_back(time_s);
-      run.speed_m_s.push_back(speed_m_s[row]);
-    }
+    estimation::CoastdownRun run = take_trace(recording, phase);
     const std::size_t rows = run.time_s.size();
     run.conditions.ambient_K.assign(rows, *conditions.ambient_K);
     run.conditions.ambient_pressure_Pa.assign(rows, spec.rig.environment.ambient_pressure_Pa);
@@ -83,20 +89,15 @@ estimation::CoastdownData collect_coastdowns(const sim::Recording<double>& recor
     run.conditions.slope.assign(rows, coastdowns.slope);
     data.runs.push_back(std::move(run));
   }
-  return data;
-}
-
-estimation::RoadLoadFit fit_vehicle_coastdowns(const estimation::CoastdownData& data, const RunSpec& spec) {
   estimation::RoadLoadFitOptions options;
   options.mass_kg = spec.vehicle->body.mass_kg;
   options.rotating_mass_kg = spec.vehicle->body.rotating_mass_kg;
   options.drag_area_m2 = spec.vehicle->body.drag_area_m2;
   // Where a tail wind is faster than the vehicle, drag drives it, and (v + w)^2 is not its law.
-  const std::vector<double>& wind_m_s = data.runs.front().conditions.wind_m_s;
-  if (!wind_m_s.empty()) options.speed_from_m_s = std::max(options.speed_from_m_s, 1.1 * std::abs(wind_m_s.front()));
+  options.speed_from_m_s = std::max(options.speed_from_m_s, 1.1 * std::abs(coastdowns.wind_m_s));
   if (spec.rig.kind != rigs::RigKind::kFlat) {
-    options.reference_temperature_K = data.runs.front().conditions.ambient_K.front();
-    options.reference_pressure_Pa = data.runs.front().conditions.ambient_pressure_Pa.front();
+    options.reference_temperature_K = *conditions.ambient_K;
+    options.reference_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
   }
   return estimation::fit_road_load(data, options);
 }
@@ -105,48 +106,6 @@ const std::vector<double>& road_load_speeds_m_s() {
   static const std::vector<double> speeds{20.0 * kKmh,  40.0 * kKmh,  60.0 * kKmh, 80.0 * kKmh,
                                           100.0 * kKmh, 120.0 * kKmh, 130.0 * kKmh};
   return speeds;
-}
-
-void put_road_load(const models::RoadLoad<double>& load, const std::string& prefix, Json& json) {
-  models::RoadLoad<double>::visit(load, [&](const Field& field, const double& value) {
-    json[prefix + field.key] = unit_of_key(field.key).from_si(value);
-  });
-}
-
-std::array<std::string, 3> write_road_load(const models::RoadLoad<double>& load) {
-  Json json;
-  put_road_load(load, "", json);
-  return {fmt::format("{:.2f} N", json["A_N"].get<double>()),
-          fmt::format("{:.4f} N/(km/h)", json["B_N_per_km_h"].get<double>()),
-          fmt::format("{:.5f} N/(km/h)2", json["C_N_per_km_h2"].get<double>())};
-}
-
-Json road_load_to_json(const estimation::RoadLoadFit& fit) {
-  Json values;
-  put_road_load(fit.load, "", values);
-  Json json = Json::object();
-  int i = 0;
-  for (const auto& [key, value] : values.items()) {
-    json[key] = value;
-    json[key + "_sd"] = fit.sd(i++) / unit_of_key(key).factor;
-  }
-  json["force_N"] = Json::array();
-  for (const double speed_m_s : road_load_speeds_m_s()) {
-    json["force_N"].push_back({{"speed_km_h", speed_m_s / kKmh}, {"force_N", fit.force_N(speed_m_s)}});
-  }
-  return json;
-}
-
-void add_road_load_lines(const RunSpec& spec, const estimation::RoadLoadFit& fit, Outcome& outcome) {
-  const std::array<std::string, 3> texts = write_road_load(fit.load);
-  for (std::size_t i = 0; i < texts.size(); ++i) outcome.lines.push_back({std::string(1, "ABC"[i]), texts[i]});
-  const bool road = spec.rig.kind == rigs::RigKind::kFlat;
-  ResultTable table{
-      road ? "Force at reference conditions" : "Force of rollers and vehicle, as tested", {"km/h", "N"}, {}};
-  for (const double speed_m_s : road_load_speeds_m_s()) {
-    table.rows.push_back({fmt::format("{:.0f}", speed_m_s / kKmh), fmt::format("{:.1f}", fit.force_N(speed_m_s))});
-  }
-  outcome.tables.push_back(std::move(table));
 }
 
 }  // namespace rollrig::scenarios

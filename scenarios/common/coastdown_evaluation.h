@@ -1,7 +1,6 @@
 #pragma once
 /// Coastdowns as part of a procedure: how they are driven, and the road load that is read off them.
 
-#include <array>
 #include <string>
 
 #include "estimation/road_load/road_load_fit.h"
@@ -43,24 +42,13 @@ struct Coastdowns {
 /// Whether a phase is one of Coastdowns.
 bool is_coastdown(const std::string& phase);
 
-/// The traces of the coastdowns in a recording, with the weather and the road that a test team knows.
-estimation::CoastdownData collect_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
-                                             const VehicleConditions& conditions, const Coastdowns& coastdowns);
-
-/// A, B, C of the vehicle's coastdowns; its mass and rotating mass are known. On a dynamometer they are those
-/// of rollers, tires and driveline together, at the conditions of the test.
-estimation::RoadLoadFit fit_vehicle_coastdowns(const estimation::CoastdownData& data, const RunSpec& spec);
+/// A, B, C of the coastdowns in a recording, from their traces and what a test team knows: weather, road, mass,
+/// rotating mass. On a dynamometer they are those of rollers, tires and driveline together, at the conditions of the
+/// test. Throws RunFailure where one does not come to its end.
+estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, const RunSpec& spec,
+                                       const VehicleConditions& conditions, const Coastdowns& coastdowns);
 
 /// Speeds at which forces are shown and judged: 20 to 130 km/h.
 const std::vector<double>& road_load_speeds_m_s();
-
-/// Sets A, B, C in the keys and units of files, each key after `prefix`.
-void put_road_load(const models::RoadLoad<double>& load, const std::string& prefix, Json& json);
-/// A, B, C as a person reads them, with their units.
-std::array<std::string, 3> write_road_load(const models::RoadLoad<double>& load);
-
-/// A, B, C, each with `<key>_sd`, and the force over road_load_speeds_m_s().
-Json road_load_to_json(const estimation::RoadLoadFit& fit);
-void add_road_load_lines(const RunSpec& spec, const estimation::RoadLoadFit& fit, Outcome& outcome);
 
 }  // namespace rollrig::scenarios

@@ -12,9 +12,9 @@ void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, con
                       const sim::Progress& progress, Outcome& outcome);
 
 /// A scenario on the drum; see rig_scenario.h.
-template <class Settings>
+template <class Settings, class Results>
 Scenario make_drum_scenario(ScenarioText text, DrumProgram (*plan)(const Settings&, const RunSpec&),
-                            void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
+                            Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum, [](const RunSpec& spec) {
     rigs::make_context(spec.tire, spec.rig, spec.baseline);
   });

@@ -4,20 +4,10 @@ namespace rollrig::scenarios {
 namespace {
 
 InputError missing_condition(const RunSpec& spec, const char* key) {
-  InputProblem problem;
-  problem.what =
-      fmt::format("'{}' is not given, and tire '{}' has no table [iso_28580] to take it from", key, spec.tire.name);
-  problem.file = spec.tire.path;
-  problem.key = key;
-  problem.allowed = fmt::format("--set {}=..., or a table [iso_28580] in the tire file", key);
-  return InputError(problem);
+  return InputError(
+      {fmt::format("'{}' is not given, and tire '{}' has no table [iso_28580] to take it from", key, spec.tire.name),
+       spec.tire.path, 0, key, "", fmt::format("--set {}=..., or a table [iso_28580] in the tire file", key), ""});
 }
-
-}  // namespace
-
-double calc_skim_limit_N(const rigs::RigFile& rig) { return 1.5 * rig.skim.load_N; }
-
-namespace {
 
 void refuse_load(const RunSpec& spec, const char* key, double load_N, const std::string& what,
                  const std::string& allowed) {
@@ -28,6 +18,8 @@ void refuse_load(const RunSpec& spec, const char* key, double load_N, const std:
 }
 
 }  // namespace
+
+double calc_skim_limit_N(const rigs::RigFile& rig) { return 1.5 * rig.skim.load_N; }
 
 void check_tire_carries(const RunSpec& spec, const char* key, double load_N) {
   if (!spec.tire.has_stiffness) return;

@@ -22,6 +22,7 @@ struct DrumConditions {
   double margin_s = 0.0;
   std::optional<double> rest_before_s;  // before the soak, after driving; absent: nothing remembers
   bool started_warm = false;
+  bool force_at_standstill = false;  // a set of it says that the torque read at standstill is the zero of its sensor
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -35,6 +36,12 @@ struct DrumConditions {
     visit(Field{"initial_tire_temperature_degC", between(-60.0, 120.0),
                 "Tire at the start of the soak; default: as the air"},
           p.initial_tire_K);
+    visit_procedure(p, visit);
+  }
+
+  /// How a test is prepared and read.
+  template <class Self, class Visit>
+  static void visit_procedure(Self& p, Visit&& visit) {
     visit(Field{"soak_h", between(0.0, 48.0), "Rest at test temperature", 3.0}, p.soak_s);
     visit(Field{"pressure_check_min", between(0.0, 120.0), "From setting the pressure to verifying it", 10.0},
           p.pressure_check_s);
@@ -67,13 +74,15 @@ void check_test_load(const RunSpec& spec, const char* key, double load_N);
 /// The pressure of the tire's [iso_28580]. Throws InputError when it has none.
 double find_default_pressure_Pa(const RunSpec& spec);
 
-/// Load and skim times of the source's cycles (§3.2.1 items 7 and 8).
-struct CycleTimes {
+/// Settings of procedures that are made of cycles: conditions, load and skim times (§3.2.1 items 7 and 8).
+struct CycleSettings {
+  DrumConditions conditions;
   double warm_up_s = 0.0;
   double skim_s = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
+    DrumConditions::visit(p.conditions, visit);
     visit(Field{"warm_up_min", between(1.0, 600.0), "Load of the warm-up cycle", 30.0}, p.warm_up_s);
     visit(Field{"skim_min", between(0.5, 600.0), "Skim test after it", 3.0}, p.skim_s);
   }

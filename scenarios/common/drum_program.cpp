@@ -10,9 +10,9 @@ constexpr double kMaxStepAtRest_s = 20.0;  // under the gas's time constant of 2
 
 }  // namespace
 
-DrumProgram::DrumProgram(const DrumConditions& conditions, const rigs::RigFile& rig, double sample_interval_s)
-    : conditions_(conditions), skim_load_N_(rig.skim.load_N), load_N_(rig.skim.load_N) {
-  program_.sample_interval_s = sample_interval_s;
+DrumProgram::DrumProgram(const DrumConditions& conditions, const RunSpec& spec)
+    : conditions_(conditions), skim_load_N_(spec.rig.skim.load_N), load_N_(skim_load_N_) {
+  program_.sample_interval_s = spec.sample_interval_s;
 }
 
 sim::Phase& DrumProgram::append(const std::string& name, double duration_s, double end_speed_m_s) {
@@ -50,49 +50,35 @@ void DrumProgram::soak_and_inflate(double pressure_Pa) {
   check->commands = {inflate};
 }
 
-void DrumProgram::begin_test(const std::string& set_run_id, double pressure_Pa, double speed_m_s) {
-  soak_and_inflate(pressure_Pa);
+void DrumProgram::begin_test(const std::string& set_run_id, const TestStart& start) {
+  soak_and_inflate(start.pressure_Pa.value_or(*conditions_.pressure_Pa));
   open_set_run(set_run_id);
-  change_speed("run-up", conditions_.run_up_s, speed_m_s);
-}
-
-void DrumProgram::begin_test_under(const std::string& set_run_id, double pressure_Pa, double speed_m_s, double load_N) {
-  soak_and_inflate(pressure_Pa);
-  open_set_run(set_run_id);
-  load_N_ = load_N;
-  if (speed_m_s > 0.0) change_speed("run-up", conditions_.run_up_s, speed_m_s);
+  load_N_ = start.load_N.value_or(skim_load_N_);
+  const double speed_m_s = start.speed_m_s.value_or(conditions_.speed_m_s);
+  if (speed_m_s > 0.0) append("run-up", conditions_.run_up_s, speed_m_s);
+  if (!before_zero_s_.has_value()) before_zero_s_ = program_.duration_s();
 }
 
 void DrumProgram::end_test() {
   close_set_run();
   load_N_ = skim_load_N_;
-  change_speed("run-down", conditions_.run_up_s, 0.0);
-}
-
-void DrumProgram::change_speed(const std::string& name, double duration_s, double speed_m_s) {
-  append(name, duration_s, speed_m_s);
-}
-
-void DrumProgram::mark_time_zero() {
-  if (!zero_marked_) before_zero_s_ = program_.duration_s();
-  zero_marked_ = true;
+  append("run-down", conditions_.run_up_s, 0.0);
 }
 
 void DrumProgram::check_readable(const std::string& name, double duration_s) const {
   const double sample_s = program_.sample_interval_s;
   const double window_s = std::min(conditions_.window_s, duration_s - 2.0 * conditions_.margin_s);
   if (window_s >= 2.0 * sample_s && duration_s >= kShortestRange_s + sample_s) return;
-  InputProblem problem;
-  problem.what = fmt::format("phase '{}' of {} s is too short to be read: margin_s {}, window_s {}, samples every {} s",
-                             name, duration_s, conditions_.margin_s, conditions_.window_s, sample_s);
-  problem.key = "margin_s, window_s, sample_interval_s";
-  problem.allowed = fmt::format("two samples in the window, phases of {} s and a sample at least", kShortestRange_s);
-  throw InputError(problem);
+  throw InputError(
+      {fmt::format("phase '{}' of {} s is too short to be read: margin_s {}, window_s {}, samples every {} s", name,
+                   duration_s, conditions_.margin_s, conditions_.window_s, sample_s),
+       "", 0, "margin_s, window_s, sample_interval_s", "",
+       fmt::format("two samples in the window, phases of {} s and a sample at least", kShortestRange_s), ""});
 }
 
-void DrumProgram::roll(const std::string& name, double duration_s, double load_N) {
+void DrumProgram::roll(const std::string& name, double duration_s, std::optional<double> load_N) {
   check_readable(name, duration_s);
-  load_N_ = load_N;
+  load_N_ = load_N.value_or(*conditions_.load_N);
   append(name, duration_s, speed_m_s_);
 }
 
@@ -100,8 +86,8 @@ void DrumProgram::follow(const std::string& name, const measurements::MeasuredRu
   sim::Phase phase = measurements::make_replay(run).phases.front();
   phase.name = name;
   program_.phases.push_back(std::move(phase));
-  speed_m_s_ = run.columns.at("speed_km_h").back();
-  load_N_ = run.columns.at("load_N").back();
+  speed_m_s_ = run.column(quantities::kSpeed).back();
+  load_N_ = run.column(quantities::kLoad).back();
 }
 
 void DrumProgram::end_at_tire_temperature(double temperature_K) {
@@ -118,6 +104,12 @@ void DrumProgram::open_set_run(const std::string& id) {
   };
   for (int repeat = 2; is_taken(run.id); ++repeat) run.id = fmt::format("{}-{}", id, repeat);
   run.start_s = program_.duration_s();
+  // What a set says of its run is what lay before it: the soak counts as rest.
+  const bool remembers = conditions_.started_warm || conditions_.rest_before_s.has_value();
+  const double rested_s = conditions_.rest_before_s.value_or(0.0) + conditions_.soak_s + conditions_.pressure_check_s;
+  if (remembers && rested_s > 0.0) run.rest_before_s = rested_s;
+  run.started_warm = conditions_.started_warm && rested_s <= 0.0;
+  run.force_at_standstill = conditions_.force_at_standstill;
   set_runs_.push_back(run);
   set_run_open_ = true;
 }
@@ -129,7 +121,7 @@ void DrumProgram::close_set_run() {
 
 sim::Program DrumProgram::program() const {
   sim::Program program = program_;
-  program.start_time_s = -before_zero_s_;
+  program.start_time_s = -before_zero_s_.value_or(0.0);
   return program;
 }
 
@@ -137,8 +129,8 @@ std::vector<SetRun> DrumProgram::set_runs() const {
   std::vector<SetRun> runs = set_runs_;
   if (set_run_open_) runs.back().end_s = program_.duration_s();
   for (SetRun& run : runs) {
-    run.start_s -= before_zero_s_;
-    run.end_s -= before_zero_s_;
+    run.start_s -= before_zero_s_.value_or(0.0);
+    run.end_s -= before_zero_s_.value_or(0.0);
   }
   return runs;
 }

@@ -22,19 +22,20 @@ double calc_force_method_N(const Reading& reading, const RunSpec& spec) {
 }  // namespace
 
 Reading take_reading(const sim::Recording<double>& recording, const Window& window, double interval_s) {
-  const auto mean = [&](const char* channel) {
-    return calc_window_mean(recording.time_s, recording.channel(channel), window, interval_s);
+  const auto mean = [&](const Quantity& quantity) {
+    return calc_window_mean(recording.time_s, recording.channel(quantity), window, interval_s);
   };
   Reading reading;
   reading.window = window;
-  reading.samples = count_window_samples(recording.time_s, recording.channel("drum_torque_Nm"), window, interval_s);
-  reading.load_N = mean("load_N");
-  reading.speed_m_s = mean("speed_km_h");
-  reading.ambient_K = mean("ambient_degC");
-  reading.drum_torque_Nm = mean("drum_torque_Nm");
-  reading.spindle_force_N = mean("spindle_force_N");
-  reading.liner_temperature_K = mean("liner_temperature_degC");
-  reading.pressure_Pa = mean("cavity_pressure_kPa");
+  reading.samples =
+      count_window_samples(recording.time_s, recording.channel(quantities::kDrumTorque), window, interval_s);
+  reading.load_N = mean(quantities::kLoad);
+  reading.speed_m_s = mean(quantities::kSpeed);
+  reading.ambient_K = mean(quantities::kAmbient);
+  reading.drum_torque_Nm = mean(quantities::kDrumTorque);
+  reading.spindle_force_N = mean(quantities::kSpindleForce);
+  reading.liner_temperature_K = mean(quantities::kLinerTemperature);
+  reading.pressure_Pa = mean(quantities::kCavityPressure);
   return reading;
 }
 
@@ -49,22 +50,19 @@ Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& 
   return cycle;
 }
 
-std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec, double from_s) {
-  std::vector<double> time_s;
-  std::vector<double> load_N;
-  std::vector<double> speed_m_s;
-  for (std::size_t i = 0; i < recording.row_count(); ++i) {
-    if (recording.time_s[i] < from_s - 1e-9) continue;
-    time_s.push_back(recording.time_s[i]);
-    load_N.push_back(recording.channel("load_N")[i]);
-    speed_m_s.push_back(recording.channel("speed_km_h")[i]);
-  }
-  return find_load_ranges(time_s, load_N, speed_m_s, calc_skim_limit_N(spec.rig), kShortestRange_s);
+std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec) {
+  const auto first = static_cast<std::ptrdiff_t>(recording.row_at(0.0));
+  const auto from_zero = [first](const std::vector<double>& values) {
+    return std::vector<double>(values.begin() + first, values.end());
+  };
+  return find_load_ranges(from_zero(recording.time_s), from_zero(recording.channel(quantities::kLoad)),
+                          from_zero(recording.channel(quantities::kSpeed)), calc_skim_limit_N(spec.rig),
+                          kShortestRange_s);
 }
 
 std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const RunSpec& spec,
-                               const DrumConditions& conditions, double from_s) {
-  const std::vector<LoadRange> ranges = find_test_ranges(recording, spec, from_s);
+                               const DrumConditions& conditions) {
+  const std::vector<LoadRange> ranges = find_test_ranges(recording, spec);
   const auto read = [&](const LoadRange& range) {
     return take_reading(recording, find_last_window(range, conditions.window_s, conditions.margin_s),
                         spec.sample_interval_s);
@@ -88,9 +86,9 @@ double correct_rrc(double rrc, double ambient_K, const RunSpec& spec) {
 bool is_correction_valid(double ambient_K) { return models::is_ambient_correction_valid(ambient_K); }
 
 models::SensorParameters find_torque_sensor(const RunSpec& spec) {
-  constexpr const char* kTorque = "drum_torque_Nm";
-  if (spec.sensors.has_value() && spec.sensors->count(kTorque) > 0) return spec.sensors->at(kTorque);
-  return measurements::read_sensor_asset("source").at(kTorque);
+  const std::string torque = quantities::kDrumTorque.header();
+  if (spec.sensors.has_value() && spec.sensors->count(torque) > 0) return spec.sensors->at(torque);
+  return measurements::read_sensor_asset("source").at(torque);
 }
 
 RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec) {
@@ -102,50 +100,6 @@ RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec) {
   uncertainty.offset_cancelled = kCoverageFactor * std::sqrt(variance) * to_rrc;
   uncertainty.offset_kept = kCoverageFactor * sensor.offset_sd * to_rrc;
   return uncertainty;
-}
-
-Json to_json(const Cycle& cycle) {
-  return {{"start_s", cycle.loaded.window.start_s},
-          {"end_s", cycle.loaded.window.end_s},
-          {"skim_start_s", cycle.skim.window.start_s},
-          {"skim_end_s", cycle.skim.window.end_s},
-          {"load_N", cycle.loaded.load_N},
-          {"speed_km_h", unit_of_key("speed_km_h").from_si(cycle.loaded.speed_m_s)},
-          {"drum_torque_Nm", cycle.loaded.drum_torque_Nm},
-          {"skim_torque_Nm", cycle.skim.drum_torque_Nm},
-          {"parasitic_N", cycle.parasitic_N},
-          {"rolling_resistance_N", cycle.rolling_resistance_N},
-          {"rrc_N_per_kN", 1e3 * cycle.rrc},
-          {"force_method_N", cycle.force_method_N},
-          {"liner_temperature_degC", cycle.loaded.liner_temperature_K - kZeroCelsius_K},
-          {"cavity_pressure_kPa", cycle.loaded.pressure_Pa / 1e3}};
-}
-
-namespace {
-
-std::vector<std::string> cycle_row(const Cycle& cycle) {
-  return {fmt::format("{:.0f}", cycle.loaded.window.end_s),
-          fmt::format("{:.0f}", cycle.loaded.load_N),
-          fmt::format("{:.0f}", 3.6 * cycle.loaded.speed_m_s),
-          fmt::format("{:.2f}", cycle.loaded.drum_torque_Nm),
-          fmt::format("{:.2f}", cycle.parasitic_N),
-          fmt::format("{:.2f}", cycle.rolling_resistance_N),
-          fmt::format("{:.3f}", 1e3 * cycle.rrc),
-          fmt::format("{:.1f}", cycle.loaded.liner_temperature_K - kZeroCelsius_K),
-          fmt::format("{:.1f}", cycle.loaded.pressure_Pa / 1e3)};
-}
-
-}  // namespace
-
-void add_cycles(const std::string& title, const std::vector<Cycle>& cycles, Outcome& outcome) {
-  ResultTable table{
-      title, {"end s", "load N", "km/h", "torque Nm", "skim N", "F_r N", "RRc N/kN", "liner C", "kPa"}, {}};
-  outcome.result["cycles"] = Json::array();
-  for (const Cycle& cycle : cycles) {
-    outcome.result["cycles"].push_back(to_json(cycle));
-    table.rows.push_back(cycle_row(cycle));
-  }
-  outcome.tables.push_back(table);
 }
 
 }  // namespace rollrig::scenarios

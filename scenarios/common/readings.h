@@ -33,19 +33,49 @@ struct Cycle {
   double rolling_resistance_N = 0.0;  // F_r = T_t/R - F_pl
   double rrc = 0.0;                   // N/N
   double force_method_N = 0.0;        // F_r from the spindle force
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"start_s", "start", ".0f", "start of the window that is averaged under load", Column::kSecond},
+          loaded.window.start_s);
+    visit(Result{"end_s", "end", ".0f", "its end", Column::kBoth}, loaded.window.end_s);
+    visit(Result{"skim_start_s", "skim start", ".0f", "start of the window in the skim test", Column::kSecond},
+          skim.window.start_s);
+    visit(Result{"skim_end_s", "skim end", ".0f", "its end", Column::kSecond}, skim.window.end_s);
+    visit(Result{"load_N", "load", ".0f", "mean load"}, loaded.load_N);
+    visit(Result{"speed_km_h", "", ".1f", "mean speed"}, loaded.speed_m_s);
+    visit(Result{"drum_torque_Nm", "torque", ".2f", "mean motor torque under load"}, loaded.drum_torque_Nm);
+    visit(Result{"skim_torque_Nm", "skim", ".2f", "mean motor torque in skim", Column::kSecond}, skim.drum_torque_Nm);
+    visit(Result{"parasitic_N", "skim", ".2f", "F_pl, skim torque over drum radius"}, parasitic_N);
+    visit(Result{"rolling_resistance_N", "F_r", ".2f", "F_r = T_t/R - F_pl"}, rolling_resistance_N);
+    visit(Result{"rrc_N_per_kN", "RRc", ".3f", "F_r over load"}, rrc);
+    visit(Result{"force_method_N", "F_r by force", ".2f", "F_r from the spindle force", Column::kSecond},
+          force_method_N);
+    visit(Result{"liner_temperature_degC", "liner", ".1f", "mean under load"}, loaded.liner_temperature_K);
+    visit(Result{"cavity_pressure_kPa", "", ".1f", "mean under load, gauge"}, loaded.pressure_Pa);
+  }
+
+  /// How a cycle was read, on lines.
+  static void visit_lines(ResultSheet& visit) {
+    visit(JointLine{"Averaged, load / skim", "{start_s} to {end_s} / {skim_start_s} to {skim_end_s}"});
+    visit(JointLine{"Drum torque, load / skim", "{drum_torque_Nm} / {skim_torque_Nm}"});
+    visit(JointLine{"Parasitic loss (skim)", "{parasitic_N}"});
+  }
 };
+
+/// Title of the second table of a list of cycles.
+constexpr const char* kCycleWindows = "Windows that were averaged, torque in skim, and F_r by the force method";
 
 /// F_r of a loaded and a skim reading, by both of the standard's methods.
 /// Equation  torque method  F_r = T_t/R - T_skim/R;  force method F_r = F_t (1 + r_l/R) - F_t,skim (1 + r_l,skim/R)
 /// Source    §3.2.3.2; the force method from ISO 28580 (source [2]), with the loaded radius of each reading
 Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& spec);
 
-/// Ranges of constant load and speed from `from_s` on, found from the load signal (B.2).
-std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec, double from_s);
+/// Ranges of constant load and speed from time 0 on, found from the load signal (B.2).
+std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec);
 
-/// Every load that a skim test follows, from `from_s` on, at least one. Throws RunFailure when there is none.
+/// Every load that a skim test follows, at least one. Throws RunFailure when there is none.
 std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const RunSpec& spec,
-                               const DrumConditions& conditions, double from_s);
+                               const DrumConditions& conditions);
 
 /// RRc corrected to 25 degC and to the 2 m drum.
 /// Equation  RRc K_r (1 + K_t (T_amb - 25 degC)), K_t = 0.008 1/degC, K_r of (3.1) to R_2 = 1 m
@@ -63,9 +93,5 @@ RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec);
 
 /// The torque sensor by which uncertainties are stated: the run's, else that of the source's rig.
 models::SensorParameters find_torque_sensor(const RunSpec& spec);
-
-Json to_json(const Cycle& cycle);
-/// Adds every cycle to `result` (key "cycles") and to a table for a person.
-void add_cycles(const std::string& title, const std::vector<Cycle>& cycles, Outcome& outcome);
 
 }  // namespace rollrig::scenarios

@@ -7,18 +7,21 @@
 
 namespace rollrig::scenarios {
 
+void check_rest(const RunSpec& spec, bool started_warm, const std::optional<double>& rest_before_s) {
+  if (!started_warm || !rest_before_s.has_value()) return;
+  throw InputError(setting_problem(spec, "rest_before_min", "a tire that starts warm has not rested",
+                                   "rest_before_min, or tire_state = \"warm\""));
+}
+
 void RecordedInputs::complete(const RunSpec& spec) {
   run = measurements::read_run_inputs(program.path, *spec.scenario->set_kind);
-  if (run.has("load_N")) {
-    const std::vector<double>& load_N = column("load_N");
+  if (run.has(quantities::kLoad)) {
+    const std::vector<double>& load_N = run.column(quantities::kLoad);
     check_tire_carries(spec, "program", *std::max_element(load_N.begin(), load_N.end()));
   }
   if (!pressure_Pa.has_value()) pressure_Pa = find_default_pressure_Pa(spec);
-  if (!initial_tire_K.has_value()) initial_tire_K = column("ambient_degC").front();
-  if (tire_state.value == "warm" && rest_before_s.has_value()) {
-    throw InputError(setting_problem(spec, "rest_before_min", "a tire that starts warm has not rested",
-                                     "rest_before_min, or tire_state = \"warm\""));
-  }
+  if (!initial_tire_K.has_value()) initial_tire_K = run.column(quantities::kAmbient).front();
+  check_rest(spec, tire_state.value == "warm", rest_before_s);
 }
 
 namespace {
@@ -27,10 +30,10 @@ namespace {
 measurements::MeasuredRun add_run_up(const measurements::MeasuredRun& run, double run_up_s) {
   measurements::MeasuredRun longer = run;
   for (double& time_s : longer.time_s) time_s -= run.time_s.front();
-  if (run.columns.at("speed_km_h").front() <= 0.0) return longer;
+  if (run.column(quantities::kSpeed).front() <= 0.0) return longer;
   longer.time_s.insert(longer.time_s.begin(), -run_up_s);
   for (auto& [name, values] : longer.columns) {
-    const double before = name == "speed_km_h" ? 0.0 : values.front();
+    const double before = name == quantities::kSpeed.header() ? 0.0 : values.front();
     values.insert(values.begin(), before);
   }
   return longer;
@@ -81,18 +84,24 @@ measurements::MeasuredRun RecordedInputs::make_rows(const RunSpec& spec) const {
   rows.started_warm = tire_state.value == "warm";
   rows.time_s = merge_times_s(longer.time_s, spec.sample_interval_s);
   for (const auto& [name, values] : longer.columns) {
-    rows.columns[name] = resample(longer.time_s, values, name == "load_N", rows.time_s);
+    rows.columns[name] = resample(longer.time_s, values, name == quantities::kLoad.header(), rows.time_s);
   }
   return rows;
 }
 
-double calc_distance_m(const measurements::MeasuredRun& run) {
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
-  double distance_m = 0.0;
+FollowedRows measure_rows(const measurements::MeasuredRun& run) {
+  const std::vector<double>& speed_m_s = run.column(quantities::kSpeed);
+  FollowedRows rows{run.id, run.time_s.back() - run.time_s.front(), 0.0};
   for (std::size_t i = 0; i + 1 < speed_m_s.size(); ++i) {
-    distance_m += 0.5 * (speed_m_s[i] + speed_m_s[i + 1]) * (run.time_s[i + 1] - run.time_s[i]);
+    rows.distance_m += 0.5 * (speed_m_s[i] + speed_m_s[i + 1]) * (run.time_s[i + 1] - run.time_s[i]);
   }
-  return distance_m;
+  return rows;
+}
+
+TireCourse read_tire_course(const sim::Recording<double>& recording, double pressure_set_Pa) {
+  const std::vector<double>& liner_K = recording.channel(quantities::kLinerTemperature);
+  return {*std::max_element(liner_K.begin(), liner_K.end()), liner_K.back(), pressure_set_Pa,
+          recording.channel(quantities::kCavityPressure).back()};
 }
 
 }  // namespace rollrig::scenarios

@@ -39,8 +39,6 @@ struct RecordedInputs {
         p.run_up_s);
   }
 
-  const std::vector<double>& column(const char* name) const { return run.columns.at(name); }
-
   /// Reads the file and fills what it decides. Throws InputError.
   void complete(const RunSpec& spec);
 
@@ -49,7 +47,42 @@ struct RecordedInputs {
   measurements::MeasuredRun make_rows(const RunSpec& spec) const;
 };
 
-/// Distance over the rows of a run, straight lines between them.
-double calc_distance_m(const measurements::MeasuredRun& run);
+/// Throws InputError where a tire that starts warm is said to have rested.
+void check_rest(const RunSpec& spec, bool started_warm, const std::optional<double>& rest_before_s);
+
+/// What the rows of a file come to, as results.
+struct FollowedRows {
+  std::string id;
+  double duration_s = 0.0;
+  double distance_m = 0.0;  // straight lines between the rows
+
+  void visit(ResultSheet& visit) const {
+    visit(Remark{"Program"}, id);
+    visit(Result{"duration_s", "", ".0f", "of the file's rows"}, duration_s);
+    visit(Result{"distance_km", "", ".2f", "of the file's rows"}, distance_m);
+    visit(JointLine{"Duration, distance", "{duration_s}, {distance_km}"});
+  }
+};
+
+/// Temperature and pressure of the tire over a recording, as results.
+struct TireCourse {
+  double liner_max_K = 0.0;
+  double liner_end_K = 0.0;
+  double pressure_set_Pa = 0.0;
+  double pressure_end_Pa = 0.0;
+
+  void visit(ResultSheet& visit) const {
+    visit(Result{"liner_temperature_max_degC", "", ".1f", "highest liner temperature"}, liner_max_K);
+    visit(Result{"liner_temperature_end_degC", "", ".1f", "liner temperature at the end"}, liner_end_K);
+    visit(Result{"cavity_pressure_end_kPa", "", ".1f", "pressure at the end"}, pressure_end_Pa);
+    visit(JointLine{"Liner temperature, highest / at the end",
+                    "{liner_temperature_max_degC} / {liner_temperature_end_degC}"});
+    visit(JointLine{"Pressure set / at the end",
+                    fmt::format("{:.1f} / ", pressure_set_Pa / 1e3) + "{cavity_pressure_end_kPa}"});
+  }
+};
+
+FollowedRows measure_rows(const measurements::MeasuredRun& run);
+TireCourse read_tire_course(const sim::Recording<double>& recording, double pressure_set_Pa);
 
 }  // namespace rollrig::scenarios

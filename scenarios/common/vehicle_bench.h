@@ -34,10 +34,10 @@ class SectionReader {
 };
 
 /// A scenario with a vehicle, on the kinds of rig named; see rig_scenario.h.
-template <class Settings>
+template <class Settings, class Results>
 Scenario make_vehicle_scenario(ScenarioText text, std::vector<rigs::RigKind> rig_kinds, std::string default_rig,
                                VehicleProgram (*plan)(const Settings&, const RunSpec&),
-                               void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
+                               Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_vehicle, [](const RunSpec& spec) {
     rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
   });

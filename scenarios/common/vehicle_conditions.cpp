@@ -13,26 +13,18 @@ void check_rotating_mass(const RunSpec& spec) {
     wheels_kg += 2.0 * rigs::calc_spin_mass_kg(spec.tire.values, 0.5 * share * weight_N);
   }
   if (spec.vehicle->body.rotating_mass_kg >= wheels_kg) return;
-  InputProblem problem;
-  problem.what =
-      fmt::format("the four wheels of tire '{}' alone have an equivalent mass of {:.1f} kg", spec.tire.name, wheels_kg);
-  problem.file = spec.vehicle->path;
-  problem.key = "rotating_mass_kg";
-  problem.value = fmt::format("{}", spec.vehicle->body.rotating_mass_kg);
-  problem.allowed = fmt::format("at least {:.1f} kg, or a smaller spin_inertia_kg_m2 of the tire", wheels_kg);
-  throw InputError(problem);
+  throw InputError({fmt::format("the four wheels of tire '{}' alone have an equivalent mass of {:.1f} kg",
+                                spec.tire.name, wheels_kg),
+                    spec.vehicle->path, 0, "rotating_mass_kg", fmt::format("{}", spec.vehicle->body.rotating_mass_kg),
+                    fmt::format("at least {:.1f} kg, or a smaller spin_inertia_kg_m2 of the tire", wheels_kg), ""});
 }
 
 /// A file may describe a vehicle with any number of tires; the rigs here have a place for four.
 void check_tires(const RunSpec& spec) {
   if (spec.vehicle->tires == 4) return;
-  InputProblem problem;
-  problem.what = fmt::format("vehicle '{}' has {} tires, the rigs take four", spec.vehicle->name, spec.vehicle->tires);
-  problem.file = spec.vehicle->path;
-  problem.key = "tires";
-  problem.value = fmt::format("{}", spec.vehicle->tires);
-  problem.allowed = "4";
-  throw InputError(problem);
+  throw InputError(
+      {fmt::format("vehicle '{}' has {} tires, the rigs take four", spec.vehicle->name, spec.vehicle->tires),
+       spec.vehicle->path, 0, "tires", fmt::format("{}", spec.vehicle->tires), "4", ""});
 }
 
 /// A setting that changes nothing here is a mistake.

@@ -17,9 +17,9 @@ void simulate_rows(const RunSpec& spec, const RecordedInputs& given, const measu
 
 /// A scenario whose settings have a RecordedInputs as `conditions`, for sets of a kind; see rig_scenario.h.
 /// Quasi-static alone: the rows say what moves, so that there are no mechanics to simulate.
-template <class Settings>
+template <class Settings, class Results>
 Scenario make_wheel_scenario(ScenarioText text, measurements::SetKind kind,
-                             void (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
+                             Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
   const auto plan = +[](const Settings& settings, const RunSpec& spec) { return settings.conditions.make_rows(spec); };
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_rows,
                                         [](const RunSpec& spec) { make_wheel_context(spec, {}); });

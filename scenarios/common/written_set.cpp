@@ -24,9 +24,9 @@ bool holds(const std::vector<Field>& fields, const std::string& name) {
 bool is_left_empty(measurements::SetKind kind, const sim::Recording<double>& recording, const std::string& column,
                    std::size_t row) {
   constexpr double kSlowest_m_s = 20.0 / 3.6;
-  if (kind == measurements::SetKind::kDyno && column == "loss_force_N")
-    return recording.channel("speed_km_h")[row] < kSlowest_m_s;
-  if (kind == measurements::SetKind::kRoad && column == "traction_force_N")
+  if (kind == measurements::SetKind::kDyno && column == quantities::kLossForce.header())
+    return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
+  if (kind == measurements::SetKind::kRoad && column == quantities::kTractionForce.header())
     return recording.channel(measurements::kFrictionBrake)[row] > 0.0;
   return false;
 }

@@ -4,7 +4,7 @@
 namespace rollrig::scenarios {
 
 // Named one by one, since the linker drops objects of a static library that nothing refers to.
-#define ROLLRIG_SCENARIO(name) const Scenario& scenario_##name();
+#define ROLLRIG_SCENARIO(name) Scenario scenario_##name();
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
 
@@ -22,12 +22,17 @@ PreparedRun prepare_run(const RunSpec& spec) {
 Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) { return prepare_run(spec)(progress); }
 
 const std::vector<const Scenario*>& all_scenarios() {
-  static const std::vector<const Scenario*> scenarios{
-#define ROLLRIG_SCENARIO(name) &scenario_##name(),
+  static const std::vector<Scenario> scenarios{
+#define ROLLRIG_SCENARIO(name) scenario_##name(),
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
   };
-  return scenarios;
+  static const std::vector<const Scenario*> pointers = [] {
+    std::vector<const Scenario*> all;
+    for (const Scenario& scenario : scenarios) all.push_back(&scenario);
+    return all;
+  }();
+  return pointers;
 }
 
 std::vector<std::string> scenario_names() {

@@ -7,13 +7,25 @@
 
 namespace rollrig::scenarios {
 
+/// Settings that are nothing but conditions.
+template <class Conditions>
+struct OnlyConditions {
+  Conditions conditions;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    Conditions::visit(p.conditions, visit);
+  }
+};
+
 /// Settings (with a member `conditions`) are read and completed, `plan(settings, spec)` makes the program and throws
-/// InputError where it cannot, `carry_out(spec, settings, program, progress, outcome)` fills `outcome`.
-template <class Settings, class Plan, class CarryOut>
+/// InputError where it cannot, `carry_out(spec, settings, program, progress, outcome)` runs it and returns the results.
+template <class Settings, class Results, class Plan, class CarryOut>
 Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
   Scenario scenario;
   scenario.text = std::move(text);
   scenario.settings = list_settings<Settings>();
+  scenario.results = ResultSheet::of(Results{}).infos;
   scenario.prepare = [plan, carry_out](const RunSpec& spec) -> PreparedRun {
     const auto settings = std::make_shared<Settings>(read_settings<Settings>(spec));
     settings->conditions.complete(spec);
@@ -22,18 +34,20 @@ Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
     return [&spec, carry_out, settings, program](const sim::Progress& progress) {
       Outcome outcome;
       outcome.settings = settings_to_json(*settings);
-      carry_out(spec, *settings, *program, progress, outcome);
+      const Results results = carry_out(spec, *settings, *program, progress, outcome);
+      outcome.sheet = ResultSheet::of(results);
+      outcome.result = outcome.sheet.json;
       return outcome;
     };
   };
   return scenario;
 }
 
-/// A scenario that is one program on one rig, whichever the rig: `simulate` runs it, `evaluate` fills result, lines and
-/// tables; `check_tire` throws InputError when the tire lacks what the rig takes.
-template <class Settings, class Program, class Simulate, class CheckTire>
+/// A scenario that is one program on one rig, whichever the rig: `simulate` runs it, `evaluate` reads the results off
+/// the recording; `check_tire` throws InputError when the tire lacks what the rig takes.
+template <class Settings, class Results, class Program, class Simulate, class CheckTire>
 Scenario make_rig_scenario(ScenarioText text, Program (*plan)(const Settings&, const RunSpec&),
-                           void (*evaluate)(const Settings&, const RunSpec&, Outcome&), Simulate simulate,
+                           Results (*evaluate)(const Settings&, const RunSpec&, Outcome&), Simulate simulate,
                            CheckTire check_tire) {
   const auto plan_checked = [plan, check_tire](const Settings& settings, const RunSpec& spec) {
     Program program = plan(settings, spec);
@@ -43,9 +57,9 @@ Scenario make_rig_scenario(ScenarioText text, Program (*plan)(const Settings&, c
   const auto carry_out = [simulate, evaluate](const RunSpec& spec, const Settings& settings, const Program& program,
                                               const sim::Progress& progress, Outcome& outcome) {
     simulate(spec, settings.conditions, program, progress, outcome);
-    evaluate(settings, spec, outcome);
+    return evaluate(settings, spec, outcome);
   };
-  return make_scenario<Settings>(std::move(text), plan_checked, carry_out);
+  return make_scenario<Settings, Results>(std::move(text), plan_checked, carry_out);
 }
 
 }  // namespace rollrig::scenarios

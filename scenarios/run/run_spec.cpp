@@ -27,14 +27,33 @@ void merge(ConfigTable& base, const ConfigTable& changes) {
   }
 }
 
-/// An asset's document with the overrides of the run.
-ConfigTable read_with_overrides(const std::string& path, const std::string& content, const ConfigTable* overrides) {
-  ConfigTable config = parse_config(content, path);
-  if (overrides != nullptr) merge(config, *overrides);
-  return config;
-}
+/// What a run document says: the document itself, its [override], and the folder to which its paths are relative.
+struct RunDocument {
+  TableReader reader;
+  TableReader overrides;
+  std::string base_folder;
 
-const ConfigTable* find_override(TableReader& overrides, const char* what) { return overrides.table(what); }
+  /// The file that `key` names, read by `read` with the overrides of the run.
+  template <class Read>
+  auto read_file(const std::string& key, const std::string& folder, const std::string& name, const Read& read) {
+    const std::string path = find_asset_of(reader, key, base_folder, folder, name);
+    const std::string content = read_text_file(path);
+    ConfigTable config = parse_config(content, path);
+    if (const ConfigTable* changes = overrides.table(key)) merge(config, *changes);
+    auto file = read(config);
+    file.content = content;
+    return file;
+  }
+
+  /// Throws InputError where a run names what its scenario has not.
+  void refuse(const char* machine, const Scenario& scenario) const {
+    for (const TableReader* from : {&reader, &overrides}) {
+      if (!from->has(machine)) continue;
+      throw from->problem(machine, fmt::format("scenario '{}' has no {}", scenario.text.name, machine),
+                          fmt::format("no {}, or another scenario", machine));
+    }
+  }
+};
 
 std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std::string& base_folder,
                                                   const Scenario& scenario) {
@@ -67,16 +86,6 @@ void check_rig_kind(const RunSpec& spec) {
                     spec.rig.path, 0, "kind", "", fmt::format("a rig of kind {}", fmt::join(kinds, " or ")), ""});
 }
 
-/// Throws InputError where a run names what its scenario has not.
-void refuse_machine(const TableReader& reader, const TableReader& overrides, const char* machine,
-                    const Scenario& scenario) {
-  for (const TableReader* from : {&reader, &overrides}) {
-    if (!from->has(machine)) continue;
-    throw from->problem(machine, fmt::format("scenario '{}' has no {}", scenario.text.name, machine),
-                        fmt::format("no {}, or another scenario", machine));
-  }
-}
-
 /// The road: standard air over the plane (formats.md names no rig for a vehicle on the road).
 rigs::RigFile make_road() {
   rigs::RigFile road;
@@ -86,31 +95,20 @@ rigs::RigFile make_road() {
   return road;
 }
 
-/// The rig of a scenario that has one.
-void read_run_rig(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
-  if (!spec.scenario->has_rig()) {
-    refuse_machine(reader, overrides, "rig", *spec.scenario);
+void read_machines(RunDocument& document, RunSpec& spec) {
+  const Scenario& scenario = *spec.scenario;
+  if (scenario.has_rig()) {
+    spec.rig = document.read_file("rig", "rigs", document.reader.text_or("rig", scenario.default_rig), &rigs::read_rig);
+  } else {
+    document.refuse("rig", scenario);
     spec.rig = make_road();
-    return;
   }
-  const std::string path =
-      find_asset_of(reader, "rig", base_folder, "rigs", reader.text_or("rig", spec.scenario->default_rig));
-  const std::string content = read_text_file(path);
-  spec.rig = rigs::read_rig(read_with_overrides(path, content, find_override(overrides, "rig")));
-  spec.rig.content = content;
-}
-
-/// The vehicle of a scenario that has one.
-void read_run_vehicle(TableReader& reader, TableReader& overrides, const std::string& base_folder, RunSpec& spec) {
-  if (!spec.scenario->has_vehicle) {
-    refuse_machine(reader, overrides, "vehicle", *spec.scenario);
-    return;
+  if (scenario.has_vehicle) {
+    const std::string name = document.reader.text_or("vehicle", "source_car");
+    spec.vehicle = document.read_file("vehicle", "vehicles", name, &rigs::read_vehicle);
+  } else {
+    document.refuse("vehicle", scenario);
   }
-  const std::string path =
-      find_asset_of(reader, "vehicle", base_folder, "vehicles", reader.text_or("vehicle", "source_car"));
-  const std::string content = read_text_file(path);
-  spec.vehicle = rigs::read_vehicle(read_with_overrides(path, content, find_override(overrides, "vehicle")));
-  spec.vehicle->content = content;
 }
 
 Fidelity read_fidelity(TableReader& reader, const Scenario& scenario) {
@@ -160,25 +158,21 @@ void set_run_value(ConfigTable& document, const std::string& assignment) {
   set_config_value(document, key, assignment.substr(equals + 1), "--set");
 }
 
-RunSpec read_run_spec(const ConfigTable& document, const std::string& base_folder) {
-  TableReader reader(document, "");
-  check_format(reader, kFormat, kVersion);
+RunSpec read_run_spec(const ConfigTable& table, const std::string& base_folder) {
+  const ConfigTable no_changes;
+  TableReader whole(table, "");
+  check_format(whole, kFormat, kVersion);
+  const ConfigTable* changes = whole.table("override");
+  RunDocument document{whole, {changes != nullptr ? *changes : no_changes, "[override]"}, base_folder};
+  TableReader& reader = document.reader;
   RunSpec spec;
   spec.scenario = &find_scenario(reader.text("scenario", scenario_names()));
-  const ConfigTable no_changes;
-  const ConfigTable* override_table = reader.table("override");
-  TableReader overrides(override_table != nullptr ? *override_table : no_changes, "[override]");
-  const std::string tire_path = find_asset_of(reader, "tire", base_folder, "tires", reader.text("tire"));
-  const std::string tire_content = read_text_file(tire_path);
-  spec.tire = models::read_tire(read_with_overrides(tire_path, tire_content, find_override(overrides, "tire")));
-  spec.tire.content = tire_content;
-  read_run_rig(reader, overrides, base_folder, spec);
-  read_run_vehicle(reader, overrides, base_folder, spec);
-  overrides.finish();
+  spec.tire = document.read_file("tire", "tires", reader.text("tire"), &models::read_tire);
+  read_machines(document, spec);
+  document.overrides.finish();
   spec.fidelity = read_fidelity(reader, *spec.scenario);
-  const std::vector<std::string> baselines{"combined", "constant_rrc"};
-  spec.baseline = reader.text_or("baseline", "combined", baselines) == "combined" ? models::Baseline::kCombined
-                                                                                  : models::Baseline::kConstantRrc;
+  const bool is_combined = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined";
+  spec.baseline = is_combined ? models::Baseline::kCombined : models::Baseline::kConstantRrc;
   spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 2147483647.0), "random seed", 1.0}));
   spec.sample_interval_s = reader.number({"sample_interval_s", between(0.01, 60.0), "between rows", 1.0});
   spec.tolerance_factor = reader.number({"tolerance_factor", between(1e-3, 1e3), "on all tolerances", 1.0});

@@ -10,11 +10,14 @@
 
 #include "measurements/measurement_set.h"
 #include "models/effect.h"
-#include "sim/core/json.h"
+#include "models/quantities.h"
+#include "scenarios/run/results.h"
 #include "sim/recording.h"
 #include "sim/simulate.h"
 
 namespace rollrig::scenarios {
+
+namespace quantities = models::quantities;
 
 enum class Fidelity { kMultibody, kQuasiStatic };
 
@@ -36,19 +39,6 @@ struct RunSpec {
   ConfigTable settings;  // [settings], read by the scenario
 };
 
-/// A line of the table that a person reads after a run.
-struct ResultLine {
-  std::string label;
-  std::string value;
-};
-
-/// A table with several columns, for what was measured at several points.
-struct ResultTable {
-  std::string title;
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-};
-
 /// Part of a run that makes one run of a measurement set: rolling from a soaked tire.
 struct SetRun {
   std::string id;
@@ -63,9 +53,8 @@ struct SetRun {
 
 struct Outcome {
   Json result = Json::object();    // `result` of result.json
+  ResultSheet sheet;               // the same, for people
   Json settings = Json::object();  // every setting as used
-  std::vector<ResultLine> lines;
-  std::vector<ResultTable> tables;
   std::vector<std::string> warnings;
   sim::Recording<double> recording;
   std::vector<SetRun> set_runs;
@@ -80,19 +69,12 @@ struct SettingInfo {
   std::string doc;
 };
 
-/// A quantity of `result`, for the reference page.
-struct ResultInfo {
-  std::string key;
-  std::string doc;
-};
-
 /// What a scenario says of itself.
 struct ScenarioText {
   std::string name;
   std::string summary;
   std::string procedure;  // steps, for a person
   std::string source;
-  std::vector<ResultInfo> results;
 };
 
 /// A run whose settings are read and whose program is planned: calling it carries it out. Its spec must outlive it.
@@ -108,6 +90,7 @@ struct Scenario {
   std::optional<measurements::SetKind>
       set_kind;  // of the measurement sets that it writes; none: it records without sensors
   std::vector<SettingInfo> settings;
+  std::vector<ResultInfo> results;
   /// Reads spec.settings and plans: what prepare_run() calls. Throws InputError.
   std::function<PreparedRun(const RunSpec& spec)> prepare;
 

@@ -2,6 +2,7 @@
 /// Settings of a scenario: declared by a visit() as parameters are, read from [settings], shown by describe.
 
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -19,26 +20,32 @@ void read_member(TableReader& reader, const Field& field, FilePath& member);
 
 namespace detail {
 
-inline std::string show_in_unit(const Field& field, double si_value) {
-  return fmt::format("{:.6g}", unit_of_key(field.key).from_si(si_value));
+inline Json to_json(const Field& field, double member) { return unit_of_key(field.key).from_si(member); }
+inline Json to_json(const Field&, int member) { return member; }
+inline Json to_json(const Field& field, const std::optional<double>& member) {
+  return member.has_value() ? Json(unit_of_key(field.key).from_si(*member)) : Json();
 }
-inline std::string show_default(const Field& field, const double&) {
-  return field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required";
+inline Json to_json(const Field&, const Choice& member) { return member.value; }
+inline Json to_json(const Field&, const FilePath& member) { return member.path; }
+
+template <class Member>
+void add_hash(const Field&, const Member&, Json&) {}
+void add_hash(const Field& field, const FilePath& member, Json& hashes);
+
+inline Json to_json(const Field& field, const std::vector<double>& member) {
+  Json list = Json::array();
+  for (const double item : member) list.push_back(unit_of_key(field.key).from_si(item));
+  return list;
 }
-inline std::string show_default(const Field& field, const int&) {
-  return field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required";
-}
-inline std::string show_default(const Field& field, const std::optional<double>& member) {
-  return member.has_value() ? show_in_unit(field, *member) : "see text";
-}
-inline std::string show_default(const Field&, const FilePath&) { return "required"; }
-inline std::string show_default(const Field&, const Choice& member) {
-  return member.value.empty() ? "see text" : member.value;
-}
-inline std::string show_default(const Field& field, const std::vector<double>& member) {
-  std::vector<std::string> items;
-  for (const double item : member) items.push_back(show_in_unit(field, item));
-  return items.empty() ? "see text" : "[" + boost::algorithm::join(items, ", ") + "]";
+
+/// A default that a member has without a fallback of its field; "see text" where it is empty.
+std::string show_default(const Json& value);
+
+template <class Member>
+std::string show_default(const Field& field, const Member& member) {
+  if (field.fallback.has_value()) return fmt::format("{:.6g}", *field.fallback);
+  const bool is_required = std::is_arithmetic_v<Member> || std::is_same_v<Member, FilePath>;
+  return is_required ? "required" : show_default(to_json(field, member));
 }
 
 template <class Member>
@@ -48,19 +55,6 @@ std::string show_range(const Field& field, const Member&) {
 inline std::string show_range(const Field&, const FilePath&) { return "path"; }
 inline std::string show_range(const Field&, const Choice& member) {
   return boost::algorithm::join(member.allowed, " or ");
-}
-
-inline Json to_json(const Field& field, double member) { return unit_of_key(field.key).from_si(member); }
-inline Json to_json(const Field&, int member) { return member; }
-inline Json to_json(const Field& field, const std::optional<double>& member) {
-  return member.has_value() ? Json(unit_of_key(field.key).from_si(*member)) : Json();
-}
-inline Json to_json(const Field&, const Choice& member) { return member.value; }
-inline Json to_json(const Field&, const FilePath& member) { return member.path; }
-inline Json to_json(const Field& field, const std::vector<double>& member) {
-  Json list = Json::array();
-  for (const double item : member) list.push_back(unit_of_key(field.key).from_si(item));
-  return list;
 }
 
 }  // namespace detail
@@ -88,12 +82,16 @@ Settings read_settings(const RunSpec& spec) {
 /// What is wrong with a setting: with its file, line and value where it was given, for the caller to throw.
 InputProblem setting_problem(const RunSpec& spec, const char* key, const std::string& what, const std::string& allowed);
 
-/// Every setting as used, in the units of the keys, for the manifest.
+/// Every setting as used, in the units of the keys, then `<key>_sha256` of the files that some name: for the manifest.
 template <class Settings>
 Json settings_to_json(const Settings& settings) {
   Json json = Json::object();
-  Settings::visit(
-      settings, [&json](const Field& field, const auto& member) { json[field.key] = detail::to_json(field, member); });
+  Json hashes = Json::object();
+  Settings::visit(settings, [&](const Field& field, const auto& member) {
+    json[field.key] = detail::to_json(field, member);
+    detail::add_hash(field, member, hashes);
+  });
+  json.update(hashes);
   return json;
 }
 

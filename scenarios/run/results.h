@@ -1,0 +1,123 @@
+#pragma once
+/// Results of a scenario: declared once by a visit(), and from that in JSON, on the terminal, on the page, in the
+/// reference and in the columns of a sweep.
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/core/json.h"
+#include "sim/core/units.h"
+
+namespace rollrig::scenarios {
+
+/// A line of the table that a person reads after a run.
+struct ResultLine {
+  std::string label;
+  std::string value;
+  std::string key = {};  // of the result that it shows, where it is a single one
+};
+
+/// A table with several columns, for what was measured at several points.
+struct ResultTable {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// A quantity of `result`, for the reference page and `rollrig describe`.
+struct ResultInfo {
+  std::string key;
+  std::string doc;
+};
+
+/// Which of the two tables of a list of records shows a column.
+enum class Column { kFirst, kSecond, kBoth };
+
+/// Declaration of one result. Its unit is read off the key's suffix; the value that goes with it is SI.
+struct Result {
+  const char* key;
+  const char* label;   // before its value, or over its column, where the unit follows
+  const char* digits;  // as fmt writes them: ".2f", or "+.1f" with the sign; "" for what is no measure
+  const char* doc;
+  Column column = Column::kFirst;
+  bool left_out = false;  // of JSON, where it has no value; otherwise it is null
+
+  constexpr Result or_left_out() const { return {key, label, digits, doc, column, true}; }
+};
+
+/// Declaration of a list of records, each of which has a visit() of its own.
+struct ResultList {
+  const char* key;
+  const char* title;  // of its table
+  const char* doc;
+  const char* second_title = "";
+  bool left_out = false;  // of JSON, where it is empty
+};
+
+/// Results declared before it on one line, in place of a line each: "{load_N}, {speed_km_h}" reads "5400 N, 80.0 km/h".
+/// A unit stands after the last of those that share it. No line where one of them has no value.
+struct JointLine {
+  std::string label;
+  std::string text;
+};
+
+/// Text for a person alone, beside the results: an input, or a comparison with one. In a record it is a column. None
+/// where it is empty.
+struct Remark {
+  const char* label;
+};
+
+/// A number in the unit of `key`, with the unit.
+std::string show_number(const char* key, const char* digits, double value_SI);
+
+/// What the visit() of a scenario's results, or of a record of them, declares, in all its forms.
+class ResultSheet {
+ public:
+  Json json = Json::object();  // `result` of result.json
+  std::vector<ResultLine> lines;
+  std::vector<ResultTable> tables;
+  std::vector<ResultInfo> infos;  // a record's result as "cycles[].load_N"
+
+  /// The sheet of a struct with a visit(ResultSheet&).
+  template <class Results>
+  static ResultSheet of(const Results& results) {
+    ResultSheet sheet;
+    results.visit(sheet);
+    return sheet;
+  }
+
+  void operator()(const Result& result, double value_SI);
+  void operator()(const Result& result, const std::optional<double>& value_SI);
+  void operator()(const Result& result, int value) { add(result, value, std::to_string(value)); }
+  void operator()(const Result& result, bool value) { add(result, value, value ? "yes" : "no"); }
+  void operator()(const Result& result, const std::string& value) { add(result, value, value); }
+  void operator()(const Remark& remark, const std::string& text);
+  void operator()(const JointLine& line);
+  /// `total`, for a person alone, is the last row of the tables; what it lacks is NaN.
+  template <class Record>
+  void operator()(const ResultList& list, const std::vector<Record>& records,
+                  const std::optional<Record>& total = std::nullopt) {
+    std::vector<ResultSheet> sheets;
+    for (const Record& record : records) sheets.push_back(of(record));
+    if (total.has_value()) sheets.push_back(of(*total));
+    add(list, of(Record{}), sheets, total.has_value());
+  }
+
+ private:
+  struct Shown {
+    std::string text;  // empty where there is no value
+    std::string unit;
+  };
+  using Row = std::vector<std::string>;
+
+  void add(const Result& result, const Json& value, const std::string& text);
+  void add(const ResultList& list, const ResultSheet& declared, const std::vector<ResultSheet>& sheets, bool has_total);
+
+  std::map<std::string, Shown> shown_;   // by key
+  std::array<Row, 2> headings_, cells_;  // of a record, as its tables show it
+};
+
+}  // namespace rollrig::scenarios

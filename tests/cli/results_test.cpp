@@ -1,0 +1,215 @@
+// Every scenario's results in JSON, on the terminal, on the page, in docs/reference.md and as columns of a sweep: the
+// same ones everywhere, with the same numbers.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "tests/support/run_program.h"
+
+using Catch::Contains;
+using json = nlohmann::ordered_json;
+using rollrig::tests::read_file;
+using rollrig::tests::run_program;
+using rollrig::tests::TemporaryFolder;
+
+namespace {
+
+/// What a run has to be told beside its tire, so that it is short and has all that the scenario can find. A drum of
+/// 1.707 m, where torque and force are not the same number.
+std::string settings_of(const std::string& scenario) {
+  const std::string rows = "--set 'program=" ROLLRIG_SOURCE_DIR "/assets/regression/";
+  const std::string drum = "--set rig.drum.diameter_m=1.707 ";
+  if (scenario == "sae_j1634") return "--set wheels=1 --set mid_min=5 --set end_min=5";
+  if (scenario == "coastdown" || scenario == "dyno_setting") return "--set warm_up_min=1";
+  if (scenario == "wheel_program") return rows + "wheel_program_a50.csv'";
+  if (scenario == "drive") return rows + "drive_a50.csv'";
+  if (scenario == "program") return drum + rows + "program_a50.csv'";
+  if (scenario == "iso_28580") return drum + "--set measurement_cycles=1";
+  return drum;
+}
+
+/// Keys of a result, those of a list's records as "cycles[].load_N".
+std::set<std::string> list_keys(const json& result) {
+  std::set<std::string> keys;
+  for (const auto& [key, value] : result.items()) {
+    keys.insert(key);
+    if (!value.is_array()) continue;
+    for (const json& record : value) {
+      for (const auto& member : record.items()) keys.insert(key + "[]." + member.key());
+    }
+  }
+  return keys;
+}
+
+/// Those that docs/reference.md lists under a scenario's heading.
+std::set<std::string> read_reference(const std::string& scenario) {
+  const std::string page = read_file(ROLLRIG_SOURCE_DIR "/docs/reference.md");
+  const std::size_t heading = page.find("\n### " + scenario + "\n");
+  REQUIRE(heading != std::string::npos);
+  const std::size_t start = page.find("| result | meaning |", heading);
+  std::istringstream rows(page.substr(start, page.find("\n#", start) - start));
+  std::set<std::string> keys;
+  for (std::string row; std::getline(rows, row);) {
+    if (row.rfind("| `", 0) == 0) keys.insert(row.substr(3, row.find('`', 3) - 3));
+  }
+  return keys;
+}
+
+/// Lines and tables of the page's first section, in the terminal's spelling of units.
+json read_page(const std::string& path) {
+  const std::string html = std::regex_replace(read_file(path), std::regex("\u00b0C"), "degC");
+  const std::string mark = "id=\"payload\">";
+  const std::size_t first = html.find(mark) + mark.size();
+  const json page = json::parse(html.substr(first, html.find("</script>", first) - first));
+  json blocks = json::array();
+  for (const json& block : page["sections"][0]["blocks"]) {
+    if (block["type"] == "lines" || block["type"] == "table") blocks.push_back(block);
+  }
+  return blocks;
+}
+
+/// Numbers in a text; those of a remark in brackets, such as (k = 2), are none of the result's.
+std::vector<std::string> find_numbers(std::string text) {
+  text = std::regex_replace(text, std::regex("\\([a-z][^)]*\\)"), "");
+  static const std::regex number("(^|[ (])([-+]?[0-9]+(\\.[0-9]+)?)(?![0-9a-z/])");
+  std::vector<std::string> numbers;
+  for (std::sregex_iterator at(text.begin(), text.end(), number), end; at != end; ++at) numbers.push_back((*at)[2]);
+  return numbers;
+}
+
+/// Whether a text is a value, to the digits that it shows.
+bool shows(const std::string& text, const json& value) {
+  if (value.is_null()) return text == "-";
+  if (value.is_boolean()) return text == (value.get<bool>() ? "yes" : "no");
+  if (value.is_string()) return text == value.get<std::string>();
+  if (find_numbers(text) != std::vector<std::string>{text}) return false;
+  const std::size_t point = text.find('.');
+  const auto decimals = point == std::string::npos ? 0.0 : static_cast<double>(text.size() - point - 1);
+  return std::abs(std::stod(text) - value.get<double>()) <= 0.50001 * std::pow(10.0, -decimals);
+}
+
+/// Remarks for a person: no results, but inputs beside them.
+const std::set<std::string> kRemarks{"  tire file says",   "Wheels simulated", "Load of the tire",
+                                     "Counted above",      "Program",          "set N",
+                                     "tire N (simulated)", "tire degC"};
+
+/// Every number of the lines is one of the result's, and every single one of the result's is on a line.
+void check_lines(const json& result, const json& lines) {
+  std::set<std::string> unseen;
+  for (const auto& [key, value] : result.items()) {
+    if (!value.is_array()) unseen.insert(key);
+  }
+  for (const json& line : lines) {
+    if (kRemarks.count(line["label"].get<std::string>()) > 0) continue;
+    const std::string text = line["value"];
+    std::vector<std::string> shown = find_numbers(text);
+    if (shown.empty()) shown.push_back(text);
+    const bool begins_with_setting = line["label"].get<std::string>().rfind("Pressure set / ", 0) == 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      bool found = begins_with_setting && i == 0;
+      for (const auto& [key, value] : result.items()) {
+        if (value.is_array() || !shows(shown[i], value)) continue;
+        unseen.erase(key);
+        found = true;
+      }
+      INFO(line.dump());
+      CHECK(found);
+    }
+  }
+  CHECK(unseen == std::set<std::string>{});
+}
+
+/// Keys of the records that a table shows; none where it has a column that is none of theirs.
+std::set<std::string> find_shown(const json& table, const json& records) {
+  std::set<std::string> seen;
+  if (table["rows"].size() < records.size()) return {};
+  for (std::size_t i = 0; i < table["columns"].size(); ++i) {
+    if (kRemarks.count(table["columns"][i]["label"].get<std::string>()) > 0) continue;
+    bool is_known = false;
+    for (const auto& member : records[0].items()) {
+      bool is_shown = true;
+      for (std::size_t row = 0; row < records.size(); ++row) {
+        is_shown = is_shown && shows(table["rows"][row][i], records[row][member.key()]);
+      }
+      if (is_shown) seen.insert(member.key());
+      is_known = is_known || is_shown;
+    }
+    if (!is_known) return {};
+  }
+  return seen;
+}
+
+/// Every table shows records of one list, and all that these hold is in a table.
+void check_tables(const json& result, const json& tables) {
+  std::set<std::string> unseen;
+  for (const std::string& key : list_keys(result)) {
+    if (key.find("[].") != std::string::npos) unseen.insert(key);
+  }
+  for (const json& table : tables) {
+    std::set<std::string> shown;
+    for (const auto& [key, value] : result.items()) {
+      if (!value.is_array() || !shown.empty()) continue;
+      shown = find_shown(table, value);
+      for (const std::string& member : shown) unseen.erase(key + "[]." + member);
+    }
+    INFO(table.dump());
+    CHECK(!shown.empty());
+  }
+  CHECK(unseen == std::set<std::string>{});
+}
+
+/// What the terminal and the page say are the same words, in the same order.
+void check_same_words(const std::string& terminal, const json& blocks) {
+  std::string words;
+  for (const json& block : blocks) {
+    if (block["type"] == "lines") {
+      for (const json& line : block["lines"]) {
+        words += line["label"].get<std::string>() + " " + line["value"].get<std::string>() + " ";
+      }
+      continue;
+    }
+    words += block["caption"].get<std::string>() + " ";
+    for (const json& column : block["columns"]) words += column["label"].get<std::string>() + " ";
+    for (const json& row : block["rows"]) {
+      for (const json& cell : row) words += cell.get<std::string>() + " ";
+    }
+  }
+  CHECK_THAT(rollrig::tests::flatten(terminal), Contains(rollrig::tests::flatten(words) + " energy closes to"));
+}
+
+}  // namespace
+
+TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's results", "[fast]") {
+  const json scenarios = json::parse(run_program("list --json -").out)["scenarios"];
+  CHECK(scenarios.size() >= 14);
+  for (const json& scenario : scenarios) {
+    const std::string name = scenario["name"];
+    DYNAMIC_SECTION(name) {
+      const TemporaryFolder folder;
+      const std::string options = name + " --tire a50 --fidelity quasi_static " + settings_of(name);
+      const auto run = run_program("run " + options + " --json run.json --html run.html", folder.path());
+      INFO(run.err << run.out);
+      REQUIRE(run.status == 0);
+      const json result = json::parse(read_file(folder.file("run.json")))["result"];
+      CHECK(list_keys(result) == read_reference(name));
+      const json blocks = read_page(folder.file("run.html"));
+      REQUIRE(!blocks.empty());
+      json tables = json::array();
+      for (const json& block : blocks) {
+        if (block["type"] == "lines") check_lines(result, block["lines"]);
+        if (block["type"] == "table") tables.push_back(block);
+      }
+      check_tables(result, tables);
+      check_same_words(run.out, blocks);
+
+      REQUIRE(run_program("sweep " + options + " --vary pressure_kPa=250 --out sweep", folder.path()).status == 0);
+      const std::string csv = read_file(folder.file("sweep/sweep.csv"));
+      std::string columns = "pressure_kPa";
+      for (const auto& [key, value] : result.items()) columns += value.is_number() ? "," + key : "";
+      CHECK(csv.substr(0, csv.find('\n')) == columns);
+    }
+  }
+}
