@@ -108,13 +108,12 @@ void describe_cycle(const std::string& path) {
 }
 
 int describe_command(const std::string& name) {
-  std::vector<std::string> known;
+  std::vector<std::string> known = scenarios::scenario_names();
   const auto is_asked = [&](const std::string& each) {
     known.push_back(each);
     return each == name;
   };
-  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
-    if (!is_asked(scenario->text.name)) continue;
+  if (const scenarios::Scenario* scenario = scenarios::find_scenario_if_any(name)) {
     describe_scenario(*scenario);
     return kDone;
   }

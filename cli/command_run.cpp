@@ -27,7 +27,7 @@ int run_command(const Options& options) {
   if (!options.set_folder.empty() && !spec.scenario->set_kind.has_value()) {
     throw InputError({fmt::format("scenario '{}' writes no measurement set", spec.scenario->text.name), "command line",
                       0, "--write-set", options.set_folder,
-                      "--out for result and recording; sets come from drum tests, wheel_program and drive", ""});
+                      "--out for result and recording; sets come from drum tests, follow_roller and follow_road", ""});
   }
   if (!options.output.folder.empty() && !options.set_folder.empty() &&
       is_same_place(options.output.folder, options.set_folder)) {

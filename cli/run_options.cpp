@@ -1,6 +1,5 @@
 #include "cli/run_options.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace fs = std::filesystem;
@@ -18,9 +17,8 @@ std::string absolute_if_path(const std::string& name) {
 }
 
 void require_scenario(const std::string& name) {
-  const std::vector<std::string> known = scenarios::scenario_names();
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  InputProblem problem = unknown_name("scenario", name, known);
+  if (scenarios::find_scenario_if_any(name) != nullptr) return;
+  InputProblem problem = unknown_name("scenario", name, scenarios::scenario_names());
   problem.file = "command line";
   problem.key = "scenario";
   problem.allowed += "; or a run file (.toml)";

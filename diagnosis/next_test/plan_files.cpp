@@ -28,13 +28,13 @@ struct PlanWords {
 PlanWords find_words(SetKind kind) {
   switch (kind) {
     case SetKind::kDrum:
-      return {"program", "rig", "the rig", "At the rig"};
+      return {"follow_drum", "rig", "the rig", "At the rig"};
     case SetKind::kDyno:
-      return {"wheel_program", "rig", "the rig", "At the rig"};
+      return {"follow_roller", "rig", "the rig", "At the rig"};
     case SetKind::kRoad:
       break;
   }
-  return {"drive", "vehicle", "the vehicle", "On the road"};
+  return {"follow_road", "vehicle", "the vehicle", "On the road"};
 }
 
 /// Given columns of a run of the kind, as far as it has them.

@@ -41,10 +41,15 @@ std::vector<std::string> scenario_names() {
   return names;
 }
 
-const Scenario& find_scenario(const std::string& name) {
+const Scenario* find_scenario_if_any(const std::string& name) {
   for (const Scenario* scenario : all_scenarios()) {
-    if (scenario->text.name == name) return *scenario;
+    if (name == scenario->text.name || (!name.empty() && name == scenario->text.former_name)) return scenario;
   }
+  return nullptr;
+}
+
+const Scenario& find_scenario(const std::string& name) {
+  if (const Scenario* scenario = find_scenario_if_any(name)) return *scenario;
   throw InputError(unknown_name("scenario", name, scenario_names()));
 }
 

@@ -166,7 +166,8 @@ RunSpec read_run_spec(const ConfigTable& table, const std::string& base_folder) 
   RunDocument document{whole, {changes != nullptr ? *changes : no_changes, "[override]"}, base_folder};
   TableReader& reader = document.reader;
   RunSpec spec;
-  spec.scenario = &find_scenario(reader.text("scenario", scenario_names()));
+  spec.scenario = find_scenario_if_any(reader.text("scenario"));
+  if (spec.scenario == nullptr) reader.text("scenario", scenario_names());  // throws
   spec.tire = document.read_file("tire", "tires", reader.text("tire"), &models::read_tire);
   read_machines(document, spec);
   document.overrides.finish();

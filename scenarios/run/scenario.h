@@ -75,6 +75,7 @@ struct ScenarioText {
   std::string summary;
   std::string procedure;  // steps, for a person
   std::string source;
+  std::string former_name = {};  // still accepted where a scenario is named
 };
 
 /// A run whose settings are read and whose program is planned: calling it carries it out. Its spec must outlive it.
@@ -107,7 +108,9 @@ Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress);
 /// All scenarios, in the order of scenarios.def.
 const std::vector<const Scenario*>& all_scenarios();
 std::vector<std::string> scenario_names();
-/// Throws InputError with the nearest known name.
+/// By its name or its former one; nullptr where there is none.
+const Scenario* find_scenario_if_any(const std::string& name);
+/// The same; throws InputError with the nearest known name where there is none.
 const Scenario& find_scenario(const std::string& name);
 
 }  // namespace rollrig::scenarios

@@ -488,13 +488,31 @@ TEST_CASE("a tire that heats without end is a failed run of recorded rows, too",
   for (int i = 0; i <= 2000; i += 2) rows += std::to_string(i) + ",120,5000,25,0\n";
   write_file(folder.file("rows.csv"), rows);
   const auto run = run_program(
-      "run wheel_program --tire a50 --set program=rows.csv --set tire.rolling_resistance.B0_per_degC=0 --set "
+      "run follow_roller --tire a50 --set program=rows.csv --set tire.rolling_resistance.B0_per_degC=0 --set "
       "tire.rolling_resistance.B1_s_per_m_degC=0 --set tire.rolling_resistance.A0_N=5000 --set "
       "tire.thermal.z_W_per_K=0.01 --set tire.thermal.f_W_s_per_m_K=0",
       folder.path());
   INFO(run.out);
   CHECK(run.status == 3);
   CHECK_THAT(run.err, Contains("temperature of the tire's rubber"));
+}
+
+TEST_CASE("scenarios are known by their former names as well, which nothing shows", "[fast]") {
+  const std::string rows = ROLLRIG_SOURCE_DIR "/assets/regression/wheel_program_a50";
+  const auto run = run_program("run wheel_program --tire a50 --set program=" + rows + ".csv --json -");
+  INFO(run.err);
+  REQUIRE(run.status == 0);
+  CHECK(json::parse(run.out)["scenario"] == "follow_roller");
+  const TemporaryFolder folder;
+  write_file(folder.file("run.toml"),
+             "format = \"rollrig-run/1\"\nscenario = \"wheel_program\"\ntire = \"a50\"\n[settings]\nprogram = \"" +
+                 rows + ".csv\"\n");
+  CHECK_THAT(run_program("validate run.toml", folder.path()).out, Contains("run of scenario 'follow_roller'"));
+  CHECK_THAT(run_program("describe program").out, Contains("follow_drum: scenario"));
+  CHECK_THAT(run_program("describe drive").out, Contains("follow_road: scenario"));
+  for (const char* shown : {"list", "completion bash", "man"}) {
+    CHECK_THAT(run_program(shown).out, !Contains("wheel_program"));
+  }
 }
 
 TEST_CASE("one place under two names is refused before it is there", "[fast]") {

@@ -83,7 +83,7 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
       const std::string file = folder.file("run-" + std::to_string(i + 1) + ".toml");
       const scenarios::RunSpec spec = scenarios::read_run_spec(read_config(file), folder.path());
       CHECK_NOTHROW(scenarios::prepare_run(spec));
-      CHECK(spec.scenario->text.name == "program");
+      CHECK(spec.scenario->text.name == "follow_drum");
       CHECK(spec.sample_interval_s == Approx(0.5));  // the set's own
       CHECK(spec.sensors->size() == set.sensors.size());
       CHECK(spec.tire.name == set.tire.name);

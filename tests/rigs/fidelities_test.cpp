@@ -69,7 +69,7 @@ TEST_CASE("the two fidelities agree on every drum scenario", "[fast]") {
   for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
     if (scenario->has_vehicle) continue;  // those: vehicle_fidelities_test.cpp
     if (scenario->fidelities.size() < 2) continue;
-    const bool needs_file = scenario->text.name == "program";
+    const bool needs_file = scenario->text.name == "follow_drum";
     const std::string file = std::string(ROLLRIG_SOURCE_DIR) + "/assets/regression/program_a50.csv";
     compare(scenario->text.name, "a50",
             needs_file ? std::vector<std::string>{"program=" + file} : std::vector<std::string>{});
@@ -89,5 +89,5 @@ TEST_CASE("they agree where the drum changes its speed below a lifted tire, whos
   tests::write_file(folder.file("lifted.csv"),
                     "time_s,speed_km_h,load_N,ambient_degC\n0,80,5400,25\n120,80,0,25\n180,80,0,25\n300,30,0,25\n"
                     "360,30,0,25\n480,100,0,25\n600,100,0,25\n");
-  compare("program", "a50", {"program=" + folder.file("lifted.csv")});
+  compare("follow_drum", "a50", {"program=" + folder.file("lifted.csv")});
 }

@@ -21,7 +21,7 @@ scenarios::Outcome follow(const std::string& csv, std::vector<std::string> setti
   const TemporaryFolder folder;
   tests::write_file(folder.file("steps.csv"), csv);
   settings.push_back("program=" + folder.file("steps.csv"));
-  return tests::run("program", "a50", settings, fidelity);
+  return tests::run("follow_drum", "a50", settings, fidelity);
 }
 
 /// Everything that a drum does: ramps, load steps, a lifted tire, standstill, air that warms.
@@ -145,7 +145,7 @@ TEST_CASE("a program written as a set is replayed to the same channels, memory a
   const TemporaryFolder folder;
   tests::write_file(folder.file("steps.csv"), kEverything);
   scenarios::RunSpec spec = tests::make_spec(
-      "program", "a50",
+      "follow_drum", "a50",
       {"program=" + folder.file("steps.csv"), "rest_before_min=30", "soak_h=0.5", "effects.flat_spot.excess_percent=6"},
       "quasi_static");
   spec.sensors = models::SensorSet{};

@@ -39,8 +39,8 @@ struct Follow {
   scenarios::Outcome run() const { return scenarios::run_scenario(spec, {}); }
 };
 
-Follow on_roller(const std::vector<std::string>& settings = {}) { return {"wheel_program", kOnRoller, settings}; }
-Follow on_road(const std::vector<std::string>& settings = {}) { return {"drive", kOnRoad, settings}; }
+Follow on_roller(const std::vector<std::string>& settings = {}) { return {"follow_roller", kOnRoller, settings}; }
+Follow on_road(const std::vector<std::string>& settings = {}) { return {"follow_road", kOnRoad, settings}; }
 
 void check_closed(const scenarios::Outcome& outcome) {
   const sim::EnergyAudit& audit = outcome.recording.audit;
@@ -93,19 +93,19 @@ TEST_CASE("the rows of a wheel are followed from a run-up on", "[fast]") {
   CHECK(tests::number(outcome, "duration_s") == Approx(1500.0));
   const double expected_km = 80.0 * 300.0 + 100.0 * 100.0 + 120.0 * 300.0 + 60.0 * 100.0 + 30.0 * 40.0 + 60.0 * 360.0;
   CHECK(tests::number(outcome, "distance_km") == Approx(expected_km / 3600.0));
-  CHECK(Follow("drive", "time_s,speed_km_h,elevation_m,ambient_degC\n5,0,0,20\n65,50,0,20\n")
+  CHECK(Follow("follow_road", "time_s,speed_km_h,elevation_m,ambient_degC\n5,0,0,20\n65,50,0,20\n")
             .run()
             .recording.time_s.front() == 0.0);  // no run-up to standstill
 }
 
 TEST_CASE("a lifted wheel leaves the roller's own loss, and force adds what slip costs", "[fast]") {
   const std::string header = "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC\n";
-  const Follow lifted("wheel_program", header + "0,80,0,0,25\n200,80,0,0,25\n");
+  const Follow lifted("follow_roller", header + "0,80,0,0,25\n200,80,0,0,25\n");
   const double roller_N = models::calc_parasitic_N(lifted.spec.rig.parasitic, 80.0 / 3.6);
   CHECK(tests::number(lifted.run(), "loss_force_end_N") == Approx(roller_N).epsilon(1e-9));
   const std::string pulled = header + "0,80,5400,800,25\n10,80,5400,800,25\n";
-  const auto without = Follow("wheel_program", pulled).run();
-  const auto slipping = Follow("wheel_program", pulled, {"effects.slip_loss.compliance_per_kN=0.01"}).run();
+  const auto without = Follow("follow_roller", pulled).run();
+  const auto slipping = Follow("follow_roller", pulled, {"effects.slip_loss.compliance_per_kN=0.01"}).run();
   CHECK(value_at(slipping, "loss_force_N", 0.0) - value_at(without, "loss_force_N", 0.0) ==
         Approx(800.0 * 800.0 * 0.01e-3).epsilon(0.02));
 }

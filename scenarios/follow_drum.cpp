@@ -116,13 +116,13 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_program() {
+Scenario scenario_follow_drum() {
   return make_drum_scenario(
-      {"program", "Any program of speed and load that a file gives, row by row",
+      {"follow_drum", "Any program of speed and load that a file gives, row by row",
        "Soak at the first row's air, pressure, run-up to its speed at skim load or its own where that is less (none "
        "where it stands), then speed, load and air as the file has them; the first row is 0 s. Reads off every stretch "
        "of constant load and speed. `rollrig diagnose --plan` writes such files.",
-       "formats.md: a run of a measurement set"},
+       "formats.md: a run of a measurement set", "program"},
       &plan, &evaluate);
 }
 
