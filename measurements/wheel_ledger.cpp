@@ -75,8 +75,7 @@ class DynoLedger : public WheelLedger {
     const double loaded_radius_m = calc_loaded_radius_m(context.tire, motion.load_N);
     const double curvature_per_m = context.surface_curvature_per_m;
     const double spin_kg = context.tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m * loaded_radius_m);
-    const double roller_kg =
-        now.contact.machine_inertia_factor * context.machine_inertia_kg_m2 * curvature_per_m * curvature_per_m;
+    const double roller_kg = now.contact.machine_inertia_factor * context.machine_mass_kg;
     const double at_wheel_N = now.rolling_resistance_N / (1.0 + loaded_radius_m * curvature_per_m);
     const double at_roller_N = now.rolling_resistance_N - at_wheel_N;
     const double driving_N = now.acting.longitudinal_force_N;

@@ -8,6 +8,7 @@
 #include "models/tire/drum_curvature.h"
 #include "models/tire/rolling_resistance.h"
 #include "models/vehicle/vehicle.h"
+#include "models/wheel/rolling_wheel.h"
 #include "rigs/drum_channels.h"
 
 namespace rollrig::measurements {
@@ -99,11 +100,7 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
     now.recorded.brake_force_N = S(std::max(0.0, -part.longitudinal_force_N));
     find_losses(corner, x, now);
     const S slip = find_slip(S(-now.acting.longitudinal_force_N), now);
-    const models::Context<S>& context = corner.context();
-    const S& curvature_per_m = context.surface_curvature_per_m;
-    const S roller_kg = context.machine_inertia_kg_m2 * curvature_per_m * curvature_per_m;
-    loss_N = now.rolling_resistance_N + now.parasitic_N + now.motion.longitudinal_force_N * slip +
-             (now.contact.machine_inertia_factor - S(1.0)) * roller_kg * now.motion.acceleration_m_s2;
+    loss_N = models::calc_loss_force_N(now, S(now.motion.longitudinal_force_N * slip), now.motion.acceleration_m_s2);
   };
   std::vector<S> values(names.size());
   const auto record = [&](const WheelInterval& part, const models::Instant<S>& now) -> const S& {

@@ -1,5 +1,7 @@
 #include "models/contact_force_element.h"
 
+#include "models/wheel/rolling_wheel.h"
+
 namespace rollrig::models {
 
 using SimTK::SpatialVec;
@@ -96,7 +98,7 @@ void ContactForceElement::evaluate(const State& state, ContactEvaluation& out) c
   motion.slip_power_W = out.slip.dissipated_W;
   const double curvature_per_m = corner_.context().surface_curvature_per_m;
   motion.rolling_speed_m_s = (out.wheel_speed_rad_s + out.surface_speed_rad_s) * out.loaded_radius_m /
-                             (1.0 + out.loaded_radius_m * curvature_per_m);
+                             calc_rolling_ratio(out.loaded_radius_m, curvature_per_m);
   corner_.calc_losses(x, out.now);
   corner_.calc_rates(x, out.now, out.corner_rates.data());
   out.couple_Nm = calc_resistance_couple_Nm(out.now.rolling_resistance_N, out.loaded_radius_m, curvature_per_m);

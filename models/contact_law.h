@@ -103,13 +103,4 @@ ContactParameters<S> make_contact_parameters(const TireParameters<S>& tire, cons
   return p;
 }
 
-/// Couple by which rolling resistance acts on wheel and surface, equal and opposite.
-/// Equation  M = F_rr r_l / (1 + r_l k),  so that M (omega_wheel + omega_drum) = F_rr v without slip
-/// Symbols   F_rr [N], r_l loaded radius [m], k curvature of the surface [1/m]
-/// Source    baseline.md, "Rig"
-template <class S>
-S calc_resistance_couple_Nm(const S& rolling_resistance_N, const S& loaded_radius_m, const S& curvature_per_m) {
-  return rolling_resistance_N * loaded_radius_m / (S(1.0) + loaded_radius_m * curvature_per_m);
-}
-
 }  // namespace rollrig::models

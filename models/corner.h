@@ -94,8 +94,8 @@ Context<S> convert_context(const Context<double>& from) {
   to.rig_kind = from.rig_kind;
   to.baseline = from.baseline;
   to.surface_curvature_per_m = quantity<S>(from.surface_curvature_per_m, Dimension{} / dimension::kLength);
-  to.machine_inertia_kg_m2 =
-      quantity<S>(from.machine_inertia_kg_m2, dimension::kMass * dimension::kLength * dimension::kLength);
+  to.machine_radius_m = quantity<S>(from.machine_radius_m, dimension::kLength);
+  to.machine_mass_kg = quantity<S>(from.machine_mass_kg, dimension::kMass);
   to.skim_load_N = quantity<S>(from.skim_load_N, dimension::kForce);
   return to;
 }

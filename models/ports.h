@@ -32,7 +32,8 @@ struct Context {
   RigKind rig_kind = RigKind::kDrum;
   Baseline baseline = Baseline::kCombined;
   S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
-  S machine_inertia_kg_m2{};    // drum or roller, about its axis
+  S machine_radius_m{};         // torque at the machine's axis over force at its surface; 0 on the flat
+  S machine_mass_kg{};          // inertia of drum or roller as mass at its surface, J/R^2; 0 on the flat
   S skim_load_N{};              // the rig's skim load
 };
 

@@ -15,6 +15,7 @@ DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, const S
       matter_(matter),
       bodies_(bodies),
       radius_m_(rig.drum.diameter_m / 2.0),
+      inertia_kg_m2_(rig.drum.inertia_kg_m2),
       bandwidth_rad_s_(rig.drive.bandwidth_rad_s),
       damping_N_s_per_m_(rig.carriage.damping_N_s_per_m),
       load_time_constant_s_(rig.carriage.load_time_constant_s),
@@ -25,7 +26,7 @@ DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, const S
 
 double DrumActuators::calc_effective_inertia_kg_m2(double load_N) const {
   const double ratio = radius_m_ / calc_loaded_radius_m(context_.tire, load_N);
-  return context_.machine_inertia_kg_m2 + context_.tire.geometry.spin_inertia_kg_m2 * ratio * ratio;
+  return inertia_kg_m2_ + context_.tire.geometry.spin_inertia_kg_m2 * ratio * ratio;
 }
 
 double DrumActuators::calc_friction_feedforward_Nm(double speed_m_s) const {

@@ -61,6 +61,7 @@ class DrumActuators : public SimTK::Force::Custom::Implementation {
   const SimTK::SimbodyMatterSubsystem& matter_;
   Bodies bodies_;
   double radius_m_;
+  double inertia_kg_m2_;
   double bandwidth_rad_s_;
   double damping_N_s_per_m_;
   double load_time_constant_s_;

@@ -59,8 +59,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
         surface_recorded_(surface_recorded),
         contact_port_(find_contact_port(corner)),
         drum_(matter_.Ground(), Transform(),
-              make_rotor(kDrumMass_kg, corner.context().machine_inertia_kg_m2 * contact_port_.machine_inertia_factor),
-              Transform()),
+              make_rotor(kDrumMass_kg, rig.drum.inertia_kg_m2 * contact_port_.machine_inertia_factor), Transform()),
         carriage_(matter_.Ground(), kUpwards, make_block(rig.carriage.mass_kg), kUpwards),
         wheel_(carriage_, kReversed,
                make_rotor(corner.context().tire.geometry.mass_kg + corner.context().tire.geometry.wheel_mass_kg,
@@ -214,7 +213,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
   /// Of the drum as it turns, whether the motor drives it or not.
   double find_recorded_speed_m_s(double time_s, const double* y) {
     const models::InputPort<double> acting = find_acting(time_s, y);
-    return models::calc_recorded_speed_m_s(y[kSpeeds] / corner_.context().surface_curvature_per_m, find_inputs(time_s),
+    return models::calc_recorded_speed_m_s(y[kSpeeds] * corner_.context().machine_radius_m, find_inputs(time_s),
                                            acting);
   }
 
@@ -223,7 +222,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     constexpr double kShare = 0.02;  // Assumed: a rig would trip
     constexpr double kFloor_m_s = 0.2;
     const double set_m_s = find_acting(time_s, y).speed_m_s;
-    const double is_m_s = y[kSpeeds] / corner_.context().surface_curvature_per_m;
+    const double is_m_s = y[kSpeeds] * corner_.context().machine_radius_m;
     if (std::abs(is_m_s - set_m_s) <= kFloor_m_s + kShare * std::abs(set_m_s)) return;
     throw RunFailure(fmt::format(
         "at t = {:.1f} s the motor does not hold the speed: set {:.1f} km/h, is {:.1f} km/h; what drives or brakes "
@@ -242,7 +241,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     state_.setTime(time_s);
     contact_->evaluate_inputs(state_, now);
     const models::Context<double>& context = corner_.context();
-    const double radius_m = 1.0 / context.surface_curvature_per_m;
+    const double radius_m = context.machine_radius_m;
     const double loaded_radius_m = calc_loaded_radius_m(context.tire, now.acting.load_N);
     carriage_.setOneQ(state_, 0, radius_m + loaded_radius_m);
     drum_.setOneU(state_, 0, now.acting.speed_m_s / radius_m);
@@ -275,8 +274,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     put(DrumIntegral::kKnotWork, 0.0);
     put(DrumIntegral::kTireLoss, at.couple_Nm * (at.wheel_speed_rad_s + at.surface_speed_rad_s));
     put(DrumIntegral::kSlipLoss, at.slip.dissipated_W);
-    put(DrumIntegral::kBearingLoss,
-        at.now.parasitic_N * at.surface_speed_rad_s / corner_.context().surface_curvature_per_m);
+    put(DrumIntegral::kBearingLoss, at.now.parasitic_N * at.surface_speed_rad_s * corner_.context().machine_radius_m);
     const double spring_N = corner_.context().tire.stiffness.vertical_N_per_m * std::max(0.0, at.deflection_m);
     put(DrumIntegral::kTireDamperLoss, (at.normal_N - spring_N) * at.deflection_rate_m_s);
     put(DrumIntegral::kCylinderDamperLoss, -drive.damper_force_N * carriage_m_s);

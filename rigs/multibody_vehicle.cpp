@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "models/contact_force_element.h"
+#include "models/wheel/rolling_wheel.h"
 #include "rigs/simbody_system.h"
 #include "rigs/vehicle_bodies.h"
 #include "rigs/vehicle_drive.h"
@@ -409,16 +410,13 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     const ContactEvaluation& at = contacts_[i]->evaluation(state_);
     const models::Instant<double>& now = at.now;
     const double counted = segment_.inputs[index_of(VehicleInput::kCounted)].start;
-    const double curvature_per_m = now.context->surface_curvature_per_m;
-    const double roller_kg = now.context->machine_inertia_kg_m2 * curvature_per_m * curvature_per_m;
     const double speed_m_s = now.motion.speed_m_s;
     const double rolling_W = now.rolling_resistance_N * now.motion.rolling_speed_m_s;
     constexpr double kLeast_m_s = 1.0;  // below, slip power over speed says nothing
     // What the stiff contact of the baseline dissipates is of the numerics, not of the tire (baseline.md).
     const double slip_W = now.contact.slip_compliance_per_N > 0.0 ? at.slip.dissipated_W : 0.0;
     put(WheelIntegral::kLossForce,
-        now.rolling_resistance_N + now.parasitic_N + slip_W / std::max(std::abs(speed_m_s), kLeast_m_s) +
-            (now.contact.machine_inertia_factor - 1.0) * roller_kg * calc_acceleration_m_s2());
+        models::calc_loss_force_N(now, slip_W / std::max(std::abs(speed_m_s), kLeast_m_s), calc_acceleration_m_s2()));
     put(WheelIntegral::kLinerTemperature, now.thermal.temperature_K[models::index_of(Node::kRubber)]);
     put(WheelIntegral::kCavityPressure, now.pressure_Pa);
     put(WheelIntegral::kGasTemperature, now.thermal.temperature_K[models::index_of(Node::kGas)]);

@@ -63,7 +63,7 @@ void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_
   if (detail_ == Detail::kFull) integrals[index_of(DrumIntegral::kKnotWork)] += calc_mechanical_J() - before_J;
 }
 
-/// Fills now_ up to the losses, the loaded radius and the torque.
+/// Fills now_ up to the losses, the wheel and the torque.
 template <class S>
 void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   const S* x = state + kFirstCornerState;
@@ -73,47 +73,32 @@ void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   motion.speed_m_s = motor_on_ ? now_.acting.speed_m_s : state[kSpeedState];
   motion.load_N = now_.acting.load_N;
   corner_.calc_losses(x, now_);
-  const models::Context<S>& context = corner_.context();
-  loaded_radius_m_ = calc_loaded_radius_m(context.tire, motion.load_N);
-  const S spin_mass_kg = calc_spin_mass_kg();
+  wheel_ = models::find_rolling_wheel(now_);
   const S resistance_N = now_.rolling_resistance_N + now_.parasitic_N;
   const S effective_mass_kg = calc_effective_mass_kg();
   motion.acceleration_m_s2 = motor_on_ ? now_.acting.acceleration_m_s2 : S(-resistance_N / effective_mass_kg);
   // Slip of the wheel's own making: rolling resistance and the wheel's inertia drag on the contact.
-  const S geometry = S(1.0) + loaded_radius_m_ * context.surface_curvature_per_m;
-  const S spin_force_N = spin_mass_kg * motion.acceleration_m_s2;
-  motion.longitudinal_force_N = now_.rolling_resistance_N / geometry + spin_force_N;
-  const S slip = motion.longitudinal_force_N * now_.contact.slip_compliance_per_N;
-  motion.slip_power_W = motion.longitudinal_force_N * slip * motion.speed_m_s;
-  motion.rolling_speed_m_s = motion.speed_m_s * (S(1.0) - slip / geometry);
+  const S spin_force_N = wheel_.spin_mass_kg * motion.acceleration_m_s2;
+  motion.longitudinal_force_N = wheel_.loss_at_wheel_N + spin_force_N;
+  const S slip = models::calc_slip(now_);
+  models::put_slip(wheel_, slip, motion);
   drum_torque_Nm_ = zero<S>();
   if (motor_on_) {
-    drum_torque_Nm_ = (resistance_N + effective_mass_kg * motion.acceleration_m_s2 + slip * spin_force_N) /
-                      context.surface_curvature_per_m;
+    drum_torque_Nm_ = (resistance_N + effective_mass_kg * motion.acceleration_m_s2 + slip * spin_force_N) *
+                      corner_.context().machine_radius_m;
   }
 }
 
 template <class S>
 S QuasiStaticDrum<S>::calc_effective_mass_kg() const {
-  const models::Context<S>& context = corner_.context();
-  const S& curvature_per_m = context.surface_curvature_per_m;
-  return now_.contact.machine_inertia_factor * context.machine_inertia_kg_m2 * curvature_per_m * curvature_per_m +
-         calc_spin_mass_kg();
-}
-
-/// Of the wheel, which turns with the drum as long as it touches it.
-template <class S>
-S QuasiStaticDrum<S>::calc_spin_mass_kg() const {
-  if (!(value_of(now_.motion.load_N) > 0.0)) return zero<S>();
-  return corner_.context().tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m_ * loaded_radius_m_);
+  return now_.contact.machine_inertia_factor * corner_.context().machine_mass_kg + wheel_.spin_mass_kg;
 }
 
 /// Kinetic energy of drum and wheel and energy of the tire's spring, in the motion of now_.
 template <class S>
 S QuasiStaticDrum<S>::calc_mechanical_J() const {
-  const S& load_N = now_.motion.load_N;
-  const S spring_J = 0.5 * load_N * load_N / corner_.context().tire.stiffness.vertical_N_per_m;
-  return 0.5 * calc_effective_mass_kg() * now_.motion.speed_m_s * now_.motion.speed_m_s + spring_J;
+  return 0.5 * calc_effective_mass_kg() * now_.motion.speed_m_s * now_.motion.speed_m_s +
+         models::calc_tire_spring_J(corner_.context().tire, now_.motion.load_N);
 }
 
 template <class S>
@@ -137,7 +122,7 @@ void QuasiStaticDrum<S>::fill_integrands(S* integrands) const {
   put(DrumIntegral::kParasitic, now_.parasitic_N);
   put(DrumIntegral::kSpindleForce, now_.motion.longitudinal_force_N);
   put(DrumIntegral::kContactLoad, now_.motion.load_N);
-  const S motor_W = drum_torque_Nm_ * speed_m_s * corner_.context().surface_curvature_per_m;
+  const S motor_W = drum_torque_Nm_ * speed_m_s / corner_.context().machine_radius_m;
   put(DrumIntegral::kMotorWork, motor_W);
   put(DrumIntegral::kMotorThroughput, value_of(motor_W) < 0.0 ? S(-motor_W) : motor_W);
   put(DrumIntegral::kLoadActuatorWork, zero<S>());
@@ -180,8 +165,7 @@ template <class S>
 void QuasiStaticDrum<S>::calc_stored(double time_s, const S* state, S* stored_J) {
   if (detail_ == Detail::kMeasured) return;
   find_motion(time_s, state);
-  const S& load_N = now_.motion.load_N;
-  const S spring_J = 0.5 * load_N * load_N / corner_.context().tire.stiffness.vertical_N_per_m;
+  const S spring_J = models::calc_tire_spring_J(corner_.context().tire, now_.motion.load_N);
   stored_J[index_of(DrumStore::kTireSpring)] = spring_J;
   stored_J[index_of(DrumStore::kKinetic)] = calc_mechanical_J() - spring_J;
   stored_J[index_of(DrumStore::kGravity)] = zero<S>();

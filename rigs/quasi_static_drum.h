@@ -5,16 +5,16 @@
 #include <vector>
 
 #include "models/corner.h"
+#include "models/wheel/rolling_wheel.h"
 #include "rigs/drum_channels.h"
 #include "sim/ode_system.h"
 
 namespace rollrig::rigs {
 
-/// Equation  torque = R (F_rr + F_par + m_eff dv/dt + s I_spin/r_l^2 dv/dt), m_eff = J/R^2 + I_spin/r_l^2, of a lifted
-/// tire J/R^2
-///           spindle force Fx = F_rr/(1 + r_l/R) + I_spin/r_l^2 dv/dt;  slip s = Fx/C, 0 in the baseline
-/// Symbols   R drum radius [m], J drum inertia, I_spin wheel inertia [kg m2], r_l loaded radius [m],
-///           C slip stiffness [N]
+/// Equation  torque = R (F_rr + F_par + m_eff a + s m_w a),  m_eff = j m_r + m_w;  off: a = -(F_rr + F_par)/m_eff;
+///           the wheel: models/wheel/rolling_wheel.h without a force of its hub
+/// Symbols   R torque over force at the surface [m], m_r equivalent mass of the drum, j factor on it (1 in the
+///           baseline), m_w of the wheel's spin [kg], a acceleration of the surface [m/s2], s slip [1]
 /// Validity  slow against the load cylinder's and the speed controller's settling (a few seconds)
 /// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
 ///           "load_changes" of the mechanical audit
@@ -49,7 +49,6 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   void find_motion(double time_s, const S* state);
   void fill_integrands(S* integrands) const;
   S calc_effective_mass_kg() const;
-  S calc_spin_mass_kg() const;
   S find_recorded_speed_m_s() const {
     return models::calc_recorded_speed_m_s(now_.motion.speed_m_s, now_.recorded, now_.acting);
   }
@@ -67,7 +66,7 @@ class QuasiStaticDrum : public sim::OdeSystem<S> {
   double segment_start_s_ = 0.0;
   bool motor_on_ = true;
   models::Instant<S> now_;
-  S loaded_radius_m_{};
+  models::RollingWheel<S> wheel_;
   S drum_torque_Nm_{};
 };
 

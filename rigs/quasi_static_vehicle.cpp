@@ -88,11 +88,7 @@ void QuasiStaticVehicle<S>::find_losses(std::size_t i, const S* state, const mod
   wheel.now.motion.speed_m_s = speed_m_s_;
   wheel.now.motion.load_N = wheel.now.acting.load_N;
   corner.calc_losses(x, wheel.now);
-  const models::Context<S>& context = corner.context();
-  wheel.loaded_radius_m = calc_loaded_radius_m(context.tire, wheel.now.motion.load_N);
-  wheel.spin_mass_kg = context.tire.geometry.spin_inertia_kg_m2 / (wheel.loaded_radius_m * wheel.loaded_radius_m);
-  wheel.loss_at_wheel_N =
-      wheel.now.rolling_resistance_N / (S(1.0) + wheel.loaded_radius_m * context.surface_curvature_per_m);
+  wheel.rolling = models::find_rolling_wheel(wheel.now);
   wheel.hub_loss_N = layout_.rig_kind == RigKind::kFlat ? wheel.now.parasitic_N : zero<S>();
   wheel.slip = zero<S>();
 }
@@ -126,7 +122,7 @@ void QuasiStaticVehicle<S>::find_resistance() {
 template <class S>
 S QuasiStaticVehicle<S>::calc_wheel_inertia_kg() const {
   S sum_kg = zero<S>();
-  for (const Wheel& wheel : wheels_) sum_kg += wheel.spin_mass_kg;
+  for (const Wheel& wheel : wheels_) sum_kg += wheel.rolling.spin_mass_kg;
   return sum_kg;
 }
 
@@ -137,7 +133,7 @@ void QuasiStaticVehicle<S>::find_balance() {
   S inertia_kg = body_mass_kg_;
   for (const Wheel& wheel : wheels_) {
     resistance_N += wheel.now.rolling_resistance_N + wheel.hub_loss_N;
-    inertia_kg += wheel.spin_mass_kg / (S(1.0) - wheel.slip);
+    inertia_kg += wheel.rolling.spin_mass_kg / (S(1.0) - wheel.slip);
   }
   acceleration_m_s2_ = driver_on_ ? wheels_.front().now.acting.acceleration_m_s2 : S(-resistance_N / inertia_kg);
   demand_N_ = driver_on_ ? S(resistance_N + inertia_kg * acceleration_m_s2_) : zero<S>();
@@ -157,17 +153,15 @@ void QuasiStaticVehicle<S>::share_demand() {
     wheel.motor_N = layout_.wheels[i].motor_share * demand.motor_N;
     wheel.friction_N = layout_.wheels[i].friction_share * demand.friction_N;
     assist_N_ -= wheel.motor_N - wheel.friction_N;
-    wheel.now.motion.longitudinal_force_N = wheel.loss_at_wheel_N + wheel.hub_loss_N +
-                                            wheel.spin_mass_kg * acceleration_m_s2_ / (S(1.0) - wheel.slip) -
-                                            wheel.motor_N + wheel.friction_N;
+    wheel.now.motion.longitudinal_force_N =
+        wheel.rolling.calc_balance_N(wheel.hub_loss_N, acceleration_m_s2_, wheel.slip) - wheel.motor_N +
+        wheel.friction_N;
   }
 }
 
 template <class S>
 void QuasiStaticVehicle<S>::find_slip() {
-  for (Wheel& wheel : wheels_) {
-    wheel.slip = wheel.now.motion.longitudinal_force_N * wheel.now.contact.slip_compliance_per_N;
-  }
+  for (Wheel& wheel : wheels_) wheel.slip = models::calc_slip(wheel.now);
 }
 
 template <class S>
@@ -185,11 +179,8 @@ void QuasiStaticVehicle<S>::find_motion(double time_s, const S* state) {
   }
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     Wheel& wheel = wheels_[i];
-    models::Motion<S>& motion = wheel.now.motion;
-    const S geometry = S(1.0) + wheel.loaded_radius_m * wheel.now.context->surface_curvature_per_m;
-    motion.acceleration_m_s2 = acceleration_m_s2_;
-    motion.slip_power_W = motion.longitudinal_force_N * wheel.slip * speed_m_s_;
-    motion.rolling_speed_m_s = speed_m_s_ * (S(1.0) - wheel.slip / geometry);
+    wheel.now.motion.acceleration_m_s2 = acceleration_m_s2_;
+    models::put_slip(wheel.rolling, wheel.slip, wheel.now.motion);
     wheel.now.recorded.longitudinal_force_N = wheel.motor_N - wheel.friction_N;
     wheel.now.recorded.brake_force_N = wheel.friction_N;
     wheel.now.acting.longitudinal_force_N = wheel.now.recorded.longitudinal_force_N;
@@ -262,12 +253,9 @@ void QuasiStaticVehicle<S>::fill_wheel_integrands(std::size_t i, S* integrands) 
   const models::Instant<S>& now = wheel.now;
   const auto put = [&](WheelIntegral integral, const S& value) { integrands[index_of(integral, i)] = value; };
   const S counted = S(segment_.inputs[index_of(VehicleInput::kCounted)].start);
-  const S& curvature_per_m = now.context->surface_curvature_per_m;
-  const S roller_kg = now.context->machine_inertia_kg_m2 * curvature_per_m * curvature_per_m;
   const S rolling_W = now.rolling_resistance_N * now.motion.rolling_speed_m_s;
-  put(WheelIntegral::kLossForce, now.rolling_resistance_N + now.parasitic_N +
-                                     now.motion.longitudinal_force_N * wheel.slip +
-                                     (now.contact.machine_inertia_factor - S(1.0)) * roller_kg * acceleration_m_s2_);
+  put(WheelIntegral::kLossForce,
+      models::calc_loss_force_N(now, S(now.motion.longitudinal_force_N * wheel.slip), acceleration_m_s2_));
   put(WheelIntegral::kLinerTemperature, now.thermal.temperature_K[models::index_of(Node::kRubber)]);
   put(WheelIntegral::kCavityPressure, now.pressure_Pa);
   put(WheelIntegral::kGasTemperature, now.thermal.temperature_K[models::index_of(Node::kGas)]);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "models/vehicle/vehicle.h"
+#include "models/wheel/rolling_wheel.h"
 #include "rigs/vehicle_channels.h"
 
 namespace rollrig::rigs {
@@ -12,10 +13,9 @@ namespace rollrig::rigs {
 /// Equation  on the driver's foot  D = R(v) + sum F_rr,i + (m + m_rot) a, which the driver asks for;
 ///           coasting  a = -(R(v) + sum F_rr,i)/(m + m_rot);
 ///           R: rollers' force A + B v + C v^2, or drag, grade and road load on the flat;
-///           of each wheel, on the surface: X = D_own - F_rr/(1 + r_l k) - I_spin/r_l^2 a;  slip X/C
-/// Symbols   m mass, m_rot equivalent mass of what turns [kg], a acceleration [m/s2], D_own what its motor
-///           and its brake do of D (models/vehicle/vehicle.h, blend_brakes) [N], r_l loaded radius, k = 1/R_roller,
-///           0 on the flat [1/m], C slip stiffness [N], infinite in the baseline
+///           each wheel: models/wheel/rolling_wheel.h, its hub doing its share of D
+/// Symbols   m mass, m_rot equivalent mass of what turns [kg], a acceleration [m/s2]; what motors and brakes do of D:
+///           models/vehicle/vehicle.h, blend_brakes
 /// Validity  slow against suspension, tie-downs and the driver's settling (a few seconds); loads are static,
 ///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the flat the sum over both
 ///           axles counts; rollers make up for their own nominal parasitic loss and hold one speed
@@ -50,13 +50,11 @@ class QuasiStaticVehicle : public sim::OdeSystem<S> {
   /// What one wheel does at an instant.
   struct Wheel {
     models::Instant<S> now;
-    S loaded_radius_m{};
-    S spin_mass_kg{};     // I_spin/r_l^2
-    S loss_at_wheel_N{};  // F_rr/(1 + r_l k)
-    S motor_N{};          // of its hub, as force at the surface
-    S friction_N{};       // of its brake
-    S hub_loss_N{};       // of the hub's own bearings and brake pads, on the flat
-    S slip{};             // of the wheel against the surface, positive when it is dragged
+    models::RollingWheel<S> rolling;
+    S motor_N{};     // of its hub, as force at the surface
+    S friction_N{};  // of its brake
+    S hub_loss_N{};  // of the hub's own bearings and brake pads, on the flat
+    S slip{};        // of the wheel against the surface, positive when it is dragged
   };
 
   std::size_t first_state_of(std::size_t wheel) const { return 1 + wheel * corners_.front().state_count(); }

@@ -93,8 +93,12 @@ models::Context<double> make_context(const models::TireFile& tire, const RigFile
   context.parasitic = rig.parasitic;
   context.rig_kind = rig.kind;
   context.baseline = baseline;
-  context.surface_curvature_per_m = rig.kind == RigKind::kFlat ? 0.0 : 2.0 / rig.drum.diameter_m;
-  context.machine_inertia_kg_m2 = rig.drum.inertia_kg_m2;
+  if (rig.kind != RigKind::kFlat) {
+    const double radius_m = rig.drum.diameter_m / 2.0;
+    context.surface_curvature_per_m = 2.0 / rig.drum.diameter_m;
+    context.machine_radius_m = radius_m;
+    context.machine_mass_kg = rig.drum.inertia_kg_m2 / (radius_m * radius_m);
+  }
   context.skim_load_N = rig.skim.load_N;
   return context;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "models/wheel/rolling_wheel.h"
+
 namespace rollrig::rigs {
 
 using SimTK::MobilizedBody;
@@ -51,7 +53,9 @@ SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& 
 /// What moves along the road with the vehicle and is in no other body; negative where those have more.
 double calc_other_mass_kg(const VehicleLayout& layout, const models::TireParameters<double>& tire, double mass_factor) {
   double spin_kg = 0.0;
-  for (const WheelPlace& wheel : layout.wheels) spin_kg += calc_spin_mass_kg(tire, wheel.static_load_N);
+  for (const WheelPlace& wheel : layout.wheels) {
+    spin_kg += models::calc_spin_mass_kg(tire, calc_loaded_radius_m(tire, wheel.static_load_N));
+  }
   const double total_kg = mass_factor * (layout.mass_kg + layout.rotating_mass_kg) - spin_kg;
   return layout.rig_kind == RigKind::kFlat ? total_kg - layout.mass_kg : total_kg;
 }

@@ -73,11 +73,6 @@ bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front) {
   return !(rig.kind == RigKind::kDyno && rig.driven_wheels_only) || is_driven(vehicle, front);
 }
 
-double calc_spin_mass_kg(const models::TireParameters<double>& tire, double load_N) {
-  const double loaded_radius_m = calc_loaded_radius_m(tire, load_N);
-  return tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m * loaded_radius_m);
-}
-
 VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
                                const models::RoadLoad<double>& set_load) {
   VehicleLayout layout = make_body(vehicle, rig, ambient_K, set_load, 1.0);

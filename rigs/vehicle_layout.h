@@ -42,9 +42,6 @@ struct VehicleLayout {
   std::vector<WheelPlace> wheels;
 };
 
-/// Equivalent mass of a wheel's spin, I_spin/r_l^2, under its static load [kg].
-double calc_spin_mass_kg(const models::TireParameters<double>& tire, double load_N);
-
 enum class QuarterWheel { kFront, kRear };
 
 /// Whether a wheel of an axle rolls: on a dynamometer with rollers under the driven wheels alone, the others stand.

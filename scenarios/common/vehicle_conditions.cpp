@@ -1,6 +1,7 @@
 #include "scenarios/common/vehicle_conditions.h"
 
 #include "models/vehicle/vehicle.h"
+#include "models/wheel/rolling_wheel.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -10,7 +11,8 @@ void check_rotating_mass(const RunSpec& spec) {
   const double weight_N = spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
   double wheels_kg = 0.0;
   for (const double share : {spec.vehicle->geometry.front_load_share, 1.0 - spec.vehicle->geometry.front_load_share}) {
-    wheels_kg += 2.0 * rigs::calc_spin_mass_kg(spec.tire.values, 0.5 * share * weight_N);
+    const double loaded_radius_m = calc_loaded_radius_m(spec.tire.values, 0.5 * share * weight_N);
+    wheels_kg += 2.0 * models::calc_spin_mass_kg(spec.tire.values, loaded_radius_m);
   }
   if (spec.vehicle->body.rotating_mass_kg >= wheels_kg) return;
   throw InputError({fmt::format("the four wheels of tire '{}' alone have an equivalent mass of {:.1f} kg",

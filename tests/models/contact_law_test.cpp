@@ -78,15 +78,6 @@ TEST_CASE("the stiff contact of the baseline dissipates under 0.1 N at 1 kN", "[
   CHECK(1000.0 * 1000.0 / stiffness_N < 0.1);
 }
 
-TEST_CASE("the couple's power is force times speed, on a drum and on the flat", "[fast]") {
-  const double force_N = 35.0, radius_m = 0.33, speed_m_s = 22.0;
-  for (const double curvature_per_m : {1.0, 1.0 / 0.6, 0.0}) {
-    const double couple_Nm = models::calc_resistance_couple_Nm(force_N, radius_m, curvature_per_m);
-    const double power_W = couple_Nm * (speed_m_s / radius_m + speed_m_s * curvature_per_m);
-    CHECK(power_W == Approx(force_N * speed_m_s));
-  }
-}
-
 TEST_CASE("dimensions of the contact", "[fast]") {
   using Q = DimensionedScalar;
   const auto tire = models::convert_tire<Q>(tests::read_asset_tire().values);
