@@ -52,7 +52,7 @@ void evaluate_rates(benchmark::State& state, System& system) {
 struct Rig {
   scenarios::RunSpec spec = make_spec("multibody");
   models::Corner<double> corner{rigs::make_context(spec.tire, spec.rig, spec.baseline), {}};
-  rigs::DrumStart<double> start{298.15, 280e3, 101325.0, {}};
+  rigs::RigStart<double> start{298.15, 280e3, 101325.0, {}};
 };
 
 void multibody_rates(benchmark::State& state) {

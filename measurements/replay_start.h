@@ -9,8 +9,8 @@ namespace rollrig::measurements {
 
 /// Temperature, pressure and history that a run states of its beginning.
 template <class S>
-rigs::DrumStart<S> make_replay_start(const MeasuredRun& run, double ambient_pressure_Pa) {
-  rigs::DrumStart<S> start;
+rigs::RigStart<S> make_replay_start(const MeasuredRun& run, double ambient_pressure_Pa) {
+  rigs::RigStart<S> start;
   start.tire_temperature_K = S(run.initial_tire_temperature_K);
   start.cold_pressure_Pa = S(run.cold_pressure_Pa);
   start.ambient_pressure_Pa = S(ambient_pressure_Pa);

@@ -33,7 +33,7 @@ models::InputPort<S> read_inputs(const WheelInterval& part, bool surface_recorde
 /// Moves a corner's states through the intervals; `evaluate(part, x, now)` fills `now` up to what the rates need,
 /// `record(part, now)` returns the force that was recorded.
 template <class S, class Evaluate, class Record>
-void march(const models::Corner<S>& corner, const rigs::DrumStart<S>& start, const S& tire_temperature_K,
+void march(const models::Corner<S>& corner, const rigs::RigStart<S>& start, const S& tire_temperature_K,
            const S& load_N, const std::vector<WheelInterval>& intervals, ReplayObserver<S>* observer,
            Evaluate&& evaluate, Record&& record) {
   std::vector<S> x(corner.state_count());
@@ -113,7 +113,7 @@ sim::Recording<S> replay_dyno_run(const MeasurementSet& set, const MeasuredRun& 
     means.add(part, values);
     return loss_N;
   };
-  const rigs::DrumStart<S> start = make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa);
+  const rigs::RigStart<S> start = make_replay_start<S>(run, set.rig->environment.ambient_pressure_Pa);
   march(corner, start, start.tire_temperature_K, S(intervals.front().load_N), intervals, observer, evaluate, record);
   sim::Recording<S> recording = means.finish();
   apply_trace_beside_given(run, corner, recording);
@@ -125,7 +125,7 @@ namespace {
 /// Temperature of a tire in steady driving at 80 km/h under its static load, from the network of its file. Assumed: at
 /// the cold pressure, which a warm tire exceeds by some 10 %, so that it would lose 4 % less.
 template <class S>
-S calc_warm_temperature_K(const models::Corner<S>& corner, const S& load_N, const rigs::DrumStart<S>& start) {
+S calc_warm_temperature_K(const models::Corner<S>& corner, const S& load_N, const rigs::RigStart<S>& start) {
   const models::Context<S>& context = corner.context();
   const S speed_m_s = models::get_reference_speed_m_s<S>();
   const S cooling_W_per_K = context.tire.thermal.z_W_per_K + context.tire.thermal.f_W_s_per_m_K * speed_m_s;
@@ -174,7 +174,7 @@ sim::Recording<S> replay_road_run(const MeasurementSet& set, const MeasuredRun& 
     means.add(part, values);
     return traction_N;
   };
-  const rigs::DrumStart<S> start = make_replay_start<S>(run, kStandardAtmosphere_Pa);
+  const rigs::RigStart<S> start = make_replay_start<S>(run, kStandardAtmosphere_Pa);
   const bool begins_warm = run.started_warm && set.baseline == models::Baseline::kCombined;  // else no loss sees it
   const S tire_temperature_K = begins_warm ? calc_warm_temperature_K(corner, load_N, start) : start.tire_temperature_K;
   march(corner, start, tire_temperature_K, load_N, intervals, observer, evaluate, record);

@@ -82,6 +82,12 @@ SlipForce<S> calc_slip_force(const ContactParameters<S>& p, const S& speed_m_s, 
   return slip;
 }
 
+/// Energy of a linear spring [J].
+template <class S>
+S calc_spring_J(const S& stiffness_N_per_m, const S& deflection_m) {
+  return S(0.5) * stiffness_N_per_m * deflection_m * deflection_m;
+}
+
 /// Contact parameters of a tire. Without slip compliance the contact is as stiff in slip as the numerics
 /// allow; with it (effect slip_loss), it has that stiffness and the tire's relaxation length.
 /// Assumed: 2e7 N and 0.02 m in the stiff case (dissipation Fx^2/C is 0.05 N at 1 kN), critical damping

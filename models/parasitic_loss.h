@@ -31,4 +31,11 @@ S calc_parasitic_N(const ParasiticParameters<S>& p, const S& speed_m_s) {
   return p.c0_N + p.c1_N_s_per_m * speed_m_s + p.c2_N_s2_per_m2 * speed_m_s * speed_m_s;
 }
 
+/// The same at a speed of either sign, against the motion, gone at rest.
+template <class S>
+S calc_faded_parasitic_N(const ParasiticParameters<S>& p, const S& speed_m_s) {
+  using std::abs;
+  return calc_standstill_fade(speed_m_s) * calc_parasitic_N(p, S(abs(speed_m_s)));
+}
+
 }  // namespace rollrig::models

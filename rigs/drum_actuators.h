@@ -1,10 +1,9 @@
 #pragma once
-/// Motor of the drum and load cylinder of the carriage, as one force element of Simbody.
+/// Motor of the drum and load cylinder of the carriage, with the wheel that they press on the drum.
 
-#include <Simbody.h>
-
-#include "models/contact_force_element.h"
+#include "rigs/drum_channels.h"
 #include "rigs/rig_file.h"
+#include "rigs/rig_forces.h"
 
 namespace rollrig::rigs {
 
@@ -24,41 +23,35 @@ struct ActuatorEvaluation {
 ///           comes to carry the load asked for; e [N] takes up each jump of it; damper c dz/dt
 /// Source    Assumed: gains; the load and weight from statics
 /// Checked   tests/rigs/multibody_drum_test.cpp
-class DrumActuators : public SimTK::Force::Custom::Implementation {
+class DrumActuators : public RigForces {
  public:
   struct Bodies {
-    SimTK::MobilizedBodyIndex drum;
-    SimTK::MobilizedBodyIndex carriage;
-    SimTK::MobilizedBodyIndex wheel;
+    SimTK::MobilizedBody drum;
+    SimTK::MobilizedBody carriage;
   };
 
-  DrumActuators(const SimTK::GeneralForceSubsystem& forces, const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies,
-                const RigFile& rig, const models::ContactForceElement& contact, const models::Context<double>& context);
+  DrumActuators(const SimTK::GeneralForceSubsystem& forces, models::WheelContact contact, Bodies bodies,
+                const RigFile& rig, const PresentProgram& present);
 
-  void set_motor(bool on) { motor_on_ = on; }
-  bool motor_on() const { return motor_on_; }
-  /// Auxiliary states: integral of the speed error, then the cylinder's lag e.
-  SimTK::ZIndex integral_z() const { return integral_z_; }
-  SimTK::ZIndex lag_z() const { return SimTK::ZIndex(integral_z_ + 1); }
+  /// Own states: integral of the speed error, then the cylinder's lag e.
+  SimTK::ZIndex integral_z() const { return own_z(); }
+  SimTK::ZIndex lag_z() const { return SimTK::ZIndex(own_z() + 1); }
   /// Integral of the speed error at which the motor gives a torque at constant speed.
   double find_integral_rad(double torque_Nm, double speed_m_s, double load_N) const;
 
+  /// Inputs that really act, at the present time of a state.
+  models::InputPort<double> find_acting(const SimTK::State& state) const;
   /// At a state realized to Velocity; `acting` are the inputs that really act.
   ActuatorEvaluation evaluate(const SimTK::State& state, const models::InputPort<double>& acting) const;
 
-  void realizeTopology(SimTK::State& state) const override;
-  void realizeAcceleration(const SimTK::State& state) const override;
-  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                 SimTK::Vector_<SimTK::Vec3>& particle_forces, SimTK::Vector& mobility_forces) const override;
-  SimTK::Real calcPotentialEnergy(const SimTK::State&) const override { return 0.0; }
-
  private:
+  models::InputPort<double> find_recorded(const SimTK::State& state, std::size_t wheel) const override;
+  void add_own_forces(const SimTK::State& state, const Contacts& contacts,
+                      SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector& mobility_forces) const override;
+  void put_own_rates(const SimTK::State& state, const Contacts& contacts, double* z_rates) const override;
   double calc_effective_inertia_kg_m2(double load_N) const;
   double calc_friction_feedforward_Nm(double speed_m_s) const;
-  double drum_speed_rad_s(const SimTK::State& state) const;
 
-  const SimTK::GeneralForceSubsystem& forces_;
-  const SimTK::SimbodyMatterSubsystem& matter_;
   Bodies bodies_;
   double radius_m_;
   double inertia_kg_m2_;
@@ -66,10 +59,8 @@ class DrumActuators : public SimTK::Force::Custom::Implementation {
   double damping_N_s_per_m_;
   double load_time_constant_s_;
   double weight_N_;
-  const models::ContactForceElement& contact_;
   const models::Context<double>& context_;
-  bool motor_on_ = true;
-  mutable SimTK::ZIndex integral_z_;
+  const PresentProgram& present_;
 };
 
 }  // namespace rollrig::rigs

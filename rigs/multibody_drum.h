@@ -29,7 +29,7 @@ struct DrumForces {
 /// Checked   tests/rigs/multibody_drum_test.cpp, tests/rigs/fidelities_test.cpp
 class MultibodyDrum : public MultibodyRig {
  public:
-  MultibodyDrum(models::Corner<double>& corner, const RigFile& rig, DrumStart<double> start, bool surface_recorded);
+  MultibodyDrum(models::Corner<double>& corner, const RigFile& rig, RigStart<double> start, bool surface_recorded);
 
   const models::Inflation<double>& inflation() const;
   /// Everything at one state, joint reactions included.

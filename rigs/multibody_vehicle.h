@@ -41,8 +41,8 @@ struct VehicleForces {
 /// Checked  tests/rigs/multibody_vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
 class MultibodyVehicle : public MultibodyRig {
  public:
-  MultibodyVehicle(std::vector<models::Corner<double>>& corners, const VehicleLayout& layout,
-                   const VehicleFile& vehicle, const RigFile& rig, VehicleStart<double> start, bool surface_recorded);
+  MultibodyVehicle(std::vector<models::Corner<double>>& corners, const VehicleLayout& layout, RigStart<double> start,
+                   bool surface_recorded);
 
   /// Everything at one state, joint reactions included.
   VehicleForces find_forces(double time_s, const double* state);

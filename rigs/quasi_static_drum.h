@@ -2,12 +2,8 @@
 /// The drum rig with its mechanics in equilibrium: thermal and effect states alone, and the speed when
 /// the motor is off.
 
-#include <vector>
-
-#include "models/corner.h"
-#include "models/wheel/rolling_wheel.h"
 #include "rigs/drum_channels.h"
-#include "sim/ode_system.h"
+#include "rigs/quasi_static_rig.h"
 
 namespace rollrig::rigs {
 
@@ -19,54 +15,36 @@ namespace rollrig::rigs {
 /// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
 ///           "load_changes" of the mechanical audit
 /// Source    baseline.md, "Rig"
-/// Checked   tests/rigs/fidelities_test.cpp, tests/rigs/fidelities_test.cpp
+/// Checked   tests/rigs/fidelities_test.cpp
 template <class S>
-class QuasiStaticDrum : public sim::OdeSystem<S> {
+class QuasiStaticDrum : public QuasiStaticRig<S> {
  public:
-  QuasiStaticDrum(models::Corner<S>& corner, DrumStart<S> start, bool surface_recorded, Detail detail);
-
-  std::size_t state_count() const override { return kFirstCornerState + corner_.state_count(); }
-  std::vector<double> state_tolerances() const override;
-  const std::vector<sim::Integral>& integrals() const override { return integrals_; }
-  const std::vector<sim::Store>& stores() const override { return stores_; }
-  const std::vector<sim::Channel>& channels() const override { return channels_; }
+  QuasiStaticDrum(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded, Detail detail);
 
   void initialize(const sim::Segment& first, double time_s, S* state) override;
-  void begin_phase(const sim::Phase& phase, double time_s, S* state) override;
   void begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) override;
   void evaluate(double time_s, const S* state, S* rates, S* integrands) override;
-  void require_possible(const S* state) const override;
-  S watch(const std::string& name, double time_s, const S* state) override;
   void observe(double time_s, const S* state, S* values) override;
   void calc_stored(double time_s, const S* state, S* stored_J) override;
 
-  const models::Inflation<S>& inflation() const { return now_.inflation; }
-
  private:
+  using Base = QuasiStaticRig<S>;
+  using Base::present_;
+  using Base::wheels_;
   static constexpr std::size_t kSpeedState = 0;
-  static constexpr std::size_t kFirstCornerState = 1;
 
   void find_motion(double time_s, const S* state);
   void fill_integrands(S* integrands) const;
   S calc_effective_mass_kg() const;
-  S find_recorded_speed_m_s() const {
-    return models::calc_recorded_speed_m_s(now_.motion.speed_m_s, now_.recorded, now_.acting);
-  }
-  S calc_mechanical_J() const;
+  S calc_kinetic_J() const;
+  S calc_spring_J() const;
+  S find_recorded_speed_m_s(double time_s, const S* state) override;
 
-  models::Corner<S>& corner_;
-  DrumStart<S> start_;
-  bool surface_recorded_;
+  const models::Context<S>& context() const { return wheels_.front().corner->context(); }
+  models::Instant<S>& now() { return wheels_.front().now; }
+  const models::Instant<S>& now() const { return wheels_.front().now; }
+
   Detail detail_;
-  std::vector<sim::Integral> integrals_;
-  std::vector<sim::Store> stores_;
-  std::vector<sim::Channel> channels_;
-
-  sim::Segment segment_;
-  double segment_start_s_ = 0.0;
-  bool motor_on_ = true;
-  models::Instant<S> now_;
-  models::RollingWheel<S> wheel_;
   S drum_torque_Nm_{};
 };
 

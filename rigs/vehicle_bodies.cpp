@@ -3,32 +3,17 @@
 #include <algorithm>
 
 #include "models/wheel/rolling_wheel.h"
+#include "rigs/simbody_system.h"
 
 namespace rollrig::rigs {
 
 using SimTK::MobilizedBody;
-using SimTK::Rotation;
 using SimTK::Transform;
 using SimTK::Vec3;
 
 namespace {
 
-// A slider moves along its frame's x axis, here the ground's y; a pin turns about its frame's z axis, here the
-// ground's -z, so that a wheel that rolls forwards turns positively.
-Transform upwards(const Vec3& at_m) { return {Rotation(SimTK::Pi / 2, SimTK::ZAxis), at_m}; }
-const Transform kUpwards(Rotation(SimTK::Pi / 2, SimTK::ZAxis), Vec3(0));
-const Transform kReversed(Rotation(SimTK::Pi, SimTK::XAxis), Vec3(0));
-constexpr double kTransverseShare = 0.6;  // between a disk (0.5) and a ring; no motion depends on it
-
-SimTK::Body::Rigid make_rotor(double mass_kg, double spin_inertia_kg_m2) {
-  const double transverse_kg_m2 = kTransverseShare * spin_inertia_kg_m2;
-  return SimTK::Body::Rigid(
-      SimTK::MassProperties(mass_kg, Vec3(0), SimTK::Inertia(transverse_kg_m2, transverse_kg_m2, spin_inertia_kg_m2)));
-}
-
-SimTK::Body::Rigid make_point(double mass_kg) {
-  return SimTK::Body::Rigid(SimTK::MassProperties(mass_kg, Vec3(0), SimTK::Inertia(mass_kg)));
-}
+Transform upwards(const Vec3& at_m) { return {kUpwards.R(), at_m}; }
 
 /// The sprung mass: its center where the suspensions' preloads balance, its pitch inertia that of masses
 /// over the axles (m a b, usual of passenger cars). Assumed.
@@ -51,57 +36,56 @@ SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& 
 }
 
 /// What moves along the road with the vehicle and is in no other body; negative where those have more.
-double calc_other_mass_kg(const VehicleLayout& layout, const models::TireParameters<double>& tire, double mass_factor) {
+double calc_other_mass_kg(const VehicleLayout& layout, const VehicleBodies& bodies, const Tires& tires,
+                          double mass_factor) {
   double spin_kg = 0.0;
-  for (const WheelPlace& wheel : layout.wheels) {
-    spin_kg += models::calc_spin_mass_kg(tire, calc_loaded_radius_m(tire, wheel.static_load_N));
+  for (std::size_t i = 0; i < tires.size(); ++i) {
+    spin_kg += models::calc_spin_mass_kg(*tires[i], bodies.wheels[i].loaded_radius_m);
   }
   const double total_kg = mass_factor * (layout.mass_kg + layout.rotating_mass_kg) - spin_kg;
   return layout.rig_kind == RigKind::kFlat ? total_kg - layout.mass_kg : total_kg;
 }
 
-void add_wheel(SimTK::SimbodyMatterSubsystem& matter, VehicleBodies& bodies, std::size_t i, const WheelPlace& place,
-               const VehicleFile& vehicle, const models::TireParameters<double>& tire, double roller_radius_m) {
+void add_wheel(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout,
+               const models::TireParameters<double>& tire, std::size_t i, VehicleBodies& bodies) {
   VehicleBodies::Wheel& wheel = bodies.wheels[i];
-  const Vec3 hub_m(place.axle_x_m, wheel.loaded_radius_m - calc_body_height_m(vehicle), 0);
+  const double axle_x_m = layout.wheels[i].axle_x_m;
+  const Vec3 hub_m(axle_x_m, wheel.loaded_radius_m - layout.body_height_m, 0);
   wheel.upright =
-      MobilizedBody::Slider(bodies.body, upwards(hub_m), make_point(vehicle.suspension.unsprung_mass_kg), kUpwards);
-  wheel.wheel = MobilizedBody::Pin(
-      wheel.upright, kReversed,
-      make_rotor(tire.geometry.mass_kg + tire.geometry.wheel_mass_kg, tire.geometry.spin_inertia_kg_m2), kReversed);
-  if (roller_radius_m <= 0.0) return;
-  wheel.roller = MobilizedBody::Pin(
-      matter.Ground(), Transform(Vec3(place.axle_x_m, -roller_radius_m, 0)),
-      make_rotor(wheel.roller_mass_kg, wheel.roller_mass_kg * roller_radius_m * roller_radius_m), Transform());
+      MobilizedBody::Slider(bodies.body, upwards(hub_m), make_block(layout.suspension.unsprung_mass_kg), kUpwards);
+  wheel.wheel = MobilizedBody::Pin(wheel.upright, kReversed, make_wheel(tire), kReversed);
+  if (layout.rig_kind == RigKind::kFlat) return;
+  const double radius_m = layout.roller_radius_m;
+  wheel.roller =
+      MobilizedBody::Pin(matter.Ground(), Transform(Vec3(axle_x_m, -radius_m, 0)),
+                         make_rotor(wheel.roller_mass_kg, wheel.roller_mass_kg * radius_m * radius_m), Transform());
 }
 
 }  // namespace
 
-double calc_body_height_m(const VehicleFile& vehicle) { return vehicle.geometry.centre_of_gravity_height_m; }
-
-VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout,
-                                 const VehicleFile& vehicle, const RigFile& rig,
-                                 const models::TireParameters<double>& tire, double mass_factor) {
+VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout, const Tires& tires,
+                                 double mass_factor) {
   const bool flat = layout.rig_kind == RigKind::kFlat;
   const bool whole = layout.wheels.size() > 1;
   VehicleBodies bodies;
   bodies.wheels.resize(layout.wheels.size());
-  const double unsprung_N = kStandardGravity_m_s2 *
-                            (vehicle.suspension.unsprung_mass_kg + tire.geometry.mass_kg + tire.geometry.wheel_mass_kg);
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
+    const auto& geometry = tires[i]->geometry;
+    const double unsprung_N =
+        kStandardGravity_m_s2 * (layout.suspension.unsprung_mass_kg + geometry.mass_kg + geometry.wheel_mass_kg);
     bodies.wheels[i].preload_N = layout.wheels[i].static_load_N - unsprung_N;
-    bodies.wheels[i].loaded_radius_m = calc_loaded_radius_m(tire, layout.wheels[i].static_load_N);
+    bodies.wheels[i].loaded_radius_m = calc_loaded_radius_m(*tires[i], layout.wheels[i].static_load_N);
   }
-  const double other_kg = calc_other_mass_kg(layout, tire, mass_factor);
+  const double other_kg = calc_other_mass_kg(layout, bodies, tires, mass_factor);
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
     bodies.wheels[i].roller_mass_kg = other_kg * layout.wheels[i].static_load_N / layout.rolling_load_N;
   }
-  const Vec3 height_m(0, calc_body_height_m(vehicle), 0);
+  const Vec3 height_m(0, layout.body_height_m, 0);
   const SimTK::Body::Rigid sprung = make_sprung_body(layout, bodies, flat ? std::max(0.0, -other_kg) : 0.0);
   MobilizedBody* base = &matter.Ground();
   if (flat || whole) {
     bodies.sled = MobilizedBody::Slider(matter.Ground(), Transform(height_m),
-                                        make_point(flat ? std::max(0.0, other_kg) : 0.0), Transform());
+                                        make_block(flat ? std::max(0.0, other_kg) : 0.0), Transform());
     base = &bodies.sled;
   }
   const Vec3 start_m = bodies.has_sled() ? Vec3(0) : height_m;
@@ -110,9 +94,7 @@ VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const Ve
   bodies.heave = MobilizedBody::Slider(*base, upwards(start_m), pitches ? massless : SimTK::Body(sprung), kUpwards);
   bodies.body = bodies.heave;
   if (pitches) bodies.body = MobilizedBody::Pin(bodies.heave, Transform(), sprung, Transform());
-  for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
-    add_wheel(matter, bodies, i, layout.wheels[i], vehicle, tire, flat ? 0.0 : rig.drum.diameter_m / 2.0);
-  }
+  for (std::size_t i = 0; i < layout.wheels.size(); ++i) add_wheel(matter, layout, *tires[i], i, bodies);
   return bodies;
 }
 

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "rigs/rig_file.h"
 #include "rigs/vehicle_layout.h"
 
 namespace rollrig::rigs {
@@ -28,14 +27,13 @@ struct VehicleBodies {
   bool has_sled() const { return !sled.isEmptyHandle(); }
 };
 
+/// One of each wheel.
+using Tires = std::vector<const models::TireParameters<double>*>;
+
 /// Adds them to `matter`. All coordinates are 0 with every wheel under its static load and no restraint.
 /// `mass_factor` is on all that the vehicle's longitudinal motion accelerates (effect inertia_error). Where that
 /// is less than the bodies on the road have mass, the sprung body is lighter and `ballast_N` makes up its weight.
-VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout,
-                                 const VehicleFile& vehicle, const RigFile& rig,
-                                 const models::TireParameters<double>& tire, double mass_factor);
-
-/// Height of the body's origin, the center of gravity, above rollers or road when all coordinates are 0 [m].
-double calc_body_height_m(const VehicleFile& vehicle);
+VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout, const Tires& tires,
+                                 double mass_factor);
 
 }  // namespace rollrig::rigs

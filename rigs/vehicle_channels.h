@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "rigs/drum_channels.h"
+#include "models/corner.h"
+#include "rigs/rig_system.h"
 #include "rigs/vehicle_layout.h"
-#include "sim/ode_system.h"
 
 namespace rollrig::rigs {
 
@@ -14,9 +14,6 @@ namespace rollrig::rigs {
 /// evaluation counts (above the speed from which the source trusts its model, §4.2.1), else 0.
 enum class VehicleInput : std::size_t { kSpeed, kAmbient, kSurface, kSlope, kWind, kCounted };
 constexpr std::size_t kVehicleInputCount = 6;
-
-/// Command beside kSetPressure: 1 the driver follows the speed, 0 neutral, the vehicle coasts.
-constexpr const char* kDriver = "driver";
 
 /// Integrals of the vehicle as a whole, which stand first.
 enum class VehicleIntegral : std::size_t {
@@ -59,11 +56,8 @@ enum class WheelIntegral : std::size_t {
   kCount
 };
 
-enum class VehicleStore : std::size_t { kKinetic, kGravity, kSprings, kSlipSpring, kHeat, kCount };
-
 constexpr std::size_t index_of(VehicleInput input) { return static_cast<std::size_t>(input); }
 constexpr std::size_t index_of(VehicleIntegral integral) { return static_cast<std::size_t>(integral); }
-constexpr std::size_t index_of(VehicleStore store) { return static_cast<std::size_t>(store); }
 constexpr std::size_t index_of(WheelIntegral integral, std::size_t wheel) {
   return index_of(VehicleIntegral::kCount) + wheel * static_cast<std::size_t>(WheelIntegral::kCount) +
          static_cast<std::size_t>(integral);
@@ -84,27 +78,98 @@ std::string wheel_channel(const std::string& name, const WheelPlace& wheel);
 /// channels are the first wheel's; empty for those of other wheels.
 std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel);
 
-/// The recorded inputs of a segment at a time. Load, longitudinal and brake force are the rig's to fill.
+/// What is recorded at a time. Load, longitudinal and brake force are the rig's to fill.
 template <class S>
-models::InputPort<S> read_vehicle_inputs(const sim::Segment& segment, double elapsed_s, bool surface_recorded) {
-  const auto value = [&](VehicleInput input) { return S(segment.inputs[index_of(input)].at(elapsed_s)); };
+models::InputPort<S> read_vehicle_inputs(const PresentProgram& present, double time_s) {
+  const double elapsed_s = present.elapsed_s(time_s);
+  const std::vector<sim::Ramp>& given = present.segment.inputs;
+  const auto value = [&](VehicleInput input) { return S(given[index_of(input)].at(elapsed_s)); };
   models::InputPort<S> inputs;
   inputs.speed_m_s = value(VehicleInput::kSpeed);
-  inputs.acceleration_m_s2 = S(segment.inputs[index_of(VehicleInput::kSpeed)].slope_per_s);
-  inputs.load_N = S(0.0);
+  inputs.acceleration_m_s2 = S(given[index_of(VehicleInput::kSpeed)].slope_per_s);
   inputs.ambient_K = value(VehicleInput::kAmbient);
-  inputs.surface_recorded = surface_recorded;
-  inputs.surface_K = surface_recorded ? value(VehicleInput::kSurface) : inputs.ambient_K;
-  inputs.longitudinal_force_N = S(0.0);
-  inputs.brake_force_N = S(0.0);
+  inputs.surface_recorded = present.surface_recorded;
+  inputs.surface_K = present.surface_recorded ? value(VehicleInput::kSurface) : inputs.ambient_K;
   inputs.slope = value(VehicleInput::kSlope);
   inputs.wind_m_s = value(VehicleInput::kWind);
   inputs.air_density_ratio = S(1.0);
   return inputs;
 }
 
-/// How a run of a vehicle starts: every tire at one temperature and pressure.
+/// What goes into a vehicle, is stored by no spring and lost at an instant.
 template <class S>
-using VehicleStart = DrumStart<S>;
+struct VehiclePowers {
+  S motor_W{};   // of the motor at the simulated hubs
+  S drive_W{};   // of all of it
+  S roller_W{};  // of rollers, or slope, and of the rest of the vehicle on what is simulated
+  S tire_W{};
+  S slip_W{};
+  S bearing_W{};
+  S brake_W{};
+  S drag_W{};
+  S tire_damper_W{};
+  S suspension_damper_W{};
+  models::HeatFlows<S> heat;
+
+  void add_slip_and_heat(const models::Instant<S>& wheel) {
+    slip_W += wheel.motion.slip_power_W;
+    heat.heat_in_W += wheel.heat.heat_in_W;
+    heat.to_air_W += wheel.heat.to_air_W;
+    heat.to_road_W += wheel.heat.to_road_W;
+  }
+};
+
+/// 1 where the program counts, else 0.
+inline double read_counted(const PresentProgram& present) {
+  return present.segment.inputs[index_of(VehicleInput::kCounted)].start;
+}
+
+/// Integrands of the vehicle as a whole; `traction_N` as in VehicleIntegral::kTraction.
+template <class S>
+void put_vehicle_integrands(const PresentProgram& present, const S& traction_N, const S& speed_m_s,
+                            const VehiclePowers<S>& power, S* integrands) {
+  using std::abs;
+  const auto put = [integrands](VehicleIntegral integral, const S& value) { integrands[index_of(integral)] = value; };
+  const S counted(read_counted(present));
+  put(VehicleIntegral::kTraction, traction_N);
+  put(VehicleIntegral::kDistance, speed_m_s);
+  put(VehicleIntegral::kCountedTime, counted);
+  put(VehicleIntegral::kCountedDistance, counted * speed_m_s);
+  put(VehicleIntegral::kDriveEnergy, positive_part(power.drive_W));
+  put(VehicleIntegral::kRecuperated, positive_part(S(-power.drive_W)));
+  put(VehicleIntegral::kDriveWork, power.motor_W);
+  put(VehicleIntegral::kRollerWork, power.roller_W);
+  put(VehicleIntegral::kThroughput, S(abs(power.motor_W)) + S(abs(power.roller_W)));
+  put(VehicleIntegral::kKnotWork, zero<S>());
+  put(VehicleIntegral::kTireLoss, power.tire_W);
+  put(VehicleIntegral::kSlipLoss, power.slip_W);
+  put(VehicleIntegral::kBearingLoss, power.bearing_W);
+  put(VehicleIntegral::kBrakeLoss, power.brake_W);
+  put(VehicleIntegral::kDragLoss, power.drag_W);
+  put(VehicleIntegral::kTireDamperLoss, power.tire_damper_W);
+  put(VehicleIntegral::kSuspensionDamperLoss, power.suspension_damper_W);
+  put_heat(power.heat, &integrands[index_of(VehicleIntegral::kHeatGenerated)]);
+}
+
+/// Integrands of a wheel whose first one is `first`.
+template <class S>
+void put_wheel_integrands(const PresentProgram& present, const models::Instant<S>& now, const S& loss_force_N,
+                          S* first) {
+  const auto put = [first](WheelIntegral integral, const S& value) {
+    first[static_cast<std::size_t>(integral)] = value;
+  };
+  const S counted(read_counted(present));
+  const S rolling_W = now.rolling_resistance_N * now.motion.rolling_speed_m_s;
+  const bool touches = value_of(now.motion.load_N) > 0.0;
+  put(WheelIntegral::kLossForce, loss_force_N);
+  put_tire_readings(now, first + static_cast<std::size_t>(WheelIntegral::kLinerTemperature));
+  put(WheelIntegral::kRollingResistance, now.rolling_resistance_N);
+  put(WheelIntegral::kParasitic, now.parasitic_N);
+  put(WheelIntegral::kLongitudinalForce, now.recorded.longitudinal_force_N);
+  put(WheelIntegral::kContactLoad, now.motion.load_N);
+  put(WheelIntegral::kRollingEnergy, rolling_W);
+  put(WheelIntegral::kCountedRollingEnergy, counted * rolling_W);
+  put(WheelIntegral::kCountedRrc, touches ? S(counted * now.rolling_resistance_N / now.motion.load_N) : zero<S>());
+}
 
 }  // namespace rollrig::rigs

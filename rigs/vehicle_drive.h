@@ -1,14 +1,13 @@
 #pragma once
-/// Everything that perturbations a multibody vehicle but its tires: driver, motor, brakes, rollers, drag, suspension
-/// and tie-downs, as one force element of Simbody.
-
-#include <Simbody.h>
+/// Everything that drives a multibody vehicle or holds it back beside its tires: driver, motor, brakes, rollers, drag,
+/// suspension and tie-downs.
 
 #include <vector>
 
-#include "models/contact_force_element.h"
 #include "models/vehicle/vehicle.h"
-#include "rigs/vehicle_layout.h"
+#include "rigs/rig_forces.h"
+#include "rigs/vehicle_bodies.h"
+#include "rigs/vehicle_channels.h"
 
 namespace rollrig::rigs {
 
@@ -49,74 +48,52 @@ struct DriveEvaluation {
 ///           what all hubs do, and keeps pace with the others
 /// Source    (3.20), §3.4.2, §3.4.3. Assumed: gains, 20 rad/s for w_s
 /// Checked   tests/rigs/multibody_vehicle_test.cpp
-class VehicleDrive : public SimTK::Force::Custom::Implementation {
+class VehicleDrive : public RigForces {
  public:
-  struct Wheel {
-    const models::ContactForceElement* contact = nullptr;
-    SimTK::MobilizedBodyIndex wheel;
-    SimTK::MobilizedBodyIndex upright;
-    SimTK::MobilizedBodyIndex roller;  // invalid on the flat
-    double roller_mass_kg = 0.0;       // inertia over R^2
-    double preload_N = 0.0;            // of the suspension at its middle
-    double ballast_N = 0.0;            // weight without inertia, on the body over this wheel
-  };
-  struct Bodies {
-    SimTK::MobilizedBodyIndex body;
-    SimTK::MobilizedBodyIndex sled;  // moves along the road under the body; invalid where it cannot
-    std::vector<Wheel> wheels;
-  };
+  /// `bodies`, `layout` and `present` outlive it.
+  VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vector<models::WheelContact> contacts,
+               const VehicleBodies& bodies, const VehicleLayout& layout, const PresentProgram& present);
 
-  VehicleDrive(const SimTK::GeneralForceSubsystem& forces, const SimTK::SimbodyMatterSubsystem& matter, Bodies bodies,
-               const VehicleLayout& layout, const VehicleFile& vehicle, const RigFile& rig,
-               const models::Context<double>& context);
-
-  void set_driver(bool on) { driver_on_ = on; }
-  bool driver_on() const { return driver_on_; }
-  SimTK::ZIndex integral_z() const { return integral_z_; }
+  SimTK::ZIndex integral_z() const { return own_z(); }
   /// Integral at which the driver asks for a force at steady speed.
   double find_integral_m(double force_N, const models::InputPort<double>& acting) const;
-
-  /// What the vehicle's program gives at a state's time, without forces; set before the first use.
-  std::function<models::InputPort<double>(double time_s)> program_inputs;
-  /// Inputs of one wheel with its longitudinal and brake force, as the contact element asks for them.
-  models::InputPort<double> find_recorded(const SimTK::State& state, std::size_t wheel) const;
 
   /// At a state realized to Velocity.
   const DriveEvaluation& evaluation(const SimTK::State& state) const;
 
-  void realizeTopology(SimTK::State& state) const override;
-  void realizeAcceleration(const SimTK::State& state) const override;
-  void calcForce(const SimTK::State& state, SimTK::Vector_<SimTK::SpatialVec>& body_forces,
-                 SimTK::Vector_<SimTK::Vec3>& particle_forces, SimTK::Vector& mobility_forces) const override;
-  /// Springs of suspension and tie-down.
-  SimTK::Real calcPotentialEnergy(const SimTK::State& state) const override;
+  /// What goes in and is lost but for tires and bearings, at a state realized to Velocity.
+  VehiclePowers<double> find_powers(const SimTK::State& state) const;
+
+  /// Suspension and tie-downs.
+  double calc_own_springs_J(const SimTK::State& state) const override;
 
  private:
+  models::InputPort<double> find_recorded(const SimTK::State& state, std::size_t wheel) const override;
+  void add_own_forces(const SimTK::State& state, const Contacts& contacts,
+                      SimTK::Vector_<SimTK::SpatialVec>& body_forces, SimTK::Vector& mobility_forces) const override;
+  void put_own_rates(const SimTK::State& state, const Contacts& contacts, double* z_rates) const override;
+  void allocate_own_caches(SimTK::State& state) const override;
+
   bool is_flat() const { return layout_.rig_kind == RigKind::kFlat; }
+  /// What the vehicle's program gives for a wheel, without forces.
+  models::InputPort<double> read_program(const SimTK::State& state, std::size_t wheel) const;
   void evaluate(const SimTK::State& state, DriveEvaluation& at) const;
   void find_speed(const SimTK::State& state, DriveEvaluation& at) const;
   void find_demand(const SimTK::State& state, DriveEvaluation& at) const;
   void find_wheel(const SimTK::State& state, std::size_t i, const models::ForceDemand<double>& demand,
                   DriveEvaluation& at) const;
-  double find_restraint_N(const SimTK::State& state, std::size_t i, const DriveEvaluation& at) const;
   void share_restraint(DriveEvaluation& at) const;
   void share_among_rollers(DriveEvaluation& at) const;
   void find_suspension(const SimTK::State& state, std::size_t i, DriveEvaluation& at) const;
   double calc_feedforward_N(const models::InputPort<double>& acting) const;
+  double calc_assist_Nm(const DriveEvaluation& at) const;
+  double calc_given_W(const SimTK::State& state, std::size_t i) const;
   double calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const;
 
-  const SimTK::GeneralForceSubsystem& forces_;
-  const SimTK::SimbodyMatterSubsystem& matter_;
-  Bodies bodies_;
-  VehicleLayout layout_;
-  VehicleSuspension suspension_;
-  TieDownParameters tie_down_;
-  double bandwidth_rad_s_;
-  double roller_radius_m_;
-  const models::Context<double>& context_;
+  const VehicleBodies& bodies_;
+  const VehicleLayout& layout_;
+  const PresentProgram& present_;
   double total_mass_kg_;
-  bool driver_on_ = true;
-  mutable SimTK::ZIndex integral_z_;
   mutable SimTK::CacheEntryIndex cache_;
 };
 

@@ -5,6 +5,8 @@
 namespace rollrig::rigs {
 namespace {
 
+constexpr double kDriverBandwidth_rad_s = 3.0;  // Assumed: on the road
+
 bool is_driven(const VehicleFile& vehicle, bool front) {
   return vehicle.driven_axle == DrivenAxle::kAll || (vehicle.driven_axle == DrivenAxle::kFront) == front;
 }
@@ -57,6 +59,11 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
   layout.air_density_kg_per_m3 = models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, ambient_K);
   layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
   layout.regeneration_fade_m_s = vehicle.powertrain.regeneration_fade_m_s;
+  layout.driver_bandwidth_rad_s = rig.kind == RigKind::kFlat ? kDriverBandwidth_rad_s : rig.drive.bandwidth_rad_s;
+  layout.roller_radius_m = rig.drum.diameter_m / 2.0;
+  layout.body_height_m = vehicle.geometry.centre_of_gravity_height_m;
+  layout.suspension = vehicle.suspension;
+  layout.tie_down = rig.tie_down;
   if (rig.kind == RigKind::kDyno) {
     layout.resistance = scale(set_load, share);
   } else if (vehicle.road_load.has_value()) {

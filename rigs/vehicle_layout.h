@@ -36,6 +36,11 @@ struct VehicleLayout {
   double air_density_kg_per_m3 = 0.0;
   double motor_limit_N = 0.0;  // most that the motor brakes
   double regeneration_fade_m_s = 0.0;
+  double driver_bandwidth_rad_s = 0.0;  // of the rollers' common speed as well
+  double roller_radius_m = 0.0;         // 0 on the flat
+  double body_height_m = 0.0;           // of the center of gravity above rollers or road
+  VehicleSuspension suspension;
+  TieDownParameters tie_down;
   /// Force of the rollers against the vehicle (§3.4.3, (3.20)); on the flat, the road load of a vehicle
   /// that is given by it alone.
   models::RoadLoad<double> resistance;

@@ -2,6 +2,7 @@
 /// Forces on a vehicle beside those of its tires.
 
 #include "models/ports.h"
+#include "models/vehicle/road_load.h"
 #include "sim/core/scalar.h"
 #include "sim/core/units.h"
 
@@ -40,6 +41,12 @@ S calc_grade_N(const S& mass_kg, const S& slope) {
   using std::sqrt;
   const S gravity_m_s2 = quantity<S>(kStandardGravity_m_s2, dimension::kAcceleration);
   return mass_kg * gravity_m_s2 * slope / sqrt(S(1.0) + slope * slope);
+}
+
+/// Road load that is gone at rest.
+template <class S>
+S calc_faded_road_load_N(const RoadLoad<S>& load, const S& speed_m_s) {
+  return calc_standstill_fade(speed_m_s) * calc_road_load_N(load, speed_m_s);
 }
 
 /// How a demand for force is shared between motor and friction brakes.

@@ -29,6 +29,12 @@ S calc_spin_mass_kg(const TireParameters<S>& tire, const S& loaded_radius_m) {
   return tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m * loaded_radius_m);
 }
 
+/// Kinetic energy [J].
+template <class S>
+S calc_kinetic_J(const S& mass_kg, const S& speed_m_s) {
+  return S(0.5) * mass_kg * speed_m_s * speed_m_s;
+}
+
 /// Energy in the spring of a tire that stands under a load, Fz^2/(2 k_z) [J].
 template <class S>
 S calc_tire_spring_J(const TireParameters<S>& tire, const S& load_N) {

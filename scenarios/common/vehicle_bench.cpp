@@ -8,8 +8,8 @@
 namespace rollrig::scenarios {
 namespace {
 
-rigs::VehicleStart<double> make_start(const RunSpec& spec, const VehicleConditions& conditions) {
-  rigs::VehicleStart<double> start;
+rigs::RigStart<double> make_start(const RunSpec& spec, const VehicleConditions& conditions) {
+  rigs::RigStart<double> start;
   start.tire_temperature_K = *conditions.initial_tire_K;
   start.cold_pressure_Pa = conditions.pressure_Pa;
   start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
@@ -26,9 +26,9 @@ void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, 
   const rigs::VehicleLayout layout = conditions.make_layout(spec);
   const models::Context<double> context = rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
   std::vector<models::Corner<double>> corners(layout.wheels.size(), models::Corner<double>(context, spec.effects));
-  const rigs::VehicleStart<double> start = make_start(spec, conditions);
+  const rigs::RigStart<double> start = make_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
-    rigs::MultibodyVehicle vehicle(corners, layout, *spec.vehicle, spec.rig, start, program.surface_recorded());
+    rigs::MultibodyVehicle vehicle(corners, layout, start, program.surface_recorded());
     outcome.recording = run_multibody(vehicle, program.program(), spec, progress, outcome.statistics);
   } else {
     rigs::QuasiStaticVehicle<double> vehicle(corners, layout, start, program.surface_recorded());

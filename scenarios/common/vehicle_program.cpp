@@ -19,7 +19,7 @@ VehicleProgram::VehicleProgram(const VehicleConditions& conditions, double sampl
 sim::Phase& VehicleProgram::append(const std::string& name) {
   sim::Phase phase;
   phase.name = name;
-  phase.commands = {{rigs::kDriver, 1.0}};
+  phase.commands = {{rigs::kDrive, 1.0}};
   program_.phases.push_back(phase);
   return program_.phases.back();
 }
@@ -92,7 +92,7 @@ void VehicleProgram::change_speed(const std::string& name, double duration_s, do
 
 void VehicleProgram::coast(const std::string& name, double end_m_s, double longest_s, double slope, double wind_m_s) {
   sim::Phase& phase = append(name);
-  phase.commands = {{rigs::kDriver, 0.0}};
+  phase.commands = {{rigs::kDrive, 0.0}};
   phase.max_step_s = kMaxStepCoasting_s;
   phase.until = sim::StopCondition{rigs::kWatchSpeed, end_m_s, sim::StopCondition::Direction::kFalling};
   const double start_m_s = speed_m_s_;

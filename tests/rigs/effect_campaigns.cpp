@@ -50,7 +50,7 @@ sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects, models::Ba
   choose_baseline(baseline, fixture);
   models::Corner<Jet> corner(models::convert_context<Jet>(fixture.context()), effects);
   corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
-  rigs::DrumStart<Jet> start;
+  rigs::RigStart<Jet> start;
   start.tire_temperature_K = Jet(fixture.initial_K);
   start.cold_pressure_Pa = Jet(fixture.cold_pressure_Pa);
   start.ambient_pressure_Pa = Jet(fixture.rig.environment.ambient_pressure_Pa);
@@ -131,8 +131,8 @@ sim::Recording<Jet> run_vehicle_with_derivatives(const VehicleFixture& fixture, 
   for (models::Corner<Jet>& corner : corners) {
     corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
   }
-  const rigs::VehicleStart<double> at = fixture.start();
-  rigs::VehicleStart<Jet> start;
+  const rigs::RigStart<double> at = fixture.start();
+  rigs::RigStart<Jet> start;
   start.tire_temperature_K = Jet(at.tire_temperature_K);
   start.cold_pressure_Pa = Jet(at.cold_pressure_Pa);
   start.ambient_pressure_Pa = Jet(at.ambient_pressure_Pa);

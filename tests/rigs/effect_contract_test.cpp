@@ -130,7 +130,9 @@ void check_reads_only_what_stands_before(const Effect& effect, models::RigKind k
   models::Instant<double> now;
   poison(now);
   now.inflation = DrumFixture().start().inflation();
-  now.recorded = rigs::read_drum_inputs<double>(tests::drum_segment(10.0, 20.0, 22.0, 5400.0), 5.0, false);
+  rigs::PresentProgram present;
+  present.take(tests::drum_segment(10.0, 20.0, 22.0, 5400.0), 0.0);
+  now.recorded = rigs::read_drum_inputs<double>(present, 5.0);
   now.recorded.brake_force_N = kind == models::RigKind::kDrum ? 0.0 : 500.0;
   corner.apply_inputs(x.data(), now);
   now.motion = {now.acting.speed_m_s, now.acting.acceleration_m_s2, now.acting.load_N, 30.0, 1.0, now.acting.speed_m_s};

@@ -156,7 +156,7 @@ TEST_CASE("a drum that coasts without tire load stops when the closed form says"
   fixture.rig.parasitic.c1_N_s_per_m = 1.5;
   sim::Program program;
   program.phases = {tests::rolling("coast", 2000.0, 30.0, 200.0)};
-  program.phases[0].commands = {{rigs::kMotor, 0.0}};
+  program.phases[0].commands = {{rigs::kDrive, 0.0}};
   program.phases[0].until = sim::StopCondition{rigs::kWatchSpeed, 1.0, sim::StopCondition::Direction::kFalling};
   // (m_eff) dv/dt = -(c0 + c1 v) from 30 to 1 m/s: t = m/c1 ln((c0 + 30 c1)/(c0 + c1))
   const double radius_m = 0.7176 / 2.0 - 200.0 / 220000.0;

@@ -29,8 +29,7 @@ struct Ran {
   double end_s;
 
   Ran(const VehicleFixture& fixture, const sim::Program& program)
-      : corners(fixture.corners()),
-        vehicle(corners, fixture.layout(), fixture.vehicle, fixture.rig, fixture.start(), false) {
+      : corners(fixture.corners()), vehicle(corners, fixture.layout(), fixture.start(), false) {
     sim::CvodesIntegrator integrator(vehicle, fixture.cvodes);
     recording = sim::simulate<double>(vehicle, integrator, program);
     end_s = recording.phases.back().end_s;

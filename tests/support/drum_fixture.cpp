@@ -12,8 +12,8 @@ models::TireFile read_asset_tire(const std::string& name) {
 
 rigs::RigFile read_asset_rig() { return rigs::read_rig(read_config(find_asset("rigs", "drum_2m"))); }
 
-rigs::DrumStart<double> DrumFixture::start() const {
-  rigs::DrumStart<double> at;
+rigs::RigStart<double> DrumFixture::start() const {
+  rigs::RigStart<double> at;
   at.tire_temperature_K = initial_K;
   at.cold_pressure_Pa = cold_pressure_Pa;
   at.ambient_pressure_Pa = rig.environment.ambient_pressure_Pa;

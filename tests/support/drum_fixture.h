@@ -30,7 +30,7 @@ struct DrumFixture {
 
   models::Context<double> context() const { return rigs::make_context(tire, rig, baseline); }
   models::Corner<double> corner() const { return {context(), effects}; }
-  rigs::DrumStart<double> start() const;
+  rigs::RigStart<double> start() const;
   sim::Recording<double> run_multibody(const sim::Program& program) const;
   sim::Recording<double> run_quasi_static(const sim::Program& program) const;
 };

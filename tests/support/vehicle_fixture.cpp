@@ -27,8 +27,8 @@ std::vector<models::Corner<double>> VehicleFixture::corners() const {
   return {layout().wheels.size(), models::Corner<double>(context(), effects)};
 }
 
-rigs::VehicleStart<double> VehicleFixture::start() const {
-  rigs::VehicleStart<double> at;
+rigs::RigStart<double> VehicleFixture::start() const {
+  rigs::RigStart<double> at;
   at.tire_temperature_K = 293.15;
   at.cold_pressure_Pa = cold_pressure_Pa;
   at.ambient_pressure_Pa = rig.environment.ambient_pressure_Pa;
@@ -37,7 +37,7 @@ rigs::VehicleStart<double> VehicleFixture::start() const {
 
 sim::Recording<double> VehicleFixture::run_multibody(const sim::Program& program) const {
   std::vector<models::Corner<double>> at = corners();
-  rigs::MultibodyVehicle system(at, layout(), vehicle, rig, start(), false);
+  rigs::MultibodyVehicle system(at, layout(), start(), false);
   sim::CvodesIntegrator integrator(system, cvodes);
   sim::Recording<double> recording = sim::simulate<double>(system, integrator, program);
   rigs::apply_trace_effects(at.front(), recording);
@@ -75,7 +75,7 @@ sim::Phase driving(const std::string& name, double duration_s, double speed_star
   sim::Phase phase;
   phase.name = name;
   phase.segments = {vehicle_segment(duration_s, speed_start_m_s, speed_end_m_s, slope)};
-  phase.commands = {{rigs::kDriver, 1.0}};
+  phase.commands = {{rigs::kDrive, 1.0}};
   return phase;
 }
 
@@ -83,7 +83,7 @@ sim::Phase coasting(double start_m_s, double end_m_s, double longest_s, double s
   sim::Phase phase;
   phase.name = "coast";
   phase.segments = {vehicle_segment(longest_s, start_m_s, start_m_s, slope, wind_m_s)};
-  phase.commands = {{rigs::kDriver, 0.0}};
+  phase.commands = {{rigs::kDrive, 0.0}};
   phase.max_step_s = 1.0;
   phase.until = sim::StopCondition{rigs::kWatchSpeed, end_m_s, sim::StopCondition::Direction::kFalling};
   return phase;

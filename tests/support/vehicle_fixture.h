@@ -39,7 +39,7 @@ struct VehicleFixture {
   rigs::VehicleLayout layout() const;
   models::Context<double> context() const { return rigs::make_vehicle_context(tire, rig, vehicle, baseline); }
   std::vector<models::Corner<double>> corners() const;
-  rigs::VehicleStart<double> start() const;
+  rigs::RigStart<double> start() const;
   sim::Recording<double> run_multibody(const sim::Program& program) const;
   sim::Recording<double> run_quasi_static(const sim::Program& program) const;
   sim::Recording<double> run(bool multibody, const sim::Program& program) const {

@@ -58,7 +58,7 @@ class FloorSum {
 
 sim::Recording<double> replay(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {});
-  rigs::DrumStart<double> start;
+  rigs::RigStart<double> start;
   start.tire_temperature_K = run.initial_tire_temperature_K;
   start.cold_pressure_Pa = run.cold_pressure_Pa;
   start.ambient_pressure_Pa = set.rig->environment.ambient_pressure_Pa;
