@@ -50,8 +50,6 @@ void add_fit_drum_coastdown_command(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_export_command(CLI::App& app, Action& action);
-/// make, run, score, plan, baselines and oracle below `blind`.
-void add_blind_command(CLI::App& app, Action& action);
 void add_completion_command(CLI::App& app, Action& action);
 void add_man_command(CLI::App& app, Action& action);
 

@@ -26,7 +26,7 @@ struct Options {
   OutputOptions output;
   std::string plan;
   bool force = false;
-  RaceOptions comparison;
+  ComparisonOptions comparison;
   int threads = 0;
 };
 

@@ -21,12 +21,12 @@ void require_effects(const char* option, const std::vector<std::string>& names) 
 
 }  // namespace
 
-void RaceOptions::add_to(CLI::App& command) {
+void ComparisonOptions::add_to(CLI::App& command) {
   command.add_option("--without", without, "Effects left out of the comparison: a,b")->delimiter(',');
   command.add_option("--only", only, "The only effects in the comparison: a,b")->delimiter(',');
 }
 
-void RaceOptions::check() const {
+void ComparisonOptions::check() const {
   require_effects("--without", without);
   require_effects("--only", only);
   for (const std::string& name : only) {

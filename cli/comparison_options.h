@@ -1,5 +1,5 @@
 #pragma once
-/// --only and --without: which effects are in the comparison, shared by diagnose and blind.
+/// --only and --without: which effects are in the comparison, shared by diagnose and validation.
 
 #include <CLI/CLI.hpp>
 
@@ -8,7 +8,7 @@
 
 namespace rollrig::cli {
 
-struct RaceOptions {
+struct ComparisonOptions {
   std::vector<std::string> only;
   std::vector<std::string> without;
 

@@ -1,21 +1,14 @@
 /// rollrig: the command line.
-#include <fmt/format.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <exception>
-#include <iostream>
 #include <map>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
-#include "cli/print.h"
-#include "cli/typo.h"
+#include "cli/program.h"
 #include "sim/core/error.h"
-#include "sim/core/interrupt.h"
 
 namespace rollrig::cli {
 namespace {
@@ -56,23 +49,19 @@ void add_examples(const CLI::App& app) {
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }
 
-int report(const char* kind, const InputProblem& problem, int status) {
-  std::cout << std::flush;
-  std::cerr << format_error(std::string(kind) + ": ", problem);
-  return status;
+/// What was `rollrig blind`.
+void add_moved_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("blind", "")->group("");
+  command->fallthrough(false)->prefix_command();
+  command->callback([&action] {
+    action = []() -> int {
+      throw InputError({"'rollrig blind' is a program of its own: rollrig_validation, see docs/validation.md", "", 0,
+                        "", "", "", ""});
+    };
+  });
 }
 
-int report(const char* kind, const std::string& what, int status) {
-  std::cout << std::flush;
-  std::istringstream text(std::string(kind) + ": " + what);
-  for (std::string line; std::getline(text, line);) {
-    // Lines that fit are as they should be: those of a list of terms, say.
-    std::cerr << (count_characters(line) <= 80 ? line + "\n" : wrap(line, 2).substr(2));
-  }
-  return status;
-}
-
-int parse_and_run(int argc, char** argv) {
+int make_and_run(int argc, char** argv) {
   CLI::App app{kDescription, "rollrig"};
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
@@ -92,42 +81,18 @@ int parse_and_run(int argc, char** argv) {
   add_diagnose_command(app, action);
   add_import_command(app, action);
   add_export_command(app, action);
-  add_blind_command(app, action);
+  add_moved_command(app, action);
   add_convert_command(app, action);
   add_completion_command(app, action);
   add_man_command(app, action);
   app.footer(kFooter);  // subcommands made after it would repeat it
   add_examples(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& wanted) {  // --help, --version
-    const int status = app.exit(wanted);
-    return std::cout.flush() ? status : report("error", "standard output cannot be written to", kInputError);
-  } catch (const CLI::ParseError& error) {
-    return report("error", explain_usage_error(app, error, argc, argv), kInputError);
-  }
-  const int status = action();
-  if (!std::cout.flush()) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
-  return status;
+  return parse_and_act(app, action, argc, argv);
 }
 
 }  // namespace
 }  // namespace rollrig::cli
 
 int main(int argc, char** argv) {
-  using namespace rollrig::cli;
-  rollrig::install_interrupt_handler();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("rollrig"));
-  spdlog::set_pattern("%^%l%$: %v");
-  try {
-    return parse_and_run(argc, argv);
-  } catch (const rollrig::InputError& error) {
-    return report("error", error.problem(), kInputError);
-  } catch (const rollrig::RunFailure& error) {
-    return report("run failed", error.what(), kRunFailed);
-  } catch (const rollrig::Interrupted&) {
-    return report("stopped", "nothing was written", kInterrupted);
-  } catch (const std::exception& error) {
-    return report("internal error", error.what(), kRunFailed);
-  }
+  return rollrig::cli::run_program([argc, argv] { return rollrig::cli::make_and_run(argc, argv); });
 }

@@ -55,7 +55,7 @@ std::string format_options(const CLI::App& app) {
 }
 
 std::vector<const CLI::App*> list_commands(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
 }
 
 /// A command and those below it, each with its options.

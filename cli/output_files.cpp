@@ -58,7 +58,8 @@ void OutputOptions::add_to(CLI::App& command, const char* json_doc, const char* 
 
 Output::Output(const OutputOptions& options)
     : options_(options),
-      folder_(options.folder.empty() ? std::nullopt : std::optional<OutputFolder>({options.folder, options.force})),
+      folder_(options.folder.empty() ? std::nullopt
+                                     : std::optional<OutputFolder>(std::in_place, options.folder, options.force)),
       files_({{"--json", options.json}, {"--html", options.html.path}}) {}
 
 void Output::write(const std::vector<std::pair<std::string, std::string>>& files, const std::string& json,

@@ -10,10 +10,10 @@ namespace {
 /// A call as far as it was understood.
 struct Call {
   const CLI::App& app;
-  const CLI::App* called;           // whose options were being read: the subcommand that the leading words name
-  std::vector<std::string> words;   // as typed
-  std::string command = "rollrig";  // the program and its subcommands
-  std::size_t next = 0;             // the first word that names none
+  const CLI::App* called;          // whose options were being read: the subcommand that the leading words name
+  std::vector<std::string> words;  // as typed
+  std::string command;             // the program and its subcommands
+  std::size_t next = 0;            // the first word that names none
 
   /// The word in place of a subcommand, where one is wanted; otherwise nothing.
   std::string find_unknown_command() const {
@@ -23,7 +23,7 @@ struct Call {
 };
 
 Call read_call(const CLI::App& app, int argc, char** argv) {
-  Call call{app, &app, {argv + 1, argv + argc}};
+  Call call{app, &app, {argv + 1, argv + argc}, app.get_name()};
   for (; call.next < call.words.size(); ++call.next) {
     const CLI::App* found = find_subcommand(*call.called, call.words[call.next]);
     if (found == nullptr) break;
@@ -64,6 +64,7 @@ std::string describe_problem(const Call& call, const CLI::ParseError& error) {
 std::vector<std::string> list_options(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
   return names;
@@ -71,7 +72,7 @@ std::vector<std::string> list_options(const CLI::App& app) {
 
 const CLI::App* find_subcommand(const CLI::App& app, const std::string& name) {
   for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (subcommand->get_name() == name) return subcommand;
+    if (subcommand->check_name(name)) return subcommand;
   }
   return nullptr;
 }
@@ -79,7 +80,7 @@ const CLI::App* find_subcommand(const CLI::App& app, const std::string& name) {
 std::vector<std::string> list_subcommands(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(subcommand->get_name());
+    if (!subcommand->get_group().empty()) names.push_back(subcommand->get_name());
   }
   return names;
 }

@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 # The shared library is found, and the assets are, wherever the prefix moves.
 file(RELATIVE_PATH rollrig_libraries_from_programs "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
 set_target_properties(rollrig PROPERTIES INSTALL_RPATH "$ORIGIN/${rollrig_libraries_from_programs}")
-install(TARGETS rollrig rollrig_blind RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+install(TARGETS rollrig RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(DIRECTORY assets/ DESTINATION "${CMAKE_INSTALL_DATADIR}/rollrig/assets")
 
 install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
@@ -16,7 +16,7 @@ install(FILES README.md CHANGELOG.md CITATION.cff LICENSE NOTICE.md DESTINATION 
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATTERN "*.md")
 
 # Libraries: rollrig::scenarios and its like.
-set(rollrig_folders models rigs measurements estimation scenarios diagnosis proof report exports)
+set(rollrig_folders models rigs measurements estimation scenarios diagnosis report exports)
 set(rollrig_targets rollrig_options rollrig_simbody rollrig_matio rollrig_sim_core rollrig_sim rollrig_cvodes)
 list(TRANSFORM rollrig_folders PREPEND rollrig_ OUTPUT_VARIABLE rollrig_folder_targets)
 list(APPEND rollrig_targets ${rollrig_folder_targets})
@@ -26,9 +26,7 @@ foreach(target IN LISTS rollrig_targets)
 endforeach()
 install(TARGETS ${rollrig_targets} EXPORT rollrigTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-set(rollrig_header_folders sim ${rollrig_folders})
-list(TRANSFORM rollrig_header_folders REPLACE "^proof$" "validation")
-foreach(folder IN LISTS rollrig_header_folders)
+foreach(folder IN LISTS rollrig_folders ITEMS sim)
   install(DIRECTORY ${folder} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/rollrig"
     FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "web" EXCLUDE)
 endforeach()

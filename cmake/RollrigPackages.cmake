@@ -38,14 +38,3 @@ string(REGEX REPLACE ".*\"(.*)\".*" "\\1" ROLLRIG_SUNDIALS_VERSION "${sundials_v
 if(ROLLRIG_SUNDIALS_VERSION VERSION_LESS 6.4)
   message(FATAL_ERROR "SUNDIALS 6.4 or newer is needed, found '${ROLLRIG_SUNDIALS_VERSION}'")
 endif()
-
-# MPI, where there is one: processes of mpirun share the sets of a bank (validation/scoring/ranks.cpp). The program works without.
-option(ROLLRIG_MPI "Share banks among the processes of mpirun, where MPI is found" ON)
-if(ROLLRIG_MPI)
-  find_package(MPI COMPONENTS CXX QUIET)
-endif()
-if(MPI_CXX_FOUND)
-  message(STATUS "rollrig blind runs under mpirun: MPI ${MPI_CXX_VERSION}")
-else()
-  message(STATUS "rollrig blind runs alone: no MPI")
-endif()

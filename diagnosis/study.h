@@ -12,7 +12,7 @@ namespace rollrig::diagnosis {
 
 struct StudySettings {
   std::vector<const Term*> terms;  // in the comparison
-  RacePriors priors;
+  ComparisonPriors priors;
   ModelError model_error;
   int threads = 0;  // 0: as many as the machine has
   std::function<void(double done, const std::string& stage)> progress = [](double, const std::string&) {};

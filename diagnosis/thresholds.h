@@ -1,16 +1,15 @@
 #pragma once
-/// Every number that decides what the diagnosis says, in one place: what a proof freezes before its bank is made.
+/// Every number that decides what the diagnosis says, in one place.
 ///
-/// tests/validation/scoring/frozen_thresholds_test.cpp holds this file to the SHA-256 in
-/// docs/blind_proof/frozen.sha256. Who changes a number runs a new bank, publishes it beside the old ones, and writes
-/// the new hash (docs/blind.md, "Freezing").
+/// A release is checked against what they were when the last validation set was answered (docs/validation.md, "A new
+/// validation set").
 
 #include <cstddef>
 
 namespace rollrig::diagnosis {
 
 /// Probabilities before the measurement. Source: design of the method; the rest of a kind is shared evenly.
-struct RacePriors {
+struct ComparisonPriors {
   double none = 0.50;
   double singles = 0.35;
   double pairs = 0.05;

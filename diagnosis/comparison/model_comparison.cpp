@@ -44,7 +44,7 @@ double sign_share(const Hypothesis& hypothesis) {
 }
 
 void assign_probabilities(Study& study, Comparison& comparison) {
-  const RacePriors& priors = study.settings.priors;
+  const ComparisonPriors& priors = study.settings.priors;
   const auto n = static_cast<double>(study.settings.terms.size());
   const auto prior_of = [&](std::size_t terms) {  // of each of its kind
     if (terms == 1) return priors.singles / n;

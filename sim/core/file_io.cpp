@@ -211,7 +211,7 @@ void write_output(const std::string& path, const std::string& content) {
   }
 }
 
-OutputFolder::OutputFolder(std::string path, bool force) : path_(std::move(path)) {
+OutputFolder::OutputFolder(std::string path, bool force) : path_(std::move(path)), staging_(staging_name(path_)) {
   if (fs::exists(path_) && !fs::is_directory(path_)) {
     throw file_problem(fmt::format("'{}' is a file, not a folder", path_), path_, "a folder name");
   }
@@ -229,37 +229,50 @@ OutputFolder::OutputFolder(std::string path, bool force) : path_(std::move(path)
 
 void OutputFolder::add(const std::string& file_name, std::string content) { files_[file_name] = std::move(content); }
 
-void OutputFolder::move_into_existing(const std::string& staging) const {
-  for (const auto& file : files_) {
-    fs::create_directories((fs::path(path_) / file.first).parent_path());
-    fs::rename(fs::path(staging) / file.first, fs::path(path_) / file.first);
-  }
-  fs::remove_all(staging);
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  if (!written_.empty()) fs::remove_all(staging_, ignored);
 }
 
-void OutputFolder::commit() {
-  spdlog::debug("writes {} files to {}", files_.size(), path_);
-  const std::string staging = staging_name(path_);
+void OutputFolder::attempt(const std::function<void()>& act) const {
   try {
-    fs::create_directories(staging);
+    act();
+  } catch (const fs::filesystem_error& error) {
+    throw write_problem(path_, error.code().value());
+  }
+}
+
+void OutputFolder::move_into_existing() const {
+  for (const std::string& name : written_) {
+    fs::create_directories((fs::path(path_) / name).parent_path());
+    fs::rename(fs::path(staging_) / name, fs::path(path_) / name);
+  }
+  fs::remove_all(staging_);
+}
+
+void OutputFolder::flush() {
+  spdlog::debug("writes {} files to {}", files_.size(), path_);
+  attempt([this] {
     for (const auto& [name, content] : files_) {
-      const fs::path file = fs::path(staging) / name;
+      const fs::path file = fs::path(staging_) / name;
+      written_.insert(name);
       fs::create_directories(file.parent_path());
       write_new_file(file.string(), content, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
     }
+  });
+  files_.clear();
+}
+
+void OutputFolder::commit() {
+  flush();
+  attempt([this] {
+    fs::create_directories(staging_);
     if (holds_files(path_)) {
-      move_into_existing(staging);
+      move_into_existing();
     } else {
-      fs::rename(staging, path_);
+      fs::rename(staging_, path_);
     }
-  } catch (const std::exception& error) {
-    std::error_code ignored;
-    fs::remove_all(staging, ignored);
-    if (const auto* system = dynamic_cast<const fs::filesystem_error*>(&error)) {
-      throw write_problem(path_, system->code().value());
-    }
-    throw;
-  }
+  });
 }
 
 }  // namespace rollrig

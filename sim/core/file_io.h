@@ -1,7 +1,9 @@
 #pragma once
 /// Files in and out: reading with errors that say what is wrong, writing all or nothing.
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,22 +34,31 @@ void write_output(const std::string& path, const std::string& content);
 /// To be called before work whose result would else be lost.
 void require_writable(const std::string& path);
 
-/// A result folder that appears whole or not at all: files are collected and written by commit(), into
-/// a folder beside the final one which is then renamed.
+/// A result folder that appears whole or not at all: files are collected and written into a folder beside the final
+/// one, which commit() renames. What is not committed goes with the object.
 class OutputFolder {
  public:
   /// Throws InputError when the folder holds files and `force` is off, or when it cannot be made.
   OutputFolder(std::string path, bool force);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
 
   void add(const std::string& file_name, std::string content);
+  /// Writes what was added, so that memory need not hold all of it. Throws InputError as commit() does.
+  void flush();
   void commit();
   const std::string& path() const { return path_; }
 
  private:
-  void move_into_existing(const std::string& staging) const;
+  void move_into_existing() const;
+  /// Calls `act` with errors of the file system as InputError.
+  void attempt(const std::function<void()>& act) const;
 
   std::string path_;
-  std::map<std::string, std::string> files_;
+  std::string staging_;
+  std::map<std::string, std::string> files_;  // not written yet
+  std::set<std::string> written_;
 };
 
 }  // namespace rollrig

@@ -1,6 +1,6 @@
 // Pairs of a wrong input and the words that the message must have: tests/bad_input/<case>.expected, beside
-// the case's file where it has one. First line: "$ " and the arguments ("@" before them: of rollrig_blind), with {here}
-// for the folder of the cases, {tmp} for an empty folder that must stay empty, {locked} for one without write
+// the case's file where it has one. First line: "$ " and the arguments ("@" before them: of rollrig_validation), with
+// {here} for the folder of the cases, {tmp} for an empty folder that must stay empty, {locked} for one without write
 // permission. A "!" before the arguments drops the rights of root, a "%" limits the size of files. Every other line
 // must stand in the message; the exit status must be 2.
 #include <unistd.h>
@@ -23,7 +23,7 @@ struct BadInput {
   std::string arguments;
   std::string prefix;
   std::vector<std::string> words;
-  bool of_blind = false;
+  bool of_validation = false;
 };
 
 void replace_all(std::string& text, const std::string& what, const std::string& with) {
@@ -44,7 +44,7 @@ BadInput read_case(const fs::path& file) {
   }
   if (bad.arguments.front() == '@') {
     bad.arguments.erase(0, 1);
-    bad.of_blind = true;
+    bad.of_validation = true;
   }
   if (bad.arguments.front() == '!') {
     bad.arguments.erase(0, 1);
@@ -85,8 +85,8 @@ TEST_CASE("every wrong input is answered with the words that mend it", "[fast]")
       replace_all(bad.arguments, "{here}", here.string());
       replace_all(bad.arguments, "{tmp}", empty.path());
       replace_all(bad.arguments, "{locked}", locked.path());
-      const auto run = (bad.of_blind ? tests::run_blind : run_program)(bad.arguments, "/tmp", bad.prefix);
-      INFO((bad.of_blind ? "rollrig_blind " : "rollrig ") << bad.arguments << "\n" << run.err);
+      const auto run = (bad.of_validation ? tests::run_validation : run_program)(bad.arguments, "/tmp", bad.prefix);
+      INFO((bad.of_validation ? "rollrig_validation " : "rollrig ") << bad.arguments << "\n" << run.err);
       CHECK(run.status == 2);
       const std::string flat = flatten(run.err);
       for (const std::string& word : bad.words) CHECK_THAT(flat, Catch::Contains(flatten(word)));

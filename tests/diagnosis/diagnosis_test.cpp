@@ -1,4 +1,4 @@
-// Whole diagnoses, of small sets by the simulator and by the foreign generator.
+// Whole diagnoses, of small sets by the simulator and by the independent generator.
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/comparison/model_comparison.h"
 
@@ -12,7 +12,7 @@
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using diagnosis::Cause;
@@ -132,7 +132,7 @@ TEST_CASE("noise alone has no gap and no cause", "[fast]") {
   check_sound(found);
   CHECK(found.verdict == Verdict::kNoGap);
   // What is not there loses against what it had before the measurement, and none gains.
-  const diagnosis::RacePriors before;
+  const diagnosis::ComparisonPriors before;
   for (const auto& [hypothesis, probability] : found.probability) {
     INFO(hypothesis);
     if (hypothesis == "none") {
@@ -209,7 +209,7 @@ TEST_CASE("progress rises from nothing to all of it", "[fast]") {
   CHECK(done.back() == 1.0);
 }
 
-TEST_CASE("causes of the foreign generator are named, out of the whole catalog", "[slow]") {
+TEST_CASE("causes of the independent generator are named, out of the whole catalog", "[slow]") {
   struct Hidden {
     const char* effect;
     const char* size;
@@ -217,8 +217,8 @@ TEST_CASE("causes of the foreign generator are named, out of the whole catalog",
   // Large sizes of priors, so that the sets show them beyond doubt.
   for (const Hidden& hidden : {Hidden{"bearing_warmup", "0.02"}, Hidden{"slow_leak", "3"},
                                Hidden{"load_exponent", "1.12"}, Hidden{"clock_shift", "6"}}) {
-    const tests::BlindSet made =
-        tests::make_blind_set(std::string("--effect ") + hidden.effect + " --size " + hidden.size + " --seed 31");
+    const tests::GeneratedSet made =
+        tests::make_generated_set(std::string("--effect ") + hidden.effect + " --size " + hidden.size + " --seed 31");
     const Diagnosis found = diagnose(made.set, {});
     INFO(hidden.effect << "\n" << text_of(found));
     check_sound(found);
@@ -231,7 +231,7 @@ TEST_CASE("causes of the foreign generator are named, out of the whole catalog",
 
 TEST_CASE("a strong effect is fitted where the baseline's fit has gone too far to start from", "[slow]") {
   // The baseline makes up for this rim with gas that no rim can be added to.
-  const tests::BlindSet made = tests::make_blind_set("--effect rim_heat --seed 1683349374382471792");
+  const tests::GeneratedSet made = tests::make_generated_set("--effect rim_heat --seed 1683349374382471792");
   const Diagnosis found = diagnose(made.set, only({"rim_heat"}));
   INFO(text_of(found));
   CHECK(found.verdict == Verdict::kExplained);
@@ -239,9 +239,9 @@ TEST_CASE("a strong effect is fitted where the baseline's fit has gone too far t
   CHECK(found.gap.recalibrated.after < 0.1 * found.gap.recalibrated.before);
 }
 
-TEST_CASE("sets of the foreign generator without effect have no gap", "[slow]") {
+TEST_CASE("sets of the independent generator without effect have no gap", "[slow]") {
   for (const char* seed : {"41", "42", "43"}) {
-    const tests::BlindSet made = tests::make_blind_set(std::string("--effect none --seed ") + seed);
+    const tests::GeneratedSet made = tests::make_generated_set(std::string("--effect none --seed ") + seed);
     const Diagnosis found = diagnose(made.set, {});
     INFO("seed " << seed << "\n" << text_of(found));
     check_sound(found);
@@ -249,8 +249,10 @@ TEST_CASE("sets of the foreign generator without effect have no gap", "[slow]") 
   }
 }
 
-TEST_CASE("of a set by the foreign generator the same answer from one thread or two, and in another order", "[slow]") {
-  const measurements::MeasurementSet set = tests::make_blind_set("--effect rim_heat,slow_leak --seed 33 --runs 4").set;
+TEST_CASE("of a set by the independent generator the same answer from one thread or two, and in another order",
+          "[slow]") {
+  const measurements::MeasurementSet set =
+      tests::make_generated_set("--effect rim_heat,slow_leak --seed 33 --runs 4").set;
   DiagnosisOptions options;
   options.threads = 1;
   const std::string one = text_of(diagnose(set, options));

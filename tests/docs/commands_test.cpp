@@ -13,19 +13,20 @@ using namespace rollrig::tests;
 
 namespace {
 
-/// Indented lines that begin with ./rollrig.
+/// Indented lines that begin with ./rollrig or ./rollrig_validation.
 std::vector<std::string> find_commands(const std::string& page) {
   std::vector<std::string> commands;
   std::istringstream in(rollrig::read_text_file(ROLLRIG_SOURCE_DIR "/" + page));
   for (std::string line; std::getline(in, line);) {
-    if (line.rfind("    ./rollrig ", 0) == 0) commands.push_back(line.substr(4));
+    if (line.rfind("    ./rollrig", 0) == 0) commands.push_back(line.substr(4));
   }
   return commands;
 }
 
-/// A folder that holds what a clone holds as far as commands name it; ./rollrig is the program that was built.
+/// A folder that holds what a clone holds as far as commands name it; its two programs are those that were built.
 void lay_out_clone(const TemporaryFolder& folder) {
   fs::create_symlink(ROLLRIG_PROGRAM, folder.file("rollrig"));
+  fs::create_symlink(ROLLRIG_VALIDATION_PROGRAM, folder.file("rollrig_validation"));
   fs::create_directory_symlink(ROLLRIG_SOURCE_DIR "/assets", folder.file("assets"));
 }
 

@@ -54,7 +54,7 @@ double run_installed_program(const InstalledPrefix& prefix) {
 TEST_CASE("an installed program runs from anywhere, and a project that finds the package gets the same RRc", "[slow]") {
   const InstalledPrefix prefix;
   const double rrc_N_per_kN = run_installed_program(prefix);
-  for (const char* file : {"bin/rollrig_blind", "share/man/man1/rollrig.1", "share/zsh/site-functions/_rollrig",
+  for (const char* file : {"share/man/man1/rollrig.1", "share/zsh/site-functions/_rollrig",
                            "share/bash-completion/completions/rollrig", "include/rollrig/scenarios/run_spec.h"}) {
     INFO(file);
     CHECK(fs::exists(prefix.file(file)));
@@ -86,7 +86,7 @@ TEST_CASE("an installed program runs from anywhere, and a project that finds the
 TEST_CASE("the manual page names every command", "[fast]") {
   const std::string page = rollrig::tests::run_program("man").out;
   for (const char* command : {"run", "sweep", "regress", "validate", "list", "describe", "fit tire", "fit road\\-load",
-                              "diagnose", "import", "export", "blind score", "convert"}) {
+                              "diagnose", "import", "export", "convert"}) {
     CHECK_THAT(page, Contains(std::string(".SS rollrig ") + command + "\n"));
   }
   const TemporaryFolder folder;

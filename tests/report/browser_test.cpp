@@ -9,7 +9,7 @@
 #include "tests/support/coast_study.h"
 #include "tests/support/coastdown_study.h"
 #include "tests/support/run_program.h"
-#include "tests/validation/scoring/bank_folder.h"
+#include "tests/validation/scoring/validation_set_folder.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
@@ -128,10 +128,11 @@ TEST_CASE("page of a drum's coast-downs", "[slow]") {
   check_page(folder.file("page.html"), "--charts 2");
 }
 
-TEST_CASE("page of a blind score", "[slow]") {
-  const BankFolder made;
-  REQUIRE(run_program("blind run bank --quiet", made.folder.path()).status == 0);
-  check_command(made.folder, "blind score bank", "--charts 1");
+TEST_CASE("page of a score", "[slow]") {
+  const ValidationSetFolder made;
+  REQUIRE(run_validation("run set --quiet", made.folder.path()).status == 0);
+  REQUIRE(run_validation("score set --quiet --html page.html", made.folder.path()).status == 0);
+  check_page(made.folder.file("page.html"), "--charts 1");
 }
 
 TEST_CASE("a page goes to standard output alone, and is refused where it cannot be", "[fast]") {

@@ -25,8 +25,8 @@ ProgramResult run_program(const std::string& arguments, const std::string& folde
   return run_other(ROLLRIG_PROGRAM, arguments, folder, prefix);
 }
 
-ProgramResult run_blind(const std::string& arguments, const std::string& folder, const std::string& prefix) {
-  return run_other(ROLLRIG_BLIND_PROGRAM, arguments, folder, prefix);
+ProgramResult run_validation(const std::string& arguments, const std::string& folder, const std::string& prefix) {
+  return run_other(ROLLRIG_VALIDATION_PROGRAM, arguments, folder, prefix);
 }
 
 std::string flatten(const std::string& text) {

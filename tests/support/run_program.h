@@ -19,9 +19,9 @@ ProgramResult run_program(const std::string& arguments, const std::string& folde
 /// Likewise the program of a path.
 ProgramResult run_other(const char* program, const std::string& arguments, const std::string& folder = "/tmp",
                         const std::string& prefix = "");
-/// Likewise `rollrig_blind`.
-ProgramResult run_blind(const std::string& arguments, const std::string& folder = "/tmp",
-                        const std::string& prefix = "");
+/// Likewise `rollrig_validation`.
+ProgramResult run_validation(const std::string& arguments, const std::string& folder = "/tmp",
+                             const std::string& prefix = "");
 
 /// Words with one space between, wherever lines end.
 std::string flatten(const std::string& text);

@@ -1,9 +1,11 @@
 #include "validation/generator/campaign.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
+namespace rollrig::generator {
 
 double Leg::slope() const {
   const double way_m = mean_m_s() * duration_s;
@@ -26,6 +28,25 @@ Air draw_air(Draws& draws, double mean_degC) {
   return air;
 }
 
+RunPlan start_run(Draws& own, std::size_t index, const RunKind& what, const Cooling& cooling,
+                  const Specimen& specimen) {
+  RunPlan run;
+  run.id = fmt::format("{}-{}", index + 1, what.kind);
+  std::replace(run.id.begin(), run.id.end(), ' ', '-');
+  run.index = index;
+  run.session = what.session;
+  run.cold_pressure_kPa = what.pressure_kPa > 0.0 ? what.pressure_kPa : specimen.reference_pressure_kPa;
+  run.air = draw_air(own, what.ambient_degC != 0.0 ? what.ambient_degC : specimen.ambient_degC);
+  double warm_dK = 0.0;
+  if (what.rest_before_min > 0.0) {
+    run.rest_before_min = std::round(what.rest_before_min * own.uniform(0.7, 1.3));
+    warm_dK =
+        own.uniform(cooling.least_dK, cooling.most_dK) * std::exp(-*run.rest_before_min / cooling.time_constant_min);
+  }
+  run.initial_degC = std::round(10.0 * (run.air.at(0.0) + warm_dK)) / 10.0;
+  return run;
+}
+
 bool RunPlan::is_read(double time_s) const {
   return std::none_of(unread_s.begin(), unread_s.end(),
                       [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
@@ -39,10 +60,4 @@ double RunPlan::hung_at(double time_s) const {
   return torque_Nm;
 }
 
-Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs) {
-  if (specimen.kind == Kind::kDyno) return draw_dyno_campaign(seed, specimen, runs, dyno_runs);
-  if (specimen.kind == Kind::kRoad) return draw_road_campaign(seed, specimen, runs);
-  return draw_drum_campaign(seed, specimen, runs);
-}
-
-}  // namespace blind
+}  // namespace rollrig::generator

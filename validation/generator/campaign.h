@@ -9,7 +9,7 @@
 
 #include "validation/generator/specimen.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// Part of a run between two events: the speed runs linearly, the load stands. Ends lie on whole seconds. On a dyno
 /// and on the road a leg lasts one second.
@@ -67,20 +67,53 @@ struct RunPlan {
   double end_s() const { return legs.back().end_s(); }
 };
 
+/// A run of a campaign on a rig.
+struct RunKind {
+  const char* kind;
+  const char* session;
+  double pressure_kPa = 0.0;     // 0: the usual one
+  double rest_before_min = 0.0;  // 0: soaked
+  double ambient_degC = 0.0;     // 0: the usual one
+  double payload = 1.0;          // on the wheel's load
+};
+
+struct CampaignKind {
+  const char* name;
+  std::vector<RunKind> runs;
+};
+
+/// How far a tire is warm after a rest: so much just after it has stood still, then less.
+struct Cooling {
+  double least_dK;
+  double most_dK;
+  double time_constant_min;
+};
+
+/// A run as it starts, without its legs.
+RunPlan start_run(Draws& own, std::size_t index, const RunKind& what, const Cooling& cooling, const Specimen& specimen);
+
 struct Campaign {
   std::string name;
   std::vector<RunPlan> runs;
 };
 
-/// One of several kinds of campaign, by seed, with its first `runs` runs. It does not depend on the effect.
-Campaign draw_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs);
-Campaign draw_drum_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
-Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs);
-Campaign draw_road_campaign(std::uint64_t seed, const Specimen& specimen, int runs);
+constexpr int kMostRuns = 6;
+
+/// What the runs of a dynamometer campaign are: as its laboratory has them, or all of one sort.
+enum class DynoRuns { kAsUsual, kMultiCycle, kConstantSpeeds };
+
+struct CampaignOrder {
+  std::uint64_t seed = 1;
+  int runs = kMostRuns;  // the first of the campaign
+  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+};
+
+/// One of several kinds of campaign, by seed. It does not depend on the effect.
+Campaign draw_drum_campaign(const CampaignOrder& order, const Specimen& specimen);
+Campaign draw_dyno_campaign(const CampaignOrder& order, const Specimen& specimen);
+Campaign draw_road_campaign(const CampaignOrder& order, const Specimen& specimen);
 
 /// Slow swing and slope of the air about `mean_degC`, within a degree or so.
 Air draw_air(Draws& draws, double mean_degC);
 
-constexpr int kMostRuns = 6;
-
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
+namespace rollrig::generator {
 
 std::uint64_t mix_seed(std::uint64_t seed, std::string_view name) {
   std::uint64_t hash = 0xcbf29ce484222325ull;  // FNV-1a over the name, then splitmix64 over both
@@ -31,4 +31,4 @@ double Draws::from(const Spread& spread) {
   }
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

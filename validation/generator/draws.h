@@ -6,8 +6,10 @@
 #include <boost/random/uniform_01.hpp>
 #include <cstdint>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-namespace blind {
+namespace rollrig::generator {
 
 /// A distribution of which about two thirds lie between `low` and `high`, more where it is cut off close by.
 struct Spread {
@@ -27,7 +29,8 @@ struct Spread {
 std::uint64_t mix_seed(std::uint64_t seed, std::string_view name);
 
 /// One stream of random numbers. Streams of one seed with different names are independent, so that an effect,
-/// a run or a channel more does not change the others.
+/// a run or a channel more does not change the others. A name stays as it is: validation sets that are published are
+/// made again from their seeds.
 class Draws {
  public:
   Draws(std::uint64_t seed, std::string_view name) : engine_(mix_seed(seed, name)) {}
@@ -39,6 +42,16 @@ class Draws {
   int whole(int low, int high);
   bool happens(double probability) { return uniform() < probability; }
   double from(const Spread& spread);
+  template <class T>
+  const T& pick(const std::vector<T>& among) {
+    return among[static_cast<std::size_t>(whole(0, static_cast<int>(among.size()) - 1))];
+  }
+  template <class T>
+  void shuffle(std::vector<T>& values) {
+    for (std::size_t i = values.size(); i > 1; --i) {
+      std::swap(values[i - 1], values[static_cast<std::size_t>(whole(0, static_cast<int>(i) - 1))]);
+    }
+  }
 
  private:
   boost::random::mt19937_64 engine_;
@@ -54,4 +67,4 @@ inline Spread normal(double low, double high, double least, double most) {
   return {Spread::Form::kNormal, low, high, least, most};
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 /// Builds the legs of a run from what an operator would do.
@@ -70,9 +70,7 @@ Legs speed_steps(Draws& draws, const Habits& habits) {
   course.hold(10.0 * draws.whole(80, 120));
   std::vector<double> speeds{40.0, 100.0, 120.0, 5.0 * draws.whole(25, 27)};
   if (draws.happens(0.5)) speeds.push_back(60.0);
-  for (std::size_t i = speeds.size() - 1; i > 0; --i) {
-    std::swap(speeds[i], speeds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(i)))]);
-  }
+  draws.shuffle(speeds);
   if (draws.happens(0.4)) std::sort(speeds.begin(), speeds.end());
   for (const double speed_km_h : speeds) {
     course.speed(speed_km_h, habits.rate_m_s2);
@@ -131,55 +129,43 @@ Legs up_and_down(Draws& draws, const Habits& habits) {
   return course.take();
 }
 
-struct RunKind {
-  const char* kind;  // as in the function names, with the speed for a warm-up
-  const char* session;
-  double pressure_kPa;     // 0: the usual one
-  double rest_before_min;  // 0: soaked
-};
-
-struct CampaignKind {
-  const char* name;
-  std::vector<RunKind> runs;
-};
-
 /// Each has warm-ups, fast running, a load sweep, skims within a run, and a run at another pressure.
 const std::vector<CampaignKind>& campaign_kinds() {
   static const std::vector<CampaignKind> kinds{{"tire maker",
-                                                {{"warm-up 80", "day-1", 0, 0},
-                                                 {"transient skim", "day-1", 0, 0},
-                                                 {"speed steps", "day-1", 0, 0},
-                                                 {"load sweep", "day-2", 0, 0},
-                                                 {"warm-up 120", "day-2", 0, 0},
-                                                 {"warm-up 80", "day-2", 220, 0}}},
+                                                {{"warm-up 80", "day-1"},
+                                                 {"transient skim", "day-1"},
+                                                 {"speed steps", "day-1"},
+                                                 {"load sweep", "day-2"},
+                                                 {"warm-up 120", "day-2"},
+                                                 {"warm-up 80", "day-2", 220}}},
                                                {"university",
-                                                {{"warm-up 120", "day-1", 0, 0},
+                                                {{"warm-up 120", "day-1"},
                                                  {"load sweep", "day-1", 0, 240},
-                                                 {"warm-up 40", "day-2", 0, 0},
-                                                 {"transient skim", "day-2", 320, 0},
-                                                 {"up and down", "day-3", 0, 0},
+                                                 {"warm-up 40", "day-2"},
+                                                 {"transient skim", "day-2", 320},
+                                                 {"up and down", "day-3"},
                                                  {"speed steps", "day-3", 0, 180}}},
                                                {"car maker",
-                                                {{"speed steps", "day-1", 0, 0},
+                                                {{"speed steps", "day-1"},
                                                  {"transient skim", "day-1", 0, 120},
-                                                 {"load sweep", "day-1", 0, 0},
-                                                 {"warm-up 80", "day-2", 0, 0},
-                                                 {"speed steps", "day-2", 240, 0},
+                                                 {"load sweep", "day-1"},
+                                                 {"warm-up 80", "day-2"},
+                                                 {"speed steps", "day-2", 240},
                                                  {"warm-up 120", "day-2", 0, 150}}},
                                                {"test house",
-                                                {{"warm-up 80", "day-1", 0, 0},
-                                                 {"load sweep", "day-1", 0, 0},
-                                                 {"load sweep", "day-2", 230, 0},
-                                                 {"speed steps", "day-2", 0, 0},
-                                                 {"transient skim", "day-3", 0, 0},
-                                                 {"warm-up 130", "day-3", 0, 0}}},
+                                                {{"warm-up 80", "day-1"},
+                                                 {"load sweep", "day-1"},
+                                                 {"load sweep", "day-2", 230},
+                                                 {"speed steps", "day-2"},
+                                                 {"transient skim", "day-3"},
+                                                 {"warm-up 130", "day-3"}}},
                                                {"institute",
-                                                {{"up and down", "day-1", 0, 0},
-                                                 {"warm-up 80", "day-1", 310, 0},
+                                                {{"up and down", "day-1"},
+                                                 {"warm-up 80", "day-1", 310},
                                                  {"transient skim", "day-1", 0, 200},
-                                                 {"speed steps", "day-2", 0, 0},
-                                                 {"load sweep", "day-2", 0, 0},
-                                                 {"transient skim", "day-2", 250, 0}}}};
+                                                 {"speed steps", "day-2"},
+                                                 {"load sweep", "day-2"},
+                                                 {"transient skim", "day-2", 250}}}};
   return kinds;
 }
 
@@ -204,32 +190,20 @@ Habits draw_habits(Draws& draws, const Specimen& specimen) {
 
 }  // namespace
 
-Campaign draw_drum_campaign(std::uint64_t seed, const Specimen& specimen, int runs) {
-  Draws draws(seed, "campaign");
-  const auto& kinds = campaign_kinds();
-  const CampaignKind& kind = kinds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(kinds.size()) - 1))];
+Campaign draw_drum_campaign(const CampaignOrder& order, const Specimen& specimen) {
+  constexpr Cooling kCooling{8.0, 14.0, 60.0};  // Assumed
+  Draws draws(order.seed, "campaign");
+  const CampaignKind& kind = draws.pick(campaign_kinds());
   const Habits habits = draw_habits(draws, specimen);
   Campaign campaign{kind.name, {}};
-  for (int i = 0; i < runs; ++i) {
-    const RunKind& what = kind.runs[static_cast<std::size_t>(i)];
-    Draws own(seed, fmt::format("run/{}", i));
-    RunPlan run;
-    run.id = fmt::format("{}-{}", i + 1, what.kind);
-    std::replace(run.id.begin(), run.id.end(), ' ', '-');
-    run.index = static_cast<std::size_t>(i);
-    run.session = what.session;
-    run.cold_pressure_kPa = what.pressure_kPa > 0.0 ? what.pressure_kPa : specimen.reference_pressure_kPa;
-    run.air = draw_air(own, specimen.ambient_degC);
-    double warm_dK = 0.0;
-    if (what.rest_before_min > 0.0) {
-      run.rest_before_min = std::round(what.rest_before_min * own.uniform(0.7, 1.3));
-      warm_dK = own.uniform(8.0, 14.0) * std::exp(-*run.rest_before_min / 60.0);  // Assumed: cools over an hour
-    }
-    run.initial_degC = std::round(10.0 * (run.air.at(0.0) + warm_dK)) / 10.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(order.runs); ++i) {
+    const RunKind& what = kind.runs[i];
+    Draws own(order.seed, fmt::format("run/{}", i));
+    RunPlan run = start_run(own, i, what, kCooling, specimen);
     run.legs = draw_legs(own, habits, what.kind);
     campaign.runs.push_back(std::move(run));
   }
   return campaign;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,22 +4,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/assets.h"
+#include "sim/core/csv.h"
 #include "validation/generator/campaign.h"
-#include "validation/generator/cycles.h"
 #include "validation/generator/speed_trace.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.80665;
 
+/// Adds a cycle of the project's assets.
+void drive(const std::string& cycle, SpeedTrace& trace) {
+  trace.cycle(CsvTable::read(find_asset("cycles", cycle)).plain_numbers("speed_km_h", {}));
+}
+
 /// UDDS, highway, UDDS and a constant speed: half of a multi-cycle test.
 void multi_cycle(Draws& draws, SpeedTrace& trace) {
-  trace.cycle(cycle_km_h("udds"));
+  drive("udds", trace);
   trace.hold(draws.whole(10, 30));
-  trace.cycle(cycle_km_h("hwfet"));
+  drive("hwfet", trace);
   trace.hold(draws.whole(10, 30));
-  trace.cycle(cycle_km_h("udds"));
+  drive("udds", trace);
   trace.hold(draws.whole(10, 30));
   trace.ramp(draws.happens(0.5) ? 104.6 : 88.5, 0.8);  // 65 or 55 mile/h
   trace.hold(60.0 * draws.whole(10, 45));
@@ -30,9 +36,7 @@ void multi_cycle(Draws& draws, SpeedTrace& trace) {
 void constant_speeds(Draws& draws, SpeedTrace& trace) {
   std::vector<double> speeds{50.0, 80.0, 5.0 * draws.whole(22, 26)};
   if (draws.happens(0.5)) speeds.push_back(100.0);
-  for (std::size_t i = speeds.size() - 1; i > 0; --i) {
-    std::swap(speeds[i], speeds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(i)))]);
-  }
+  draws.shuffle(speeds);
   const double rate_m_s2 = draws.uniform(0.4, 1.2);
   for (const double speed_km_h : speeds) {
     trace.ramp(speed_km_h, rate_m_s2);
@@ -47,49 +51,34 @@ void mixed(Draws& draws, SpeedTrace& trace) {
   trace.hold(60.0 * draws.whole(15, 25));
   trace.ramp(0.0, 1.2);
   trace.hold(draws.whole(20, 60));
-  trace.cycle(cycle_km_h(draws.happens(0.5) ? "udds" : "hwfet"));
+  drive(draws.happens(0.5) ? "udds" : "hwfet", trace);
   trace.ramp(5.0 * draws.whole(23, 26), draws.uniform(0.6, 1.2));
   trace.hold(60.0 * draws.whole(10, 18));
   trace.ramp(0.0, 1.2);
   trace.hold(draws.whole(20, 60));
-  trace.cycle(cycle_km_h("udds"));
+  drive("udds", trace);
 }
 
-struct RunKind {
-  const char* kind;
-  const char* session;
-  double ambient_degC;     // of the chamber; 0: the usual one
-  double rest_before_min;  // 0: soaked
-  double pressure_kPa;     // 0: the usual one
-  double payload;          // on the wheel's load
-};
-
-struct CampaignKind {
-  const char* name;
-  std::vector<RunKind> runs;
-};
-
 const std::vector<CampaignKind>& campaign_kinds() {
-  static const std::vector<CampaignKind> kinds{{"certification",
-                                                {{"multi-cycle", "day-1", 0, 0, 0, 1.0},
-                                                 {"multi-cycle", "day-1", 0, 15, 0, 1.0},
-                                                 {"constant speeds", "day-2", 0, 0, 0, 1.0},
-                                                 {"mixed", "day-2", 0, 40, 250, 1.0}}},
-                                               {"cold chamber",
-                                                {{"multi-cycle", "day-1", 0, 0, 0, 1.0},
-                                                 {"multi-cycle", "day-2", -5, 0, 0, 1.0},
-                                                 {"constant speeds", "day-3", 35, 0, 0, 1.0}}},
-                                               {"research",
-                                                {{"constant speeds", "day-1", 0, 0, 0, 1.0},
-                                                 {"mixed", "day-1", 0, 30, 0, 1.15},
-                                                 {"constant speeds", "day-2", 0, 0, 240, 1.0},
-                                                 {"multi-cycle", "day-2", 0, 90, 0, 0.85},
-                                                 {"mixed", "day-3", 8, 0, 0, 1.0}}},
-                                               {"developer",
-                                                {{"mixed", "day-1", 0, 0, 0, 1.0},
-                                                 {"multi-cycle", "day-1", 0, 60, 0, 1.2},
-                                                 {"constant speeds", "day-2", 0, 0, 310, 1.0},
-                                                 {"mixed", "day-2", 0, 20, 0, 1.0}}}};
+  static const std::vector<CampaignKind> kinds{
+      {"certification",
+       {{"multi-cycle", "day-1"},
+        {"multi-cycle", "day-1", 0, 15},
+        {"constant speeds", "day-2"},
+        {"mixed", "day-2", 250, 40}}},
+      {"cold chamber",
+       {{"multi-cycle", "day-1"}, {"multi-cycle", "day-2", 0, 0, -5}, {"constant speeds", "day-3", 0, 0, 35}}},
+      {"research",
+       {{"constant speeds", "day-1"},
+        {"mixed", "day-1", 0, 30, 0, 1.15},
+        {"constant speeds", "day-2", 240},
+        {"multi-cycle", "day-2", 0, 90, 0, 0.85},
+        {"mixed", "day-3", 0, 0, 8}}},
+      {"developer",
+       {{"mixed", "day-1"},
+        {"multi-cycle", "day-1", 0, 60, 0, 1.2},
+        {"constant speeds", "day-2", 310},
+        {"mixed", "day-2", 0, 20}}}};
   return kinds;
 }
 
@@ -135,40 +124,29 @@ std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N,
   return make_legs(trace, load_N, specimen);
 }
 
-std::string choose_kind(const RunKind& what, DynoRuns dyno_runs) {
-  if (dyno_runs == DynoRuns::kMultiCycle) return "multi-cycle";
-  return dyno_runs == DynoRuns::kConstantSpeeds ? "constant speeds" : what.kind;
+/// The sort of a run, where the order asks for one sort alone.
+RunKind choose_kind(RunKind what, DynoRuns dyno_runs) {
+  if (dyno_runs == DynoRuns::kMultiCycle) what.kind = "multi-cycle";
+  if (dyno_runs == DynoRuns::kConstantSpeeds) what.kind = "constant speeds";
+  return what;
 }
 
 }  // namespace
 
-Campaign draw_dyno_campaign(std::uint64_t seed, const Specimen& specimen, int runs, DynoRuns dyno_runs) {
-  Draws draws(seed, "campaign");
-  const auto& kinds = campaign_kinds();
-  const CampaignKind& kind = kinds[static_cast<std::size_t>(draws.whole(0, static_cast<int>(kinds.size()) - 1))];
+Campaign draw_dyno_campaign(const CampaignOrder& order, const Specimen& specimen) {
+  constexpr Cooling kCooling{12.0, 20.0, 45.0};  // Assumed
+  Draws draws(order.seed, "campaign");
+  const CampaignKind& kind = draws.pick(campaign_kinds());
   const double load_N = 50.0 * draws.whole(88, 112);
   Campaign campaign{kind.name, {}};
-  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(runs), kind.runs.size()); ++i) {
-    const RunKind& what = kind.runs[i];
-    Draws own(seed, fmt::format("run/{}", i));
-    RunPlan run;
-    const std::string run_kind = choose_kind(what, dyno_runs);
-    run.id = fmt::format("{}-{}", i + 1, run_kind);
-    std::replace(run.id.begin(), run.id.end(), ' ', '-');
-    run.index = i;
-    run.session = what.session;
-    run.cold_pressure_kPa = what.pressure_kPa > 0.0 ? what.pressure_kPa : specimen.reference_pressure_kPa;
-    run.air = draw_air(own, what.ambient_degC != 0.0 ? what.ambient_degC : specimen.ambient_degC);
-    double warm_dK = 0.0;
-    if (what.rest_before_min > 0.0) {
-      run.rest_before_min = std::round(what.rest_before_min * own.uniform(0.7, 1.3));
-      warm_dK = own.uniform(12.0, 20.0) * std::exp(-*run.rest_before_min / 45.0);  // Assumed: cools in an hour
-    }
-    run.initial_degC = std::round(10.0 * (run.air.at(0.0) + warm_dK)) / 10.0;
-    run.legs = draw_legs(own, run_kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(order.runs), kind.runs.size()); ++i) {
+    const RunKind what = choose_kind(kind.runs[i], order.dyno_runs);
+    Draws own(order.seed, fmt::format("run/{}", i));
+    RunPlan run = start_run(own, i, what, kCooling, specimen);
+    run.legs = draw_legs(own, what.kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
     campaign.runs.push_back(std::move(run));
   }
   return campaign;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

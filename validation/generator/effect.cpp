@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
-
-#define ROLLRIG_BLIND_EFFECT(id) extern const EffectKind kind_##id;
-#include "validation/generator/effects.def"
-#undef ROLLRIG_BLIND_EFFECT
+namespace rollrig::generator {
 
 const std::vector<const EffectKind*>& effect_kinds() {
   static const std::vector<const EffectKind*> kinds{
-#define ROLLRIG_BLIND_EFFECT(id) &kind_##id,
+#define ROLLRIG_EFFECT(id) &kind_##id,
 #include "validation/generator/effects.def"
-#undef ROLLRIG_BLIND_EFFECT
+#undef ROLLRIG_EFFECT
   };
   return kinds;
 }
@@ -42,21 +38,21 @@ double warm_heating_W(const Specimen& specimen) {
 
 double draw_size(const EffectKind& kind, Draws& draws) {
   for (;;) {
-    double size = draws.from(kind.size);
-    if (kind.either_sign && draws.happens(0.5)) size = -size;
-    if (std::isinf(kind.neutral) || std::abs(size - kind.neutral) >= kind.gap) return size;
+    double size = draws.from(kind.size.drawn);
+    if (kind.size.either_sign && draws.happens(0.5)) size = -size;
+    if (std::isinf(kind.size.neutral) || std::abs(size - kind.size.neutral) >= kind.size.gap) return size;
   }
 }
 
 namespace {
 
 double strength(const EffectKind& kind, double size) {
-  return std::isinf(kind.neutral) ? 1.0 / std::abs(size) : std::abs(size - kind.neutral);
+  return std::isinf(kind.size.neutral) ? 1.0 / std::abs(size) : std::abs(size - kind.size.neutral);
 }
 
 constexpr std::size_t kThird = 1000;
 
-/// Many sizes, which are the same in each bank, by strength.
+/// Many sizes, which are the same in each validation set, by strength.
 std::vector<double> sort_sizes(const EffectKind& kind) {
   Draws draws(0, std::string("thirds/") + kind.id);
   std::vector<double> sizes(3 * kThird);
@@ -88,4 +84,4 @@ double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws) {
   }
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -7,15 +7,14 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "validation/generator/draws.h"
-#include "validation/generator/kind.h"
+#include "validation/generator/grounds.h"
 #include "validation/generator/specimen.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 struct Wall;
 struct RunRecord;
@@ -77,9 +76,17 @@ double warm_heating_W(const Specimen& specimen);
 
 using Shape = std::vector<std::pair<std::string, double>>;
 
-/// One hidden cause with its size and shape.
+/// What an effect is made of.
+struct Making {
+  double size;
+  Draws& draws;
+  const Specimen& specimen;
+};
+
+/// One hidden cause with its size and shape. Members of a law are drawn where they are declared, so in that order.
 class Effect {
  public:
+  explicit Effect(const Making& of) : size_(of.size), draws_(of.draws), specimen_(of.specimen) {}
   virtual ~Effect() = default;
   virtual void lay_out(Wall&) const {}
   virtual std::size_t state_count() const { return 0; }
@@ -94,40 +101,62 @@ class Effect {
   virtual void trace(RunRecord&) const {}
 
   Shape shape;  // everything drawn beside the size
+
+ protected:
+  /// Adds to the shape.
+  double note(const char* name, double value) {
+    shape.emplace_back(name, value);
+    return value;
+  }
+  /// The same of a time, in minutes.
+  double note_min(const char* name, double time_s) {
+    shape.emplace_back(name, time_s / 60.0);
+    return time_s;
+  }
+
+  // While it is made.
+  double size_;
+  Draws& draws_;
+  const Specimen& specimen_;
 };
 
 /// One functional form of an effect. In all forms of an effect the size means the same.
 struct Form {
   const char* name;
   const char* law;
-  std::unique_ptr<Effect> (*make)(double size, Draws& shape, const Specimen& specimen);
+  std::unique_ptr<Effect> (*make)(const Making& of);
 };
 
 template <class Law>
-std::unique_ptr<Effect> make_law(double size, Draws& shape, [[maybe_unused]] const Specimen& specimen) {
-  if constexpr (std::is_constructible_v<Law, double, Draws&, const Specimen&>) {
-    return std::make_unique<Law>(size, shape, specimen);
-  } else {
-    return std::make_unique<Law>(size, shape);
-  }
+std::unique_ptr<Effect> make_law(const Making& of) {
+  return std::make_unique<Law>(of);
 }
+
+/// Sizes of an effect.
+struct EffectSize {
+  const char* unit;
+  const char* meaning;
+  double neutral;  // at which it does nothing
+  double lowest;   // that may be asked for
+  double highest;
+  Spread drawn;
+  bool either_sign = false;  // drawn positive, then given a sign
+  double gap = 0.0;          // drawn nearer to the neutral one than this: drawn again, for it would be no effect
+};
 
 /// An effect before its size is known.
 struct EffectKind {
   const char* id;
-  const char* unit;     // of the size
-  const char* meaning;  // of the size
-  double neutral;       // size at which it does nothing
-  double lowest;        // sizes that may be asked for
-  double highest;
-  Spread size;
-  bool either_sign;             // the size is drawn positive, then given a sign
-  double gap;                   // sizes nearer to the neutral one than this are drawn again: they would be no effect
+  EffectSize size;
   std::vector<Form> forms;      // drawn evenly
   Grounds acts = kRigGrounds;   // where it can be made
-  Grounds drawn = kRigGrounds;  // where banks have it: the others hardly change with it
+  Grounds drawn = kRigGrounds;  // where validation sets have it: the others hardly change with it
   bool outside = false;         // of the catalog
 };
+
+#define ROLLRIG_EFFECT(id) extern const EffectKind kind_##id;
+#include "validation/generator/effects.def"
+#undef ROLLRIG_EFFECT
 
 const std::vector<const EffectKind*>& effect_kinds();
 const EffectKind* find_effect_kind(const std::string& id);
@@ -143,4 +172,4 @@ double draw_size(const EffectKind& kind, SizeClass wanted, Draws& draws);
 /// The middle of a class.
 double typical_size(const EffectKind& kind, SizeClass wanted);
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 /// Where a sensor's sample is compared.
@@ -19,11 +19,6 @@ std::vector<bool> find_samples(const RunRecord& record, const Columns& measured,
   return has_sample;
 }
 
-Grounds ground_of(const Specimen& specimen) {
-  if (specimen.kind != Kind::kRoad) return grounds_of(specimen.kind);
-  return specimen.constant_rrc ? kConstantGround : kRoadGround;
-}
-
 Eigen::MatrixXd put_side_by_side(const std::vector<Eigen::VectorXd>& columns, Eigen::Index rows) {
   Eigen::MatrixXd matrix(rows, static_cast<Eigen::Index>(columns.size()));
   for (std::size_t i = 0; i < columns.size(); ++i) matrix.col(static_cast<Eigen::Index>(i)) = columns[i];
@@ -33,7 +28,7 @@ Eigen::MatrixXd put_side_by_side(const std::vector<Eigen::VectorXd>& columns, Ei
 }  // namespace
 
 KnownSet::KnownSet(const SetOrder& order) : order_(order), lab_(draw_laboratory(order)) {
-  nlohmann::ordered_json ignored = nlohmann::ordered_json::array();
+  Json ignored = Json::array();
   const Effects effects = draw_effects(order_, lab_.specimen, ignored);
   const std::vector<RunRecord> records = record_all(lab_.specimen, lab_.campaign, effects);
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -75,7 +70,7 @@ Eigen::VectorXd KnownSet::signal_of(std::size_t effect) const {
   alone.effects = {order_.effects[effect]};
   alone.sizes = {order_.sizes[effect]};
   alone.forms = {order_.forms[effect]};
-  nlohmann::ordered_json ignored = nlohmann::ordered_json::array();
+  Json ignored = Json::array();
   return whiten(drive(lab_.specimen, draw_effects(alone, lab_.specimen, ignored)));
 }
 
@@ -88,7 +83,7 @@ Eigen::MatrixXd KnownSet::signatures(const EffectKind& kind) const {
   for (const auto& [form, size_class] : variants) {
     Draws shape(order_.seed, fmt::format("ceiling/{}/{}", kind.id, columns.size()));
     Effects effects;
-    effects.push_back(form->make(typical_size(kind, size_class), shape, lab_.specimen));
+    effects.push_back(form->make({typical_size(kind, size_class), shape, lab_.specimen}));
     columns.push_back(whiten(drive(lab_.specimen, effects)));
   }
   return put_side_by_side(columns, rows_);
@@ -115,7 +110,7 @@ std::vector<Eigen::VectorXd> KnownSet::offsets() const {
 Eigen::MatrixXd KnownSet::unknowns() const {
   std::vector<Eigen::VectorXd> columns = offsets();
   for (std::size_t i = 0; i < kBaseCount; ++i) {
-    if (!lab_.specimen.gives(static_cast<Base>(i))) continue;
+    if (!order_.machine->gives(lab_.specimen, static_cast<Base>(i))) continue;
     Specimen moved = lab_.specimen;
     moved.base[i].truth += moved.base[i].sd;
     columns.push_back(whiten(drive(moved, {})));
@@ -124,11 +119,12 @@ Eigen::MatrixXd KnownSet::unknowns() const {
 }
 
 std::vector<const EffectKind*> KnownSet::rivals() const {
+  const Grounds law = lab_.specimen.constant_rrc ? kConstantGround : ~kConstantGround;
   std::vector<const EffectKind*> found;
   for (const EffectKind* kind : effect_kinds()) {
-    if (!kind->outside && (kind->drawn & ground_of(lab_.specimen)) != 0) found.push_back(kind);
+    if (!kind->outside && (kind->drawn & order_.machine->grounds() & law) != 0) found.push_back(kind);
   }
   return found;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

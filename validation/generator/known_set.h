@@ -8,7 +8,7 @@
 #include "validation/generator/laboratory.h"
 #include "validation/generator/sample_blocks.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// Signals are what a cause changes in all channels and runs: whitened means over 10 s of the samples that the set
 /// has, the force from 30 s after each change of load on.
@@ -26,7 +26,7 @@ class KnownSet {
   /// What the observer does not know, a column each of one prior standard deviation: offsets of the sensors by session,
   /// base parameters that the files give an uncertainty of.
   Eigen::MatrixXd unknowns() const;
-  /// Effects of the catalog that banks may have in such a set.
+  /// Effects of the catalog that validation sets may have in such a case.
   std::vector<const EffectKind*> rivals() const;
 
  private:
@@ -44,4 +44,4 @@ class KnownSet {
   Eigen::Index rows_ = 0;
 };
 
-}  // namespace blind
+}  // namespace rollrig::generator

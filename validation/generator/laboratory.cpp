@@ -4,25 +4,24 @@
 
 #include <cmath>
 
-namespace blind {
-namespace {
+#include "validation/generator/machine.h"
 
-using Json = nlohmann::ordered_json;
+namespace rollrig::generator {
+namespace {
 
 /// The form of effect `i` of an order: a stream of its own, so that size and shape do not change with it.
 const Form& choose_form(const SetOrder& order, std::size_t i) {
   const EffectKind& kind = *find_effect_kind(order.effects[i]);
   if (!order.forms.empty()) return *find_form(kind, order.forms[i]);
   Draws draws(order.seed, fmt::format("form/{}", kind.id));
-  return kind.forms[static_cast<std::size_t>(draws.whole(0, static_cast<int>(kind.forms.size()) - 1))];
+  return draws.pick(kind.forms);
 }
 
-/// Which law a road set is to be judged against.
+/// Whether the law that a set is to be judged against is a constant coefficient.
 bool draw_constant_rrc(const SetOrder& order) {
-  if (order.kind != Kind::kRoad) return false;
   Draws draws(order.seed, "baseline");
   const bool drawn = draws.happens(0.5);
-  const Grounds grounds = find_common_grounds(order.effects, order.kind, false);
+  const Grounds grounds = find_common_grounds(order.effects, *order.machine, false);
   if ((grounds & kConstantGround) == 0) return false;
   if ((grounds & kRoadGround) == 0) return true;
   return order.constant_rrc.value_or(drawn);
@@ -32,10 +31,9 @@ bool draw_constant_rrc(const SetOrder& order) {
 
 Laboratory draw_laboratory(const SetOrder& order) {
   Laboratory lab;
-  lab.kind = order.kind;
-  lab.specimen = draw_specimen({order.seed, order.kind, draw_constant_rrc(order), order.nominal_base});
-  lab.campaign = draw_campaign(order.seed, lab.specimen, order.runs, order.dyno_runs);
-  lab.sensors = draw_sensors(order.seed, order.kind);
+  lab.specimen = draw_specimen(order.seed, *order.machine, draw_constant_rrc(order), order.nominal_base);
+  lab.campaign = order.machine->draw_campaign({order.seed, order.runs, order.dyno_runs}, lab.specimen);
+  lab.sensors = draw_sensors(order.seed, order.machine->channels());
   return lab;
 }
 
@@ -49,14 +47,14 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& desc
     const double drawn = has_class ? draw_size(kind, order.size_classes[i], sizes) : draw_size(kind, sizes);
     const double size = order.sizes[i].value_or(drawn);
     const Form& form = choose_form(order, i);
-    effects.push_back(form.make(size, shapes, specimen));
+    effects.push_back(form.make({size, shapes, specimen}));
     Json shape = Json::object();
     for (const auto& [name, value] : effects.back()->shape) shape[name] = value;
     described.push_back({{"id", kind.id},
                          {"size", size},
-                         {"unit", kind.unit},
-                         {"size_is", kind.meaning},
-                         {"neutral", kind.neutral},
+                         {"unit", kind.size.unit},
+                         {"size_is", kind.size.meaning},
+                         {"neutral", kind.size.neutral},
                          {"form", form.name},
                          {"shape", shape},
                          {"law", form.law}});
@@ -73,7 +71,7 @@ std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& camp
 
 Columns columns_of(const RunRecord& record) {
   Columns columns{record.force};
-  if (record.specimen->kind != Kind::kRoad) {
+  if (record.specimen->machine->channels().size() > 1) {
     columns.push_back(record.liner_degC);
     columns.push_back(record.pressure_kPa);
   }
@@ -84,7 +82,7 @@ Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, c
                 bool noise_free) {
   Columns columns = columns_of(record);
   for (std::size_t i = 0; i < columns.size() && !noise_free; ++i) {
-    const Channel& channel = channels_of(lab.kind)[i];
+    const Channel& channel = lab.specimen.machine->channels()[i];
     apply_sensor(lab.sensors[i], seed, run.session, run.id, channel, record.time_s, columns[i]);
     drop_samples(seed, run.id, channel, columns[i]);
   }
@@ -108,4 +106,4 @@ std::vector<bool> find_settled_rows(const RunRecord& record) {
   return settled;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

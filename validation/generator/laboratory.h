@@ -10,7 +10,7 @@
 #include "validation/generator/recorder.h"
 #include "validation/generator/sensors.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 using Effects = std::vector<std::unique_ptr<Effect>>;
 using Columns = std::vector<std::vector<double>>;  // of the measured channels, by row; NaN: no sample
@@ -18,7 +18,6 @@ using Columns = std::vector<std::vector<double>>;  // of the measured channels, 
 constexpr double kLeastForceSpeed_km_h = 20.0;  // formats.md: below it the force may be empty
 
 struct Laboratory {
-  Kind kind = Kind::kDrum;
   Specimen specimen;
   Campaign campaign;
   Sensors sensors;
@@ -27,7 +26,7 @@ struct Laboratory {
 Laboratory draw_laboratory(const SetOrder& order);
 
 /// The effects of an order with their sizes, forms and shapes; `described` gets what the truth says of them.
-Effects draw_effects(const SetOrder& order, const Specimen& specimen, nlohmann::ordered_json& described);
+Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& described);
 
 /// All runs of a campaign. The records point to the specimen.
 std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& campaign, const Effects& effects);
@@ -42,4 +41,4 @@ Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, c
 /// Rows 30 s or more after each change of load, or before the first.
 std::vector<bool> find_settled_rows(const RunRecord& record);
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -6,21 +6,14 @@
 
 #include "validation/generator/laboratory.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
   std::string text = fmt::format("format = \"rollrig-measurements/1\"\nname = \"{}\"\n", order.name);
   text += "tire = \"tire.toml\"\n";
-  if (lab.kind == Kind::kRoad) {
-    text += fmt::format("kind = \"road\"\nvehicle = \"vehicle.toml\"\nbaseline = \"{}\"\n",
-                        lab.specimen.constant_rrc ? "constant_rrc" : "combined");
-  } else {
-    text += "rig = \"rig.toml\"\n";
-  }
-  text += write_sensors(lab.kind, lab.sensors);
+  const Machine& machine = *lab.specimen.machine;
+  text += machine.write_set_keys(lab.specimen) + write_sensors(machine.channels(), lab.sensors);
   for (const RunPlan& run : lab.campaign.runs) {
     text += fmt::format("\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"{1}\"\n", run.id, run.session);
     text += fmt::format("initial_tire_temperature_degC = {:.10g}\ncold_pressure_kPa = {:.10g}\n", run.initial_degC,
@@ -33,43 +26,30 @@ std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
   return text;
 }
 
-/// What the rig or the vehicle was told, or reports, at a row.
-void write_given(const RunPlan& run, const RunRecord& record, std::size_t row, std::string& text) {
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:.0f},{:.9g},", record.time_s[row], record.speed_km_h[row]);
-  if (record.specimen->kind == Kind::kRoad) {
-    fmt::format_to(out, "{:.9g},{:.2f}", record.elevation_m[row], record.ambient_degC[row]);
-    return;
-  }
-  fmt::format_to(out, "{:.10g},", record.load_N[row]);
-  if (record.specimen->kind == Kind::kDyno) fmt::format_to(out, "{:.9g},", record.longitudinal_N[row]);
-  fmt::format_to(out, "{:.2f}", record.ambient_degC[row]);
-  if (run.surface_degC.has_value()) fmt::format_to(out, ",{:.10g}", *run.surface_degC);
-  if (!run.hung_Nm.empty()) fmt::format_to(out, ",{:.10g}", run.hung_at(record.time_s[row]));
-}
-
-std::string write_header(Kind kind, const RunPlan& run) {
-  std::string text = "time_s,speed_km_h,load_N,ambient_degC";
-  if (kind == Kind::kDyno) text = "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC";
-  if (kind == Kind::kRoad) text = "time_s,speed_km_h,elevation_m,ambient_degC";
-  if (run.surface_degC.has_value()) text += ",surface_temperature_degC";
-  if (!run.hung_Nm.empty()) text += ",hung_torque_Nm";
-  for (const Channel& channel : channels_of(kind)) text += fmt::format(",{}", channel.name);
-  return text + "\n";
+std::string write_header(const Machine& machine, const RunPlan& run) {
+  std::string text;
+  for (const GivenColumn& column : machine.given_columns()) text += fmt::format("{},", column.name);
+  if (run.surface_degC.has_value()) text += "surface_temperature_degC,";
+  if (!run.hung_Nm.empty()) text += "hung_torque_Nm,";
+  for (const Channel& channel : machine.channels()) text += fmt::format("{},", channel.name);
+  text.back() = '\n';
+  return text;
 }
 
 std::string write_run_file(const RunPlan& run, const RunRecord& record, const Columns& measured, bool noise_free) {
-  std::string text = write_header(record.specimen->kind, run);
+  const Machine& machine = *record.specimen->machine;
+  std::string text = write_header(machine, run);
+  const auto out = std::back_inserter(text);
   for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-    write_given(run, record, row, text);
+    for (const GivenColumn& column : machine.given_columns()) {
+      if (text.back() != '\n') text += ',';
+      fmt::format_to(out, fmt::runtime(column.format), (record.*column.values)[row]);
+    }
+    if (run.surface_degC.has_value()) fmt::format_to(out, ",{:.10g}", *run.surface_degC);
+    if (!run.hung_Nm.empty()) fmt::format_to(out, ",{:.10g}", run.hung_at(record.time_s[row]));
     for (const std::vector<double>& column : measured) {
-      if (std::isnan(column[row])) {
-        text += ",";
-      } else if (noise_free) {
-        fmt::format_to(std::back_inserter(text), ",{:.9g}", column[row]);
-      } else {
-        fmt::format_to(std::back_inserter(text), ",{:.6g}", column[row]);
-      }
+      text += ',';
+      if (!std::isnan(column[row])) fmt::format_to(out, "{:.{}g}", column[row], noise_free ? 9 : 6);
     }
     text += "\n";
   }
@@ -81,11 +61,7 @@ Files write_files(const SetOrder& order, const Laboratory& lab, const std::vecto
   Files files;
   files["set.toml"] = write_set_file(order, lab);
   files["tire.toml"] = write_tire(lab.specimen);
-  if (lab.kind == Kind::kRoad) {
-    files["vehicle.toml"] = write_vehicle(lab.specimen);
-  } else {
-    files["rig.toml"] = write_rig(lab.specimen);
-  }
+  files[lab.specimen.machine->file_name()] = lab.specimen.machine->write_file(lab.specimen);
   for (std::size_t r = 0; r < records.size(); ++r) {
     const RunPlan& run = lab.campaign.runs[r];
     const Columns columns = measure(order.seed, lab, run, records[r], noise_free);
@@ -114,14 +90,16 @@ Json find_signal(const Laboratory& lab, const std::vector<RunRecord>& with, cons
     }
   }
   Json signal;
-  for (std::size_t i = 0; i < channels; ++i) signal[channels_of(lab.kind)[i].name] = std::sqrt(sum[i] / count);
+  for (std::size_t i = 0; i < channels; ++i)
+    signal[lab.specimen.machine->channels()[i].name] = std::sqrt(sum[i] / count);
   return signal;
 }
 
 Json describe(const SetOrder& order, const Laboratory& lab) {
+  const Machine& machine = *lab.specimen.machine;
   Json base;
   for (std::size_t i = 0; i < kBaseCount; ++i) {
-    if (!lab.specimen.gives(static_cast<Base>(i))) continue;
+    if (!machine.gives(lab.specimen, static_cast<Base>(i))) continue;
     const Identified& number = lab.specimen.base[i];
     base[number.key] = {{"nominal", number.nominal}, {"sd", number.sd}, {"true", number.truth}};
   }
@@ -131,8 +109,8 @@ Json describe(const SetOrder& order, const Laboratory& lab) {
                 {"campaign", lab.campaign.name},
                 {"runs", lab.campaign.runs.size()},
                 {"noise_free", order.noise_free}};
-  if (lab.kind != Kind::kDrum) truth["kind"] = name_of(lab.kind);
-  if (lab.kind == Kind::kRoad) truth["baseline"] = lab.specimen.constant_rrc ? "constant_rrc" : "combined";
+  if (&machine != all_machines().front()) truth["kind"] = machine.name();
+  if ((machine.grounds() & kConstantGround) != 0) truth["baseline"] = name_of_law(lab.specimen);
   truth["effects"] = Json::array();
   truth["base"] = std::move(base);
   return truth;
@@ -151,8 +129,8 @@ Files follow_up(const SetOrder& order, std::vector<RunPlan> further) {
   return write_files(order, lab, record_all(lab.specimen, lab.campaign, effects), order.noise_free);
 }
 
-Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, bool drawn) {
-  Grounds grounds = grounds_of(kind);
+Grounds find_common_grounds(const std::vector<std::string>& effects, const Machine& machine, bool drawn) {
+  Grounds grounds = machine.grounds();
   for (const std::string& id : effects) {
     const EffectKind& effect = *find_effect_kind(id);
     grounds &= drawn ? effect.drawn : effect.acts;
@@ -173,4 +151,4 @@ MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
   return made;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -3,15 +3,15 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+#include "sim/core/json.h"
 
-#include "validation/generator/campaign.h"
 #include "validation/generator/effect.h"
+#include "validation/generator/machine.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// What is wanted.
 struct SetOrder {
@@ -20,7 +20,7 @@ struct SetOrder {
   std::uint64_t seed = 1;
   std::vector<std::string> forms;       // one an effect; none: drawn
   std::vector<SizeClass> size_classes;  // one an effect; none: sizes from all that are drawn
-  Kind kind = Kind::kDrum;
+  const Machine* machine = all_machines().front();
   DynoRuns dyno_runs = DynoRuns::kAsUsual;
   std::optional<bool> constant_rrc;  // of a road set; none: drawn among what the effects allow
   int runs = kMostRuns;
@@ -34,11 +34,11 @@ using Files = std::map<std::string, std::string>;  // contents by name
 struct MadeSet {
   Files files;
   Files counterfactual;  // the same without effect and without noise
-  nlohmann::ordered_json truth;
+  Json truth;
 };
 
-/// Where all of `effects` are to be found together; with `drawn`, where banks have them.
-Grounds find_common_grounds(const std::vector<std::string>& effects, Kind kind, bool drawn);
+/// Where all of `effects` are to be found together; with `drawn`, where validation sets have them.
+Grounds find_common_grounds(const std::vector<std::string>& effects, const Machine& machine, bool drawn);
 
 /// Makes a set. Its files are a function of the order and nothing else.
 MadeSet make_set(const SetOrder& order, bool with_counterfactual);
@@ -47,4 +47,4 @@ MadeSet make_set(const SetOrder& order, bool with_counterfactual);
 /// numbers go by session and run, so that its own runs are the same to the bit.
 Files follow_up(const SetOrder& order, std::vector<RunPlan> further);
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -1,6 +1,6 @@
 #include "validation/generator/observer.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 Eigen::MatrixXd put_below(const Eigen::MatrixXd& above, const Eigen::MatrixXd& below) {
@@ -26,4 +26,4 @@ double expect_log_bayes_factor(const Eigen::VectorXd& signal, const Eigen::Matri
   return 0.5 * Observer(kStrength * alternatives).reduce(signal).squaredNorm();
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/QR>
 
-namespace blind {
+namespace rollrig::generator {
 
 /// Takes out of signals what unknowns of a normal prior can do. Signals are whitened: unit noise.
 /// Equation  <s, t> = s^T (I + U U^T)^-1 t, as the scalar product of what a projection of [s; 0] and [t; 0] out of the
@@ -29,4 +29,4 @@ class Observer {
 /// Assumed   strengths about 0 with a standard deviation of 3 of what the columns G show
 double expect_log_bayes_factor(const Eigen::VectorXd& signal, const Eigen::MatrixXd& alternatives);
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -2,121 +2,100 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <boost/algorithm/string/classification.hpp>
-#include <boost/algorithm/string/split.hpp>
-#include <boost/lexical_cast/try_lexical_convert.hpp>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
-#include "validation/generator/draws.h"
-#include "validation/generator/output.h"
-#include "validation/generator/problem.h"
+#include "sim/core/csv.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
 
 namespace fs = std::filesystem;
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
-
-using Json = nlohmann::ordered_json;
-using Table = std::map<std::string, std::vector<double>>;  // by column
 
 constexpr const char* kFormat = "rollrig-blind-plan/1";
 
-InputError problem(const std::string& what, const fs::path& file, const std::string& key, const std::string& value,
-                   const std::string& allowed) {
-  return InputError({fmt::format("{}: {}", file.string(), what), key, value, allowed, ""});
-}
-
-/// Columns that a plan of the kind must have, in any order.
-std::vector<std::string> required_columns(Kind kind) {
-  if (kind == Kind::kRoad) return {"time_s", "speed_km_h", "elevation_m", "ambient_degC"};
-  std::vector<std::string> columns{"time_s", "speed_km_h", "load_N", "ambient_degC"};
-  if (kind == Kind::kDyno) columns.emplace_back("longitudinal_force_N");
-  return columns;
-}
-
-std::vector<std::string> split(const std::string& line, const char* at) {
-  std::vector<std::string> parts;
-  boost::algorithm::split(parts, line, boost::algorithm::is_any_of(at));
-  return parts;
-}
-
-double read_cell(const std::string& cell, const std::string& column, const fs::path& file) {
-  double value = 0.0;
-  if (boost::conversion::try_lexical_convert(cell, value) && std::isfinite(value)) return value;
-  throw problem("not a number", file, column, cell, "a number in every cell");
-}
-
-Table read_table(const fs::path& file, Kind kind) {
-  std::vector<std::string> lines = split(read_whole(file.string()), "\n");
-  while (!lines.empty() && lines.back().empty()) lines.pop_back();
-  std::vector<std::string> names = split(lines.empty() ? "" : lines.front(), ",");
-  Table table;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> cells = split(lines[i], ",");
-    if (cells.size() != names.size()) throw problem("a ragged row", file, "row", lines[i], lines.front());
-    for (std::size_t k = 0; k < names.size(); ++k) table[names[k]].push_back(read_cell(cells[k], names[k], file));
+/// The given columns of one planned run.
+class PlannedTable {
+ public:
+  PlannedTable(const std::string& file, const Machine& machine) : file_(file), table_(CsvTable::read(file)) {
+    std::vector<std::string> required;
+    for (const GivenColumn& column : machine.given_columns()) required.emplace_back(column.name);
+    for (const std::string& column : required) {
+      if (table_.has(column) && table_.row_count() >= 2) continue;
+      throw problem("no such column with two rows or more", column, "",
+                    fmt::format("the given columns of a {} set: {}", machine.name(), fmt::join(required, ", ")));
+    }
+    check_rows();
   }
-  const std::vector<std::string> required = required_columns(kind);
-  for (const std::string& column : required) {
-    if (table[column].size() >= 2) continue;
-    throw problem(fmt::format("no column '{}' with two rows or more", column), file, column, "",
-                  fmt::format("the given columns of a {} set: {}", name_of(kind), fmt::join(required, ", ")));
-  }
-  return table;
-}
 
-void check_rows(const Table& table, const fs::path& file) {
-  const std::vector<double>& time_s = table.at("time_s");
-  for (std::size_t i = 0; i < time_s.size(); ++i) {
-    const bool goes_on = i == 0 ? time_s[i] == 0.0 : time_s[i] > time_s[i - 1];
-    if (goes_on && time_s[i] == std::round(time_s[i])) continue;
-    throw problem("times do not go on", file, "time_s", fmt::format("{:g}", time_s[i]),
-                  "0 first, then whole seconds that increase");
+  bool has(const std::string& column) const { return table_.has(column); }
+  std::size_t rows() const { return table_.row_count(); }
+
+  /// A column as it is written; zeros where it is not there.
+  std::vector<double> read(const std::string& column) const {
+    if (!table_.has(column)) return std::vector<double>(rows(), 0.0);
+    std::vector<double> values = table_.plain_numbers(column, {});
+    for (const double value : values) {
+      if (std::isnan(value)) throw problem("an empty cell", column, "", "a number in every cell");
+    }
+    return values;
   }
-  for (const char* column : {"speed_km_h", "load_N"}) {
-    const auto at = table.find(column);
-    if (at == table.end()) continue;
-    for (const double value : at->second) {
-      if (value < 0.0) throw problem("less than nothing", file, column, fmt::format("{:g}", value), "0 or more");
+
+  /// A column that a test holds from its first row to its last.
+  double read_held(const std::string& column) const {
+    const std::vector<double> values = read(column);
+    for (const double value : values) {
+      if (value != values.front()) throw problem("not held", column, fmt::format("{:g}", value), "one value");
+    }
+    return values.front();
+  }
+
+ private:
+  InputError problem(const std::string& what, const std::string& column, const std::string& value,
+                     const std::string& allowed) const {
+    return InputError({what, file_, 0, column, value, allowed, ""});
+  }
+
+  void check_rows() const {
+    const std::vector<double> time_s = read("time_s");
+    for (std::size_t i = 0; i < rows(); ++i) {
+      const bool goes_on = i == 0 ? time_s[i] == 0.0 : time_s[i] > time_s[i - 1];
+      if (goes_on && time_s[i] == std::round(time_s[i])) continue;
+      throw problem("times do not go on", "time_s", fmt::format("{:g}", time_s[i]),
+                    "0 first, then whole seconds that increase");
+    }
+    for (const char* column : {"speed_km_h", "load_N"}) {
+      for (const double value : read(column)) {
+        if (value < 0.0) throw problem("less than nothing", column, fmt::format("{:g}", value), "0 or more");
+      }
     }
   }
-}
 
-/// A column that a test holds from its first row to its last.
-double read_held(const Table& table, const char* column, const fs::path& file) {
-  const std::vector<double>& values = table.at(column);
-  for (const double value : values) {
-    if (value != values.front()) throw problem("not held", file, column, fmt::format("{:g}", value), "one value");
-  }
-  return values.front();
-}
+  std::string file_;
+  CsvTable table_;
+};
 
-/// Straight lines between rows, the load held, as legs; off the drum a leg lasts one second.
-std::vector<Leg> make_legs(const Table& table, Kind kind, double road_load_N) {
-  const std::vector<double>& time_s = table.at("time_s");
-  const auto column = [&](const char* name) {
-    const auto at = table.find(name);
-    return at == table.end() ? std::vector<double>(time_s.size(), 0.0) : at->second;
-  };
-  const std::vector<double> speed_km_h = column("speed_km_h");
-  const std::vector<double> load_N = column("load_N");
-  const std::vector<double> pull_N = column("longitudinal_force_N");
-  const std::vector<double> elevation_m = column("elevation_m");
+/// Straight lines between rows, the load held, as legs; where the speed has knots a leg lasts one second.
+std::vector<Leg> make_legs(const PlannedTable& table, const Machine& machine, double road_load_N) {
+  const std::vector<double> time_s = table.read("time_s");
+  const std::vector<double> speed_km_h = table.read("speed_km_h");
+  const std::vector<double> load_N = table.read("load_N");
+  const std::vector<double> pull_N = table.read("longitudinal_force_N");
+  const std::vector<double> elevation_m = table.read("elevation_m");
   std::vector<Leg> legs;
   double way_m = 0.0;
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) {
     const double span_s = time_s[i + 1] - time_s[i];
-    const double step_s = kind == Kind::kDrum ? span_s : 1.0;
+    const double step_s = machine.has_knots() ? 1.0 : span_s;
     for (double from_s = 0.0; from_s < span_s; from_s += step_s) {
       const auto between = [&](const std::vector<double>& values, double at_s) {
         return values[i] + at_s / span_s * (values[i + 1] - values[i]);
       };
       const double to_s = from_s + step_s;
       Leg leg{time_s[i] + from_s, step_s, between(speed_km_h, from_s) / 3.6, between(speed_km_h, to_s) / 3.6,
-              kind == Kind::kRoad ? road_load_N : load_N[i]};
+              machine.has_vehicle() ? road_load_N : load_N[i]};
       leg.start_longitudinal_N = between(pull_N, from_s);
       leg.end_longitudinal_N = between(pull_N, to_s);
       leg.start_elevation_m = between(elevation_m, from_s);
@@ -130,9 +109,7 @@ std::vector<Leg> make_legs(const Table& table, Kind kind, double road_load_N) {
 }
 
 RunPlan read_run(const fs::path& folder, const Json& json, const SetOrder& order, double road_load_N) {
-  const fs::path file = folder / json.at("file").get<std::string>();
-  const Table table = read_table(file, order.kind);
-  check_rows(table, file);
+  const PlannedTable table((folder / json.at("file").get<std::string>()).string(), *order.machine);
   RunPlan run;
   run.id = json.at("id").get<std::string>();
   run.session = json.at("session").get<std::string>();
@@ -142,37 +119,39 @@ RunPlan read_run(const fs::path& folder, const Json& json, const SetOrder& order
   for (const Json& span : json.at("not_read_s")) {
     run.unread_s.emplace_back(span.at(0).get<double>(), span.at(1).get<double>());
   }
-  if (table.count("surface_temperature_degC") > 0)
-    run.surface_degC = read_held(table, "surface_temperature_degC", file);
-  const auto hung = table.find("hung_torque_Nm");
-  for (std::size_t i = 0; hung != table.end() && i < hung->second.size(); ++i) {
-    run.hung_Nm.emplace_back(table.at("time_s")[i], hung->second[i]);
+  if (table.has("surface_temperature_degC")) run.surface_degC = table.read_held("surface_temperature_degC");
+  const std::vector<double> time_s = table.read("time_s");
+  const std::vector<double> hung_Nm = table.read("hung_torque_Nm");
+  for (std::size_t i = 0; table.has("hung_torque_Nm") && i < time_s.size(); ++i) {
+    run.hung_Nm.emplace_back(time_s[i], hung_Nm[i]);
   }
   Draws own(order.seed, "run/" + run.id);
-  run.air = draw_air(own, read_held(table, "ambient_degC", file));
+  run.air = draw_air(own, table.read_held("ambient_degC"));
   run.initial_degC = std::round(10.0 * run.air.at(0.0)) / 10.0;
-  run.legs = make_legs(table, order.kind, road_load_N);
+  run.legs = make_legs(table, *order.machine, road_load_N);
   return run;
 }
 
 }  // namespace
 
 TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double road_load_N) {
-  const fs::path file = fs::path(folder) / "plan.json";
+  const std::string file = (fs::path(folder) / "plan.json").string();
+  const auto require = [&file](const Json& json, const char* key, const char* value) {
+    if (json.at(key) == value) return;
+    throw InputError({"not a plan for this case", file, 0, key, json.at(key).dump(), value, ""});
+  };
   TestPlan plan;
   try {
-    const Json json = Json::parse(read_whole(file.string()));
-    if (json.at("format") != kFormat) throw problem("not a plan", file, "format", json.at("format").dump(), kFormat);
-    if (json.at("kind") != name_of(order.kind)) {
-      throw problem("a plan for another kind of set", file, "kind", json.at("kind").dump(), name_of(order.kind));
-    }
+    const Json json = Json::parse(read_text_file(file));
+    require(json, "format", kFormat);
+    require(json, "kind", order.machine->name());
     plan.set_sha256 = json.at("set_sha256").get<std::string>();
     for (const Json& run : json.at("runs")) plan.runs.push_back(read_run(folder, run, order, road_load_N));
   } catch (const Json::exception& error) {
-    throw problem(fmt::format("not a plan: {}", error.what()), file, "plan.json", "", kFormat);
+    throw InputError({fmt::format("not a plan: {}", error.what()), file, 0, "", "", kFormat, ""});
   }
-  if (plan.runs.empty()) throw problem("a plan without runs", file, "runs", "[]", "one run or more");
+  if (plan.runs.empty()) throw InputError({"a plan without runs", file, 0, "runs", "[]", "one run or more", ""});
   return plan;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

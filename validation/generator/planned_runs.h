@@ -1,12 +1,12 @@
 #pragma once
-/// Runs of a test that somebody planned, as rollrig blind plan writes them.
+/// Runs of a test that somebody planned, as rollrig_validation plan writes them.
 
 #include <string>
 #include <vector>
 
 #include "validation/generator/measurement_set.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// The plan of one set: plan.json (rollrig-blind-plan/1) and a CSV of given columns for each of its runs.
 struct TestPlan {
@@ -19,4 +19,4 @@ struct TestPlan {
 /// Errors  InputError: no plan, a plan of another kind of set, columns or rows that no run can have
 TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double road_load_N);
 
-}  // namespace blind
+}  // namespace rollrig::generator

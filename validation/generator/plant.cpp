@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
+#include "validation/generator/machine.h"
+
+namespace rollrig::generator {
 namespace {
 
 constexpr double kGasConstant = 8.314462618;  // J/(mol K)
@@ -14,21 +16,13 @@ constexpr double kWalkingPace_m_s = 0.05;
 constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kGasConstantOfAir = 287.05;  // J/(kg K)
 
-/// Standards' correction from the drum on which A holds (2 m) to this one.
-double calc_curvature_factor(const Specimen& specimen) {
-  const double tire_m = 0.5 * specimen.outer_diameter_m;
-  if (specimen.kind == Kind::kRoad) return specimen.constant_rrc ? 1.0 : 1.0 / std::sqrt(1.0 + tire_m);
-  const double here_m = 0.5 * specimen.drum_diameter_m;
-  return std::sqrt((here_m + tire_m) / (here_m * (1.0 + tire_m)));
-}
-
 }  // namespace
 
 Plant::Plant(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run)
     : specimen_(specimen),
       effects_(effects),
       run_(run),
-      curvature_factor_(calc_curvature_factor(specimen)),
+      curvature_factor_(specimen.machine->calc_curvature_factor(specimen)),
       follows_law_(!specimen.constant_rrc) {
   for (const auto& effect : effects_) effect->lay_out(wall_);
   const auto layers = static_cast<double>(wall_.layers);
@@ -85,13 +79,7 @@ double Plant::speed_at(double time_s) const {
 }
 
 double Plant::moving_mass_kg(double load_N) const {
-  if (specimen_.kind == Kind::kDyno) return 0.0;  // the rig compensates it
-  if (specimen_.kind == Kind::kRoad) return specimen_.truth(Base::kMass) + specimen_.truth(Base::kRotatingMass);
-  const double drum_m = 0.5 * specimen_.drum_diameter_m;
-  const double drum_kg = specimen_.drum_inertia_kg_m2 / (drum_m * drum_m);
-  if (leg_.load_N <= 0.0) return drum_kg;  // the wheel is off the drum
-  const double wheel_m = 0.5 * specimen_.outer_diameter_m - load_N / specimen_.vertical_N_per_m;
-  return drum_kg + specimen_.spin_inertia_kg_m2 / (wheel_m * wheel_m);
+  return specimen_.machine->calc_moving_mass_kg(specimen_, load_N, leg_.load_N);
 }
 
 Instant Plant::find_instant(double time_s, const double* state) const {
@@ -113,8 +101,8 @@ Instant Plant::find_instant(double time_s, const double* state) const {
   now.air_speed_m_s = now.speed_m_s;
   const double part = std::clamp((time_s - leg_.start_s) / leg_.duration_s, 0.0, 1.0);
   now.longitudinal_N = leg_.start_longitudinal_N + part * (leg_.end_longitudinal_N - leg_.start_longitudinal_N);
-  now.brake_N =
-      specimen_.kind == Kind::kRoad ? vehicle_friction_N(time_s) / specimen_.tires : std::max(0.0, -now.longitudinal_N);
+  now.brake_N = specimen_.machine->has_vehicle() ? vehicle_friction_N(time_s) / specimen_.tires
+                                                 : std::max(0.0, -now.longitudinal_N);
   now.distance_m = leg_.start_distance_m + 0.5 * (leg_.start_m_s + now.speed_m_s) * (time_s - leg_.start_s);
   for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->enter(state + effect_state_[i], now);
   if (leg_.load_N <= 0.0) now.load_N = load_at(time_s);  // whatever a record or a strap says, a lifted tire is off
@@ -135,7 +123,7 @@ double Plant::vehicle_friction_N(double time_s) const {
 }
 
 bool Plant::friction_brakes_at(double time_s) const {
-  return specimen_.kind == Kind::kRoad && vehicle_friction_N(time_s) > 0.0;
+  return specimen_.machine->has_vehicle() && vehicle_friction_N(time_s) > 0.0;
 }
 
 /// Beside the tires: slope and air, with the density of dry air.
@@ -209,8 +197,8 @@ Reading Plant::read(double time_s, const double* state) const {
   find_losses(state, now, loss_N);
   Reading reading{now.rig_force_N, now.liner_degC, now.pressure_kPa};
   for (const double layer_N : loss_N) reading.force_N += layer_N;
-  if (specimen_.kind == Kind::kRoad) reading.force_N = specimen_.tires * reading.force_N + calc_vehicle_N(now);
+  if (specimen_.machine->has_vehicle()) reading.force_N = specimen_.tires * reading.force_N + calc_vehicle_N(now);
   return reading;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

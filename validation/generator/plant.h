@@ -13,7 +13,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/specimen.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// How the rubber is laid out. Shares add to one over the layers, tread first.
 struct Wall {
@@ -71,4 +71,4 @@ class Plant {
   double load_step_s_ = 0.0;
 };
 
-}  // namespace blind
+}  // namespace rollrig::generator

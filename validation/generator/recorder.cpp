@@ -10,9 +10,10 @@
 #include <array>
 #include <cmath>
 
-#include "validation/generator/problem.h"
+#include "sim/core/error.h"
+#include "validation/generator/machine.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 namespace odeint = boost::numeric::odeint;
@@ -51,15 +52,11 @@ struct SystemDerivatives {
   }
 };
 
-double find_lever(const Specimen& specimen) {
-  return specimen.kind == Kind::kDrum ? 0.5 * specimen.drum_diameter_m : 1.0;
-}
-
 /// What a leg is asked for: at each cell's start the temperature and pressure, at two points within it, by Gauss'
 /// rule, the force.
 class Collector {
  public:
-  explicit Collector(const Specimen& specimen) : specimen_(specimen), lever_(find_lever(specimen)) {}
+  explicit Collector(const Specimen& specimen) : specimen_(specimen), lever_(specimen.machine->find_lever(specimen)) {}
 
   /// The next time that is wanted.
   double next_s() const { return static_cast<double>(cell_) * kStep_s + kPoints[point_]; }
@@ -168,8 +165,8 @@ Collector simulate(const Specimen& specimen, const std::vector<std::unique_ptr<E
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0 && legs[i].load_N != legs[i - 1].load_N) step = {legs[i - 1].load_N, legs[i].start_s};
     plant.enter(legs[i], step.before_N, step.time_s);
-    state = specimen.kind == Kind::kDrum ? integrate_leg(plant, legs[i], step, std::move(state), collector)
-                                         : march_leg(plant, legs[i], std::move(state), collector);
+    state = specimen.machine->has_knots() ? march_leg(plant, legs[i], std::move(state), collector)
+                                          : integrate_leg(plant, legs[i], step, std::move(state), collector);
   }
   return collector;
 }
@@ -229,7 +226,7 @@ RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr
   Collector collected = simulate(specimen, effects, run);
   RunRecord record;
   record.specimen = &specimen;
-  record.lever = find_lever(specimen);
+  record.lever = specimen.machine->find_lever(specimen);
   fill_given(run, record);
   record.liner = Signal(kStep_s, std::move(collected.liner));
   record.pressure = Signal(kStep_s, std::move(collected.pressure));
@@ -251,4 +248,4 @@ RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr
   return record;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

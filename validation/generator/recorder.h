@@ -6,7 +6,7 @@
 
 #include "validation/generator/plant.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// A signal on a grid from time 0 on, linear between its points.
 class Signal {
@@ -51,4 +51,4 @@ constexpr double kMargin_s = 30.0;
 /// where the speed has a knot each second, of half a second.
 RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run);
 
-}  // namespace blind
+}  // namespace rollrig::generator

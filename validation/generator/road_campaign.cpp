@@ -8,7 +8,7 @@
 #include "validation/generator/campaign.h"
 #include "validation/generator/speed_trace.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -104,17 +104,17 @@ std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N)
 
 }  // namespace
 
-Campaign draw_road_campaign(std::uint64_t seed, const Specimen& specimen, int runs) {
+Campaign draw_road_campaign(const CampaignOrder& order, const Specimen& specimen) {
   constexpr double kGravity_m_s2 = 9.80665;
   constexpr std::array<const char*, 3> kKinds{"commute", "motorway", "journey"};
-  Draws draws(seed, "campaign");
+  Draws draws(order.seed, "campaign");
   const double year_degC = draws.uniform(8.0, 18.0);
   const double load_N = specimen.truth(Base::kMass) * kGravity_m_s2 / specimen.tires;
   Campaign campaign{"trips", {}};
   int day = 0;
   double day_degC = 0.0;
-  for (int i = 0; i < runs; ++i) {
-    Draws own(seed, fmt::format("run/{}", i));
+  for (int i = 0; i < order.runs; ++i) {
+    Draws own(order.seed, fmt::format("run/{}", i));
     const bool warm = i > 0 && own.happens(0.3);  // right after another trip of the same day
     if (!warm) {
       ++day;
@@ -135,4 +135,4 @@ Campaign draw_road_campaign(std::uint64_t seed, const Specimen& specimen, int ru
   return campaign;
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

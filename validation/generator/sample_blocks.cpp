@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr std::size_t kBlockRows = 10;
@@ -81,4 +81,4 @@ void SampleBlocks::whiten(const std::vector<double>& values, double* whitened) c
   }
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

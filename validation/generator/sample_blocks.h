@@ -6,7 +6,7 @@
 
 #include "validation/generator/sensors.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 /// Blocks of 10 rows at 1 Hz of one channel of one run. Their errors are uncorrelated and of unit variance after a
 /// Kalman filter on the drift, which goes on through rows without a sample.
@@ -43,4 +43,4 @@ class SampleBlocks {
   std::vector<Block> blocks_;
 };
 
-}  // namespace blind
+}  // namespace rollrig::generator

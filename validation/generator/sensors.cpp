@@ -8,22 +8,12 @@
 
 #include "validation/generator/draws.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 double round_to_step(double value, double step) { return std::round(value / step) * step; }
 
 }  // namespace
-
-const std::vector<Channel>& channels_of(Kind kind) {
-  static const std::vector<Channel> drum{
-      {"drum_torque_Nm", "torque"}, {"liner_temperature_degC", "tire"}, {"cavity_pressure_kPa", "tire"}};
-  static const std::vector<Channel> dyno{
-      {"loss_force_N", "torque"}, {"liner_temperature_degC", "tire"}, {"cavity_pressure_kPa", "tire"}};
-  static const std::vector<Channel> road{{"traction_force_N", "vehicle"}};
-  if (kind == Kind::kDrum) return drum;
-  return kind == Kind::kDyno ? dyno : road;
-}
 
 double Sensor::floor() const {
   constexpr int kSamples = 10;
@@ -35,37 +25,31 @@ double Sensor::floor() const {
   return std::sqrt(drift_sd * drift_sd * shared / (kSamples * kSamples) + white / kSamples);
 }
 
-Sensors draw_sensors(std::uint64_t seed, Kind kind) {
+Sensors draw_sensors(std::uint64_t seed, const std::vector<Channel>& channels) {
   Draws draws(seed, "sensors");
-  const auto draw = [&draws](const Sensor& typical) {
-    const auto varied = [&draws](double value) { return round_to_step(value * draws.uniform(0.75, 1.3), 0.001); };
+  const auto varied = [&draws](double value) { return round_to_step(value * draws.uniform(0.75, 1.3), 0.001); };
+  Sensors sensors;
+  for (const Channel& channel : channels) {
+    const Sensor& typical = channel.typical;
     Sensor sensor;
     sensor.offset_sd = varied(typical.offset_sd);
     sensor.drift_sd = varied(typical.drift_sd);
     sensor.drift_time_s = std::round(typical.drift_time_s * draws.uniform(0.75, 1.3));
     sensor.noise_sd = varied(typical.noise_sd);
     sensor.resolution = typical.resolution;
-    return sensor;
-  };
-  // Assumed: a force on the road has unevenness, gusts and gear noise in it, less than a trip in traffic has.
-  if (kind == Kind::kRoad) return {draw({8.0, 40.0, 13.0, 60.0, 0.0})};
-  // Assumed: a loss is the difference of two torques, so it is noisier than a drum's torque.
-  const Sensor force = kind == Kind::kDrum ? Sensor{0.45, 0.10, 60.0, 0.25, 0.0} : Sensor{0.6, 0.25, 60.0, 1.0, 0.0};
-  Sensors sensors{draw(force)};
-  sensors.push_back(draw({0.25, 0.05, 60.0, 0.1, 0.1}));
-  sensors.push_back(draw({0.25, 0.10, 120.0, 0.05, 0.1}));
+    sensors.push_back(sensor);
+  }
   return sensors;
 }
 
-std::string write_sensors(Kind kind, const Sensors& sensors) {
+std::string write_sensors(const std::vector<Channel>& channels, const Sensors& sensors) {
   std::string text;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     const Sensor& sensor = sensors[i];
     text += fmt::format(
         "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
         "resolution = {:.10g}\n",
-        channels_of(kind)[i].name, sensor.offset_sd, sensor.drift_sd, sensor.drift_time_s, sensor.noise_sd,
-        sensor.resolution);
+        channels[i].name, sensor.offset_sd, sensor.drift_sd, sensor.drift_time_s, sensor.noise_sd, sensor.resolution);
   }
   return text;
 }
@@ -103,4 +87,4 @@ void drop_samples(std::uint64_t seed, const std::string& run, const Channel& cha
   }
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

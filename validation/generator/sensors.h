@@ -5,18 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/generator/kind.h"
-
-namespace blind {
-
-/// A measured column and the logger that takes it.
-struct Channel {
-  const char* name;
-  const char* logger;
-};
-
-/// The first of them is the force.
-const std::vector<Channel>& channels_of(Kind kind);
+namespace rollrig::generator {
 
 /// Error sizes of one channel, in its unit.
 struct Sensor {
@@ -31,10 +20,18 @@ struct Sensor {
   double floor() const;
 };
 
+/// A measured column, the logger that takes it, and a sensor as laboratories have it.
+struct Channel {
+  const char* name;
+  const char* logger;
+  Sensor typical;
+};
+
 using Sensors = std::vector<Sensor>;  // one a channel
 
-Sensors draw_sensors(std::uint64_t seed, Kind kind);
-std::string write_sensors(Kind kind, const Sensors& sensors);
+/// Sensors about the typical ones.
+Sensors draw_sensors(std::uint64_t seed, const std::vector<Channel>& channels);
+std::string write_sensors(const std::vector<Channel>& channels, const Sensors& sensors);
 
 /// Adds what the sensor makes of the true values, then takes samples away (NaN).
 /// Drift starts stationary in every run and channel and goes on through missing samples; rounding comes last.
@@ -44,4 +41,4 @@ void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& s
 /// Takes samples away: single ones, and gaps that temperature and pressure share, since one logger takes both.
 void drop_samples(std::uint64_t seed, const std::string& run, const Channel& channel, std::vector<double>& values);
 
-}  // namespace blind
+}  // namespace rollrig::generator

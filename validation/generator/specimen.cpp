@@ -4,13 +4,10 @@
 
 #include <cmath>
 
-namespace blind {
-namespace {
+#include "validation/generator/machine.h"
 
-double round_to(double value, int digits) {
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0 - digits);
-  return std::round(value / step) * step;
-}
+namespace rollrig::generator {
+namespace {
 
 /// Nominal values. Assumed: passenger-car tires of 40 to 65 N at 0 degC and 80 km/h, which is 5 to 8 N/kN
 /// warm, and a drum rig with 8 to 14 N of its own at 80 km/h.
@@ -70,11 +67,6 @@ void draw_vehicle(Draws& draws, bool nominal_base, Specimen& specimen) {
   specimen.regeneration_m_s2 = round_to(draws.uniform(1.2, 2.0), 2);
 }
 
-void draw_roller(Draws& draws, Specimen& specimen) {
-  specimen.drum_diameter_m = draws.happens(0.7) ? 1.2 : 1.2192;  // 1.2192 m: the 48 inch roller
-  specimen.drum_inertia_kg_m2 = round_to(draws.uniform(90.0, 150.0), 3);
-}
-
 void draw_machine(Draws& draws, Specimen& specimen) {
   specimen.outer_diameter_m = round_to(draws.uniform(0.63, 0.74), 4);
   specimen.section_width_m = round_to(draws.uniform(0.205, 0.245), 3);
@@ -94,6 +86,31 @@ void draw_machine(Draws& draws, Specimen& specimen) {
   specimen.controller_frequency_rad_s = draws.uniform(1.0, 3.0);
 }
 
+}  // namespace
+
+double round_to(double value, int digits) {
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1.0 - digits);
+  return std::round(value / step) * step;
+}
+
+Specimen draw_specimen(std::uint64_t seed, const Machine& machine, bool constant_rrc, bool nominal_base) {
+  Specimen specimen;
+  specimen.machine = &machine;
+  specimen.constant_rrc = constant_rrc;
+  Draws nominal(seed, "specimen/nominal");
+  Draws body(seed, "specimen/machine");
+  Draws truth(seed, "specimen/truth");
+  Draws vehicle(seed, "specimen/vehicle");
+  draw_nominal(nominal, specimen);
+  draw_machine(body, specimen);
+  draw_truth(truth, nominal_base, Base::kA0, Base::kC2, specimen);
+  draw_vehicle(vehicle, nominal_base, specimen);
+  machine.draw_own(seed, specimen);
+  return specimen;
+}
+
+const char* name_of_law(const Specimen& specimen) { return specimen.constant_rrc ? "constant_rrc" : "combined"; }
+
 std::string write_identified(const Specimen& specimen, Base first, Base last) {
   std::string text;
   for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
@@ -101,34 +118,6 @@ std::string write_identified(const Specimen& specimen, Base first, Base last) {
     text += fmt::format("{0} = {1:.10g}\n{0}_sd = {2:.6g}\n", number.key, number.nominal, number.sd);
   }
   return text;
-}
-
-}  // namespace
-
-bool Specimen::gives(Base which) const {
-  if (kind != Kind::kRoad) return which <= Base::kC2;
-  if (constant_rrc) return which >= Base::kMass;
-  return which <= Base::kF || (which >= Base::kMass && which < Base::kRrc);
-}
-
-Specimen draw_specimen(const SpecimenOrder& order) {
-  Specimen specimen;
-  specimen.kind = order.kind;
-  specimen.constant_rrc = order.constant_rrc;
-  Draws nominal(order.seed, "specimen/nominal");
-  Draws machine(order.seed, "specimen/machine");
-  Draws truth(order.seed, "specimen/truth");
-  Draws vehicle(order.seed, "specimen/vehicle");
-  Draws roller(order.seed, "specimen/roller");
-  draw_nominal(nominal, specimen);
-  draw_machine(machine, specimen);
-  draw_truth(truth, order.nominal_base, Base::kA0, Base::kC2, specimen);
-  draw_vehicle(vehicle, order.nominal_base, specimen);
-  if (order.kind == Kind::kDyno) draw_roller(roller, specimen);
-  if (order.kind == Kind::kRoad) {  // the vehicle's bearings are in what is called its tires' loss
-    for (const Base none : {Base::kC0, Base::kC1, Base::kC2}) specimen.base[static_cast<std::size_t>(none)].truth = 0.0;
-  }
-  return specimen;
 }
 
 std::string write_tire(const Specimen& specimen) {
@@ -152,25 +141,4 @@ std::string write_tire(const Specimen& specimen) {
   return text;
 }
 
-std::string write_rig(const Specimen& specimen) {
-  const bool is_drum = specimen.kind == Kind::kDrum;
-  std::string text = fmt::format("format = \"rollrig-rig/1\"\nname = \"laboratory\"\nkind = \"{}\"\n\n[{}]\n",
-                                 name_of(specimen.kind), is_drum ? "drum" : "roller");
-  text += fmt::format("diameter_m = {:.10g}\ninertia_kg_m2 = {:.10g}\n\n[parasitic]\n", specimen.drum_diameter_m,
-                      specimen.drum_inertia_kg_m2);
-  text += write_identified(specimen, Base::kC0, Base::kC2);
-  text += fmt::format("\n[environment]\nambient_degC = {:.10g}\n", specimen.ambient_degC);
-  if (is_drum) text += fmt::format("\n[skim]\nload_N = {:.10g}\n", specimen.skim_load_N);
-  return text;
-}
-
-std::string write_vehicle(const Specimen& specimen) {
-  std::string text = "format = \"rollrig-vehicle/1\"\nname = \"car\"\n";
-  text += write_identified(specimen, Base::kMass, Base::kDragArea);
-  text += fmt::format("tires = {:.0f}\n\n[powertrain]\nregeneration_limit_m_s2 = {:.10g}\n", specimen.tires,
-                      specimen.regeneration_m_s2);
-  text += fmt::format("regeneration_fade_km_h = {:.10g}\n", 3.6 * specimen.regeneration_fade_m_s);
-  return text;
-}
-
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -6,9 +6,8 @@
 #include <string>
 
 #include "validation/generator/draws.h"
-#include "validation/generator/kind.h"
 
-namespace blind {
+namespace rollrig::generator {
 
 constexpr double kSpeed80_m_s = 80.0 / 3.6;  // to which sizes and shapes of effects refer
 
@@ -41,9 +40,11 @@ struct Identified {
   double truth = 0.0;
 };
 
+class Machine;
+
 /// Everything of the laboratory that stays the same over a set. Values in the units of their names.
 struct Specimen {
-  Kind kind = Kind::kDrum;
+  const Machine* machine = nullptr;
   bool constant_rrc = false;  // the law before any effect is a constant coefficient; on the road
   std::array<Identified, kBaseCount> base;
 
@@ -77,21 +78,17 @@ struct Specimen {
   double regeneration_fade_m_s = 10.0 / 3.6;
 
   double truth(Base which) const { return base[static_cast<std::size_t>(which)].truth; }
-  /// Whether the files of this set have a number.
-  bool gives(Base which) const;
 };
 
-/// What is to be drawn.
-struct SpecimenOrder {
-  std::uint64_t seed = 1;
-  Kind kind = Kind::kDrum;
-  bool constant_rrc = false;
-  bool nominal_base = false;  // the truth is what the files say
-};
-Specimen draw_specimen(const SpecimenOrder& order);
+/// `nominal_base`: the truth is what the files say.
+Specimen draw_specimen(std::uint64_t seed, const Machine& machine, bool constant_rrc, bool nominal_base);
 
 std::string write_tire(const Specimen& specimen);
-std::string write_rig(const Specimen& specimen);
-std::string write_vehicle(const Specimen& specimen);
+/// Keys of numbers with their uncertainties.
+std::string write_identified(const Specimen& specimen, Base first, Base last);
+/// As a road set's `baseline` has it.
+const char* name_of_law(const Specimen& specimen);
+/// To so many significant digits.
+double round_to(double value, int digits);
 
-}  // namespace blind
+}  // namespace rollrig::generator

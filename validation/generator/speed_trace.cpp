@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace blind {
+namespace rollrig::generator {
 
 void SpeedTrace::add(double speed_m_s) {
   // To what a file holds: the truth runs through the recorded values.
@@ -26,4 +26,4 @@ void SpeedTrace::cycle(const std::vector<double>& speeds_km_h) {
   for (std::size_t i = 1; i < speeds_km_h.size(); ++i) add(speeds_km_h[i] / 3.6);
 }
 
-}  // namespace blind
+}  // namespace rollrig::generator

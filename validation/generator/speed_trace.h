@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace blind {
+namespace rollrig::generator {
 
 class SpeedTrace {
  public:
@@ -22,4 +22,4 @@ class SpeedTrace {
   std::vector<double> speeds_m_s_{0.0};
 };
 
-}  // namespace blind
+}  // namespace rollrig::generator

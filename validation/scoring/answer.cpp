@@ -10,11 +10,11 @@
 #include "diagnosis/output/diagnosis_json.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
-#include "validation/scoring/bank.h"
+#include "validation/files.h"
 
 namespace fs = std::filesystem;
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 constexpr const char* kFormat = "rollrig-blind-answer/1";
@@ -81,7 +81,7 @@ std::string hash_program() {
 
 Json make_answer_json(const Answer& answer) {
   Json json = {{"format", kFormat},
-               {"set", answer.set},
+               {"set", answer.number},
                {"set_sha256", answer.set_sha256},
                {"program_sha256", answer.settings.program_sha256},
                {"only", answer.settings.only},
@@ -95,10 +95,10 @@ Json make_answer_json(const Answer& answer) {
 
 Answer read_answer_json(const Json& json) {
   if (json.at("format") != kFormat) {
-    throw InputError({"not an answer to a set of a bank", "", 0, "format", json.at("format").dump(), kFormat, ""});
+    throw InputError({"not an answer to a case", "", 0, "format", json.at("format").dump(), kFormat, ""});
   }
   Answer answer;
-  answer.set = json.at("set").get<std::string>();
+  answer.number = json.at("set").get<std::string>();
   answer.set_sha256 = json.at("set_sha256").get<std::string>();
   answer.settings.program_sha256 = json.at("program_sha256").get<std::string>();
   answer.settings.only = json.at("only").get<std::vector<std::string>>();
@@ -113,36 +113,36 @@ Answer read_answer_json(const Json& json) {
   return answer;
 }
 
-std::string answer_file(const std::string& folder, const std::string& set) {
-  return (fs::path(folder) / (set + ".json")).string();
+std::string answer_file(const std::string& folder, const std::string& number) {
+  return (fs::path(folder) / (number + ".json")).string();
 }
 
 void write_answer(const std::string& folder, const Answer& answer) {
-  write_file_atomically(answer_file(folder, answer.set), make_answer_json(answer).dump(1) + "\n");
+  write_file_atomically(answer_file(folder, answer.number), make_answer_json(answer).dump(1) + "\n");
 }
 
-std::optional<Answer> find_answer(const std::string& folder, const std::string& set) {
-  const std::string file = answer_file(folder, set);
+std::optional<Answer> find_answer(const std::string& folder, const std::string& number) {
+  const std::string file = answer_file(folder, number);
   if (!fs::exists(file)) return std::nullopt;
   try {
     Answer answer = read_answer_json(Json::parse(read_text_file(file)));
-    if (answer.set == set) return answer;
+    if (answer.number == number) return answer;
   } catch (const Json::exception&) {  // of another program, or spoiled: as if it were not there
   } catch (const InputError&) {
   }
   return std::nullopt;
 }
 
-std::optional<Answer> find_answer_to(const std::string& bank, const std::string& folder, const std::string& set) {
-  std::optional<Answer> answer = find_answer(folder, set);
-  if (answer.has_value() && answer->set_sha256 != hash_set(set_folder(bank, set))) return std::nullopt;
+std::optional<Answer> find_answer_to(const std::string& set, const std::string& folder, const std::string& number) {
+  std::optional<Answer> answer = find_answer(folder, number);
+  if (answer.has_value() && answer->set_sha256 != hash_case(case_folder(set, number))) return std::nullopt;
   return answer;
 }
 
 void require_answers(std::size_t lacking, std::size_t all, const std::string& folder, const std::string& how) {
   if (lacking == 0) return;
-  throw InputError({fmt::format("{} of {} sets have no answer to their files as they are now", lacking, all), folder, 0,
-                    "", "", "first: " + how, ""});
+  throw InputError({fmt::format("{} of {} cases have no answer to their files as they are now", lacking, all), folder,
+                    0, "", "", "first: " + how, ""});
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

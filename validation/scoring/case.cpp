@@ -7,14 +7,15 @@
 #include <map>
 #include <set>
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::Verdict;
 
 using Conversion = double (*)(double value, double neutral);
 
-/// What makes the generator's size of an effect's own, where they are not the same number (docs/blind.md, "Effects").
+/// What makes the generator's size of an effect's own, where they are not the same number (docs/validation.md,
+/// "Effects").
 const std::map<std::string, Conversion>& size_conversions() {
   static const std::map<std::string, Conversion> conversions{
       {"convection_law", [](double deficit, double neutral) { return neutral - deficit; }},
@@ -123,4 +124,4 @@ std::optional<SizeCheck> Case::check_size() const {
   return std::nullopt;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

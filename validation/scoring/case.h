@@ -1,16 +1,16 @@
 #pragma once
-/// A set of a bank with its opened truth and the answer to it.
+/// A case of a validation set with its truth and the answer to it.
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "validation/scoring/answer.h"
-#include "validation/scoring/bank.h"
 #include "validation/scoring/follow_up.h"
 #include "validation/scoring/statistics.h"
+#include "validation/scoring/truth.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 constexpr double kConfident = 0.9;           // from here on a wrong cause counts as stated with confidence
 constexpr std::size_t kLargestNamedSet = 3;  // a larger one names nothing
@@ -24,12 +24,12 @@ struct SizeCheck {
 struct Case {
   Truth truth;
   Answer answer;
-  std::optional<double> oracle_shrink_percent;  // with the true effect alone in the race
-  std::optional<double> d_prime;                // of the ideal observer
-  std::optional<bool> identifiable;             // likewise: whether its data tell the effect from all others
-  std::vector<double> log_bayes_factors;        // likewise: expected, of the truth over each other effect; may be empty
-  std::optional<FollowUp> next_test;            // that the answer proposes; none where it leaves nothing open
-  std::optional<FollowUp> drawn_test;           // drawn from the menu instead
+  std::optional<double> known_cause_shrink_percent;  // with the true effect alone in the comparison
+  std::optional<double> d_prime;                     // of the ideal observer
+  std::optional<bool> identifiable;                  // likewise: whether its data tell the effect from all others
+  std::vector<double> log_bayes_factors;  // likewise: expected, of the truth over each other effect; may be empty
+  std::optional<FollowUp> next_test;      // that the answer proposes; none where it leaves nothing open
+  std::optional<FollowUp> drawn_test;     // drawn from the menu instead
 
   bool is(diagnosis::Verdict verdict) const { return answer.failure.empty() && answer.diagnosis.verdict == verdict; }
   bool has_cause() const { return answer.failure.empty() && !answer.diagnosis.causes.empty(); }
@@ -62,4 +62,4 @@ struct Case {
   bool is_split_by(const FollowUp& test) const;
 };
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

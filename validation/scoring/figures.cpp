@@ -5,7 +5,7 @@
 
 #include "validation/scoring/ideal_observer.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::Verdict;
@@ -33,7 +33,7 @@ Figure make_share(const char* id, const char* label, const Cases& of, const Is& 
     figure.value = static_cast<double>(figure.k) / static_cast<double>(figure.n);
     figure.interval = calc_wilson_95(figure.k, figure.n);
   } else {
-    figure.note = "no such set";
+    figure.note = "no such case";
   }
   return figure;
 }
@@ -45,7 +45,7 @@ Figure make_number(const char* id, const char* label, std::optional<double> valu
   figure.unit = unit;
   figure.target = target;
   figure.more_is_better = more_is_better;
-  if (!value.has_value()) figure.note = "no such set";
+  if (!value.has_value()) figure.note = "no such case";
   return figure;
 }
 
@@ -62,13 +62,13 @@ bool is_detectable(const Case& one, const ScoreOptions& options) {
 void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
   const Cases singles = only(cases, [](const Case& one) { return one.is_single(); });
   const Cases detectable = only(singles, [&](const Case& one) { return is_detectable(one, options); });
-  // Without any ceiling all count; with d' alone none is known to be.
+  // Without any upper bound all count; with d' alone none is known to be.
   const Cases identifiable =
       only(detectable, [](const Case& one) { return one.identifiable.value_or(!one.d_prime.has_value()); });
   figures.push_back(make_share(
       "detection", "detection, detectable singles", detectable,
       [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); }, 0.99));
-  figures.back().ceiling = find_mean_chance(detectable, find_chance_of_detection);
+  figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_detection);
   figures.push_back(make_share(
       "false_alarms", "false alarms, no effect", only(cases, [](const Case& one) { return one.is_clean(); }),
       [](const Case& one) { return !one.is(Verdict::kNoGap); }, 0.01, false));
@@ -77,7 +77,7 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
       "top1_set_aware", "top-1 set-aware, detectable", detectable, [](const Case& one) { return one.is_named(); },
       0.97));
   figures.back().floor = 0.92;
-  figures.back().ceiling = find_mean_chance(detectable, find_chance_of_small_set);
+  figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_small_set);
   figures.push_back(make_share(
       "top1_exact", "top-1 exact, identifiable", identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
   figures.push_back(make_share(
@@ -87,9 +87,9 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   const Cases pairs = only(cases, [](const Case& one) { return one.is_pair(); });
   figures.push_back(make_share(
       "pairs", "pairs, both named", pairs, [](const Case& one) { return one.is_named(); }, 0.90));
-  figures.back().ceiling =
+  figures.back().upper_bound =
       find_mean_chance(pairs, [&](const Case& one) { return find_chance_of_pair(one, options.detectable_d_prime); });
-  // Only a computed ceiling tells that the second effect can be seen beside the first.
+  // Only a computed bound tells that the second effect can be seen beside the first.
   figures.push_back(make_share(
       "pairs_identifiable", "  of those that can be told",
       only(cases,
@@ -165,7 +165,7 @@ void add_sizes(const Cases& cases, std::vector<Figure>& figures) {
     coverage.value = static_cast<double>(covered) / static_cast<double>(coverage.n);
     coverage.interval = calc_wilson_95(covered, coverage.n);
   } else {
-    coverage.note = "no such set";
+    coverage.note = "no such case";
   }
   figures.push_back(coverage);
 }
@@ -173,16 +173,16 @@ void add_sizes(const Cases& cases, std::vector<Figure>& figures) {
 void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
   std::vector<double> ratios;
   for (const Case& one : cases) {
-    if (!one.oracle_shrink_percent.has_value() || *one.oracle_shrink_percent <= 0.0) continue;
+    if (!one.known_cause_shrink_percent.has_value() || *one.known_cause_shrink_percent <= 0.0) continue;
     if (!one.is_single() && !one.is_pair()) continue;
-    ratios.push_back(one.answer.diagnosis.gap.shrink_percent.value_or(0.0) / *one.oracle_shrink_percent);
+    ratios.push_back(one.answer.diagnosis.gap.shrink_percent.value_or(0.0) / *one.known_cause_shrink_percent);
   }
-  figures.push_back(make_number("shrinkage_median", "shrinkage over oracle's, median", quantile(ratios, kMedian),
+  figures.push_back(make_number("shrinkage_median", "shrinkage/known cause's, median", quantile(ratios, kMedian),
                                 ratios.size(), Unit::kNumber, 0.97, true));
   figures.push_back(make_number("shrinkage_tenth", "  10th percentile", quantile(ratios, kTenth), ratios.size(),
                                 Unit::kNumber, 0.8, true));
   if (ratios.empty()) {
-    figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig blind oracle <bank> answers it";
+    figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig_validation known-cause";
   }
 }
 
@@ -198,7 +198,7 @@ void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
         std::any_of(cases.begin(), cases.end(), [test](const Case& one) { return (one.*test).has_value(); });
     if (!any) figures.back().note = how;
   };
-  add("next_test", "next test splits the set", &Case::next_test, "not measured: rollrig blind plan");
+  add("next_test", "next test splits the set", &Case::next_test, "not measured: rollrig_validation plan");
   const Cases promised = only(cases, [](const Case& one) {
     return (one.is_single() || one.is_pair()) && one.next_test.has_value() && one.next_test->answer.has_value() &&
            one.next_test->is_promised(one.answer);
@@ -207,8 +207,8 @@ void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
       "promised_test", "  where it is said to", promised,
       [](const Case& one) { return one.is_split_by(*one.next_test); }, 0.90));
   figures.back().target.reset();
-  if (promised.empty()) figures.back().note = figures.end()[-2].value ? "no such set" : figures.end()[-2].note;
-  add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig blind plan --drawn");
+  if (promised.empty()) figures.back().note = figures.end()[-2].value ? "no such case" : figures.end()[-2].note;
+  add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig_validation plan --drawn");
   figures.back().target.reset();  // what there is to beat
 }
 
@@ -225,7 +225,7 @@ void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
                                 explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained,
                                 Unit::kNumber, 1.3));
   figures.back().floor = 1.5;
-  figures.push_back(make_number("time_median", "CPU time of a set, median", quantile(seconds, kMedian), seconds.size(),
+  figures.push_back(make_number("time_median", "CPU time of a case, median", quantile(seconds, kMedian), seconds.size(),
                                 Unit::kSeconds, std::nullopt));
   figures.push_back(
       make_number("time_largest", "  largest", quantile(seconds, 1.0), seconds.size(), Unit::kSeconds, 30.0));
@@ -243,4 +243,4 @@ std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOpti
   return figures;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

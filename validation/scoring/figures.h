@@ -3,9 +3,9 @@
 
 #include "validation/scoring/score.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
-/// Source  docs/blind.md, "The proof"
+/// Source  docs/validation.md, "Figures"
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

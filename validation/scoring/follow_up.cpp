@@ -12,12 +12,12 @@
 #include "sim/core/file_io.h"
 #include "sim/core/random.h"
 #include "sim/core/units.h"
-#include "validation/scoring/bank.h"
+#include "validation/files.h"
 #include "validation/scoring/case.h"
 
 namespace fs = std::filesystem;
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::PlannedTest;
@@ -70,7 +70,7 @@ Json make_plan_json(const FollowUpPlan& plan, const MeasurementSet& set, const P
                     {"not_read_s", list_unread_s(run, set.kind)}});
   }
   return {{"format", kPlanFormat},
-          {"set", plan.set},
+          {"set", plan.number},
           {"set_sha256", plan.set_sha256},
           {"kind", measurements::name_of(set.kind)},
           {"test", test.description},
@@ -84,25 +84,23 @@ PlannedTest find_test(std::vector<PlannedTest> menu, const FollowUpPlan& plan, c
   const auto at = std::find_if(menu.begin(), menu.end(),
                                [&plan](const PlannedTest& test) { return test.description == plan.test; });
   if (at != menu.end()) return *at;
-  throw InputError({fmt::format("no test of the menu is the one proposed for set {}", plan.set), file, 0, "next_test",
-                    plan.test, "an answer by this version of rollrig", ""});
+  throw InputError({fmt::format("no test of the menu is the one proposed for case {}", plan.number), file, 0,
+                    "next_test", plan.test, "an answer by this version of rollrig", ""});
 }
 
-PlannedTest draw_test(std::vector<PlannedTest> menu, std::uint64_t seed, const std::string& set) {
+PlannedTest draw_test(std::vector<PlannedTest> menu, std::uint64_t seed, const std::string& number) {
   menu.erase(
       std::remove_if(menu.begin(), menu.end(), [](const PlannedTest& one) { return !find_obstacle(one).empty(); }),
       menu.end());
-  RandomStream draws(seed, "next test/" + set);
+  RandomStream draws(seed, "next test/" + number);
   return menu.at(static_cast<std::size_t>(draws.uniform() * static_cast<double>(menu.size())));
 }
 
 class Planning {
  public:
   explicit Planning(const PlanOrder& order)
-      : order_(order), folder_((fs::path(order.bank) / folder_of(order.choice)).string()), out_(folder_, true) {
-    if (!fs::exists(folder_) || fs::is_empty(folder_)) return;
-    throw InputError({fmt::format("'{}' is there already", folder_), order.bank, 0, "bank", order.bank,
-                      fmt::format("a bank without '{}': remove it to plan anew", folder_of(order.choice)), ""});
+      : order_(order), folder_((fs::path(order.set) / folder_of(order.choice)).string()), out_(folder_, true) {
+    require_new_folder(folder_, "plan");
   }
 
   std::vector<FollowUpPlan> run() {
@@ -113,7 +111,7 @@ class Planning {
     }
     Json sets = Json::array();
     for (const FollowUpPlan& one : plans_) {
-      sets.push_back({{"set", one.set},
+      sets.push_back({{"set", one.number},
                       {"set_sha256", one.set_sha256},
                       {"named", one.named},
                       {"test", one.test},
@@ -128,27 +126,28 @@ class Planning {
  private:
   std::vector<Answer> read_answers() const {
     std::vector<Answer> answers;
-    const std::vector<std::string> sets = list_sets(order_.bank);
-    for (const std::string& set : sets) {
-      std::optional<Answer> answer = find_answer_to(order_.bank, order_.answers, set);
+    const std::vector<std::string> numbers = list_cases(order_.set);
+    for (const std::string& number : numbers) {
+      std::optional<Answer> answer = find_answer_to(order_.set, order_.answers, number);
       if (answer.has_value()) answers.push_back(*std::move(answer));
     }
-    require_answers(sets.size() - answers.size(), sets.size(), order_.answers, "rollrig blind run " + order_.bank);
+    require_answers(numbers.size() - answers.size(), numbers.size(), order_.answers,
+                    "rollrig_validation run " + order_.set);
     return answers;
   }
 
   void plan(const Answer& answer) {
-    FollowUpPlan one{answer.set, answer.set_sha256, list_named(answer.diagnosis), "", ""};
+    FollowUpPlan one{answer.number, answer.set_sha256, list_named(answer.diagnosis), "", ""};
     const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
-    const MeasurementSet set = measurements::read_measurement_set(set_folder(order_.bank, one.set));
+    const MeasurementSet set = measurements::read_measurement_set(case_folder(order_.set, one.number));
     if (order_.choice == Choice::kProposed && proposed.empty()) {
       one.not_made = "no test is proposed";
     } else {
       std::vector<PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
       if (order_.choice == Choice::kProposed) one.test = proposed.front().test;
       const PlannedTest test = order_.choice == Choice::kDrawn
-                                   ? draw_test(std::move(menu), order_.seed, one.set)
-                                   : find_test(std::move(menu), one, answer_file(order_.answers, one.set));
+                                   ? draw_test(std::move(menu), order_.seed, one.number)
+                                   : find_test(std::move(menu), one, answer_file(order_.answers, one.number));
       one.test = test.description;
       one.not_made = find_obstacle(test);
       if (one.not_made.empty()) write(one, set, test);
@@ -160,7 +159,7 @@ class Planning {
     diagnosis::Diagnosis of;
     of.next_test = {
         {test.description, {}, 0.0, test.hours, test.soaked, test.extra.force_at_standstill, test.by_hand, test.runs}};
-    const std::string folder = "plans/" + plan.set + "/";
+    const std::string folder = "plans/" + plan.number + "/";
     for (auto& [name, content] : diagnosis::write_plan(set, of)) {
       if (fs::path(name).extension() == ".csv") out_.add(folder + name, content);
     }
@@ -180,7 +179,8 @@ std::vector<FollowUpPlan> read_plans(const std::string& folder) {
   try {
     const Json json = Json::parse(read_text_file(file));
     if (json.at("format") != kPlansFormat) {
-      throw InputError({"not the plans of a bank", file, 0, "format", json.at("format").dump(), kPlansFormat, ""});
+      throw InputError(
+          {"not the plans of a validation set", file, 0, "format", json.at("format").dump(), kPlansFormat, ""});
     }
     for (const Json& one : json.at("sets")) {
       plans.push_back({one.at("set").get<std::string>(), one.at("set_sha256").get<std::string>(),
@@ -188,7 +188,8 @@ std::vector<FollowUpPlan> read_plans(const std::string& folder) {
                        one.at("not_made").get<std::string>()});
     }
   } catch (const Json::exception& error) {
-    throw InputError({fmt::format("not the plans of a bank: {}", error.what()), file, 0, "sets", "", kPlansFormat, ""});
+    throw InputError(
+        {fmt::format("not the plans of a validation set: {}", error.what()), file, 0, "sets", "", kPlansFormat, ""});
   }
   return plans;
 }
@@ -230,32 +231,33 @@ bool FollowUp::is_promised(const Answer& before) const {
 
 std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) { return Planning(order).run(); }
 
-void read_follow_ups(const std::string& bank, Choice choice, const std::string& folder, std::vector<Case>& cases) {
+void read_follow_ups(const std::string& set, Choice choice, const std::string& folder, std::vector<Case>& cases) {
   if (folder.empty()) return;
   const std::vector<FollowUpPlan> plans = read_plans(folder);
   const std::string answers = (fs::path(folder) / "answers").string();
   std::size_t lacking = 0;
   for (Case& one : cases) {
     if (!leaves_open(one.answer)) continue;
-    const auto plan =
-        std::find_if(plans.begin(), plans.end(), [&one](const FollowUpPlan& of) { return of.set == one.truth.set; });
+    const auto plan = std::find_if(plans.begin(), plans.end(),
+                                   [&one](const FollowUpPlan& of) { return of.number == one.truth.number; });
     if (plan == plans.end() || !is_for(*plan, one.answer, choice)) {
-      throw InputError({fmt::format("these are no plans for the answer to set {}", one.truth.set), folder, 0, "set",
-                        one.truth.set,
-                        fmt::format("without that folder: rollrig blind plan {}{}", bank, flag_of(choice)), ""});
+      throw InputError({fmt::format("these are no plans for the answer to case {}", one.truth.number), folder, 0,
+                        "case", one.truth.number,
+                        fmt::format("without that folder: rollrig_validation plan {}{}", set, flag_of(choice)), ""});
     }
     FollowUp follow_up{*plan, {}};
     if (plan->not_made.empty()) {
-      const bool is_done = fs::is_directory(set_folder(folder, plan->set));
-      if (is_done) follow_up.answer = find_answer_to(folder, answers, plan->set);
+      const bool is_done = fs::is_directory(case_folder(folder, plan->number));
+      if (is_done) follow_up.answer = find_answer_to(folder, answers, plan->number);
       lacking += follow_up.answer.has_value() ? 0 : 1;
     }
     (choice == Choice::kDrawn ? one.drawn_test : one.next_test) = std::move(follow_up);
   }
   if (lacking == 0) return;
   throw InputError(
-      {fmt::format("{} sets have no answer to their next test", lacking), folder, 0, "answers", "",
-       fmt::format("first: rollrig_blind followup {}{}, rollrig blind run {}", bank, flag_of(choice), folder), ""});
+      {fmt::format("{} cases have no answer to their next test", lacking), folder, 0, "answers", "",
+       fmt::format("first: rollrig_validation follow-up {}{}, rollrig_validation run {}", set, flag_of(choice), folder),
+       ""});
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

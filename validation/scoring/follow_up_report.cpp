@@ -5,7 +5,7 @@
 #include "sim/core/text.h"
 #include "validation/scoring/report.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 Case answered_after(const Case& one, const FollowUp& test) {
@@ -53,7 +53,7 @@ Counts count(const Score& score, std::optional<FollowUp> Case::*test) {
 std::string summarize(const Score& score, std::optional<FollowUp> Case::*test, const char* what) {
   const Counts counts = count(score, test);
   if (counts.open == 0) return "";
-  return fmt::format("{}: {} sets whose cause could not be told from others, {} followed up, {} split", what,
+  return fmt::format("{}: {} cases whose cause could not be told from others, {} followed up, {} split", what,
                      counts.open, counts.done, counts.split);
 }
 
@@ -72,7 +72,7 @@ Json make_follow_up(const Case& one, const std::optional<FollowUp>& test) {
 }  // namespace
 
 std::string describe_follow_up(const Case& one, const FollowUp& test) {
-  std::string text = fmt::format("{} {}, {}: {}", one.truth.set, one.truth.campaign, one.truth.name(),
+  std::string text = fmt::format("{} {}, {}: {}", one.truth.number, one.truth.campaign, one.truth.name(),
                                  fmt::join(test.plan.named, ", "));
   if (!test.plan.test.empty()) text += fmt::format("; {}", test.plan.test);
   if (test.answer.has_value()) text += fmt::format("; {}", fmt::join(answered_after(one, test).named_set(), ", "));
@@ -93,29 +93,27 @@ std::string format_follow_ups(const Score& score) {
   return text;
 }
 
-std::string write_follow_ups(const Score& score) {
-  std::string text;
+std::vector<Table> make_follow_up_tables(const Score& score) {
+  std::vector<Table> tables;
   for (const auto& [test, what] :
        {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
-    const std::string summary = summarize(score, test, what);
-    if (summary.empty()) continue;
-    text += fmt::format("\n{}.\n\n| set | true | named before | test | named after | |\n|---|---|---|---|---|---|\n",
-                        summary);
+    Table table{summarize(score, test, what), {"case", "true", "named before", "test", "named after", ""}, {}};
     for (const Case& one : score.followed_up) {
       const std::optional<FollowUp>& of = one.*test;
       if (!of.has_value()) continue;
-      text += fmt::format("| {} {} | {} | {} | {} | {} | {} |\n", one.truth.set, one.truth.campaign, one.truth.name(),
-                          fmt::join(of->plan.named, ", "), of->plan.test,
-                          fmt::join(answered_after(one, *of).named_set(), ", "), judge(one, *of));
+      table.rows.push_back({one.truth.number + " " + one.truth.campaign, one.truth.name(),
+                            fmt::format("{}", fmt::join(of->plan.named, ", ")), of->plan.test,
+                            fmt::format("{}", fmt::join(answered_after(one, *of).named_set(), ", ")), judge(one, *of)});
     }
+    tables.push_back(std::move(table));
   }
-  return text;
+  return tables;
 }
 
 Json make_follow_ups_json(const Score& score) {
   Json all = Json::array();
   for (const Case& one : score.followed_up) {
-    all.push_back({{"set", one.truth.set},
+    all.push_back({{"set", one.truth.number},
                    {"campaign", one.truth.campaign},
                    {"effects", one.truth.ids()},
                    {"named", one.named_set()},
@@ -125,4 +123,4 @@ Json make_follow_ups_json(const Score& score) {
   return all;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

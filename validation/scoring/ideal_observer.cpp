@@ -5,7 +5,7 @@
 
 #include "diagnosis/thresholds.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 double calc_normal_share_below(double deviations) { return cdf(boost::math::normal(), deviations); }
@@ -41,4 +41,4 @@ std::optional<double> find_mean_chance(const std::vector<Case>& cases, const Cha
   return sum / static_cast<double>(cases.size());
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

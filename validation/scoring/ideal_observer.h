@@ -1,5 +1,5 @@
 #pragma once
-/// What an ideal observer of the same sets would reach: nobody names what the data do not show.
+/// What an ideal observer of the same cases would reach: nobody names what the data do not show.
 
 #include <functional>
 #include <optional>
@@ -7,9 +7,9 @@
 
 #include "validation/scoring/case.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
-/// Chances of an ideal observer with one set; none where the ceiling of the set lacks what it takes.
+/// Chances of an ideal observer with one case; none where its upper bound lacks what it takes.
 using Chance = std::function<std::optional<double>(const Case&)>;
 
 /// That it raises a gap at 1 % false alarms: Phi(d' - 2.326).
@@ -23,4 +23,4 @@ std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_p
 /// Mean chance; none where one of the cases has none, or there is no case.
 std::optional<double> find_mean_chance(const std::vector<Case>& cases, const Chance& chance);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -10,7 +10,7 @@
 #include <cstdlib>
 #endif
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 #ifdef ROLLRIG_MPI
 namespace {
@@ -64,4 +64,4 @@ Ranks::~Ranks() = default;
 std::vector<std::size_t> Ranks::sum(std::vector<std::size_t> numbers) const { return numbers; }
 #endif
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -7,13 +7,8 @@
 
 #include "sim/core/text.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
-
-std::string format_range(const Figure& figure) {
-  if (!figure.interval.has_value()) return "";
-  return fmt::format("{:.1f} to {:.1f}", 100.0 * figure.interval->low, 100.0 * figure.interval->high);
-}
 
 std::string format_cases(const Figure& figure) {
   return figure.interval.has_value() ? fmt::format("{}/{}", figure.k, figure.n) : fmt::format("{}", figure.n);
@@ -25,11 +20,11 @@ std::string format_target(const Figure& figure) {
 }
 
 /// What an ideal observer would reach, where that is known.
-std::string format_ceilings(const Score& score) {
+std::string format_upper_bounds(const Score& score) {
   std::string text;
   for (const Figure& figure : score.figures) {
-    if (!figure.ceiling.has_value()) continue;
-    text += fmt::format("{} {} {}", text.empty() ? "" : ";", figure.label, format_value(figure, figure.ceiling));
+    if (!figure.upper_bound.has_value()) continue;
+    text += fmt::format("{} {} {}", text.empty() ? "" : ";", figure.label, format_value(figure, figure.upper_bound));
   }
   return text.empty() ? "" : wrap("An ideal observer would reach:" + text, 0);
 }
@@ -45,10 +40,10 @@ std::string format_figures(const Score& score) {
       continue;
     }
     text += fmt::format("{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n", figure.label, format_value(figure, figure.value),
-                        format_range(figure), format_cases(figure), format_target(figure),
+                        format_interval(figure), format_cases(figure), format_target(figure),
                         format_value(figure, figure.best_baseline));
   }
-  return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n" + format_ceilings(score);
+  return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n" + format_upper_bounds(score);
 }
 
 std::string format_baselines(const Score& score) {
@@ -67,15 +62,15 @@ std::string format_baselines(const Score& score) {
 
 std::string format_tally_row(const std::string& name, const Tally& tally) {
   const double share =
-      100.0 * static_cast<double>(tally.named) / static_cast<double>(std::max<std::size_t>(1, tally.sets));
-  return fmt::format("{:<24}{:>5} {:>5} {:>5.1f} {:>5} {:>6} {:>6} {:>4} {:>7} {:>5.2f}\n", clip(name, 24), tally.sets,
+      100.0 * static_cast<double>(tally.named) / static_cast<double>(std::max<std::size_t>(1, tally.cases));
+  return fmt::format("{:<24}{:>5} {:>5} {:>5.1f} {:>5} {:>6} {:>6} {:>4} {:>7} {:>5.2f}\n", clip(name, 24), tally.cases,
                      tally.named, share, tally.named_wrong, tally.no_gap, tally.unexplained, tally.failed,
                      fmt::format("{},{}", tally.right_above, tally.wrong_above), tally.mean_named_set());
 }
 
 std::string format_tallies(const std::string& title, const Tallies& tallies) {
   if (tallies.empty()) return "";
-  std::string text = fmt::format("\n{:<24}{:>5} {:>5} {:>5} {:>5} {:>6} {:>6} {:>4} {:>7} {:>5}\n", title, "sets",
+  std::string text = fmt::format("\n{:<24}{:>5} {:>5} {:>5} {:>5} {:>6} {:>6} {:>4} {:>7} {:>5}\n", title, "cases",
                                  "named", "%", "other", "no gap", "unexp.", "fail", "> 0.9", "set");
   for (const auto& [name, tally] : tallies) text += format_tally_row(name, tally);
   return text;
@@ -110,7 +105,7 @@ std::string format_reliability(const Reliability& reliability) {
 
 std::string format_missed(const std::vector<Case>& missed) {
   if (missed.empty()) return "\nNone was missed.\n";
-  std::string text = fmt::format("\nMissed: {} sets\n", missed.size());
+  std::string text = fmt::format("\nMissed: {} cases\n", missed.size());
   for (const Case& one : missed) {
     text += wrap(describe_truth(one), 2) + wrap(describe_answer(one), 4);
   }
@@ -132,13 +127,18 @@ std::string format_value(const Figure& figure, const std::optional<double>& valu
   return fmt::format("{:.3g}", *value);
 }
 
+std::string format_interval(const Figure& figure) {
+  if (!figure.interval.has_value()) return "";
+  return fmt::format("{:.1f} to {:.1f}", 100.0 * figure.interval->low, 100.0 * figure.interval->high);
+}
+
 std::optional<double> find_value(const BaselineScore& baseline, const Figure& figure) {
   const auto at = baseline.values.find(figure.id);
   return at == baseline.values.end() ? std::nullopt : std::optional<double>(at->second);
 }
 
 std::string describe_truth(const Case& one) {
-  std::string text = fmt::format("{} {}", one.truth.set, one.truth.campaign);
+  std::string text = fmt::format("{} {}", one.truth.number, one.truth.campaign);
   for (const TrueEffect& effect : one.truth.effects) {
     text += fmt::format(", {} {:.3g} {}", effect.id, effect.size, effect.unit);
     if (!effect.size_class.empty()) text += fmt::format(" ({})", effect.size_class);
@@ -175,7 +175,7 @@ std::string describe_answer(const Case& one) {
 }
 
 std::string format_score(const Score& score) {
-  std::string text = fmt::format("{} sets\n", score.sets) + format_figures(score) + format_baselines(score);
+  std::string text = fmt::format("{} cases\n", score.cases) + format_figures(score) + format_baselines(score);
   for (const std::string& warning : score.warnings) text += wrap("warning: " + warning, 0);
   text += format_tallies("effect", score.by_effect) + format_tally_row("all effects", score.all_effects);
   text += format_tallies("campaign", score.by_campaign) + format_tallies("size", score.by_size_class);
@@ -187,4 +187,4 @@ std::string format_score(const Score& score) {
          format_missed(score.missed);
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

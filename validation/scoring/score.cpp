@@ -13,46 +13,49 @@
 
 namespace fs = std::filesystem;
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::Verdict;
 
-/// What an ideal observer makes of the sets: rollrig-blind-ceiling/1, `sets` with `d_prime`, `identifiable`,
+/// What an ideal observer makes of the cases: rollrig-blind-ceiling/1, `sets` with `d_prime`, `identifiable`,
 /// `log_bayes_factors`.
-void read_ceiling(const std::string& bank, const std::string& file, std::vector<Case>& cases) {
+void read_upper_bound(const std::string& set, const std::string& file, std::vector<Case>& cases) {
   if (file.empty()) return;
   try {
     const Json json = Json::parse(read_text_file(file));
     const bool is_of_another =
-        json.contains("truth_sha256") && json["truth_sha256"] != calc_sha256(read_text_file(bank + "/truth.json"));
+        json.contains("truth_sha256") && json["truth_sha256"] != calc_sha256(read_text_file(set + "/truth.json"));
     if (is_of_another) {
-      throw InputError({"the ceiling is of another bank's truth", file, 0, "truth_sha256", json["truth_sha256"].dump(),
-                        "rollrig_blind ceiling " + bank + " makes this bank's own", ""});
+      throw InputError({"the upper bound is of another validation set's truth", file, 0, "truth_sha256",
+                        json["truth_sha256"].dump(), "rollrig_validation upper-bound " + set + " makes this set's own",
+                        ""});
     }
     for (Case& one : cases) {
-      const auto at = json.at("sets").find(one.truth.set);
+      const auto at = json.at("sets").find(one.truth.number);
       if (at == json.at("sets").end()) continue;
       if (at->contains("d_prime")) one.d_prime = at->at("d_prime").get<double>();
       if (one.d_prime.has_value() && !(*one.d_prime >= 0.0)) {
-        throw InputError({"a d' below zero", file, 0, one.truth.set + " d_prime", fmt::format("{}", *one.d_prime),
-                          "0 or more, as rollrig_blind ceiling writes it", ""});
+        throw InputError({"a d' below zero", file, 0, one.truth.number + " d_prime", fmt::format("{}", *one.d_prime),
+                          "0 or more, as rollrig_validation upper-bound writes it", ""});
       }
       const Json nats_by_effect = at->value("log_bayes_factors", Json::object());
       for (const Json& nats : nats_by_effect) one.log_bayes_factors.push_back(nats.get<double>());
       if (at->contains("identifiable")) one.identifiable = at->at("identifiable").get<bool>();
     }
   } catch (const Json::exception& error) {
-    throw InputError({fmt::format("not a ceiling of a bank: {}", error.what()), file, 0, "--ceiling", file,
-                      "rollrig-blind-ceiling/1", ""});
+    throw InputError({fmt::format("not an upper bound of a validation set: {}", error.what()), file, 0, "--upper-bound",
+                      file, "rollrig-blind-ceiling/1", ""});
   }
 }
 
 std::string how_to_answer(const ScoreOrder& order) {
-  if (order.by_baseline) return fmt::format("rollrig blind baselines {}", order.bank);
-  const bool is_oracle = order.truth_was_left_out;
-  return fmt::format("rollrig blind {} {}{} --out {}", is_oracle ? "oracle" : "run", order.bank,
-                     is_oracle ? " --race left_out" : "", order.answers);
+  const std::string program = "rollrig_validation ";
+  if (order.by_baseline) return program + "baselines " + order.set;
+  if (order.truth_was_left_out) {
+    return fmt::format("{}known-cause {} --cause left_out --out {}", program, order.set, order.answers);
+  }
+  return fmt::format("{}run {} --out {}", program, order.set, order.answers);
 }
 
 }  // namespace
@@ -63,7 +66,7 @@ bool Figure::meets(const std::optional<double>& bar) const {
 }
 
 void Tally::add(const Case& one) {
-  ++sets;
+  ++cases;
   failed += one.answer.failure.empty() ? 0 : 1;
   no_gap += one.is(Verdict::kNoGap) ? 1 : 0;
   unexplained += one.is(Verdict::kUnexplained) ? 1 : 0;
@@ -81,7 +84,7 @@ double Tally::mean_named_set() const {
 
 Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
   Score score;
-  score.sets = cases.size();
+  score.cases = cases.size();
   score.figures = find_figures(cases, options);
   std::vector<Stated> stated;
   std::set<std::string> programs;
@@ -106,9 +109,9 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
   const bool any_known =
       std::any_of(cases.begin(), cases.end(), [](const Case& one) { return one.d_prime.has_value(); });
   if (lacking > 0 && any_known) {
-    score.warnings.push_back(
-        fmt::format("the ceiling lacks {} of the sets: of these a signal of {:.2g} noise floors counts as detectable",
-                    lacking, options.detectable_floors));
+    score.warnings.push_back(fmt::format(
+        "the upper bound lacks {} of the cases: of these a signal of {:.2g} noise floors counts as detectable", lacking,
+        options.detectable_floors));
   }
   if (programs.size() > 1) {
     score.warnings.push_back(fmt::format("the answers are of {} different programs", programs.size()));
@@ -127,10 +130,10 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
   std::vector<Case> cases;
   std::size_t lacking = 0;
   std::size_t all = 0;
-  for (Truth& truth : open_truth(order.bank, order.seal)) {
+  for (Truth& truth : read_truths(order.set, order.hash)) {
     if (order.truth_was_left_out && truth.effects.empty()) continue;
     ++all;
-    std::optional<Answer> answer = find_answer_to(order.bank, order.answers, truth.set);
+    std::optional<Answer> answer = find_answer_to(order.set, order.answers, truth.number);
     if (!answer.has_value()) {
       ++lacking;
       continue;
@@ -139,17 +142,17 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
     Case one;
     one.truth = std::move(truth);
     one.answer = *std::move(answer);
-    const auto oracle = order.oracle.empty() ? std::nullopt : find_answer(order.oracle, one.truth.set);
-    if (oracle && oracle->set_sha256 == one.answer.set_sha256) {
-      one.oracle_shrink_percent = oracle->diagnosis.gap.shrink_percent;
+    const auto alone = order.known_cause.empty() ? std::nullopt : find_answer(order.known_cause, one.truth.number);
+    if (alone && alone->set_sha256 == one.answer.set_sha256) {
+      one.known_cause_shrink_percent = alone->diagnosis.gap.shrink_percent;
     }
     cases.push_back(std::move(one));
   }
   require_answers(lacking, all, order.answers, how_to_answer(order));
-  read_ceiling(order.bank, order.ceiling, cases);
-  read_follow_ups(order.bank, Choice::kProposed, order.next_tests, cases);
-  read_follow_ups(order.bank, Choice::kDrawn, order.drawn_tests, cases);
+  read_upper_bound(order.set, order.upper_bound, cases);
+  read_follow_ups(order.set, Choice::kProposed, order.next_tests, cases);
+  read_follow_ups(order.set, Choice::kDrawn, order.drawn_tests, cases);
   return cases;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

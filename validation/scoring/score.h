@@ -1,5 +1,6 @@
 #pragma once
-/// The score of a bank: each figure beside its target, tables by effect, campaign and size, and what was missed.
+/// The score of a validation set: each figure beside its target, tables by effect, campaign and size, and what was
+/// missed.
 
 #include <map>
 #include <optional>
@@ -8,7 +9,7 @@
 
 #include "validation/scoring/case.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 enum class Unit { kPercent, kNumber, kSeconds };
 
@@ -25,18 +26,18 @@ struct Figure {
   std::optional<double> floor = {};  // the least that is asked for
   bool more_is_better = true;
   std::optional<double> best_baseline = {};
-  std::string best_baseline_id = {};   // of that method
-  std::optional<double> ceiling = {};  // what an ideal observer would reach; none where it is not known
-  std::string note = {};               // where there is no value: why
+  std::string best_baseline_id = {};       // of that method
+  std::optional<double> upper_bound = {};  // what an ideal observer would reach; none where it is not known
+  std::string note = {};                   // where there is no value: why
 
   bool meets(const std::optional<double>& bar) const;
 };
 
-/// How the sets of one cause, campaign or size were answered.
+/// How the cases of one cause, campaign or size were answered.
 struct Tally {
-  std::size_t sets = 0, named = 0, named_wrong = 0, no_gap = 0, unexplained = 0, failed = 0;
+  std::size_t cases = 0, named = 0, named_wrong = 0, no_gap = 0, unexplained = 0, failed = 0;
   std::size_t right_above = 0, wrong_above = 0;
-  std::size_t named_effects = 0;  // in the sets that are named, right or wrong
+  std::size_t named_effects = 0;  // in the cases that are named, right or wrong
 
   void add(const Case& one);
   double mean_named_set() const;
@@ -46,7 +47,7 @@ using Tallies = std::map<std::string, Tally>;
 using Confusion = std::map<std::string, std::map<std::string, std::size_t>>;  // truth, what was said
 
 struct ScoreOptions {
-  double detectable_d_prime = 5.0;  // from here on an effect is to be found: design of the proof
+  double detectable_d_prime = 5.0;  // from here on an effect is to be found: design of the validation
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
 };
 
@@ -66,7 +67,7 @@ struct Score {
   Reliability reliability{};
   std::vector<Case> missed;
   std::vector<Case> followed_up;  // whose next test was planned
-  std::size_t sets = 0;
+  std::size_t cases = 0;
   std::vector<std::string> warnings;
 };
 
@@ -74,19 +75,19 @@ struct Score {
 Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options);
 
 struct ScoreOrder {
-  std::string bank;
-  std::string seal;                 // empty: what seal.sha256 says
+  std::string set;
+  std::string hash;                 // of the truth; empty: what truth.sha256 says
   std::string answers;              // folder
-  std::string oracle;               // folder of answers with the true effect alone in the race; empty: none
-  std::string ceiling;              // file with d' of the sets; empty: none
-  std::string next_tests;           // folder of rollrig blind plan with the proposed tests, done; empty: none
+  std::string known_cause;          // folder of answers with the true effect alone in the comparison; empty: none
+  std::string upper_bound;          // file with d' of the cases; empty: none
+  std::string next_tests;           // folder of follow-up tests that were proposed, done; empty: none
   std::string drawn_tests;          // likewise with tests drawn from the menu
-  bool truth_was_left_out = false;  // the true effects were not in the race: none is in the catalog
-  bool by_baseline = false;         // the answers are of rollrig blind baselines
+  bool truth_was_left_out = false;  // the true effects were not in the comparison: none is in the catalog
+  bool by_baseline = false;         // the answers are of baselines
 };
 
-/// Opens the seal and puts truths and answers together.
-/// Errors  InputError: as open_truth(); answers that lack or are of other files
+/// Opens the truth and puts the answers beside it.
+/// Errors  InputError: as read_truths(); answers that lack or are of other files
 std::vector<Case> read_cases(const ScoreOrder& order);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -4,7 +4,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 Interval calc_wilson_95(std::size_t k, std::size_t n) {
   if (n == 0) return {};
@@ -58,4 +58,4 @@ double calc_quantile(std::vector<double> values, double share) {
   return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 struct Interval {
   double low = 0.0;
@@ -53,4 +53,4 @@ double calc_brier(const std::vector<Stated>& stated);
 /// Checked   tests/validation/scoring/statistics_test.cpp
 double calc_quantile(std::vector<double> values, double share);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

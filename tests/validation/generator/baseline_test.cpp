@@ -1,10 +1,10 @@
-// The foreign generator without an effect against rollrig's baseline: other equations of the same physics.
+// The independent generator without an effect against rollrig's baseline: other equations of the same physics.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
 #include <iostream>
 
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
@@ -16,8 +16,8 @@ void check_kind(const std::string& options, int seeds) {
   Floors worst;
   Floors mean;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const BlindSet made =
-        make_blind_set(fmt::format("{} --effect none --noise-free --nominal-base --seed {}", options, seed));
+    const GeneratedSet made =
+        make_generated_set(fmt::format("{} --effect none --noise-free --nominal-base --seed {}", options, seed));
     for (const auto& [channel, floors] : compare_with_baseline(made.set)) {
       INFO(options << ", seed " << seed << ", " << channel);
       CHECK(floors <= 0.2);

@@ -7,13 +7,13 @@
 #include <map>
 
 #include "tests/support/run_program.h"
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
 
 TEST_CASE("a meter of 2 % reads 2 % more, a little less at high torque", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("drum", GENERATE("bent", "with_air")), "torque_gain", "2");
+  const GeneratedSet made = make_effect_set(with_form("drum", GENERATE("bent", "with_air")), "torque_gain", "2");
   for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
     const std::vector<double> more_Nm = find_difference(made, r, "drum_torque_Nm");
     const std::vector<double>& true_Nm = made.counterfactual.runs[r].columns.at("drum_torque_Nm");
@@ -26,7 +26,7 @@ TEST_CASE("a meter of 2 % reads 2 % more, a little less at high torque", "[fast]
 }
 
 TEST_CASE("2 % more inertia takes 2 % more force, late, and nothing at a constant speed", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("drum", GENERATE("rigid", "soft")), "inertia_error", "2");
+  const GeneratedSet made = make_effect_set(with_form("drum", GENERATE("rigid", "soft")), "inertia_error", "2");
   const auto& drum = made.set.rig->drum;
   const double radius_m = 0.5 * drum.diameter_m;
   for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
@@ -49,7 +49,7 @@ TEST_CASE("2 % more inertia takes 2 % more force, late, and nothing at a constan
 TEST_CASE("slip under 1 kN costs its square over C, and more near the limit of friction", "[fast]") {
   const std::string kind = with_form("dyno", GENERATE("brush", "tanh"));
   for (int seed = 41; seed < 44; ++seed) {
-    const BlindSet made = make_effect_set(kind, "slip_loss", "100", seed);
+    const GeneratedSet made = make_effect_set(kind, "slip_loss", "100", seed);
     const std::vector<double> loss_N = find_difference(made, 0, "loss_force_N");
     const std::vector<double>& force_N = made.set.runs[0].columns.at("longitudinal_force_N");
     int strong = 0;
@@ -69,7 +69,8 @@ TEST_CASE("slip under 1 kN costs its square over C, and more near the limit of f
 }
 
 TEST_CASE("wind against the vehicle drags as the air of its relative speed", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("road", GENERATE("gusts", "turning_road")), "wind_and_grade", "4");
+  const GeneratedSet made =
+      make_effect_set(with_form("road", GENERATE("gusts", "turning_road")), "wind_and_grade", "4");
   const double slope = 0.01 * made.truth.at("effects")[0].at("shape").at("slope_percent_at_5_m_s").get<double>() * 0.8;
   const double side = 0.8 * made.truth.at("effects")[0].at("shape").at("drag_of_side_wind").get<double>();
   double drag_N = 0.0;
@@ -88,7 +89,8 @@ TEST_CASE("wind against the vehicle drags as the air of its relative speed", "[f
 }
 
 TEST_CASE("a tire that starts cold loses more than its warm constant, and less the longer it rolls", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("road", GENERATE("power", "arrhenius")), "tire_temperature", "0.02");
+  const GeneratedSet made =
+      make_effect_set(with_form("road", GENERATE("power", "arrhenius")), "tire_temperature", "0.02");
   CHECK(made.set.baseline == models::Baseline::kConstantRrc);
   int cold = 0;
   for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
@@ -114,7 +116,7 @@ TEST_CASE("a tire that starts cold loses more than its warm constant, and less t
 }
 
 TEST_CASE("a cylinder that sticks stays short after a rise and above after a fall", "[fast]") {
-  const BlindSet made = make_effect_set("drum", "load_stiction", "150");
+  const GeneratedSet made = make_effect_set("drum", "load_stiction", "150");
   int rises = 0;
   int falls = 0;
   for (std::size_t r = 0; r < made.set.runs.size(); ++r) {

@@ -7,22 +7,22 @@
 #include <map>
 
 #include "tests/support/run_program.h"
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
 
 namespace {
 
-double drum_radius_m(const BlindSet& made) { return 0.5 * made.set.rig->drum.diameter_m; }
+double drum_radius_m(const GeneratedSet& made) { return 0.5 * made.set.rig->drum.diameter_m; }
 
 }  // namespace
 
 TEST_CASE("two effects act together", "[fast]") {
-  const BlindSet both =
-      make_blind_set("--effect bearing_load_friction,slow_leak --size 2,1.5 --seed 21 --noise-free --nominal-base");
-  const BlindSet friction = make_effect_set("drum", "bearing_load_friction", "2");
-  const BlindSet leak = make_effect_set("drum", "slow_leak", "1.5");  // of the same form, since of the same seed
+  const GeneratedSet both =
+      make_generated_set("--effect bearing_load_friction,slow_leak --size 2,1.5 --seed 21 --noise-free --nominal-base");
+  const GeneratedSet friction = make_effect_set("drum", "bearing_load_friction", "2");
+  const GeneratedSet leak = make_effect_set("drum", "slow_leak", "1.5");  // of the same form, since of the same seed
   CHECK(both.truth.at("effects").size() == 2);
   const Floors from_leak = compare(both.set, leak.set);
   CHECK(from_leak.at("cavity_pressure_kPa") < 1e-3);
@@ -34,7 +34,7 @@ TEST_CASE("two effects act together", "[fast]") {
 TEST_CASE("friction under load is the size at 5.4 kN and rises no slower than the load", "[fast]") {
   const std::string form = GENERATE("sliding_and_rolling", "palmgren");
   const double steepest = form == "palmgren" ? 1.55 : 4.0 / 3.0;
-  const BlindSet made = make_effect_set(with_form("drum", form), "bearing_load_friction", "2");
+  const GeneratedSet made = make_effect_set(with_form("drum", form), "bearing_load_friction", "2");
   for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
     const std::vector<double> torque_Nm = find_difference(made, r, "drum_torque_Nm");
     const std::vector<double>& load_N = made.set.runs[r].columns.at("load_N");
@@ -52,7 +52,7 @@ TEST_CASE("friction under load is the size at 5.4 kN and rises no slower than th
 TEST_CASE("a leak of 1.5 kPa/h falls by that in an hour at the reference pressure", "[fast]") {
   for (int seed = 31; seed < 37; ++seed) {
     const bool through_rubber = seed % 2 == 0;
-    const BlindSet made =
+    const GeneratedSet made =
         make_effect_set(with_form("drum", through_rubber ? "permeation" : "nozzle"), "slow_leak", "1.5", seed);
     for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
       if (made.set.runs[r].cold_pressure_Pa != 280e3) continue;
@@ -68,7 +68,7 @@ TEST_CASE("a leak of 1.5 kPa/h falls by that in an hour at the reference pressur
 }
 
 TEST_CASE("a clock that is 6 s late shows what was 6 s before", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("drum", GENERATE("rate", "set_anew")), "clock_shift", "6");
+  const GeneratedSet made = make_effect_set(with_form("drum", GENERATE("rate", "set_anew")), "clock_shift", "6");
   const auto& late = made.set.runs[0].columns.at("liner_temperature_degC");
   const auto& true_K = made.counterfactual.runs[0].columns.at("liner_temperature_degC");
   for (std::size_t row = 20; row + 20 < late.size(); ++row) {
@@ -79,7 +79,8 @@ TEST_CASE("a clock that is 6 s late shows what was 6 s before", "[fast]") {
 }
 
 TEST_CASE("bearings are stiffer when soaked than c0 and c1 say, and easier once they are warm", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("drum", GENERATE("vogel", "arrhenius")), "bearing_warmup", "0.02");
+  const GeneratedSet made =
+      make_effect_set(with_form("drum", GENERATE("vogel", "arrhenius")), "bearing_warmup", "0.02");
   const double rise_dK = made.truth.at("effects")[0].at("shape").at("rise_dK").get<double>();
   const double share = made.truth.at("effects")[0].at("shape").at("reference_share").get<double>();
   const auto& parasitic = made.set.rig->parasitic;
@@ -99,7 +100,8 @@ TEST_CASE("bearings are stiffer when soaked than c0 and c1 say, and easier once 
 }
 
 TEST_CASE("the torque's zero moves by the size in 10 min, in the mean of 30 min", "[fast]") {
-  const BlindSet made = make_effect_set(with_form("drum", GENERATE("amplifier", "creep")), "torque_zero_drift", "0.3");
+  const GeneratedSet made =
+      make_effect_set(with_form("drum", GENERATE("amplifier", "creep")), "torque_zero_drift", "0.3");
   const double air = made.truth.at("effects")[0].at("shape").at("N_per_K_of_air_over_size").get<double>();
   for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
     const std::vector<double> torque_Nm = find_difference(made, r, "drum_torque_Nm");

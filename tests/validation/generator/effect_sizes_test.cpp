@@ -1,5 +1,5 @@
-// Sizes and base parameters of the foreign generator are drawn as the catalog and the files say; each effect has two
-// functional forms, in which its size means the same.
+// Sizes and base parameters of the independent generator are drawn as the catalog and the files say; each effect has
+// two functional forms, in which its size means the same.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <map>
 
 #include "tests/support/run_program.h"
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
@@ -49,7 +49,7 @@ const Ranges kRanges{{"bearing_warmup", {0.005, 0.04}},
                      {"load_record", {1.0, 5.0}},
                      {"pressure_record", {2.0, 15.0}}};
 
-/// Sizes and base parameters of a bank: how many sizes are in the catalogue's range, how the base scatters.
+/// Sizes and base parameters of a validation set: how many sizes are in the catalog's range, how the base scatters.
 struct Drawn {
   std::map<std::string, int> inside;
   std::map<std::string, double> squares;
@@ -74,10 +74,14 @@ struct Drawn {
   }
 };
 
-Json make_bank_truth(const std::string& arguments) {
+/// The truth of a validation set with so many cases of each effect and no others.
+Json make_truth(const std::string& arguments) {
   const TemporaryFolder folder;
-  REQUIRE(run_blind("bank " + arguments + " --runs 1 --none 0 --out " + folder.file("bank")).status == 0);
-  return Json::parse(read_file(folder.file("bank/truth.json")));
+  const auto made = run_validation("make --singles 0 --pairs 0 --none 0 --outside 0 --runs 1 " + arguments + " --out " +
+                                   folder.file("set"));
+  INFO(made.err);
+  REQUIRE(made.status == 0);
+  return Json::parse(read_file(folder.file("set/truth.json")));
 }
 
 /// Where the size of an effect on a drum is said to hold.
@@ -105,7 +109,7 @@ const std::vector<Reference> kReferences{
 };
 
 /// Mean change of a channel over rows at the reference load and speed; of soaked runs alone where `starting`.
-double mean_change(const BlindSet& made, const Reference& at) {
+double mean_change(const GeneratedSet& made, const Reference& at) {
   constexpr std::size_t kSettled = 30;
   constexpr std::size_t kFirst = 90;
   double sum = 0.0;
@@ -133,12 +137,8 @@ double mean_change(const BlindSet& made, const Reference& at) {
 /// How often each form was drawn, by effect.
 using Counts = std::map<std::string, std::map<std::string, int>>;
 
-void count_forms(const std::string& bank, Counts& counts) {
-  const TemporaryFolder folder;
-  const auto made = run_blind("bank --seed 51 --each 12 --none 0 --runs 1 " + bank + " --out " + folder.file("bank"));
-  INFO(made.err);
-  REQUIRE(made.status == 0);
-  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+void count_forms(const std::string& kind, Counts& counts) {
+  const Json truth = make_truth("--seed 51 --each 12 " + kind);
   for (const auto& [number, set] : truth.at("sets").items()) {
     const Json& effect = set.at("effects").at(0);
     ++counts[effect.at("id").get<std::string>()][effect.at("form").get<std::string>()];
@@ -147,18 +147,18 @@ void count_forms(const std::string& bank, Counts& counts) {
 
 }  // namespace
 
-TEST_CASE("sizes lie mostly but not always in the catalogue's ranges, base parameters scatter as stated", "[slow]") {
+TEST_CASE("sizes lie mostly but not always in the catalog's ranges, base parameters scatter as stated", "[slow]") {
   constexpr int kEach = 60;
   Drawn drawn;
   int inside = 0;
   int all = 0;
-  for (const char* bank :
+  for (const char* kind :
        {"--kind drum", "--kind road", "--kind dyno --effects slip_loss,brake_heat,tie_down_load,curvature_exponent"}) {
-    const Json truth = make_bank_truth(fmt::format("{} --seed 77 --each {}", bank, kEach));
+    const Json truth = make_truth(fmt::format("{} --seed 77 --each {}", kind, kEach));
     std::map<std::string, int> before = drawn.inside;
     for (const auto& [number, set] : truth.at("sets").items()) drawn.add(set);
     for (auto& [id, count] : drawn.inside) {
-      INFO(bank << ", " << id << ": " << count - before[id] << " of " << kEach);
+      INFO(kind << ", " << id << ": " << count - before[id] << " of " << kEach);
       if (count == before[id]) continue;
       // Two thirds before sizes far out are drawn again, so two thirds at least: less more than three standard errors.
       CHECK(count - before[id] > 0.45 * kEach);
@@ -215,8 +215,8 @@ TEST_CASE("where its size is said to hold, an effect is the same in both forms",
 
 TEST_CASE("a form changes neither the size that is drawn nor noise, campaign and tire", "[fast]") {
   const std::string order = "--effect windage --seed 8 --form ";
-  const BlindSet one = make_blind_set(order + "disc_and_pump");
-  const BlindSet other = make_blind_set(order + "power");
+  const GeneratedSet one = make_generated_set(order + "disc_and_pump");
+  const GeneratedSet other = make_generated_set(order + "power");
   CHECK(one.truth.at("effects")[0].at("size") == other.truth.at("effects")[0].at("size"));
   CHECK(one.truth.at("effects")[0].at("law") != other.truth.at("effects")[0].at("law"));
   CHECK(one.truth.at("base") == other.truth.at("base"));
@@ -233,9 +233,9 @@ TEST_CASE("a form changes neither the size that is drawn nor noise, campaign and
 }
 
 TEST_CASE("a form that an effect does not have is refused, with those that it has", "[fast]") {
-  const auto refused = run_blind("make --effect slow_leak --form nozle --out nowhere");
+  const auto refused = run_validation("make-case --effect slow_leak --form nozle --out nowhere");
   CHECK(refused.status == 2);
   CHECK_THAT(refused.err, Catch::Contains("nozzle") && Catch::Contains("permeation"));
-  CHECK(run_blind("make --effect slow_leak,windage --form nozzle --out nowhere").status == 2);
-  CHECK(run_blind("make --effect none --form nozzle --out nowhere").status == 2);
+  CHECK(run_validation("make-case --effect slow_leak,windage --form nozzle --out nowhere").status == 2);
+  CHECK(run_validation("make-case --effect none --form nozzle --out nowhere").status == 2);
 }

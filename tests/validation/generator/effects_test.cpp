@@ -7,7 +7,7 @@
 #include <set>
 
 #include "tests/support/run_program.h"
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
@@ -89,14 +89,14 @@ const std::vector<Expected> kOutside{
 
 constexpr const char* kForce[]{"drum_torque_Nm", "loss_force_N", "traction_force_N"};
 
-BlindSet make(const Expected& expected, const std::string& form, const std::string& size) {
+GeneratedSet make(const Expected& expected, const std::string& form, const std::string& size) {
   return make_effect_set(with_form(expected.kind, form), expected.effect, size);
 }
 
 }  // namespace
 
 TEST_CASE("the whole catalog is there, and eight effects outside of it", "[fast]") {
-  const auto listed = run_blind("list").out;
+  const auto listed = run_validation("list").out;
   std::set<std::string> catalog;
   for (const Expected& expected : kEffects) catalog.insert(expected.effect);
   for (const Expected& expected : kRoadEffects) catalog.insert(expected.effect);
@@ -115,7 +115,7 @@ void check_neutral(const std::vector<Expected>& effects) {
   const auto forms = list_forms();
   for (const Expected& expected : effects) {
     for (const std::string& form : forms.at(expected.effect)) {
-      const BlindSet made = make(expected, form, expected.neutral);
+      const GeneratedSet made = make(expected, form, expected.neutral);
       for (const auto& [channel, floors] : compare(made.set, made.counterfactual)) {
         INFO(expected.kind << ", " << expected.effect << ", " << form << ", " << channel);
         CHECK(floors < 1e-3);  // states of its own change the steps of the integration
@@ -126,7 +126,7 @@ void check_neutral(const std::vector<Expected>& effects) {
 
 /// Checks which channels an effect in one form moves, and says by how many floors.
 Floors check_form(const Expected& expected, const std::string& form) {
-  const BlindSet made = make(expected, form, expected.size);
+  const GeneratedSet made = make(expected, form, expected.size);
   const Floors floors = compare(made.set, made.counterfactual);
   const auto check = [&](const std::string& channel, bool moved) {
     INFO(expected.kind << ", " << expected.effect << ", " << form << ", " << channel << " by " << floors.at(channel)

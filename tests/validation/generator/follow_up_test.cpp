@@ -1,4 +1,4 @@
-// rollrig_blind followup: sets again with the runs of a plan, on banks of a few short sets and plans made by hand.
+// rollrig_validation follow-up: cases again with the runs of a plan.
 #include <fmt/format.h>
 
 #include <catch2/catch.hpp>
@@ -8,10 +8,7 @@
 #include <vector>
 
 #include "diagnosis/checks/set_checks.h"
-#include "measurements/measurement_set.h"
-#include "sim/core/file_io.h"
-#include "sim/core/json.h"
-#include "tests/support/run_program.h"
+#include "tests/validation/generator/planned_case.h"
 
 namespace fs = std::filesystem;
 using Catch::Contains;
@@ -19,77 +16,6 @@ using namespace rollrig;
 using namespace rollrig::tests;
 
 namespace {
-
-std::map<std::string, std::string> read_folder(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    files[entry.path().filename().string()] = read_file(entry.path().string());
-  }
-  return files;
-}
-
-/// A bank of one set, and a plan for it.
-struct Planned {
-  TemporaryFolder folder;
-  std::string bank = folder.file("bank");
-  std::string plan_folder = bank + "/followup/plans/0001";
-  Json truth;  // of the set
-  Json plan;
-
-  explicit Planned(const std::string& order, const std::string& kind = "drum") {
-    fs::create_directories(bank + "/sets");
-    const auto made = run_blind(
-        fmt::format("make --kind {} {} --out {}/sets/0001 --truth {}", kind, order, bank, folder.file("one.json")));
-    INFO(made.err);
-    REQUIRE(made.status == 0);
-    truth = Json::parse(read_file(folder.file("one.json")));
-    const Json sealed{{"format", "rollrig-blind-bank/1"}, {"sets", {{"0001", truth}}}};
-    write_file(bank + "/truth.json", sealed.dump());
-    write_file(bank + "/seal.sha256", calc_sha256(sealed.dump()) + "  truth.json\n");
-    std::string all;
-    for (const auto& [name, content] : read_folder(bank + "/sets/0001")) {
-      all += fmt::format("{}  {}\n", calc_sha256(content), name);
-    }
-    plan = {{"format", "rollrig-blind-plan/1"}, {"kind", kind}, {"set_sha256", calc_sha256(all)}};
-    plan["runs"] = Json::array();
-  }
-
-  /// Adds a run to the plan and writes all of it.
-  void add(const std::string& csv, const Json& unread = Json::array(), bool at_standstill = false) {
-    const std::string id = fmt::format("test-{}", plan["runs"].size() + 1);
-    plan["runs"].push_back({{"id", id},
-                            {"file", id + ".csv"},
-                            {"session", "next"},
-                            {"cold_pressure_kPa", 240.0},
-                            {"force_at_standstill", at_standstill},
-                            {"not_read_s", unread}});
-    fs::create_directories(plan_folder);
-    write_file(plan_folder + "/" + id + ".csv", csv);
-    write_file(plan_folder + "/plan.json", plan.dump());
-  }
-
-  ProgramResult run(const std::string& options = "") const { return run_blind("followup " + bank + options); }
-
-  measurements::MeasurementSet follow() const {
-    const ProgramResult ran = run();
-    INFO(ran.err);
-    REQUIRE(ran.status == 0);
-    CHECK_THAT(ran.out, Contains("1 sets"));
-    return measurements::read_measurement_set(bank + "/followup/sets/0001");
-  }
-};
-
-constexpr const char* kDrumHeader = "time_s,speed_km_h,load_N,ambient_degC\n";
-const std::string kSteady = std::string(kDrumHeader) + "0,80,5000,24\n600,80,5000,24\n";
-
-/// The message of a plan that is no plan.
-void check_refused(const Planned& made, const std::vector<std::string>& words) {
-  const ProgramResult ran = made.run();
-  INFO(ran.err);
-  CHECK(ran.status == 2);
-  for (const std::string& word : words) CHECK_THAT(ran.err, Contains(word));
-  CHECK_FALSE(fs::exists(made.bank + "/followup/sets"));
-}
 
 double mean(const std::vector<double>& values, std::size_t from, std::size_t to) {
   double sum = 0.0;
@@ -106,7 +32,7 @@ TEST_CASE("a followed-up set repeats its own runs byte for byte and adds those o
   for (const auto& [kind, csv] :
        {std::pair<std::string, std::string>("drum", kSteady), {"dyno", dyno}, {"road", road}}) {
     INFO(kind);
-    Planned made("--effect inertia_error --seed 5 --runs 2", kind);
+    PlannedCase made("--effect inertia_error --seed 5 --runs 2", kind);
     made.add(csv);
     made.add(csv);
     const measurements::MeasurementSet set = made.follow();
@@ -114,8 +40,8 @@ TEST_CASE("a followed-up set repeats its own runs byte for byte and adds those o
     CHECK(set.runs[2].session == "next");
     CHECK(set.runs[3].cold_pressure_Pa == 240e3);
     CHECK(set.runs[3].columns.at("speed_km_h").back() == Approx(80.0 / 3.6));
-    const auto before = read_folder(made.bank + "/sets/0001");
-    const auto after = read_folder(made.bank + "/followup/sets/0001");
+    const auto before = read_folder(made.root + "/sets/0001");
+    const auto after = read_folder(made.root + "/followup/sets/0001");
     for (const auto& [name, content] : before) {
       INFO(name);
       if (name == "set.toml") {
@@ -130,20 +56,20 @@ TEST_CASE("a followed-up set repeats its own runs byte for byte and adds those o
 }
 
 TEST_CASE("the same truth and plan give the same bytes, with any number of threads", "[fast]") {
-  Planned made("--effect rim_heat --seed 6 --runs 1");
+  PlannedCase made("--effect rim_heat --seed 6 --runs 1");
   made.add(kSteady);
   made.follow();
-  const auto first = read_folder(made.bank + "/followup/sets/0001");
-  fs::remove_all(made.bank + "/followup/sets");
+  const auto first = read_folder(made.root + "/followup/sets/0001");
+  fs::remove_all(made.root + "/followup/sets");
   REQUIRE(made.run(" --threads 3").status == 0);
-  CHECK(read_folder(made.bank + "/followup/sets/0001") == first);
+  CHECK(read_folder(made.root + "/followup/sets/0001") == first);
   CHECK(made.run().status == 2);  // not over what is there
 }
 
 TEST_CASE("the test shows the effect of the truth, with its size", "[fast]") {
   const std::string stands = std::string(kDrumHeader) + "0,0,0,24\n1800,0,0,24\n";
   const auto read_zero = [&](const std::string& effect) {
-    Planned made("--effect " + effect + " --seed 7 --runs 1 --noise-free");
+    PlannedCase made("--effect " + effect + " --seed 7 --runs 1 --noise-free");
     made.add(stands, Json::array(), true);
     const measurements::MeasurementSet set = made.follow();
     CHECK(set.runs[1].force_at_standstill);
@@ -159,7 +85,7 @@ TEST_CASE("the test shows the effect of the truth, with its size", "[fast]") {
 }
 
 TEST_CASE("in reversed rotation a zero keeps its sign, all else turns over", "[fast]") {
-  Planned made("--effect load_cross_talk --form fixed --size 5 --seed 14 --runs 1 --noise-free");
+  PlannedCase made("--effect load_cross_talk --form fixed --size 5 --seed 14 --runs 1 --noise-free");
   made.add(kSteady);
   made.plan["runs"][0]["reversed"] = true;
   made.add(kSteady);
@@ -174,7 +100,7 @@ TEST_CASE("in reversed rotation a zero keeps its sign, all else turns over", "[f
 }
 
 TEST_CASE("weights on the lever are read with the gain of the sensor", "[fast]") {
-  Planned made("--effect torque_gain --form with_air --size 4 --seed 15 --runs 1 --noise-free");
+  PlannedCase made("--effect torque_gain --form with_air --size 4 --seed 15 --runs 1 --noise-free");
   made.add(
       "time_s,speed_km_h,load_N,ambient_degC,hung_torque_Nm\n0,0,0,25,0\n60,0,0,25,0\n70,0,0,25,50\n130,0,0,25,50\n",
       Json::array(), true);
@@ -193,7 +119,7 @@ TEST_CASE("a lifted tire takes nothing: what turns is the drum alone, whatever p
   const std::string ramp = std::string(kDrumHeader) + "0,40,0,24\n60,40,0,24\n140,120,0,24\n200,120,0,24\n";
   for (const char* effect : {"none", "load_record --size 10"}) {
     INFO(effect);
-    Planned made(fmt::format("--effect {} --seed 8 --runs 1 --noise-free", effect));
+    PlannedCase made(fmt::format("--effect {} --seed 8 --runs 1 --noise-free", effect));
     made.add(ramp);
     const measurements::MeasurementSet set = made.follow();
     const std::vector<double>& torque_Nm = set.runs[1].columns.at("drum_torque_Nm");
@@ -210,7 +136,7 @@ TEST_CASE("a lifted tire takes nothing: what turns is the drum alone, whatever p
 
 TEST_CASE("a heated drum is recorded, and warms the tire", "[fast]") {
   const std::string header = "time_s,speed_km_h,load_N,ambient_degC,surface_temperature_degC\n";
-  Planned made("--effect none --seed 9 --runs 1 --noise-free");
+  PlannedCase made("--effect none --seed 9 --runs 1 --noise-free");
   made.add(kSteady);
   made.add(header + "0,80,5000,24,64\n600,80,5000,24,64\n");
   const measurements::MeasurementSet set = made.follow();
@@ -224,7 +150,7 @@ TEST_CASE("a heated drum is recorded, and warms the tire", "[fast]") {
 }
 
 TEST_CASE("what is not read is left empty, and the air is that of another day", "[fast]") {
-  Planned made("--effect none --seed 10 --runs 1");
+  PlannedCase made("--effect none --seed 10 --runs 1");
   made.add(kSteady, {{0.0, 200.0}, {400.0, 500.0}});
   const measurements::MeasurementSet set = made.follow();
   const measurements::MeasuredRun& run = set.runs[1];
@@ -244,7 +170,7 @@ TEST_CASE("what is not read is left empty, and the air is that of another day", 
 
 TEST_CASE("a day of its own has offsets of its own, and nothing else of its own", "[fast]") {
   const auto measure = [](const std::string& session) {
-    Planned made("--effect none --seed 11 --runs 1");
+    PlannedCase made("--effect none --seed 11 --runs 1");
     made.plan["runs"] = Json::array();
     made.add(kSteady);
     made.plan["runs"][0]["session"] = session;
@@ -261,49 +187,4 @@ TEST_CASE("a day of its own has offsets of its own, and nothing else of its own"
     REQUIRE(std::isnan(a[row]) == std::isnan(b[row]));
     if (!std::isnan(a[row])) REQUIRE(a[row] - b[row] == Approx(offset_Nm).margin(2e-4));
   }
-}
-
-TEST_CASE("wrong plans are refused, with what is wrong and what is allowed", "[fast]") {
-  const std::string order = "--effect none --seed 12 --runs 1";
-  const Planned empty(order);
-  check_refused(empty, {"no plans in", "followup/plans", "first: rollrig blind plan"});
-  CHECK_THAT(empty.run(" --drawn").err,
-             Contains("followup-drawn/plans") && Contains("plan " + empty.bank + " --drawn"));
-
-  const auto refuse = [&](const std::string& csv, const std::vector<std::string>& words) {
-    Planned made(order);
-    made.add(csv);
-    check_refused(made, words);
-  };
-  refuse("time_s,speed_km_h,ambient_degC\n0,80,24\n60,80,24\n",
-         {"test-1.csv", "load_N", "given columns of a drum set"});
-  refuse(std::string(kDrumHeader) + "0,80,5000\n", {"test-1.csv", "ragged"});
-  refuse(std::string(kDrumHeader) + "0,80,5000,24\n60,fast,5000,24\n", {"test-1.csv", "speed_km_h", "fast"});
-  refuse(std::string(kDrumHeader) + "0,80,5000,24\n60.5,80,5000,24\n", {"time_s", "60.5", "whole seconds"});
-  refuse(std::string(kDrumHeader) + "0,80,-5,24\n60,80,5000,24\n", {"load_N", "-5", "0 or more"});
-  refuse(std::string(kDrumHeader) + "0,80,5000,24\n60,80,5000,34\n", {"ambient_degC", "34", "one value"});
-
-  const auto refuse_changed = [&](const char* key, const Json& value, const std::vector<std::string>& words) {
-    Planned made(order);
-    made.plan[key] = value;
-    made.add(kSteady);
-    check_refused(made, words);
-  };
-  refuse_changed("format", "rollrig-run/1", {"plan.json", "format", "rollrig-blind-plan/1"});
-  refuse_changed("kind", "road", {"plan.json", "kind", "drum"});
-  refuse_changed("set_sha256", std::string(64, '0'), {"plan.json", "plan for other files", "set_sha256"});
-  refuse_changed("set_sha256", 7, {"plan.json", "not a plan"});
-}
-
-TEST_CASE("a bank that is not the plan's, or whose seal is broken, is refused", "[fast]") {
-  Planned made("--effect none --seed 13 --runs 1");
-  made.add(kSteady);
-  fs::rename(made.plan_folder, made.bank + "/followup/plans/0002");
-  check_refused(made, {"plan for a set that the bank has not", "0002"});
-  fs::rename(made.bank + "/followup/plans/0002", made.plan_folder);
-  const std::string set_file = made.bank + "/sets/0001/set.toml";
-  write_file(set_file, read_file(set_file) + "\n");
-  check_refused(made, {"sets/0001/set.toml", "is not what this program makes"});
-  write_file(made.bank + "/truth.json", read_file(made.bank + "/truth.json") + " ");
-  check_refused(made, {"truth.json is not the file that was sealed"});
 }

@@ -1,4 +1,4 @@
-// What every set and bank of the foreign generator must be: repeatable, and silent about its cause.
+// What every case and validation set of the independent generator must be: repeatable, and silent about its cause.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 #include "sim/core/file_io.h"
 #include "tests/support/run_program.h"
-#include "tests/validation/generator/blind_fixture.h"
-#include "validation/scoring/bank.h"
+#include "tests/validation/generator/generated_set.h"
+#include "validation/files.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
@@ -29,7 +29,7 @@ std::map<std::string, std::string> read_folder(const std::string& folder) {
 
 std::map<std::string, std::string> make_files(const std::string& arguments) {
   const TemporaryFolder folder;
-  const auto made = run_blind("make " + arguments + " --out " + folder.file("set"));
+  const auto made = run_validation("make-case " + arguments + " --out " + folder.file("set"));
   INFO(made.err);
   REQUIRE(made.status == 0);
   return read_folder(folder.file("set"));
@@ -50,7 +50,7 @@ std::string given_columns(const std::string& csv) {
 
 /// Effects that can be made on a kind, as `list` says.
 std::vector<std::string> effect_names(const std::string& kind) {
-  const auto listed = run_blind("list");
+  const auto listed = run_validation("list");
   std::istringstream in(listed.out);
   std::vector<std::string> names;
   std::string name;
@@ -99,20 +99,21 @@ TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
   }
 }
 
-TEST_CASE("a bank of each kind has what its kind shows, and effects outside of the catalog where asked", "[fast]") {
+TEST_CASE("a validation set of each kind has what its kind shows, and effects outside of the catalog where asked",
+          "[fast]") {
   for (const std::string kind : {"drum", "dyno", "road"}) {
     const TemporaryFolder folder;
-    const auto made =
-        run_blind(fmt::format("bank --kind {} --seed 7305 --each 1 --none 1 --pairs 3 --outside 9 --runs 1 "
-                              "--out {}",
-                              kind, folder.file("bank")));
+    const auto made = run_validation(
+        fmt::format("make --kind {} --seed 7305 --singles 0 --each 1 --none 1 --pairs 3 --outside 9 --runs 1 "
+                    "--out {}",
+                    kind, folder.file("set")));
     INFO(kind << "\n" << made.err);
     REQUIRE(made.status == 0);
-    const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+    const Json truth = Json::parse(read_file(folder.file("set/truth.json")));
     std::set<std::string> effects;
     for (const auto& [number, set] : truth.at("sets").items()) {
       for (const Json& effect : set.at("effects")) effects.insert(effect.at("id").get<std::string>());
-      const auto read = measurements::read_measurement_set(folder.file("bank/sets/" + number));
+      const auto read = measurements::read_measurement_set(folder.file("set/sets/" + number));
       CHECK(std::string(kind) == (read.kind == measurements::SetKind::kDrum
                                       ? "drum"
                                       : (read.kind == measurements::SetKind::kDyno ? "dyno" : "road")));
@@ -126,87 +127,21 @@ TEST_CASE("a bank of each kind has what its kind shows, and effects outside of t
 }
 
 TEST_CASE("what a kind does not show is refused, with the kinds that do", "[fast]") {
-  const auto refused = run_blind("make --kind drum --effect wind_and_grade --out nowhere");
+  const auto refused = run_validation("make-case --kind drum --effect wind_and_grade --out nowhere");
   CHECK(refused.status == 2);
   CHECK_THAT(refused.err, Catch::Contains("road"));
-  CHECK(run_blind("make --kind drums --effect none --out nowhere").status == 2);
-  CHECK(run_blind("make --kind road --baseline combined --effect tire_temperature --out nowhere").status == 2);
-  CHECK(run_blind("make --kind drum --baseline combined --effect none --out nowhere").status == 2);
-  CHECK(run_blind("bank --kind drum --effects brake_heat --each 1 --out nowhere").status == 2);
+  CHECK(run_validation("make-case --kind drums --effect none --out nowhere").status == 2);
+  CHECK(run_validation("make-case --kind road --baseline combined --effect tire_temperature --out nowhere").status ==
+        2);
+  CHECK(run_validation("make-case --kind drum --baseline combined --effect none --out nowhere").status == 2);
+  CHECK(run_validation("make --kind drum --effects brake_heat --out nowhere").status == 2);
   CHECK_FALSE(fs::exists("nowhere"));
-}
-
-TEST_CASE("dyno campaigns: three to five runs of one to two hours, cycles and constant speeds, rests", "[fast]") {
-  std::set<std::string> kinds;
-  bool rests = false;
-  bool brakes = false;
-  bool drives = false;
-  for (int seed = 1; seed <= 8; ++seed) {
-    const BlindSet made = make_blind_set(fmt::format("--kind dyno --effect none --seed {}", seed));
-    kinds.insert(made.truth.at("campaign").get<std::string>());
-    CHECK(made.set.runs.size() >= 3);
-    CHECK(made.set.runs.size() <= 5);
-    for (const measurements::MeasuredRun& run : made.set.runs) {
-      INFO("seed " << seed << ", " << run.id);
-      rests = rests || run.rest_before_s.has_value();
-      CHECK(run.time_s.back() >= 3600.0);
-      CHECK(run.time_s.back() <= 7300.0);
-      const auto& v = run.columns.at("speed_km_h");
-      const auto& loss_N = run.columns.at("loss_force_N");
-      for (std::size_t row = 0; row < v.size(); ++row) {
-        if (v[row] < 20.0 / 3.6 - 1e-9 && !std::isnan(loss_N[row])) FAIL_CHECK("a loss at " << v[row] << " m/s");
-      }
-      const auto& force_N = run.columns.at("longitudinal_force_N");
-      brakes = brakes || *std::min_element(force_N.begin(), force_N.end()) < -300.0;
-      drives = drives || *std::max_element(force_N.begin(), force_N.end()) > 500.0;
-    }
-  }
-  CHECK(kinds.size() >= 3);
-  CHECK(rests);
-  CHECK(brakes);
-  CHECK(drives);
-}
-
-TEST_CASE("road trips: cold and warm starts, hills, traction empty where friction brakes act", "[fast]") {
-  bool warm = false;
-  std::set<models::Baseline> baselines;
-  double coldest_K = 400.0;
-  double hottest_K = 0.0;
-  for (int seed = 1; seed <= 8; ++seed) {
-    const BlindSet made = make_blind_set(fmt::format("--kind road --effect none --seed {} --noise-free", seed));
-    baselines.insert(made.set.baseline);
-    REQUIRE(made.set.vehicle.has_value());
-    CHECK(made.set.vehicle->uncertainties.mass_kg > 0.0);
-    const double mass_kg = made.set.vehicle->body.mass_kg;
-    for (const measurements::MeasuredRun& run : made.set.runs) {
-      INFO("seed " << seed << ", " << run.id);
-      warm = warm || run.started_warm;
-      coldest_K = std::min(coldest_K, run.initial_tire_temperature_K);
-      hottest_K = std::max(hottest_K, run.initial_tire_temperature_K);
-      CHECK(run.time_s.back() > 900.0);
-      CHECK(run.time_s.back() < 5400.0);
-      int empty = 0;
-      const auto& v = run.columns.at("speed_km_h");
-      const auto& force_N = run.columns.at("traction_force_N");
-      for (std::size_t row = 0; row < v.size(); ++row) {
-        empty += std::isnan(force_N[row]) && v[row] > 6.0 ? 1 : 0;
-        if (force_N[row] < -1.1 * mass_kg * made.set.vehicle->powertrain.regeneration_limit_m_s2) {
-          FAIL_CHECK(force_N[row] << " N is more than the motor brakes");
-        }
-      }
-      CHECK(empty < static_cast<int>(v.size()) / 4);
-    }
-  }
-  CHECK(warm);
-  CHECK(baselines.size() == 2);
-  CHECK(coldest_K < 283.0);
-  CHECK(hottest_K > 293.0);
 }
 
 TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") {
   const TemporaryFolder folder;
-  const auto made = run_blind("make --effect slow_leak,clock_shift --seed 4711 --truth " + folder.file("truth.json") +
-                              " --out " + folder.file("set"));
+  const auto made = run_validation("make-case --effect slow_leak,clock_shift --seed 4711 --truth " +
+                                   folder.file("truth.json") + " --out " + folder.file("set"));
   REQUIRE(made.status == 0);
   CHECK(made.out.empty());
   const Json truth = Json::parse(read_file(folder.file("truth.json")));
@@ -226,15 +161,17 @@ TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") 
   }
 }
 
-TEST_CASE("a bank is shuffled, numbered, repeatable, and its truth has the hash that was printed", "[fast]") {
+TEST_CASE("a validation set is shuffled, numbered, repeatable, and its truth has the hash that was printed", "[fast]") {
   const TemporaryFolder folder;
-  const std::string arguments = "bank --seed 9 --each 3 --none 6 --pairs 2 --effects slow_leak,load_exponent --runs 1";
-  const auto made = run_blind(arguments + " --out " + folder.file("bank"));
+  const std::string arguments =
+      "make --kind drum --seed 9 --singles 0 --each 3 --none 6 --pairs 2 --outside 0 --effects slow_leak,load_exponent "
+      "--runs 1";
+  const auto made = run_validation(arguments + " --out " + folder.file("set"));
   INFO(made.err);
   REQUIRE(made.status == 0);
-  const auto files = read_folder(folder.file("bank"));
+  const auto files = read_folder(folder.file("set"));
   CHECK_THAT(made.out, Catch::Contains(calc_sha256(files.at("truth.json"))));
-  CHECK_THAT(files.at("seal.sha256"), Catch::StartsWith(calc_sha256(files.at("truth.json"))));
+  CHECK_THAT(files.at("truth.sha256"), Catch::StartsWith(calc_sha256(files.at("truth.json"))));
   const Json truth = Json::parse(files.at("truth.json"));
   REQUIRE(truth.at("sets").size() == 14);
   std::map<std::size_t, int> by_count;
@@ -243,74 +180,40 @@ TEST_CASE("a bank is shuffled, numbered, repeatable, and its truth has the hash 
   for (const auto& [number, set] : truth.at("sets").items()) {
     ++by_count[set.at("effects").size()];
     order += set.at("effects").empty() ? "-" : set.at("effects").front().at("id").get<std::string>().substr(0, 1);
-    CHECK(fs::is_directory(folder.file("bank/sets/" + number)));
-    CHECK_NOTHROW(measurements::read_measurement_set(folder.file("bank/sets/" + number)));
-    CHECK(set.at("set_sha256") == proof::hash_set(folder.file("bank/sets/" + number)));
+    CHECK(fs::is_directory(folder.file("set/sets/" + number)));
+    CHECK_NOTHROW(measurements::read_measurement_set(folder.file("set/sets/" + number)));
+    CHECK(set.at("set_sha256") == validation::hash_case(folder.file("set/sets/" + number)));
   }
   CHECK(truth.contains("kind") == false);  // of a drum: as it always was
   CHECK(by_count == std::map<std::size_t, int>{{0, 6}, {1, 6}, {2, 2}});
   CHECK(order.find("------") == std::string::npos);  // not as they were listed
   for (const auto& [name, content] : files) {
-    if (name != "truth.json" && name != "seal.sha256") CHECK(name.rfind("sets/00", 0) == 0);
+    if (name != "truth.json" && name != "truth.sha256") CHECK(name.rfind("sets/00", 0) == 0);
   }
-  REQUIRE(run_blind(arguments + " --out " + folder.file("again")).status == 0);
+  REQUIRE(run_validation(arguments + " --out " + folder.file("again")).status == 0);
   CHECK(read_folder(folder.file("again")) == files);
-}
-
-TEST_CASE("campaigns are what was asked for: six runs in sessions, skims, fast running, another pressure", "[fast]") {
-  std::set<std::string> kinds;
-  bool rests = false;
-  for (int seed = 1; seed <= 12; ++seed) {
-    const BlindSet made = make_blind_set(fmt::format("--effect none --seed {}", seed));
-    kinds.insert(made.truth.at("campaign").get<std::string>());
-    REQUIRE(made.set.runs.size() == 6);
-    std::set<std::string> sessions;
-    std::set<double> pressures_Pa;
-    double fastest_m_s = 0.0;
-    int skims = 0;
-    for (const measurements::MeasuredRun& run : made.set.runs) {
-      INFO("seed " << seed << ", " << run.id);
-      sessions.insert(run.session);
-      pressures_Pa.insert(run.cold_pressure_Pa);
-      rests = rests || run.rest_before_s.has_value();
-      CHECK(run.time_s.back() >= 2000.0);
-      CHECK(run.time_s.back() <= 3500.0);
-      CHECK(run.time_s.size() == static_cast<std::size_t>(run.time_s.back()) + 1);
-      const auto& speed_m_s = run.columns.at("speed_km_h");
-      const auto& load_N = run.columns.at("load_N");
-      fastest_m_s = std::max(fastest_m_s, *std::max_element(speed_m_s.begin(), speed_m_s.end()));
-      for (std::size_t row = 1; row < load_N.size(); ++row) skims += load_N[row] < 300.0 && load_N[row - 1] > 300.0;
-    }
-    CHECK(sessions.size() >= 2);
-    CHECK(sessions.size() <= 3);
-    CHECK(pressures_Pa.size() >= 2);
-    CHECK(skims >= 3);
-    CHECK(fastest_m_s > 33.5);
-  }
-  CHECK(kinds.size() >= 4);
-  CHECK(rests);
 }
 
 TEST_CASE("a run that is stopped by a mistake leaves nothing behind", "[fast]") {
   const TemporaryFolder folder;
   const std::string inside = folder.file("set/truth.json");
-  const auto made = run_blind("make --effect none --out " + folder.file("set") + " --truth " + inside);
+  const auto made = run_validation("make-case --effect none --out " + folder.file("set") + " --truth " + inside);
   CHECK(made.status == 2);
   CHECK(folder.entry_count() == 0);
   write_file(folder.file("taken"), "a file");
-  CHECK(run_blind("bank --each 1 --none 0 --out " + folder.file("taken")).status == 2);
+  CHECK(run_validation("make --out " + folder.file("taken")).status == 2);
   CHECK(read_file(folder.file("taken")) == "a file");
   CHECK(folder.entry_count() == 1);
 }
 
-TEST_CASE("a mixed bank has every effect of the catalog, each size class, and each sort of campaign", "[slow]") {
+TEST_CASE("a mixed validation set has every effect of the catalog, each size class, and each sort of campaign",
+          "[slow]") {
   const TemporaryFolder folder;
-  const auto made = run_blind(
-      fmt::format("bank --kind mixed --seed 31 --each 0 --singles 102 --pairs 3 --none 2 --outside 9 --runs 1 --out {}",
-                  folder.file("bank")));
+  const auto made = run_validation(
+      fmt::format("make --seed 31 --singles 102 --pairs 3 --none 2 --outside 9 --runs 1 --out {}", folder.file("set")));
   INFO(made.err);
   REQUIRE(made.status == 0);
-  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+  const Json truth = Json::parse(read_file(folder.file("set/truth.json")));
   std::map<std::string, std::map<std::string, int>> singles;  // by effect, by class
   std::set<std::string> campaigns;
   for (const auto& [number, set] : truth.at("sets").items()) {
@@ -318,10 +221,10 @@ TEST_CASE("a mixed bank has every effect of the catalog, each size class, and ea
     if (set.at("effects").size() != 1 || !set.at("effects")[0].contains("size_class")) continue;
     const Json& effect = set.at("effects")[0];
     ++singles[effect.at("id").get<std::string>()][effect.at("size_class").get<std::string>()];
-    CHECK_NOTHROW(measurements::read_measurement_set(folder.file("bank/sets/" + number)));
+    CHECK_NOTHROW(measurements::read_measurement_set(folder.file("set/sets/" + number)));
   }
   CHECK(campaigns.size() == 6);
-  CHECK(singles.size() == 34);  // each that banks of some kind have, three times
+  CHECK(singles.size() == 34);  // each that is drawn on some kind, three times
   for (const auto& [effect, classes] : singles) {
     INFO(effect);
     CHECK(classes.size() == 3);
@@ -330,13 +233,14 @@ TEST_CASE("a mixed bank has every effect of the catalog, each size class, and ea
 
 TEST_CASE("size classes are thirds of what is drawn, by the distance from doing nothing", "[fast]") {
   const TemporaryFolder folder;
-  const auto made = run_blind(
-      "bank --seed 32 --each 0 --singles 24 --none 0 --effects pressure_exponent,clock_shift --runs 1 --out " +
-      folder.file("bank"));
+  const auto made = run_validation(
+      "make --kind drum --seed 32 --singles 24 --none 0 --pairs 0 --outside 0 --effects pressure_exponent,clock_shift "
+      "--runs 1 --out " +
+      folder.file("set"));
   INFO(made.err);
   REQUIRE(made.status == 0);
   std::map<std::string, std::map<std::string, std::vector<double>>> strengths;
-  const Json truth = Json::parse(read_file(folder.file("bank/truth.json")));
+  const Json truth = Json::parse(read_file(folder.file("set/truth.json")));
   for (const auto& [number, set] : truth.at("sets").items()) {
     const Json& effect = set.at("effects").at(0);
     strengths[effect.at("id").get<std::string>()][effect.at("size_class").get<std::string>()].push_back(
@@ -352,11 +256,15 @@ TEST_CASE("size classes are thirds of what is drawn, by the distance from doing 
   }
 }
 
-TEST_CASE("the generator has no symbol of the simulator in it", "[fast]") {
-  const auto symbols = run_other("/usr/bin/nm", std::string("-C --defined-only '") + ROLLRIG_BLIND_PROGRAM + "'");
-  if (symbols.status != 0 || symbols.out.find(" blind::") == std::string::npos) {
-    WARN("skipped: nm is not there, or the program is stripped");
+TEST_CASE("the generator has no symbol of the simulator above sim/core in it", "[fast]") {
+  const auto symbols = run_other("/usr/bin/nm", std::string("-C '") + ROLLRIG_GENERATOR_LIBRARY + "'");
+  if (symbols.status != 0 || symbols.out.find(" rollrig::generator::") == std::string::npos) {
+    WARN("skipped: nm is not there, or the library is stripped");
     return;
   }
-  CHECK(symbols.out.find(" rollrig::") == std::string::npos);
+  for (const char* folder :
+       {"sim", "models", "rigs", "measurements", "estimation", "scenarios", "exports", "diagnosis", "report", "cli"}) {
+    INFO(folder);
+    CHECK(symbols.out.find(std::string("rollrig::") + folder + "::") == std::string::npos);
+  }
 }

@@ -9,8 +9,8 @@
 #include "validation/generator/draws.h"
 #include "validation/generator/sample_blocks.h"
 
-using blind::SampleBlocks;
-using blind::Sensor;
+using rollrig::generator::SampleBlocks;
+using rollrig::generator::Sensor;
 
 namespace {
 
@@ -64,7 +64,7 @@ Eigen::VectorXd whiten(const SampleBlocks& blocks, const std::vector<double>& va
 }
 
 Eigen::MatrixXd draw_matrix(Eigen::Index rows, Eigen::Index columns) {
-  blind::Draws draws(1, "observer test");
+  rollrig::generator::Draws draws(1, "observer test");
   Eigen::MatrixXd matrix(rows, columns);
   for (double& value : matrix.reshaped()) value = draws.normal();
   return matrix;
@@ -98,7 +98,7 @@ TEST_CASE("a constant shift is hidden by the session's offset, as the closed for
     sensor.drift_sd = drift_sd;
     const SampleBlocks blocks(sensor, has_sample);
     const Eigen::VectorXd ones = whiten(blocks, std::vector<double>(rows, 1.0));
-    const blind::Observer observer(sensor.offset_sd * ones);
+    const rollrig::generator::Observer observer(sensor.offset_sd * ones);
     // d'^2 = shift^2 a/(1 + sd^2 a), a = 1^T N^-1 1; without drift a = rows/(noise^2 + q^2/12)
     const double a = ones.squaredNorm();
     const double d_prime = observer.reduce(shift * ones).norm();
@@ -115,6 +115,6 @@ TEST_CASE("what unknowns can do is taken out as the covariance with them says", 
   const Eigen::MatrixXd signals = drawn.rightCols(2) + 50.0 * drawn.leftCols(2);
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(40, 40) + unknowns * unknowns.transpose();
   const Eigen::MatrixXd expected = signals.transpose() * covariance.fullPivLu().solve(signals);
-  const Eigen::MatrixXd reduced = blind::Observer(unknowns).reduce(signals);
+  const Eigen::MatrixXd reduced = rollrig::generator::Observer(unknowns).reduce(signals);
   CHECK((reduced.transpose() * reduced - expected).norm() < 1e-6 * expected.norm());
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "measurements/whitener.h"
-#include "tests/validation/generator/blind_fixture.h"
+#include "tests/validation/generator/generated_set.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
@@ -20,7 +20,7 @@ struct Errors {
   double mean = 0.0;
 };
 
-Errors find_errors(const BlindSet& made, std::size_t r, const std::string& channel) {
+Errors find_errors(const GeneratedSet& made, std::size_t r, const std::string& channel) {
   Errors errors;
   const measurements::MeasuredRun& run = made.set.runs[r];
   const std::vector<double>& measured = run.columns.at(channel);
@@ -35,11 +35,11 @@ Errors find_errors(const BlindSet& made, std::size_t r, const std::string& chann
   return errors;
 }
 
-const std::vector<BlindSet>& noisy_sets() {
-  static const std::vector<BlindSet> sets = [] {
-    std::vector<BlindSet> made;
+const std::vector<GeneratedSet>& noisy_sets() {
+  static const std::vector<GeneratedSet> sets = [] {
+    std::vector<GeneratedSet> made;
     for (int seed = 1; seed <= kSeeds; ++seed) {
-      made.push_back(make_blind_set(fmt::format("--effect none --seed {}", seed + 300)));
+      made.push_back(make_generated_set(fmt::format("--effect none --seed {}", seed + 300)));
     }
     return made;
   }();
@@ -61,7 +61,7 @@ TEST_CASE("errors of sensors are white and of unit variance once whitened by the
     double squares = 0.0;
     double neighbors = 0.0;
     double count = 0.0;
-    for (const BlindSet& made : noisy_sets()) {
+    for (const GeneratedSet& made : noisy_sets()) {
       for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
         Errors errors = find_errors(made, r, channel);
         for (double& value : errors.values) value -= errors.mean;
@@ -88,7 +88,7 @@ TEST_CASE("offsets are shared by a session, differ between sessions, and have th
     double offsets = 0.0;
     int pairs = 0;
     int sessions = 0;
-    for (const BlindSet& made : noisy_sets()) {
+    for (const GeneratedSet& made : noisy_sets()) {
       const models::SensorParameters& sensor = made.set.sensors.at(channel);
       for (std::size_t r = 0; r < made.set.runs.size(); ++r) {
         const Errors errors = find_errors(made, r, channel);
@@ -114,7 +114,7 @@ TEST_CASE("readings are whole steps, and some are missing, alone and in gaps", "
   std::size_t missing = 0;
   std::size_t all = 0;
   std::size_t longest = 0;
-  for (const BlindSet& made : noisy_sets()) {
+  for (const GeneratedSet& made : noisy_sets()) {
     for (const measurements::MeasuredRun& run : made.set.runs) {
       for (const std::string& channel : {kChannels[1], kChannels[2]}) {
         const double step = made.set.sensors.at(channel).resolution;

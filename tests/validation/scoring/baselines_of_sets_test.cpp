@@ -12,12 +12,12 @@ using diagnosis::Verdict;
 
 namespace {
 
-const proof::BaselineMethod& method_of(const std::string& id) {
-  for (const proof::BaselineMethod& method : proof::all_baselines()) {
+const validation::BaselineMethod& method_of(const std::string& id) {
+  for (const validation::BaselineMethod& method : validation::all_baselines()) {
     if (id == method.id) return method;
   }
   FAIL("no method " << id);
-  return proof::all_baselines().front();
+  return validation::all_baselines().front();
 }
 
 measurements::MeasurementSet make_leaking() {
@@ -37,7 +37,7 @@ TEST_CASE("a slow leak is named with its size, and shrinks the gap on the runs l
   const double true_size = size.prior.high;
   for (const char* id : {"aic", "bic", "sparse"}) {  // without noise the whole residual passes the test of "nearest"
     INFO(id);
-    const Diagnosis diagnosis = proof::diagnose_by(method_of(id), set, {});
+    const Diagnosis diagnosis = validation::diagnose_by(method_of(id), set, {});
     REQUIRE(diagnosis.verdict == Verdict::kExplained);
     CHECK(diagnosis.causes.front().effects.front() == "slow_leak");
     CHECK(diagnosis.causes.front().parameters.front().value == Approx(true_size).epsilon(0.2));
@@ -46,10 +46,10 @@ TEST_CASE("a slow leak is named with its size, and shrinks the gap on the runs l
 }
 
 TEST_CASE("effects that are not in the race are not named", "[fast]") {
-  proof::Settings settings;
+  validation::Settings settings;
   settings.only = {"windage", "slow_leak"};
   settings.without = {"slow_leak"};
-  const Diagnosis diagnosis = proof::diagnose_by(method_of("bic"), make_leaking(), settings);
+  const Diagnosis diagnosis = validation::diagnose_by(method_of("bic"), make_leaking(), settings);
   CHECK(diagnosis.probability.size() == 3);  // none, unknown, windage
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("on the baseline itself no method sees a gap", "[fast]") {
   const measurements::MeasurementSet set = make_gap_set({}, 2);
   for (const char* id : {"nearest", "aic", "bic", "sparse"}) {
     INFO(id);
-    const Diagnosis diagnosis = proof::diagnose_by(method_of(id), set, {});
+    const Diagnosis diagnosis = validation::diagnose_by(method_of(id), set, {});
     CHECK(diagnosis.verdict == Verdict::kNoGap);
     CHECK_FALSE(diagnosis.gap.shrink_percent.has_value());
   }
@@ -68,7 +68,7 @@ TEST_CASE("the process shrinks a gap that repeats from run to run, and names not
   for (measurements::MeasuredRun& run : set.runs) {
     add_to_channel(run, "liner_temperature_degC", [](double time_s) { return 5.0 * std::sin(time_s / 400.0); });
   }
-  const Diagnosis diagnosis = proof::diagnose_by(method_of("gp"), set, {});
+  const Diagnosis diagnosis = validation::diagnose_by(method_of("gp"), set, {});
   CHECK(diagnosis.verdict == Verdict::kUnexplained);
   CHECK(diagnosis.causes.empty());
   CHECK(diagnosis.gap.shrink_percent.value() > 50.0);

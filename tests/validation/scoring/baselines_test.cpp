@@ -4,14 +4,14 @@
 #include <catch2/catch.hpp>
 
 #include "sim/core/random.h"
-#include "tests/validation/scoring/bank_folder.h"
+#include "tests/validation/scoring/validation_set_folder.h"
 #include "validation/scoring/baselines/comparison.h"
-#include "validation/scoring/run_bank.h"
+#include "validation/scoring/run_cases.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
-using proof::LinearData;
-using proof::Naming;
+using validation::LinearData;
+using validation::Naming;
 
 namespace {
 
@@ -47,9 +47,9 @@ LinearData make_data(std::uint64_t seed, const std::vector<int>& effects, double
   return data;
 }
 
-std::vector<const proof::BaselineMethod*> naming_methods() {
-  std::vector<const proof::BaselineMethod*> methods;
-  for (const proof::BaselineMethod& method : proof::all_baselines()) {
+std::vector<const validation::BaselineMethod*> naming_methods() {
+  std::vector<const validation::BaselineMethod*> methods;
+  for (const validation::BaselineMethod& method : validation::all_baselines()) {
     if (method.name != nullptr) methods.push_back(&method);
   }
   return methods;
@@ -65,7 +65,7 @@ double sum_of(const Naming& naming) {
 
 TEST_CASE("a residual that is one signature is named by each method", "[fast]") {
   REQUIRE(naming_methods().size() == 4);
-  for (const proof::BaselineMethod* method : naming_methods()) {
+  for (const validation::BaselineMethod* method : naming_methods()) {
     for (int e = 0; e < kEffects; ++e) {
       INFO(method->id << ", effect " << e);
       const LinearData data = make_data(20, {e}, 30.0);
@@ -78,7 +78,7 @@ TEST_CASE("a residual that is one signature is named by each method", "[fast]") 
 }
 
 TEST_CASE("in noise alone no method but AIC sees a gap", "[fast]") {
-  for (const proof::BaselineMethod* method : naming_methods()) {
+  for (const validation::BaselineMethod* method : naming_methods()) {
     int alarms = 0;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
       const Naming naming = method->name(make_data(seed));
@@ -91,11 +91,11 @@ TEST_CASE("in noise alone no method but AIC sees a gap", "[fast]") {
 }
 
 TEST_CASE("forward selection and sparse regression find both of two effects", "[fast]") {
-  for (const proof::BaselineMethod* method : naming_methods()) {
+  for (const validation::BaselineMethod* method : naming_methods()) {
     if (std::string(method->id) == "nearest") continue;
     INFO(method->id);
     const LinearData data = make_data(3, {2, 6}, 20.0);
-    const std::vector<std::string> named = proof::find_named(data, method->name(data).chosen);
+    const std::vector<std::string> named = validation::find_named(data, method->name(data).chosen);
     CHECK(std::count(named.begin(), named.end(), "c") == 1);
     CHECK(std::count(named.begin(), named.end(), "g") == 1);
     CHECK(named.size() <= 3);
@@ -103,7 +103,7 @@ TEST_CASE("forward selection and sparse regression find both of two effects", "[
 }
 
 TEST_CASE("an effect whose sign is given is not named for the other sign", "[fast]") {
-  for (const proof::BaselineMethod* method : naming_methods()) {
+  for (const validation::BaselineMethod* method : naming_methods()) {
     INFO(method->id);
     const LinearData data = make_data(4, {1}, -30.0);
     for (const std::size_t column : method->name(data).chosen) CHECK(data.effects[column] != "b");
@@ -115,10 +115,10 @@ TEST_CASE("of either sign an effect has two signatures, and is named once", "[fa
   data.signatures.conservativeResize(Eigen::NoChange, kEffects + 1);
   data.signatures.col(kEffects) = -data.signatures.col(3);
   data.effects.emplace_back("d");
-  for (const proof::BaselineMethod* method : naming_methods()) {
+  for (const validation::BaselineMethod* method : naming_methods()) {
     INFO(method->id);
     const Naming naming = method->name(data);
-    const std::vector<std::string> named = proof::find_named(data, naming.chosen);
+    const std::vector<std::string> named = validation::find_named(data, naming.chosen);
     REQUIRE_FALSE(named.empty());
     CHECK(named.front() == "d");
     CHECK(std::count(named.begin(), named.end(), "d") == 1);
@@ -127,8 +127,8 @@ TEST_CASE("of either sign an effect has two signatures, and is named once", "[fa
 }
 
 TEST_CASE("probabilities of one effect at a time add to 1", "[fast]") {
-  CHECK(sum_of(proof::name_by_nearest_signature(make_data(1, {1}, 25.0))) == Approx(1.0));
-  CHECK(sum_of(proof::name_by_nearest_signature(make_data(1))) == Approx(1.0));
+  CHECK(sum_of(validation::name_by_nearest_signature(make_data(1, {1}, 25.0))) == Approx(1.0));
+  CHECK(sum_of(validation::name_by_nearest_signature(make_data(1))) == Approx(1.0));
 }
 
 TEST_CASE("what each explains shares the probability as exp(chi2/2)", "[fast]") {
@@ -136,7 +136,7 @@ TEST_CASE("what each explains shares the probability as exp(chi2/2)", "[fast]") 
   data.effects = {"a", "b"};
   data.signatures = Eigen::MatrixXd::Identity(2, 2);
   data.residual = Eigen::Vector2d(6.0, 5.0);
-  const Naming naming = proof::name_by_nearest_signature(data);
+  const Naming naming = validation::name_by_nearest_signature(data);
   CHECK(naming.probability.at("a") == Approx(0.99 / (1.0 + std::exp(0.5 * (25.0 - 36.0)))));
   CHECK(naming.probability.at("none") == 0.01);
   CHECK(naming.named_probability == naming.probability.at("a"));
@@ -147,7 +147,7 @@ TEST_CASE("weights of Akaike are those counted by hand", "[fast]") {
   data.effects = {"a", "b"};
   data.signatures = Eigen::MatrixXd::Identity(2, 2);
   data.residual = Eigen::Vector2d(3.0, 1.0);  // criteria: none 10, a 3, b 11, both 4
-  const Naming naming = proof::name_by_aic(data);
+  const Naming naming = validation::name_by_aic(data);
   CHECK(naming.chosen == std::vector<std::size_t>{0});
   const double sum = std::exp(-3.5) + 1.0 + std::exp(-4.0) + std::exp(-0.5);
   CHECK(naming.probability.at("none") == Approx(std::exp(-3.5) / sum));
@@ -159,7 +159,7 @@ TEST_CASE("without any signature there is no gap to name", "[fast]") {
   LinearData data = make_data(1, {1}, 30.0);
   data.effects.clear();
   data.signatures.resize(kBlocks, 0);
-  for (const proof::BaselineMethod* method : naming_methods()) {
+  for (const validation::BaselineMethod* method : naming_methods()) {
     INFO(method->id);
     CHECK(method->name(data).chosen.empty());
   }
@@ -168,7 +168,7 @@ TEST_CASE("without any signature there is no gap to name", "[fast]") {
 TEST_CASE("the projection is the inverse root of noise and priors together", "[fast]") {
   diagnosis::RowMatrix jacobian(30, 3);
   for (int c = 0; c < 3; ++c) jacobian.col(c) = (c + 1.0) * draw_noise(static_cast<std::uint64_t>(c), 30);
-  const Eigen::MatrixXd root = proof::BaseProjection(jacobian).apply(Eigen::MatrixXd::Identity(30, 30));
+  const Eigen::MatrixXd root = validation::BaseProjection(jacobian).apply(Eigen::MatrixXd::Identity(30, 30));
   const Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(30, 30) + jacobian * jacobian.transpose();
   CHECK((root * covariance * root - Eigen::MatrixXd::Identity(30, 30)).norm() < 1e-9);
 }
@@ -180,7 +180,7 @@ TEST_CASE("least squares of twins shares the amplitude, of strangers gives each 
   data.signatures(0, 0) = data.signatures(0, 1) = 2.0;
   data.signatures(1, 2) = 4.0;
   data.residual = Eigen::Vector3d(8.0, 2.0, 1.0);
-  const proof::LeastSquares squares(data);
+  const validation::LeastSquares squares(data);
   const auto twins = squares.fit({0, 1});
   CHECK(twins.amplitudes[0] == Approx(2.0));
   CHECK(twins.amplitudes[1] == Approx(2.0));
@@ -191,27 +191,28 @@ TEST_CASE("least squares of twins shares the amplitude, of strangers gives each 
 }
 
 TEST_CASE("a baseline's folder is scored where it is there, and the process by its shrinkage alone", "[fast]") {
-  const BankFolder made;
-  proof::ScoreOrder order;
-  order.bank = made.bank;
-  CHECK(proof::score_baselines(order, {}).empty());
-  const auto tasks = proof::plan_race(made.bank, {}, {});
-  for (const proof::BaselineMethod& method : proof::all_baselines()) {
+  const ValidationSetFolder made;
+  validation::ScoreOrder order;
+  order.set = made.root;
+  CHECK(validation::score_baselines(order, {}).empty());
+  const auto tasks = validation::plan_tasks(made.root, {}, {});
+  for (const validation::BaselineMethod& method : validation::all_baselines()) {
     if (std::string(method.id) != "bic" && method.name != nullptr) continue;
-    proof::RunOrder run{made.bank, proof::baseline_folder(made.bank, method), tasks};
+    validation::RunOrder run{made.root, validation::baseline_folder(made.root, method), tasks};
     run.answer_by = [&method](const auto& set, const auto& settings) {
-      return proof::diagnose_by(method, set, settings);
+      return validation::diagnose_by(method, set, settings);
     };
-    CHECK(proof::run_bank(run).failures.size() == 3);  // the sets are no sets
+    CHECK(validation::run_cases(run).failures.size() == 3);  // the sets are no sets
   }
-  const auto scores = proof::score_baselines(order, {});
+  const auto scores = validation::score_baselines(order, {});
   REQUIRE(scores.size() == 2);
   CHECK(scores[0].id == "bic");
   CHECK(scores[0].values.at("detection") == 0.0);
   CHECK(scores[1].id == "gp");
   CHECK(scores[1].values.empty());
-  std::filesystem::remove(made.bank + "/answers-bic/0002.json");
-  CHECK_THROWS_WITH(proof::score_baselines(order, {}), Catch::Contains("rollrig blind baselines " + made.bank));
+  std::filesystem::remove(made.root + "/answers-bic/0002.json");
+  CHECK_THROWS_WITH(validation::score_baselines(order, {}),
+                    Catch::Contains("rollrig_validation baselines " + made.root));
   order.truth_was_left_out = true;
-  CHECK(proof::score_baselines(order, {}).empty());
+  CHECK(validation::score_baselines(order, {}).empty());
 }

@@ -31,27 +31,27 @@ TEST_CASE("a smooth function is predicted where it was not seen, through noise",
   const Eigen::MatrixXd seen = spread_over(6.0);
   const Eigen::MatrixXd unseen = seen.array() + 0.02;
   const auto truth = [](const Eigen::MatrixXd& x) -> Eigen::VectorXd { return 10.0 * x.array().sin(); };
-  const proof::GaussianProcess process(seen, truth(seen) + draw_noise(1), kNoise);
+  const validation::GaussianProcess process(seen, truth(seen) + draw_noise(1), kNoise);
   CHECK(rms(truth(unseen) - process.predict(unseen)) < 0.1 * rms(truth(unseen)));
 }
 
 TEST_CASE("of white noise next to nothing is predicted", "[fast]") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const proof::GaussianProcess process(spread_over(6.0), draw_noise(seed), kNoise);
+    const validation::GaussianProcess process(spread_over(6.0), draw_noise(seed), kNoise);
     CHECK(rms(process.predict(spread_over(6.0))) < 0.35);
   }
 }
 
 TEST_CASE("far from all that was seen, and where nothing was, nothing is predicted", "[fast]") {
-  const proof::GaussianProcess process(spread_over(6.0), Eigen::VectorXd::Constant(kPoints, 3.0), kNoise);
+  const validation::GaussianProcess process(spread_over(6.0), Eigen::VectorXd::Constant(kPoints, 3.0), kNoise);
   CHECK(process.predict(Eigen::MatrixXd::Constant(1, 1, 3.0))[0] == Approx(3.0).epsilon(0.05));
   CHECK(std::abs(process.predict(Eigen::MatrixXd::Constant(1, 1, 500.0))[0]) < 1e-6);
-  const proof::GaussianProcess of_nothing(spread_over(6.0), Eigen::VectorXd::Zero(kPoints), kNoise);
+  const validation::GaussianProcess of_nothing(spread_over(6.0), Eigen::VectorXd::Zero(kPoints), kNoise);
   CHECK(of_nothing.predict(spread_over(6.0)).isZero());
 }
 
 TEST_CASE("what an offset of the sensor may be is not learnt", "[fast]") {
   const Eigen::MatrixXd offset = kNoise + Eigen::MatrixXd::Constant(kPoints, kPoints, 100.0);
-  const proof::GaussianProcess process(spread_over(6.0), Eigen::VectorXd::Constant(kPoints, 8.0), offset);
+  const validation::GaussianProcess process(spread_over(6.0), Eigen::VectorXd::Constant(kPoints, 8.0), offset);
   CHECK(rms(process.predict(spread_over(6.0))) < 0.5);
 }

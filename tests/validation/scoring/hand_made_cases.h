@@ -8,32 +8,33 @@
 namespace rollrig::tests {
 
 /// A drum set with these effects, which shows `floors`.
-inline proof::Case make_case(const std::string& set, const std::vector<std::string>& effects, double floors = 10.0) {
-  proof::Case made;
-  made.truth.set = set;
+inline validation::Case make_case(const std::string& set, const std::vector<std::string>& effects,
+                                  double floors = 10.0) {
+  validation::Case made;
+  made.truth.number = set;
   made.truth.campaign = "full_drum";
   made.truth.signal_floors = effects.empty() ? 0.0 : floors;
   for (const std::string& id : effects) made.truth.effects.push_back({id, 2.0, 0.0, "N", ""});
-  made.answer.set = set;
+  made.answer.number = set;
   made.answer.cpu_seconds = 4.0;
   return made;
 }
 
-inline proof::Case say_no_gap(proof::Case one, double probability = 0.95) {
+inline validation::Case say_no_gap(validation::Case one, double probability = 0.95) {
   one.answer.diagnosis.verdict = diagnosis::Verdict::kNoGap;
   one.answer.diagnosis.probability = {{"none", probability}, {"unknown", 1.0 - probability}};
   return one;
 }
 
-inline proof::Case say_unexplained(proof::Case one, double probability = 0.95) {
+inline validation::Case say_unexplained(validation::Case one, double probability = 0.95) {
   one.answer.diagnosis.verdict = diagnosis::Verdict::kUnexplained;
   one.answer.diagnosis.probability = {{"none", 1.0 - probability}, {"unknown", probability}};
   return one;
 }
 
 /// The first cause is `effects`, not told from `twins`.
-inline proof::Case say_cause(proof::Case one, const std::vector<std::string>& effects, double probability,
-                             const std::vector<std::string>& twins = {}) {
+inline validation::Case say_cause(validation::Case one, const std::vector<std::string>& effects, double probability,
+                                  const std::vector<std::string>& twins = {}) {
   one.answer.diagnosis.verdict = diagnosis::Verdict::kExplained;
   diagnosis::Cause cause;
   cause.effects = effects;
@@ -45,7 +46,7 @@ inline proof::Case say_cause(proof::Case one, const std::vector<std::string>& ef
   return one;
 }
 
-inline proof::Case say_size(proof::Case one, const std::string& parameter, double value, double half_width) {
+inline validation::Case say_size(validation::Case one, const std::string& parameter, double value, double half_width) {
   one.answer.diagnosis.causes.front().parameters = {
       {parameter, value, half_width / 2.0, value - half_width, value + half_width, "N"}};
   return one;

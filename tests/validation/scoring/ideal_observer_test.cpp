@@ -8,13 +8,13 @@
 
 using namespace rollrig;
 using namespace rollrig::tests;
-using proof::Case;
+using validation::Case;
 
 namespace {
 
-std::optional<double> ceiling_of(const std::vector<Case>& cases, const std::string& id) {
-  for (const proof::Figure& figure : proof::find_figures(cases, {})) {
-    if (figure.id == id) return figure.ceiling;
+std::optional<double> bound_of(const std::vector<Case>& cases, const std::string& id) {
+  for (const validation::Figure& figure : validation::find_figures(cases, {})) {
+    if (figure.id == id) return figure.upper_bound;
   }
   FAIL("no figure " << id);
   return std::nullopt;
@@ -30,20 +30,20 @@ Case seen(std::vector<std::string> effects, double d_prime, std::vector<double> 
 
 }  // namespace
 
-TEST_CASE("a ceiling stands where all sets of a figure have what it needs", "[fast]") {
+TEST_CASE("a bound stands where all cases of a figure have what it needs", "[fast]") {
   const Case told = seen({"rim_heat"}, 20.0, {30.0, 100.0, 40.0});
   const Case alike = seen({"windage"}, 20.0, {1.0, 1.0, 1.0, 200.0});  // three others look like it
   const Case faint = seen({"slow_leak"}, 0.5, std::vector<double>(33, 0.1));
   const Case pair = seen({"windage", "rim_heat"}, 20.0, {30.0, 1.0});
-  CHECK(*ceiling_of({told, alike}, "top1_set_aware") == Approx(0.5));
-  CHECK(*ceiling_of({told, faint}, "top1_set_aware") == Approx(1.0));  // what cannot be detected is not asked for
-  CHECK(*ceiling_of({told, pair}, "pairs") == 0.0);
-  CHECK(*ceiling_of({pair, seen({"windage", "rim_heat"}, 20.0, {30.0, 9.0})}, "pairs") == 0.5);
-  CHECK(*ceiling_of({seen({"windage"}, 5.0, {9.0})}, "detection") == Approx(0.9963).margin(1e-4));
-  CHECK(*ceiling_of({told, alike}, "detection") == Approx(1.0));
+  CHECK(*bound_of({told, alike}, "top1_set_aware") == Approx(0.5));
+  CHECK(*bound_of({told, faint}, "top1_set_aware") == Approx(1.0));  // what cannot be detected is not asked for
+  CHECK(*bound_of({told, pair}, "pairs") == 0.0);
+  CHECK(*bound_of({pair, seen({"windage", "rim_heat"}, 20.0, {30.0, 9.0})}, "pairs") == 0.5);
+  CHECK(*bound_of({seen({"windage"}, 5.0, {9.0})}, "detection") == Approx(0.9963).margin(1e-4));
+  CHECK(*bound_of({told, alike}, "detection") == Approx(1.0));
   Case detected = told;
-  detected.log_bayes_factors.clear();  // of rollrig_blind ceiling --detection
-  CHECK_FALSE(ceiling_of({alike, detected}, "top1_set_aware").has_value());
-  CHECK(ceiling_of({alike, detected}, "detection").has_value());
-  CHECK_FALSE(ceiling_of({say_no_gap(make_case("0001", {"rim_heat"}))}, "detection").has_value());
+  detected.log_bayes_factors.clear();  // of rollrig_validation upper-bound --detection
+  CHECK_FALSE(bound_of({alike, detected}, "top1_set_aware").has_value());
+  CHECK(bound_of({alike, detected}, "detection").has_value());
+  CHECK_FALSE(bound_of({say_no_gap(make_case("0001", {"rim_heat"}))}, "detection").has_value());
 }

@@ -1,4 +1,4 @@
-// A bank whose answers are known, counted by hand.
+// A validation set whose answers are known, counted by hand.
 #include "validation/scoring/score.h"
 
 #include <catch2/catch.hpp>
@@ -10,12 +10,12 @@
 
 using namespace rollrig;
 using namespace rollrig::tests;
-using proof::Case;
-using proof::Figure;
+using validation::Case;
+using validation::Figure;
 
 namespace {
 
-const Figure& figure_of(const proof::Score& score, const std::string& id) {
+const Figure& figure_of(const validation::Score& score, const std::string& id) {
   for (const Figure& figure : score.figures) {
     if (figure.id == id) return figure;
   }
@@ -23,13 +23,13 @@ const Figure& figure_of(const proof::Score& score, const std::string& id) {
   return score.figures.front();
 }
 
-void check_share(const proof::Score& score, const std::string& id, std::size_t k, std::size_t n) {
+void check_share(const validation::Score& score, const std::string& id, std::size_t k, std::size_t n) {
   INFO(id);
   const Figure& figure = figure_of(score, id);
   CHECK(figure.k == k);
   CHECK(figure.n == n);
   CHECK(figure.value.value() == Approx(static_cast<double>(k) / static_cast<double>(n)));
-  CHECK(figure.interval.value().low == proof::calc_wilson_95(k, n).low);
+  CHECK(figure.interval.value().low == validation::calc_wilson_95(k, n).low);
 }
 
 Case outside(Case one) {
@@ -37,28 +37,28 @@ Case outside(Case one) {
   return one;
 }
 
-std::vector<Case> make_bank() {
+std::vector<Case> make_set() {
   const Case single = make_case("0001", {"standing_wave"});
-  std::vector<Case> bank;
-  bank.push_back(say_size(say_cause(single, {"standing_wave"}, 0.97), "standing_wave.force_N", 2.2, 0.3));  // 10 % off
-  bank.push_back(say_cause(make_case("0002", {"rim_heat"}), {"slow_leak"}, 0.8, {"rim_heat"}));  // named, not exact
-  bank.push_back(say_cause(make_case("0003", {"rim_heat"}), {"windage"}, 0.95));                 // wrong, and sure
-  bank.push_back(say_no_gap(make_case("0004", {"slow_leak"})));                                  // not detected
-  bank.push_back(say_no_gap(make_case("0005", {"slow_leak"}, 0.2)));                             // cannot be detected
-  bank.push_back(say_unexplained(make_case("0006", {"slow_leak"})));                             // detected, not named
-  bank.push_back(say_cause(make_case("0007", {"windage", "rim_heat"}), {"rim_heat", "windage"}, 0.92));
-  bank.push_back(say_cause(make_case("0008", {"windage", "rim_heat"}), {"rim_heat"}, 0.6));  // one of two
-  bank.push_back(say_no_gap(make_case("0009", {})));
-  bank.push_back(say_cause(make_case("0010", {}), {"windage"}, 0.5));  // false alarm
-  bank.push_back(say_unexplained(outside(make_case("0011", {"drafting"}))));
-  bank.push_back(say_cause(outside(make_case("0012", {"drafting"})), {"windage"}, 0.99));
-  return bank;
+  std::vector<Case> root;
+  root.push_back(say_size(say_cause(single, {"standing_wave"}, 0.97), "standing_wave.force_N", 2.2, 0.3));  // 10 % off
+  root.push_back(say_cause(make_case("0002", {"rim_heat"}), {"slow_leak"}, 0.8, {"rim_heat"}));  // named, not exact
+  root.push_back(say_cause(make_case("0003", {"rim_heat"}), {"windage"}, 0.95));                 // wrong, and sure
+  root.push_back(say_no_gap(make_case("0004", {"slow_leak"})));                                  // not detected
+  root.push_back(say_no_gap(make_case("0005", {"slow_leak"}, 0.2)));                             // cannot be detected
+  root.push_back(say_unexplained(make_case("0006", {"slow_leak"})));                             // detected, not named
+  root.push_back(say_cause(make_case("0007", {"windage", "rim_heat"}), {"rim_heat", "windage"}, 0.92));
+  root.push_back(say_cause(make_case("0008", {"windage", "rim_heat"}), {"rim_heat"}, 0.6));  // one of two
+  root.push_back(say_no_gap(make_case("0009", {})));
+  root.push_back(say_cause(make_case("0010", {}), {"windage"}, 0.5));  // false alarm
+  root.push_back(say_unexplained(outside(make_case("0011", {"drafting"}))));
+  root.push_back(say_cause(outside(make_case("0012", {"drafting"})), {"windage"}, 0.99));
+  return root;
 }
 
 }  // namespace
 
-TEST_CASE("the figures of a bank are those counted by hand", "[fast]") {
-  const proof::Score score = proof::score_cases(make_bank(), {});
+TEST_CASE("the figures of a validation set are those counted by hand", "[fast]") {
+  const validation::Score score = validation::score_cases(make_set(), {});
   check_share(score, "detection", 4, 5);
   check_share(score, "false_alarms", 1, 2);
   check_share(score, "top1_set_aware", 2, 5);
@@ -82,14 +82,14 @@ TEST_CASE("one of two causes, named alone, is told from another cause", "[fast]"
   Case told = say_cause(pair, {"rim_heat", "windage"}, 0.95);
   const Case other = say_cause(pair, {"slow_leak"}, 0.95);
   const Case single = say_cause(make_case("0004", {"rim_heat"}), {"windage"}, 0.95);
-  const proof::Score score = proof::score_cases({seen, told, other, single}, {});
+  const validation::Score score = validation::score_cases({seen, told, other, single}, {});
   check_share(score, "wrong_above_inside", 3, 4);
   check_share(score, "wrong_above_half", 1, 4);
-  CHECK_FALSE(figure_of(score, "pairs_identifiable").value.has_value());  // no ceiling was computed
+  CHECK_FALSE(figure_of(score, "pairs_identifiable").value.has_value());  // no bound was computed
   seen.d_prime = told.d_prime = 20.0;
   seen.identifiable = false;  // the second effect cannot be seen beside the first
   told.identifiable = true;
-  check_share(proof::score_cases({seen, told, other, single}, {}), "pairs_identifiable", 1, 1);
+  check_share(validation::score_cases({seen, told, other, single}, {}), "pairs_identifiable", 1, 1);
 }
 
 TEST_CASE("top-3 counts who is as likely as the truth against it", "[fast]") {
@@ -98,10 +98,10 @@ TEST_CASE("top-3 counts who is as likely as the truth against it", "[fast]") {
   probability["rim_heat"] = 0.1;
   probability["slow_leak"] = 0.2;
   CHECK(one.rank_of_truth() == 2);
-  check_share(proof::score_cases({one}, {}), "top3", 1, 1);
+  check_share(validation::score_cases({one}, {}), "top3", 1, 1);
   probability["clock_shift"] = 0.1;
   CHECK(one.rank_of_truth() == 3);
-  check_share(proof::score_cases({one}, {}), "top3", 0, 1);
+  check_share(validation::score_cases({one}, {}), "top3", 0, 1);
   probability["rim_heat"] = 0.0;  // no share of what nobody gives a chance
   probability["load_exponent"] = 0.0;
   CHECK(one.rank_of_truth() == 4);
@@ -114,30 +114,30 @@ TEST_CASE("a named set of more than three names nothing", "[fast]") {
 }
 
 TEST_CASE("a d' that is known decides what is detectable, and a baseline stands beside its figure", "[fast]") {
-  std::vector<Case> bank = make_bank();
-  for (Case& one : bank) one.d_prime = 1.0;
-  bank[0].d_prime = 5.0;
-  proof::Score score = proof::score_cases(bank, {});
-  proof::put_beside({{"aic", "AIC", {{"top1_set_aware", 0.62}, {"false_alarms", 0.3}}},
-                     {"bic", "BIC", {{"top1_set_aware", 0.71}, {"false_alarms", 0.1}}},
-                     {"gp", "process", {}}},
-                    score);
+  std::vector<Case> root = make_set();
+  for (Case& one : root) one.d_prime = 1.0;
+  root[0].d_prime = 5.0;
+  validation::Score score = validation::score_cases(root, {});
+  validation::put_beside({{"aic", "AIC", {{"top1_set_aware", 0.62}, {"false_alarms", 0.3}}},
+                          {"bic", "BIC", {{"top1_set_aware", 0.71}, {"false_alarms", 0.1}}},
+                          {"gp", "process", {}}},
+                         score);
   check_share(score, "top1_set_aware", 1, 1);
   CHECK(figure_of(score, "top1_set_aware").best_baseline.value() == 0.71);
   CHECK(figure_of(score, "false_alarms").best_baseline.value() == 0.1);  // the less the better
   CHECK(figure_of(score, "false_alarms").best_baseline_id == "bic");
-  CHECK(proof::make_score_json(score)["baselines"]["aic"]["top1_set_aware"] == 0.62);
-  CHECK(proof::format_score_markdown(score).find("71 (`bic`)") != std::string::npos);
+  CHECK(validation::make_score_json(score)["baselines"]["aic"]["top1_set_aware"] == 0.62);
+  CHECK(validation::format_score_markdown(score).find("71 (bic)") != std::string::npos);
   CHECK_FALSE(figure_of(score, "top3").best_baseline.has_value());
 }
 
 TEST_CASE("shrinkage is measured by that of the truth alone", "[fast]") {
-  std::vector<Case> bank = make_bank();
-  bank[0].oracle_shrink_percent = 80.0;
-  bank[0].answer.diagnosis.gap.shrink_percent = 60.0;
-  bank[3].oracle_shrink_percent = 50.0;   // no gap: nothing shrinks
-  bank[4].oracle_shrink_percent = -10.0;  // the truth itself does not help: not counted
-  const proof::Score score = proof::score_cases(bank, {});
+  std::vector<Case> root = make_set();
+  root[0].known_cause_shrink_percent = 80.0;
+  root[0].answer.diagnosis.gap.shrink_percent = 60.0;
+  root[3].known_cause_shrink_percent = 50.0;   // no gap: nothing shrinks
+  root[4].known_cause_shrink_percent = -10.0;  // the truth itself does not help: not counted
+  const validation::Score score = validation::score_cases(root, {});
   CHECK(figure_of(score, "shrinkage_median").n == 2);
   CHECK(figure_of(score, "shrinkage_median").value.value() == Approx(0.5 * (0.75 + 0.0)));
 }
@@ -159,10 +159,10 @@ TEST_CASE("sizes are compared from where an effect does nothing", "[fast]") {
 }
 
 TEST_CASE("a diagnosis that failed is missed, and never right", "[fast]") {
-  std::vector<Case> bank{make_case("0001", {"rim_heat"}), make_case("0002", {}),
+  std::vector<Case> root{make_case("0001", {"rim_heat"}), make_case("0002", {}),
                          outside(make_case("0003", {"drafting"}))};
-  for (Case& one : bank) one.answer.failure = "no fit converges";
-  const proof::Score score = proof::score_cases(bank, {});
+  for (Case& one : root) one.answer.failure = "no fit converges";
+  const validation::Score score = validation::score_cases(root, {});
   CHECK(score.missed.size() == 3);
   check_share(score, "false_alarms", 1, 1);
   check_share(score, "abstention", 0, 1);
@@ -172,24 +172,24 @@ TEST_CASE("a diagnosis that failed is missed, and never right", "[fast]") {
 }
 
 TEST_CASE("the report fits the terminal and says each missed set", "[fast]") {
-  std::vector<Case> bank = make_bank();
-  for (Case& one : bank) {  // with all that an ideal observer can be asked
+  std::vector<Case> root = make_set();
+  for (Case& one : root) {  // with all that an ideal observer can be asked
     one.d_prime = 20.0;
     one.identifiable = true;
     one.log_bayes_factors = {40.0, 50.0};
   }
-  const proof::Score score = proof::score_cases(bank, {});
-  const std::string text = proof::format_score(score);
+  const validation::Score score = validation::score_cases(root, {});
+  const std::string text = validation::format_score(score);
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) CHECK(line.size() <= 80);
-  const std::string page = proof::format_score_markdown(score);
+  const std::string page = validation::format_score_markdown(score);
   for (const Case& one : score.missed) {
-    CHECK_THAT(text, Catch::Contains(one.truth.set + " "));
-    CHECK_THAT(page, Catch::Contains("| " + one.truth.set + " "));
+    CHECK_THAT(text, Catch::Contains(one.truth.number + " "));
+    CHECK_THAT(page, Catch::Contains("| " + one.truth.number + " "));
   }
   CHECK_THAT(text, Catch::Contains("An ideal observer would reach: detection, detectable singles 100"));
   CHECK_THAT(page, Catch::Contains("| ideal observer |"));
-  const Json json = proof::make_score_json(score);
+  const Json json = validation::make_score_json(score);
   CHECK(json.at("figures").at(0).at("ceiling") == Approx(1.0));
   CHECK(json.at("figures").at(1).at("ceiling").is_null());  // false alarms: as many as one likes
   CHECK(json.at("missed").size() == score.missed.size());

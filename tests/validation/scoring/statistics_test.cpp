@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace rollrig::proof;
+using namespace rollrig::validation;
 
 TEST_CASE("Wilson's interval is the published one", "[fast]") {
   // R. G. Newcombe, Stat. Med. 17 (1998) 857, Table I, method 3

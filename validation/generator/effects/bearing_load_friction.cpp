@@ -4,18 +4,14 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kReference_N = 5400.0;
 
 class BearingLoadFriction : public Effect {
  public:
-  BearingLoadFriction(double force_N, Draws& draws) : force_N_(force_N) {
-    rolling_share_ = draws.uniform(0.0, 0.5);
-    boundary_ = draws.uniform(0.0, 0.3);
-    shape = {{"rolling_share", rolling_share_}, {"boundary_friction", boundary_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(0.0, now.load_N) / kReference_N;
@@ -25,48 +21,36 @@ class BearingLoadFriction : public Effect {
   }
 
  private:
-  double force_N_;
-  double rolling_share_ = 0.0;
-  double boundary_ = 0.0;
+  double force_N_ = size_;
+  double rolling_share_ = note("rolling_share", draws_.uniform(0.0, 0.5));
+  double boundary_ = note("boundary_friction", draws_.uniform(0.0, 0.3));
 };
 
 /// Moment f1 P d of Palmgren and Harris, f1 with P^y: y 0 for cylindrical rollers, 0.55 for deep-groove balls.
 class PalmgrenFriction : public Effect {
  public:
-  PalmgrenFriction(double force_N, Draws& draws) : force_N_(force_N) {
-    power_ = 1.0 + draws.uniform(0.0, 0.55);
-    shape = {{"load_power", power_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     now.rig_force_N += force_N_ * std::pow(std::max(0.0, now.load_N) / kReference_N, power_);
   }
 
  private:
-  double force_N_;
-  double power_ = 1.0;
+  double force_N_ = size_;
+  double power_ = note("load_power", 1.0 + draws_.uniform(0.0, 0.55));
 };
 
 }  // namespace
 
-extern const EffectKind kind_bearing_load_friction;
 const EffectKind kind_bearing_load_friction{
     "bearing_load_friction",
-    "N",
-    "friction at 5.4 kN and at speed",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(0.3, 3.0, 0.15, 5.0),
-    false,
-    0.0,
+    {"N", "friction at 5.4 kN and at speed", 0.0, 0.0, 50.0, log_normal(0.3, 3.0, 0.15, 5.0)},
     {{"sliding_and_rolling",
       "sliding part in proportion to the load, higher at creep, and rolling part with load^(4/3), as in bearing "
-      "makers' "
-      "friction models",
+      "makers' friction models",
       make_law<BearingLoadFriction>},
      {"palmgren",
       "Palmgren's moment under load, P^(1 + y), y 0 to 0.55 from roller to ball bearings, whatever the speed",
       make_law<PalmgrenFriction>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

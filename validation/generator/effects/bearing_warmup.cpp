@@ -3,28 +3,23 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kSoaked_degC = 25.0;
 
 class BearingWarmup : public Effect {
  public:
-  BearingWarmup(double fall_per_K, Draws& draws, const Specimen& specimen) {
-    rise_dK_ = draws.from(log_normal(8.0, 25.0, 5.0, 35.0));
-    const double time_min = draws.from(log_normal(10.0, 60.0, 6.0, 90.0));
-    const double warm_share = draws.uniform(0.7, 1.2);
-    vogel_degC_ = draws.uniform(90.0, 135.0);
-    forced_share_ = draws.uniform(0.2, 0.6);
-    shape = {{"rise_dK", rise_dK_},
-             {"time_constant_min", time_min},
-             {"reference_share", warm_share},
-             {"vogel_degC", vogel_degC_},
-             {"forced_cooling_share", forced_share_}};
+  explicit BearingWarmup(const Making& of) : Effect(of) {
+    rise_dK_ = note("rise_dK", of.draws.from(log_normal(8.0, 25.0, 5.0, 35.0)));
+    const double time_min = note("time_constant_min", of.draws.from(log_normal(10.0, 60.0, 6.0, 90.0)));
+    const double warm_share = note("reference_share", of.draws.uniform(0.7, 1.2));
+    vogel_degC_ = note("vogel_degC", of.draws.uniform(90.0, 135.0));
+    forced_share_ = note("forced_cooling_share", of.draws.uniform(0.2, 0.6));
     reference_degC_ = kSoaked_degC + warm_share * rise_dK_;
     const double warm_degC = kSoaked_degC + rise_dK_;
-    vogel_K_ = fall_per_K * (kSoaked_degC + vogel_degC_) * (warm_degC + vogel_degC_);
-    const double cold_N = specimen.truth(Base::kC0) + specimen.truth(Base::kC1) * kSpeed80_m_s;
+    vogel_K_ = of.size * (kSoaked_degC + vogel_degC_) * (warm_degC + vogel_degC_);
+    const double cold_N = of.specimen.truth(Base::kC0) + of.specimen.truth(Base::kC1) * kSpeed80_m_s;
     cooling_W_per_K_ = thinning(warm_degC) * cold_N * kSpeed80_m_s / rise_dK_;
     capacity_J_per_K_ = 60.0 * time_min * cooling_W_per_K_;
     time_s_ = 60.0 * time_min;
@@ -68,23 +63,18 @@ class BearingWarmup : public Effect {
 /// Viscosity by Arrhenius' law at the temperature of the races, which warm a housing.
 class ArrheniusBearing : public Effect {
  public:
-  ArrheniusBearing(double fall_per_K, Draws& draws, const Specimen& specimen) {
-    rise_dK_ = draws.from(log_normal(8.0, 25.0, 5.0, 35.0));
-    const double time_min = draws.from(log_normal(10.0, 60.0, 6.0, 90.0));
-    const double warm_share = draws.uniform(0.7, 1.2);
-    forced_share_ = draws.uniform(0.2, 0.6);
-    race_share_ = draws.uniform(0.1, 0.35);  // Assumed: of the rise, between races and housing
-    const double race_min = draws.uniform(2.0, 6.0);
-    shape = {{"rise_dK", rise_dK_},
-             {"time_constant_min", time_min},
-             {"reference_share", warm_share},
-             {"forced_cooling_share", forced_share_},
-             {"share_between_race_and_housing", race_share_},
-             {"race_min", race_min}};
+  explicit ArrheniusBearing(const Making& of) : Effect(of) {
+    rise_dK_ = note("rise_dK", of.draws.from(log_normal(8.0, 25.0, 5.0, 35.0)));
+    const double time_min = note("time_constant_min", of.draws.from(log_normal(10.0, 60.0, 6.0, 90.0)));
+    const double warm_share = note("reference_share", of.draws.uniform(0.7, 1.2));
+    forced_share_ = note("forced_cooling_share", of.draws.uniform(0.2, 0.6));
+    race_share_ = note("share_between_race_and_housing",
+                       of.draws.uniform(0.1, 0.35));  // Assumed: of the rise, between races and housing
+    const double race_min = note("race_min", of.draws.uniform(2.0, 6.0));
     reference_K_ = kSoaked_degC + warm_share * rise_dK_ + kZero_K;
     const double soaked_K = kSoaked_degC + kZero_K;
-    activation_K_ = fall_per_K * soaked_K * (soaked_K + rise_dK_);
-    const double cold_N = specimen.truth(Base::kC0) + specimen.truth(Base::kC1) * kSpeed80_m_s;
+    activation_K_ = of.size * soaked_K * (soaked_K + rise_dK_);
+    const double cold_N = of.specimen.truth(Base::kC0) + of.specimen.truth(Base::kC1) * kSpeed80_m_s;
     const double steady_W = thinning(soaked_K + rise_dK_) * cold_N * kSpeed80_m_s;
     link_W_per_K_ = steady_W / (race_share_ * rise_dK_);
     cooling_W_per_K_ = steady_W / ((1.0 - race_share_) * rise_dK_);
@@ -131,17 +121,10 @@ class ArrheniusBearing : public Effect {
 
 }  // namespace
 
-extern const EffectKind kind_bearing_warmup;
 const EffectKind kind_bearing_warmup{
     "bearing_warmup",
-    "1/K",
-    "relative fall of c0 + c1 v per K, from soaked at 25 degC to steady at 80 km/h",
-    0.0,
-    0.0,
-    0.2,
-    log_normal(0.005, 0.04, 0.002, 0.06),
-    false,
-    0.0,
+    {"1/K", "relative fall of c0 + c1 v per K, from soaked at 25 degC to steady at 80 km/h", 0.0, 0.0, 0.2,
+     log_normal(0.005, 0.04, 0.002, 0.06)},
     {{"vogel",
       "grease by Vogel's law exp(V/(T_b + T_V)) on c0 + c1 v alone, not on the drum's air drag; T_b warmed by the "
       "bearings' own friction power, cooled faster with speed",
@@ -151,4 +134,4 @@ const EffectKind kind_bearing_warmup{
       "with speed",
       make_law<ArrheniusBearing>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -3,15 +3,15 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class BrakeDrag : public Effect {
  public:
-  BrakeDrag(double force_N, Draws& draws) : force_N_(force_N) {
-    push_back_m_ = 1e3 * draws.from(log_normal(0.4, 4.0, 0.3, 6.0));
-    set_s_ = draws.uniform(2.0, 6.0);
-    half_N_ = draws.from(log_normal(50.0, 300.0, 30.0, 400.0));
+  explicit BrakeDrag(const Making& of) : Effect(of), force_N_(of.size) {
+    push_back_m_ = 1e3 * of.draws.from(log_normal(0.4, 4.0, 0.3, 6.0));
+    set_s_ = of.draws.uniform(2.0, 6.0);
+    half_N_ = of.draws.from(log_normal(50.0, 300.0, 30.0, 400.0));
     shape = {{"push_back_km", 1e-3 * push_back_m_}, {"set_time_s", set_s_}, {"half_force_N", half_N_}};
   }
 
@@ -35,11 +35,7 @@ class BrakeDrag : public Effect {
 /// A disc that swells by the energy of brakings and shrinks as it cools: r' = (1 - r) P/E - r/tau.
 class HotDisc : public Effect {
  public:
-  HotDisc(double force_N, Draws& draws) : force_N_(force_N) {
-    full_J_ = draws.from(log_normal(4e3, 15e3, 3e3, 20e3));  // Assumed: a braking from 50 km/h is 30 to 70 kJ a wheel
-    cooling_s_ = draws.from(log_normal(40.0, 300.0, 30.0, 450.0));
-    shape = {{"full_J", full_J_}, {"cooling_s", cooling_s_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -50,24 +46,17 @@ class HotDisc : public Effect {
   }
 
  private:
-  double force_N_;
-  double full_J_ = 1.0;
-  double cooling_s_ = 1.0;
+  double force_N_ = size_;
+  // Assumed: a braking from 50 km/h is 30 to 70 kJ a wheel
+  double full_J_ = note("full_J", draws_.from(log_normal(4e3, 15e3, 3e3, 20e3)));
+  double cooling_s_ = note("cooling_s", draws_.from(log_normal(40.0, 300.0, 30.0, 450.0)));
 };
 
 }  // namespace
 
-extern const EffectKind kind_brake_drag;
 const EffectKind kind_brake_drag{
     "brake_drag",
-    "N",
-    "drag of one wheel right after strong braking",
-    0.0,
-    0.0,
-    100.0,
-    log_normal(2.0, 12.0, 1.2, 18.0),
-    false,
-    0.0,
+    {"N", "drag of one wheel right after strong braking", 0.0, 0.0, 100.0, log_normal(2.0, 12.0, 1.2, 18.0)},
     {{"worn_off", "set by brakings with the square of their force, worn off over distance instead of time",
       make_law<BrakeDrag>},
      {"hot_disc", "pads rub as long as the disc is hot: set by the energy of brakings, gone with time",
@@ -75,4 +64,4 @@ const EffectKind kind_brake_drag{
     kVehicleGrounds,
     kVehicleGrounds};
 
-}  // namespace blind
+}  // namespace rollrig::generator

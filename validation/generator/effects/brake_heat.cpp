@@ -4,23 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class BrakeHeat : public Effect {
  public:
-  BrakeHeat(double percent, Draws& draws) {
-    disc_J_per_K_ = draws.uniform(3000.0, 6000.0);
-    lead_W_per_K_ = draws.uniform(6.0, 14.0);
-    const double rim_min = draws.from(log_normal(3.0, 30.0, 2.5, 30.0));
-    rim_s_ = 60.0 * rim_min;
-    gas_share_ = draws.uniform(0.1, 0.5);
-    shape = {{"disc_J_per_K", disc_J_per_K_},
-             {"disc_to_rim_W_per_K", lead_W_per_K_},
-             {"rim_min", rim_min},
-             {"gas_share", gas_share_}};
-    passed_ = 0.01 * percent * (lead_W_per_K_ + air_W_per_K(kTown_m_s)) / lead_W_per_K_;
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 2; }
 
@@ -40,22 +29,17 @@ class BrakeHeat : public Effect {
   static constexpr double kTown_m_s = 40.0 / 3.6;
   static double air_W_per_K(double speed_m_s) { return 4.0 + 14.0 * std::pow(speed_m_s / kSpeed80_m_s, 0.7); }
 
-  double disc_J_per_K_ = 1.0;
-  double lead_W_per_K_ = 1.0;
-  double rim_s_ = 1.0;
-  double gas_share_ = 0.0;
-  double passed_ = 0.0;
+  double disc_J_per_K_ = note("disc_J_per_K", draws_.uniform(3000.0, 6000.0));
+  double lead_W_per_K_ = note("disc_to_rim_W_per_K", draws_.uniform(6.0, 14.0));
+  double rim_s_ = 60.0 * note("rim_min", draws_.from(log_normal(3.0, 30.0, 2.5, 30.0)));
+  double gas_share_ = note("gas_share", draws_.uniform(0.1, 0.5));
+  double passed_ = 0.01 * size_ * (lead_W_per_K_ + air_W_per_K(kTown_m_s)) / lead_W_per_K_;
 };
 
 /// A share of the brake's power, delayed by the rim alone.
 class ShareOfBrake : public Effect {
  public:
-  ShareOfBrake(double percent, Draws& draws) : share_(0.01 * percent) {
-    const double delay_min = draws.from(log_normal(3.0, 30.0, 2.5, 30.0));
-    gas_share_ = draws.uniform(0.1, 0.5);
-    shape = {{"delay_min", delay_min}, {"gas_share", gas_share_}};
-    delay_s_ = 60.0 * delay_min;
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -70,24 +54,17 @@ class ShareOfBrake : public Effect {
   }
 
  private:
-  double share_;
-  double delay_s_ = 1.0;
-  double gas_share_ = 0.0;
+  double share_ = 0.01 * size_;
+  double delay_s_ = 60.0 * note("delay_min", draws_.from(log_normal(3.0, 30.0, 2.5, 30.0)));
+  double gas_share_ = note("gas_share", draws_.uniform(0.1, 0.5));
 };
 
 }  // namespace
 
-extern const EffectKind kind_brake_heat;
 const EffectKind kind_brake_heat{
     "brake_heat",
-    "percent",
-    "share of the brake power that reaches the tire in town, where the disc is cooled at 40 km/h",
-    0.0,
-    0.0,
-    100.0,
-    log_normal(2.0, 15.0, 1.5, 20.0),
-    false,
-    0.0,
+    {"percent", "share of the brake power that reaches the tire in town, where the disc is cooled at 40 km/h", 0.0, 0.0,
+     100.0, log_normal(2.0, 15.0, 1.5, 20.0)},
     {{"disc_and_rim",
       "excess heat in a disc that loses to the air faster with speed, led to a rim and from there to bead and gas",
       make_law<BrakeHeat>},
@@ -96,4 +73,4 @@ const EffectKind kind_brake_heat{
     kVehicleGrounds,
     kDynoGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

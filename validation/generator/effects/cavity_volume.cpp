@@ -4,16 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class CavityVolume : public Effect {
  public:
-  CavityVolume(double percent, Draws& draws) : shrink_(0.01 * percent) {
-    load_power_ = draws.uniform(0.9, 1.5);
-    growth_ = draws.uniform(0.1, 0.5);
-    shape = {{"load_power", load_power_}, {"growth_at_80_km_h_over_size", growth_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -40,21 +36,16 @@ class CavityVolume : public Effect {
     return shrink_ * (growth_ * x * x - std::pow(load, load_power_));
   }
 
-  double shrink_;
-  double load_power_ = 1.0;
-  double growth_ = 0.0;
+  double shrink_ = 0.01 * size_;
+  double load_power_ = note("load_power", draws_.uniform(0.9, 1.5));
+  double growth_ = note("growth_at_80_km_h_over_size", draws_.uniform(0.1, 0.5));
 };
 
 /// The segment that the contact cuts off goes with d^(3/2), d = Fz/(s + (1 - s) p/p_ref) the deflection over that at
 /// 5.4 kN and the reference pressure.
 class SegmentOfContact : public Effect {
  public:
-  SegmentOfContact(double percent, Draws& draws, const Specimen& specimen) : shrink_(0.01 * percent) {
-    carcass_ = draws.uniform(0.1, 0.4);  // Assumed: share of the stiffness without pressure
-    growth_ = draws.uniform(0.1, 0.5);
-    shape = {{"carcass_share", carcass_}, {"growth_at_80_km_h_over_size", growth_}};
-    reference_kPa_ = specimen.reference_pressure_kPa;
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -85,34 +76,26 @@ class SegmentOfContact : public Effect {
     return (aim - state[0]) / kFollows_s;
   }
 
-  double shrink_;
-  double carcass_ = 0.0;
-  double growth_ = 0.0;
-  double reference_kPa_ = 280.0;
+  double shrink_ = 0.01 * size_;
+  double carcass_ =
+      note("carcass_share", draws_.uniform(0.1, 0.4));  // Assumed: share of the stiffness without pressure
+  double growth_ = note("growth_at_80_km_h_over_size", draws_.uniform(0.1, 0.5));
+  double reference_kPa_ = specimen_.reference_pressure_kPa;
 };
 
 }  // namespace
 
-extern const EffectKind kind_cavity_volume;
 const EffectKind kind_cavity_volume{
     "cavity_volume",
-    "percent",
-    "smaller volume at 5.4 kN and the reference pressure than without load",
-    0.0,
-    0.0,
-    10.0,
-    log_normal(0.15, 1.0, 0.1, 1.4),
-    false,
-    0.0,
+    {"percent", "smaller volume at 5.4 kN and the reference pressure than without load", 0.0, 0.0, 10.0,
+     log_normal(0.15, 1.0, 0.1, 1.4)},
     {{"power",
-      "a power of the load, and growth with v^2; the change does work on the gas, which "
-      "warms or cools by it and comes back as heat flows; filled without load",
+      "a power of the load, and growth with v^2; the change does work on the gas, which warms or cools by it and comes "
+      "back as heat flows; filled without load",
       make_law<CavityVolume>},
      {"segment",
       "the segment that the contact cuts off, deflection^(3/2), where the deflection is load over a stiffness that "
       "follows the pressure; growth with v^2; works on the gas",
-      make_law<SegmentOfContact>}},
-    kRigGrounds,
-    kRigGrounds};
+      make_law<SegmentOfContact>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

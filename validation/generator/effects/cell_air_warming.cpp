@@ -3,18 +3,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class CellAirWarming : public Effect {
  public:
-  CellAirWarming(double rise_dK, Draws& draws, const Specimen& specimen)
-      : rise_dK_(rise_dK), reference_W_(warm_heating_W(specimen)) {
-    air_s_ = 60.0 * draws.from(log_normal(12.0, 40.0, 8.0, 60.0));
-    walls_s_ = air_s_ * draws.uniform(2.5, 5.0);
-    walls_share_ = draws.uniform(0.2, 0.6);
-    shape = {{"air_min", air_s_ / 60.0}, {"walls_min", walls_s_ / 60.0}, {"walls_share", walls_share_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 2; }
 
@@ -35,22 +29,17 @@ class CellAirWarming : public Effect {
   }
 
  private:
-  double rise_dK_;
-  double reference_W_;
-  double air_s_ = 1.0;
-  double walls_s_ = 1.0;
-  double walls_share_ = 0.0;
+  double rise_dK_ = size_;
+  double reference_W_ = warm_heating_W(specimen_);
+  double air_s_ = note_min("air_min", 60.0 * draws_.from(log_normal(12.0, 40.0, 8.0, 60.0)));
+  double walls_s_ = note_min("walls_min", air_s_* draws_.uniform(2.5, 5.0));
+  double walls_share_ = note("walls_share", draws_.uniform(0.2, 0.6));
 };
 
 /// A cell that its own draught cools, in proportion to the root of the rise: theta' = (q - theta^(3/2))/tau.
 class VentilatedCell : public Effect {
  public:
-  VentilatedCell(double rise_dK, Draws& draws, const Specimen& specimen)
-      : rise_dK_(rise_dK), reference_W_(warm_heating_W(specimen)) {
-    const double air_min = draws.from(log_normal(20.0, 80.0, 12.0, 120.0));
-    shape = {{"air_min", air_min}};
-    time_s_ = 1.5 * 60.0 * air_min;  // so that air_min is the time constant about the steady rise
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -68,32 +57,24 @@ class VentilatedCell : public Effect {
   }
 
  private:
-  double rise_dK_;
-  double reference_W_;
-  double time_s_ = 1.0;
+  double rise_dK_ = size_;
+  double reference_W_ = warm_heating_W(specimen_);
+  // So that air_min is the time constant about the steady rise.
+  double time_s_ = 1.5 * 60.0 * note("air_min", draws_.from(log_normal(20.0, 80.0, 12.0, 120.0)));
 };
 
 }  // namespace
 
-extern const EffectKind kind_cell_air_warming;
 const EffectKind kind_cell_air_warming{
     "cell_air_warming",
-    "K",
-    "rise after long running at 80 km/h and the reference load",
-    0.0,
-    -20.0,
-    20.0,
-    log_normal(1.0, 6.0, 0.7, 8.0),
-    false,
-    0.0,
+    {"K", "rise after long running at 80 km/h and the reference load", 0.0, -20.0, 20.0,
+     log_normal(1.0, 6.0, 0.7, 8.0)},
     {{"air_and_walls",
       "air and walls, each of first order, driven by the heat of the tire; rests cool them; the record shows neither",
       make_law<CellAirWarming>},
      {"ventilated",
       "one volume of air by the heat of the tire, with draught in proportion to the root of the rise: steady rise with "
       "heat^(2/3); rests cool it",
-      make_law<VentilatedCell>}},
-    kRigGrounds,
-    kRigGrounds};
+      make_law<VentilatedCell>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

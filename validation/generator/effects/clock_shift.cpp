@@ -4,16 +4,12 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class ClockShift : public Effect {
  public:
-  ClockShift(double late_s, Draws& draws) : late_s_(late_s) {
-    const double per_million = draws.uniform(-60.0, 60.0);
-    shape = {{"rate_per_million", per_million}};
-    rate_ = late_s == 0.0 ? 0.0 : 1e-6 * per_million;
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
@@ -24,19 +20,14 @@ class ClockShift : public Effect {
   }
 
  private:
-  double late_s_;
-  double rate_ = 0.0;
+  double late_s_ = size_;
+  double rate_ = size_ == 0.0 ? 0.0 : 1e-6 * note("rate_per_million", draws_.uniform(-60.0, 60.0));
 };
 
 /// A clock that drifts and is set anew each some minutes: d (1 + a saw(t)), saw from -1 to 1.
 class SetAnewClock : public Effect {
  public:
-  SetAnewClock(double late_s, Draws& draws) : late_s_(late_s) {
-    swing_ = draws.uniform(0.04, 0.14);
-    period_s_ = 60.0 * draws.uniform(4.0, 20.0);
-    phase_ = draws.uniform();
-    shape = {{"swing_over_size", swing_}, {"set_each_min", period_s_ / 60.0}};
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
@@ -49,25 +40,18 @@ class SetAnewClock : public Effect {
   }
 
  private:
-  double late_s_;
-  double swing_ = 0.0;
-  double period_s_ = 1.0;
-  double phase_ = 0.0;
+  double late_s_ = size_;
+  double swing_ = note("swing_over_size", draws_.uniform(0.04, 0.14));
+  double period_s_ = note_min("set_each_min", 60.0 * draws_.uniform(4.0, 20.0));
+  double phase_ = draws_.uniform();
 };
 
 }  // namespace
 
-extern const EffectKind kind_clock_shift;
 const EffectKind kind_clock_shift{
     "clock_shift",
-    "s",
-    "delay of temperature and pressure in the record against torque",
-    0.0,
-    -25.0,
-    25.0,
-    log_normal(0.5, 10.0, 0.2, 20.0),
-    true,
-    0.0,
+    {"s", "delay of temperature and pressure in the record against torque", 0.0, -25.0, 25.0,
+     log_normal(0.5, 10.0, 0.2, 20.0), true},
     {{"rate",
       "the logger of temperature and pressure starts late or early, and its clock runs up to 60 millionths fast or "
       "slow",
@@ -76,4 +60,4 @@ const EffectKind kind_clock_shift{
       "the logger's clock runs fast or slow and is set anew time and again: the shift is a saw-tooth about the size",
       make_law<SetAnewClock>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -3,13 +3,13 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 /// Laminar and turbulent parts of the boundary layer.
 class BoundaryLayers : public Effect {
  public:
-  BoundaryLayers(double exponent, Draws&) : exponent_(exponent) {}
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double x = now.air_speed_m_s / kSpeed80_m_s;
@@ -17,13 +17,13 @@ class BoundaryLayers : public Effect {
   }
 
  private:
-  double exponent_;
+  double exponent_ = size_;
 };
 
 /// Speeds of fan and roller add by their squares; the file's f holds at 80 km/h.
 class Fan : public Effect {
  public:
-  Fan(double exponent, Draws&) : exponent_(exponent) {}
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double x = now.air_speed_m_s / kSpeed80_m_s;
@@ -31,25 +31,17 @@ class Fan : public Effect {
   }
 
  private:
-  double exponent_;
+  double exponent_ = size_;
 };
 
 }  // namespace
 
-extern const EffectKind kind_convection_law;
 const EffectKind kind_convection_law{
     "convection_law",
-    "1",
-    "exponent of the speed-dependent cooling over speed at 80 km/h",
-    1.0,
-    0.5,
-    1.0,
-    normal(0.6, 1.0, 0.52, 0.96),
-    false,
-    0.0,
+    {"1", "exponent of the speed-dependent cooling over speed at 80 km/h", 1.0, 0.5, 1.0, normal(0.6, 1.0, 0.52, 0.96)},
     {{"boundary_layers", "a part with sqrt(v) beside one with v; f holds at 80 km/h", make_law<BoundaryLayers>},
      {"fan", "a fan whose air speed adds by squares; f holds at 80 km/h", make_law<Fan>}},
     kEveryGround,
     kRigGrounds};
 
-}  // namespace blind
+}  // namespace rollrig::generator

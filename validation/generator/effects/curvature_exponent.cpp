@@ -4,15 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class CurvatureExponent : public Effect {
  public:
-  CurvatureExponent(double exponent, Draws& draws) : exponent_(exponent) {
-    load_power_ = draws.uniform(0.0, 0.5);
-    shape = {{"load_power", load_power_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(1.0, now.load_N) / now.specimen->reference_load_N;
@@ -21,40 +18,33 @@ class CurvatureExponent : public Effect {
   }
 
  private:
-  double exponent_;
-  double load_power_ = 0.0;
+  double exponent_ = size_;
+  double load_power_ = note("load_power", draws_.uniform(0.0, 0.5));
 };
 
 /// K^n in place of K.
 class PowerOfFactor : public Effect {
  public:
-  PowerOfFactor(double exponent, Draws&) : exponent_(exponent) {}
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     now.loss_factor *= std::pow(now.curvature_factor, exponent_ - 1.0);
   }
 
  private:
-  double exponent_;
+  double exponent_ = size_;
 };
 
 }  // namespace
 
-extern const EffectKind kind_curvature_exponent;
 const EffectKind kind_curvature_exponent{
     "curvature_exponent",
-    "1",
-    "exponent of the correction factor near 1, at the reference load",
-    1.0,
-    -1.0,
-    3.0,
-    normal(0.6, 1.4, 0.3, 1.7),
-    false,
-    0.08,
+    {"1", "exponent of the correction factor near 1, at the reference load", 1.0, -1.0, 3.0, normal(0.6, 1.4, 0.3, 1.7),
+     false, 0.08},
     {{"straight", "what the curvature adds counts n-fold, K -> 1 + n (K - 1), the more the higher the load",
       make_law<CurvatureExponent>},
      {"power", "the correction factor to the power n, at every load", make_law<PowerOfFactor>}},
     kRigGrounds | kRoadGround,
     kDynoGround | kRoadGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,14 +4,14 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class Drafting : public Effect {
  public:
-  Drafting(double percent, Draws& draws) : share_(0.01 * percent) {
-    for (double& phase : phases_) phase = draws.uniform(0.0, 6.2831853);
-    meeting_m_ = 1e3 * draws.uniform(3.0, 10.0);
+  explicit Drafting(const Making& of) : Effect(of), share_(0.01 * of.size) {
+    for (double& phase : phases_) phase = of.draws.uniform(0.0, 6.2831853);
+    meeting_m_ = 1e3 * of.draws.uniform(3.0, 10.0);
     shape = {{"meeting_km", 1e-3 * meeting_m_}};
   }
 
@@ -35,20 +35,12 @@ class Drafting : public Effect {
 
 }  // namespace
 
-extern const EffectKind kind_drafting;
 const EffectKind kind_drafting{
     "drafting",
-    "percent",
-    "drag saved in the wake",
-    0.0,
-    0.0,
-    80.0,
-    log_normal(10.0, 30.0, 8.0, 40.0),
-    false,
-    0.0,
+    {"percent", "drag saved in the wake", 0.0, 0.0, 80.0, log_normal(10.0, 30.0, 8.0, 40.0)},
     {{"only", "the drag falls and comes back over stretches of some km", make_law<Drafting>}},
     kRoadGrounds,
     kRoadGrounds,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

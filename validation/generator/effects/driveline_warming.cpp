@@ -4,17 +4,13 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 /// What both oils have in common: how soon and how far they warm, and that a rest cools them.
 class WarmingOil : public Effect {
  public:
-  WarmingOil(double force_N, Draws& draws) : force_N_(force_N) {
-    time_s_ = 60.0 * draws.from(log_normal(15.0, 60.0, 11.0, 80.0));
-    rise_dK_ = draws.uniform(20.0, 50.0);
-    shape = {{"time_constant_min", time_s_ / 60.0}, {"rise_dK", rise_dK_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -26,19 +22,14 @@ class WarmingOil : public Effect {
  protected:
   static constexpr double kHeating = 1.6;  // Assumed: of the steady rise, with oil as cold as soaked
 
-  double force_N_;
-  double time_s_ = 1.0;
-  double rise_dK_ = 0.0;
+  double force_N_ = size_;
+  double time_s_ = note_min("time_constant_min", 60.0 * draws_.from(log_normal(15.0, 60.0, 11.0, 80.0)));
+  double rise_dK_ = note("rise_dK", draws_.uniform(20.0, 50.0));
 };
 
 class VogelOil : public WarmingOil {
  public:
-  VogelOil(double force_N, Draws& draws) : WarmingOil(force_N, draws) {
-    viscous_power_ = draws.uniform(0.4, 0.7);
-    air_share_ = draws.uniform(0.0, 0.4);
-    shape.push_back({"power_of_viscosity", viscous_power_});
-    shape.push_back({"share_of_ambient", air_share_});
-  }
+  using WarmingOil::WarmingOil;
 
   void act(const double* rise_dK, Instant& now) const override { now.rig_force_N += force_N_ * friction(rise_dK, now); }
 
@@ -58,19 +49,14 @@ class VogelOil : public WarmingOil {
     return std::exp(viscous_power_ * kVogel_K * (1.0 / (oil_degC + kVogel_degC) - 1.0 / (kSoaked_degC + kVogel_degC)));
   }
 
-  double viscous_power_ = 0.5;
-  double air_share_ = 0.0;
+  double viscous_power_ = note("power_of_viscosity", draws_.uniform(0.4, 0.7));
+  double air_share_ = note("share_of_ambient", draws_.uniform(0.0, 0.4));
 };
 
 /// Gear oil 75W-90 by Walther's law, log log(nu + 0.7) = A - B log T, beside a part that does not feel the oil.
 class WaltherOil : public WarmingOil {
  public:
-  WaltherOil(double force_N, Draws& draws) : WarmingOil(force_N, draws) {
-    viscous_power_ = draws.uniform(0.4, 0.6);
-    dry_ = draws.uniform(0.1, 0.3);
-    shape.push_back({"power_of_viscosity", viscous_power_});
-    shape.push_back({"mechanical_share", dry_});
-  }
+  using WarmingOil::WarmingOil;
 
   void act(const double* rise_dK, Instant& now) const override { now.rig_force_N += force_N_ * friction(rise_dK[0]); }
 
@@ -92,23 +78,15 @@ class WaltherOil : public WarmingOil {
     return dry_ + (1.0 - dry_) * std::pow(thinner, viscous_power_);
   }
 
-  double viscous_power_ = 0.5;
-  double dry_ = 0.0;
+  double viscous_power_ = note("power_of_viscosity", draws_.uniform(0.4, 0.6));
+  double dry_ = note("mechanical_share", draws_.uniform(0.1, 0.3));
 };
 
 }  // namespace
 
-extern const EffectKind kind_driveline_warming;
 const EffectKind kind_driveline_warming{
     "driveline_warming",
-    "N",
-    "friction of one wheel, soaked at 23 degC",
-    0.0,
-    0.0,
-    200.0,
-    log_normal(3.0, 25.0, 2.0, 35.0),
-    false,
-    0.0,
+    {"N", "friction of one wheel, soaked at 23 degC", 0.0, 0.0, 200.0, log_normal(3.0, 25.0, 2.0, 35.0)},
     {{"vogel",
       "power of a viscosity by Vogel, at the temperature of oil that its own friction and the transmitted force warm",
       make_law<VogelOil>},
@@ -119,4 +97,4 @@ const EffectKind kind_driveline_warming{
     kVehicleGrounds,
     kVehicleGrounds};
 
-}  // namespace blind
+}  // namespace rollrig::generator

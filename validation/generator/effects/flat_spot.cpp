@@ -4,22 +4,18 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class FlatSpot : public Effect {
  public:
-  FlatSpot(double excess_percent, Draws& draws) : excess_(0.01 * excess_percent) {
-    const double distance_km = draws.from(log_normal(4.0, 15.0, 3.0, 20.0));
-    const double apart = draws.uniform(1.2, 1.8);
-    const double set_h = draws.from(log_normal(0.7, 4.0, 0.4, 6.0));
-    doubling_K_ = draws.uniform(20.0, 45.0);
+  explicit FlatSpot(const Making& of) : Effect(of), excess_(0.01 * of.size) {
+    const double distance_km = note("distance_km_at_35_degC", of.draws.from(log_normal(4.0, 15.0, 3.0, 20.0)));
+    const double apart = note("distances_apart", of.draws.uniform(1.2, 1.8));
+    const double set_h = note("set_time_h", of.draws.from(log_normal(0.7, 4.0, 0.4, 6.0)));
+    doubling_K_ = note("doubling_K", of.draws.uniform(20.0, 45.0));
     distance_m_ = {1e3 * distance_km / apart, 1e3 * distance_km * apart};
     set_s_ = 3600.0 * set_h;
-    shape = {{"distance_km_at_35_degC", distance_km},
-             {"distances_apart", apart},
-             {"set_time_h", set_h},
-             {"doubling_K", doubling_K_}};
   }
 
   std::size_t state_count() const override { return 2; }
@@ -48,14 +44,7 @@ class FlatSpot : public Effect {
 /// One depth d, d' = -d^2 v/s_0, faster in warm rubber by Arrhenius' law; the loss is in proportion to it.
 class SecondOrderSpot : public Effect {
  public:
-  SecondOrderSpot(double excess_percent, Draws& draws) : excess_(0.01 * excess_percent) {
-    const double distance_km = draws.from(log_normal(4.0, 15.0, 3.0, 20.0));
-    const double set_h = draws.from(log_normal(0.7, 4.0, 0.4, 6.0));
-    activation_K_ = draws.uniform(15e3, 35e3) / 8.314462618;
-    shape = {{"distance_km_at_35_degC", distance_km}, {"set_time_h", set_h}, {"activation_K", activation_K_}};
-    distance_m_ = kHalf * 1e3 * distance_km;  // half is gone when it is of a first-order decay
-    set_s_ = 3600.0 * set_h;
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -73,25 +62,18 @@ class SecondOrderSpot : public Effect {
  private:
   static constexpr double kHalf = 0.69314718;  // ln 2
 
-  double excess_;
-  double activation_K_ = 0.0;
-  double distance_m_ = 1.0;
-  double set_s_ = 3600.0;
+  double excess_ = 0.01 * size_;
+  // Half is gone when it is of a first-order decay.
+  double distance_m_ = kHalf * 1e3 * note("distance_km_at_35_degC", draws_.from(log_normal(4.0, 15.0, 3.0, 20.0)));
+  double set_s_ = 3600.0 * note("set_time_h", draws_.from(log_normal(0.7, 4.0, 0.4, 6.0)));
+  double activation_K_ = note("activation_K", draws_.uniform(15e3, 35e3) / 8.314462618);
 };
 
 }  // namespace
 
-extern const EffectKind kind_flat_spot;
 const EffectKind kind_flat_spot{
     "flat_spot",
-    "percent",
-    "higher loss after long standing",
-    0.0,
-    0.0,
-    100.0,
-    log_normal(1.0, 8.0, 0.6, 12.0),
-    false,
-    0.0,
+    {"percent", "higher loss after long standing", 0.0, 0.0, 100.0, log_normal(1.0, 8.0, 0.6, 12.0)},
     {{"two_depths", "square of a depth of two parts, each rolled out over its own distance, faster in warm rubber",
       make_law<FlatSpot>},
      {"second_order",
@@ -101,4 +83,4 @@ const EffectKind kind_flat_spot{
     kEveryGround,
     kRigGrounds};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,14 +4,14 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class GasHeatTransfer : public Effect {
  public:
-  GasHeatTransfer(double ratio, Draws& draws, const Specimen& specimen) : excess_(ratio - 1.0) {
-    stirred_ = draws.uniform(0.2, 0.7);
-    shape = {{"stirred_share", stirred_}, {"W_per_K_at_80_km_h", ratio * specimen.truth(Base::kH)}};
+  explicit GasHeatTransfer(const Making& of) : Effect(of), excess_(of.size - 1.0) {
+    stirred_ = of.draws.uniform(0.2, 0.7);
+    shape = {{"stirred_share", stirred_}, {"W_per_K_at_80_km_h", of.size * of.specimen.truth(Base::kH)}};
   }
 
   void act(const double*, Instant& now) const override {
@@ -27,8 +27,8 @@ class GasHeatTransfer : public Effect {
 /// What differs goes with (p/p_ref)^0.8, absolute: convection of a denser gas.
 class GasDensity : public Effect {
  public:
-  GasDensity(double ratio, Draws&, const Specimen& specimen) : excess_(ratio - 1.0) {
-    shape = {{"W_per_K_at_reference_pressure", ratio * specimen.truth(Base::kH)}};
+  explicit GasDensity(const Making& of) : Effect(of), excess_(of.size - 1.0) {
+    shape = {{"W_per_K_at_reference_pressure", of.size * of.specimen.truth(Base::kH)}};
   }
 
   void act(const double*, Instant& now) const override {
@@ -43,21 +43,12 @@ class GasDensity : public Effect {
 
 }  // namespace
 
-extern const EffectKind kind_gas_heat_transfer;
 const EffectKind kind_gas_heat_transfer{
     "gas_heat_transfer",
-    "1",
-    "coefficient at 80 km/h and the reference pressure over the one that is otherwise true",
-    1.0,
-    0.05,
-    10.0,
-    log_normal(0.3, 2.0, 0.2, 3.0),
-    false,
-    0.3,
+    {"1", "coefficient at 80 km/h and the reference pressure over the one that is otherwise true", 1.0, 0.05, 10.0,
+     log_normal(0.3, 2.0, 0.2, 3.0), false, 0.3},
     {{"stirred", "what differs has a part at rest and one with v^0.8", make_law<GasHeatTransfer>},
      {"density", "what differs goes with the gas's density to the power 0.8, whatever the speed",
-      make_law<GasDensity>}},
-    kRigGrounds,
-    kRigGrounds};
+      make_law<GasDensity>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

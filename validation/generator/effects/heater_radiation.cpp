@@ -3,17 +3,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class HeaterRadiation : public Effect {
  public:
-  HeaterRadiation(double power_W, Draws& draws) : power_W_(power_W) {
-    period_s_ = draws.uniform(700.0, 2500.0);
-    duty_ = draws.uniform(0.35, 0.65);
-    phase_ = draws.uniform();
-    shape = {{"period_s", period_s_}, {"duty", duty_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
   void start(const RunStart& start, double* run) const override { run[0] = static_cast<double>(start.index); }
@@ -30,28 +25,20 @@ class HeaterRadiation : public Effect {
   void rates(const double*, const Instant&, double* rates) const override { rates[0] = 0.0; }
 
  private:
-  double power_W_;
-  double period_s_ = 1.0;
-  double duty_ = 0.5;
-  double phase_ = 0.0;
+  double power_W_ = size_;
+  double period_s_ = note("period_s", draws_.uniform(700.0, 2500.0));
+  double duty_ = note("duty", draws_.uniform(0.35, 0.65));
+  double phase_ = draws_.uniform();
 };
 
 }  // namespace
 
-extern const EffectKind kind_heater_radiation;
 const EffectKind kind_heater_radiation{
     "heater_radiation",
-    "W",
-    "heat into the tread while on",
-    0.0,
-    0.0,
-    2000.0,
-    log_normal(40.0, 200.0, 30.0, 300.0),
-    false,
-    0.0,
+    {"W", "heat into the tread while on", 0.0, 0.0, 2000.0, log_normal(40.0, 200.0, 30.0, 300.0)},
     {{"only", "on and off by turns of a drawn period, whatever the tire does", make_law<HeaterRadiation>}},
     kRigGrounds,
     kRigGrounds,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -2,18 +2,19 @@
 #include <cmath>
 
 #include "validation/generator/effect.h"
+#include "validation/generator/machine.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class RigidInertia : public Effect {
  public:
-  RigidInertia(double percent, Draws&, const Specimen& specimen) {
-    const double radius_m = 0.5 * specimen.drum_diameter_m;
-    on_road_ = specimen.kind == Kind::kRoad;
-    const double mass_kg = on_road_ ? specimen.truth(Base::kMass) + specimen.truth(Base::kRotatingMass)
-                                    : specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
-    excess_kg_ = 0.01 * percent * mass_kg;
+  explicit RigidInertia(const Making& of) : Effect(of) {
+    const double radius_m = 0.5 * of.specimen.drum_diameter_m;
+    on_road_ = of.specimen.machine->has_vehicle();
+    const double mass_kg = on_road_ ? of.specimen.truth(Base::kMass) + of.specimen.truth(Base::kRotatingMass)
+                                    : of.specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
+    excess_kg_ = 0.01 * of.size * mass_kg;
   }
 
   void act(const double*, Instant& now) const override { add(now.acceleration_m_s2, now); }
@@ -31,10 +32,7 @@ class RigidInertia : public Effect {
 /// Follows the speed with a lag of first order.
 class SoftInertia : public RigidInertia {
  public:
-  SoftInertia(double percent, Draws& draws, const Specimen& specimen) : RigidInertia(percent, draws, specimen) {
-    follows_s_ = draws.uniform(0.05, 0.4);  // Assumed: response of a rig's simulation of inertia
-    shape = {{"follows_s", follows_s_}};
-  }
+  using RigidInertia::RigidInertia;
 
   std::size_t state_count() const override { return 1; }
 
@@ -45,26 +43,20 @@ class SoftInertia : public RigidInertia {
   }
 
  private:
-  double follows_s_ = 1.0;
+  double follows_s_ =
+      note("follows_s", draws_.uniform(0.05, 0.4));  // Assumed: response of a rig's simulation of inertia
 };
 
 }  // namespace
 
-extern const EffectKind kind_inertia_error;
 const EffectKind kind_inertia_error{
     "inertia_error",
-    "percent",
-    "true over reckoned inertia of drum, roller or vehicle, less one",
-    0.0,
-    -30.0,
-    30.0,
-    log_normal(0.3, 4.0, 0.25, 6.0),
-    true,
-    0.0,
+    {"percent", "true over reckoned inertia of drum, roller or vehicle, less one", 0.0, -30.0, 30.0,
+     log_normal(0.3, 4.0, 0.25, 6.0), true},
     {{"rigid", "a factor on the inertia", make_law<RigidInertia>},
      {"soft", "hanging on through a soft coupling that follows the speed with a lag of first order",
       make_law<SoftInertia>}},
     kEveryGround,
     kEveryGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -5,16 +5,13 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 /// Angle d (1 - b + b sqrt(x)), x the load over the reference load: seats that close give way less and less.
 class LoadCrossTalk : public Effect {
  public:
-  LoadCrossTalk(double angle_mrad, Draws& draws) : angle_(1e-3 * angle_mrad) {
-    bending_ = draws.uniform(0.0, 0.5);
-    shape = {{"bending_share", bending_}};
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
@@ -26,14 +23,14 @@ class LoadCrossTalk : public Effect {
   }
 
  private:
-  double angle_;
-  double bending_ = 0.0;
+  double angle_ = 1e-3 * size_;
+  double bending_ = note("bending_share", draws_.uniform(0.0, 0.5));
 };
 
 /// One angle at every load.
 class FixedAngle : public Effect {
  public:
-  FixedAngle(double angle_mrad, Draws&) : sine_(std::sin(1e-3 * angle_mrad)) {}
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
@@ -42,26 +39,19 @@ class FixedAngle : public Effect {
   }
 
  private:
-  double sine_;
+  double sine_ = std::sin(1e-3 * size_);
 };
 
 }  // namespace
 
-extern const EffectKind kind_load_cross_talk;
 const EffectKind kind_load_cross_talk{
     "load_cross_talk",
-    "mrad",
-    "angle of the load off the vertical at the reference load",
-    0.0,
-    -5.0,
-    5.0,
-    log_normal(0.08, 0.5, 0.05, 0.8),
-    true,
-    0.0,
+    {"mrad", "angle of the load off the vertical at the reference load", 0.0, -5.0, 5.0,
+     log_normal(0.08, 0.5, 0.05, 0.8), true},
     {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the root of the load",
       make_law<LoadCrossTalk>},
      {"fixed", "Fz sin(d) with a fixed angle", make_law<FixedAngle>}},
     kRigGrounds,
     kDrumGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

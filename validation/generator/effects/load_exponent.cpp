@@ -4,15 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class LoadExponent : public Effect {
  public:
-  LoadExponent(double exponent, Draws& draws) : excess_(exponent - 1.0) {
-    spread_ = draws.uniform(0.2, 0.8);
-    shape = {{"spread_over_excess", spread_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(1.0, now.load_N) / now.specimen->reference_load_N;
@@ -21,14 +18,14 @@ class LoadExponent : public Effect {
   }
 
  private:
-  double excess_;
-  double spread_ = 0.0;
+  double excess_ = size_ - 1.0;
+  double spread_ = note("spread_over_excess", draws_.uniform(0.2, 0.8));
 };
 
 /// Coefficient that is a straight line of the load, with the slope that the power b - 1 has at the reference load.
 class StraightCoefficient : public Effect {
  public:
-  StraightCoefficient(double exponent, Draws&) : excess_(exponent - 1.0) {}
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
@@ -38,22 +35,15 @@ class StraightCoefficient : public Effect {
  private:
   static constexpr double kLeast = 0.1;  // out of reach of the sizes that are drawn
 
-  double excess_;
+  double excess_ = size_ - 1.0;
 };
 
 }  // namespace
 
-extern const EffectKind kind_load_exponent;
 const EffectKind kind_load_exponent{
     "load_exponent",
-    "1",
-    "exponent of the loss over load at the reference load",
-    1.0,
-    0.3,
-    2.0,
-    normal(0.85, 1.15, 0.7, 1.3),
-    false,
-    0.02,
+    {"1", "exponent of the loss over load at the reference load", 1.0, 0.3, 2.0, normal(0.85, 1.15, 0.7, 1.3), false,
+     0.02},
     {{"two_powers",
       "mean of two powers of the load, b + d and b - d, so that the exponent moves with load and is b at the reference",
       make_law<LoadExponent>},
@@ -61,4 +51,4 @@ const EffectKind kind_load_exponent{
       "the coefficient is a straight line of the load, 1 + (b - 1)(x - 1), as in the regression of SAE J1269",
       make_law<StraightCoefficient>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

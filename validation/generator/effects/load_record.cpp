@@ -3,15 +3,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class LoadRecord : public Effect {
  public:
-  LoadRecord(double percent, Draws& draws) : error_(0.01 * percent) {
-    offset_share_ = draws.happens(0.5) ? draws.uniform(0.0, 0.2) : draws.uniform(0.6, 1.0);
-    shape = {{"offset_share", offset_share_}};
-  }
+  using Effect::Effect;
 
   void enter(const double*, Instant& now) const override {
     const double offset_N = offset_share_ * now.specimen->reference_load_N;
@@ -22,17 +19,15 @@ class LoadRecord : public Effect {
  private:
   static constexpr double kLeastLeft = 0.97;
 
-  double error_;
-  double offset_share_ = 0.0;
+  double error_ = 0.01 * size_;
+  double offset_share_ =
+      note("offset_share", draws_.happens(0.5) ? draws_.uniform(0.0, 0.2) : draws_.uniform(0.6, 1.0));
 };
 
 /// Error e x (1 - q + q x) of the load ratio x.
 class BentCell : public Effect {
  public:
-  BentCell(double percent, Draws& draws) : error_(0.01 * percent) {
-    bend_ = draws.uniform(0.3, 0.8);
-    shape = {{"bend", bend_}};
-  }
+  using Effect::Effect;
 
   void enter(const double*, Instant& now) const override {
     const double load = now.load_N / now.specimen->reference_load_N;
@@ -43,27 +38,18 @@ class BentCell : public Effect {
  private:
   static constexpr double kMostOff = 0.97;
 
-  double error_;
-  double bend_ = 0.0;
+  double error_ = 0.01 * size_;
+  double bend_ = note("bend", draws_.uniform(0.3, 0.8));
 };
 
 }  // namespace
 
-extern const EffectKind kind_load_record;
 const EffectKind kind_load_record{
     "load_record",
-    "percent",
-    "true over recorded load at the reference load, less one",
-    0.0,
-    -30.0,
-    30.0,
-    log_normal(1.0, 5.0, 0.7, 7.0),
-    true,
-    0.0,
+    {"percent", "true over recorded load at the reference load, less one", 0.0, -30.0, 30.0,
+     log_normal(1.0, 5.0, 0.7, 7.0), true},
     {{"scale_or_offset", "mostly a scale or mostly an offset, never one alone", make_law<LoadRecord>},
      {"bent", "an error that grows with the square of the load beside a scale, nothing without load",
-      make_law<BentCell>}},
-    kRigGrounds,
-    kRigGrounds};
+      make_law<BentCell>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,15 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class LoadStiction : public Effect {
  public:
-  LoadStiction(double band_N, Draws& draws) : band_N_(band_N) {
-    follows_s_ = draws.uniform(0.5, 2.0);
-    shape = {{"follows_s", follows_s_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -29,27 +26,19 @@ class LoadStiction : public Effect {
   }
 
  private:
-  double band_N_;
-  double follows_s_ = 1.0;
+  double band_N_ = size_;
+  double follows_s_ = note("follows_s", draws_.uniform(0.5, 2.0));
 };
 
 }  // namespace
 
-extern const EffectKind kind_load_stiction;
 const EffectKind kind_load_stiction{
     "load_stiction",
-    "N",
-    "half of the width of the hysteresis",
-    0.0,
-    0.0,
-    1000.0,
-    log_normal(50.0, 160.0, 40.0, 180.0),
-    false,
-    0.0,
+    {"N", "half of the width of the hysteresis", 0.0, 0.0, 1000.0, log_normal(50.0, 160.0, 40.0, 180.0)},
     {{"only", "play: the load stays short by the size after a rise and above by it after a fall",
       make_law<LoadStiction>}},
     kDrumGround,
     kDrumGround,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -3,16 +3,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class PressureExponent : public Effect {
  public:
-  PressureExponent(double exponent, Draws& draws, const Specimen& specimen)
-      : excess_(exponent - specimen.pressure_exponent) {
-    line_ = draws.uniform(0.0, 0.6);
-    shape = {{"share_of_the_line", line_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double p = now.pressure_kPa / now.specimen->reference_pressure_kPa;
@@ -20,18 +16,14 @@ class PressureExponent : public Effect {
   }
 
  private:
-  double excess_;
-  double line_ = 0.0;
+  double excess_ = size_ - specimen_.pressure_exponent;
+  double line_ = note("share_of_the_line", draws_.uniform(0.0, 0.6));
 };
 
 /// Loss with a power of s + (1 - s) p/p_ref, the tire's vertical stiffness over that at the reference pressure.
 class StiffnessOfPressure : public Effect {
  public:
-  StiffnessOfPressure(double exponent, Draws& draws, const Specimen& specimen) {
-    carcass_ = draws.uniform(0.1, 0.4);  // Assumed: share of the stiffness without pressure
-    power_ = (exponent - specimen.pressure_exponent) / (1.0 - carcass_);
-    shape = {{"carcass_share", carcass_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double p = now.pressure_kPa / now.specimen->reference_pressure_kPa;
@@ -39,23 +31,17 @@ class StiffnessOfPressure : public Effect {
   }
 
  private:
-  double carcass_ = 0.0;
-  double power_ = 0.0;
+  double carcass_ =
+      note("carcass_share", draws_.uniform(0.1, 0.4));  // Assumed: share of the stiffness without pressure
+  double power_ = (size_ - specimen_.pressure_exponent) / (1.0 - carcass_);
 };
 
 }  // namespace
 
-extern const EffectKind kind_pressure_exponent;
 const EffectKind kind_pressure_exponent{
     "pressure_exponent",
-    "1",
-    "exponent of the loss over pressure at the reference pressure",
-    0.4,
-    0.0,
-    2.0,
-    normal(0.25, 0.55, 0.1, 0.7),
-    false,
-    0.02,
+    {"1", "exponent of the loss over pressure at the reference pressure", 0.4, 0.0, 2.0, normal(0.25, 0.55, 0.1, 0.7),
+     false, 0.02},
     {{"regression",
       "what goes beyond the nominal exponent is a + b p + c/p, with the slope of the exponent at the reference "
       "pressure",
@@ -65,4 +51,4 @@ const EffectKind kind_pressure_exponent{
       "slope of the exponent at the reference pressure",
       make_law<StiffnessOfPressure>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -3,27 +3,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class RimHeat : public Effect {
  public:
-  RimHeat(double tire_W_per_K, Draws& draws) : tire_W_per_K_(tire_W_per_K) {
-    gas_share_ = draws.uniform(0.2, 0.7);
-    capacity_J_per_K_ = draws.from(log_normal(5000.0, 9000.0, 4000.0, 11000.0));
-    well_share_ = draws.uniform(0.35, 0.6);
-    spokes_W_per_K_ = draws.from(log_normal(8.0, 30.0, 5.0, 50.0));
-    air_W_per_K_ = draws.from(log_normal(6.0, 20.0, 4.0, 30.0));
-    still_share_ = draws.uniform(0.15, 0.4);
-    power_ = draws.uniform(0.5, 0.8);
-    shape = {{"gas_share", gas_share_},
-             {"capacity_J_per_K", capacity_J_per_K_},
-             {"well_share", well_share_},
-             {"spokes_W_per_K", spokes_W_per_K_},
-             {"air_W_per_K_at_80_km_h", air_W_per_K_},
-             {"still_share", still_share_},
-             {"air_power", power_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 2; }
 
@@ -47,29 +32,20 @@ class RimHeat : public Effect {
   }
 
  private:
-  double tire_W_per_K_;
-  double gas_share_ = 0.0;
-  double capacity_J_per_K_ = 1.0;
-  double well_share_ = 0.5;
-  double spokes_W_per_K_ = 0.0;
-  double air_W_per_K_ = 0.0;
-  double still_share_ = 0.0;
-  double power_ = 0.0;
+  double tire_W_per_K_ = size_;
+  double gas_share_ = note("gas_share", draws_.uniform(0.2, 0.7));
+  double capacity_J_per_K_ = note("capacity_J_per_K", draws_.from(log_normal(5000.0, 9000.0, 4000.0, 11000.0)));
+  double well_share_ = note("well_share", draws_.uniform(0.35, 0.6));
+  double spokes_W_per_K_ = note("spokes_W_per_K", draws_.from(log_normal(8.0, 30.0, 5.0, 50.0)));
+  double air_W_per_K_ = note("air_W_per_K_at_80_km_h", draws_.from(log_normal(6.0, 20.0, 4.0, 30.0)));
+  double still_share_ = note("still_share", draws_.uniform(0.15, 0.4));
+  double power_ = note("air_power", draws_.uniform(0.5, 0.8));
 };
 
 /// One node for the whole rim, cooled by s + (1 - s) v.
 class OneNodeRim : public Effect {
  public:
-  OneNodeRim(double tire_W_per_K, Draws& draws) : tire_W_per_K_(tire_W_per_K) {
-    gas_share_ = draws.uniform(0.2, 0.7);
-    capacity_J_per_K_ = draws.from(log_normal(5000.0, 9000.0, 4000.0, 11000.0));
-    air_W_per_K_ = draws.from(log_normal(6.0, 20.0, 4.0, 30.0));
-    still_share_ = draws.uniform(0.15, 0.5);
-    shape = {{"gas_share", gas_share_},
-             {"capacity_J_per_K", capacity_J_per_K_},
-             {"air_W_per_K_at_80_km_h", air_W_per_K_},
-             {"still_share", still_share_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -94,33 +70,24 @@ class OneNodeRim : public Effect {
     return (1.0 - gas_share_) * tire_W_per_K_ * (now.liner_degC - rim_degC[0]);
   }
 
-  double tire_W_per_K_;
-  double gas_share_ = 0.0;
-  double capacity_J_per_K_ = 1.0;
-  double air_W_per_K_ = 0.0;
-  double still_share_ = 0.0;
+  double tire_W_per_K_ = size_;
+  double gas_share_ = note("gas_share", draws_.uniform(0.2, 0.7));
+  double capacity_J_per_K_ = note("capacity_J_per_K", draws_.from(log_normal(5000.0, 9000.0, 4000.0, 11000.0)));
+  double air_W_per_K_ = note("air_W_per_K_at_80_km_h", draws_.from(log_normal(6.0, 20.0, 4.0, 30.0)));
+  double still_share_ = note("still_share", draws_.uniform(0.15, 0.5));
 };
 
 }  // namespace
 
-extern const EffectKind kind_rim_heat;
 const EffectKind kind_rim_heat{
     "rim_heat",
-    "W/K",
-    "conductance from gas and bead to the rim",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(0.5, 4.0, 0.3, 6.5),
-    false,
-    0.0,
+    {"W/K", "conductance from gas and bead to the rim", 0.0, 0.0, 50.0, log_normal(0.5, 4.0, 0.3, 6.5)},
     {{"well_and_disc",
       "rim of two parts: the well takes heat from gas and bead, spokes lead it to the disc, both lose to the air with "
-      "a "
-      "power of the speed",
+      "a power of the speed",
       make_law<RimHeat>},
      {"one_node",
       "rim of one node that takes heat from gas and bead and loses to the air in a straight line of the speed",
       make_law<OneNodeRim>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

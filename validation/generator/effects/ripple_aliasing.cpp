@@ -4,16 +4,12 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class RippleAliasing : public Effect {
  public:
-  RippleAliasing(double amplitude_N, Draws& draws) : amplitude_N_(amplitude_N) {
-    phase_ = draws.uniform(0.0, 6.2831853);
-    second_ = draws.uniform(0.2, 0.7);
-    shape = {{"second_order_share", second_}};
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     double angle = phase_;
@@ -25,28 +21,20 @@ class RippleAliasing : public Effect {
   }
 
  private:
-  double amplitude_N_;
-  double phase_ = 0.0;
-  double second_ = 0.0;
+  double amplitude_N_ = size_;
+  double phase_ = draws_.uniform(0.0, 6.2831853);
+  double second_ = note("second_order_share", draws_.uniform(0.2, 0.7));
 };
 
 }  // namespace
 
-extern const EffectKind kind_ripple_aliasing;
 const EffectKind kind_ripple_aliasing{
     "ripple_aliasing",
-    "N",
-    "amplitude of the first order",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(1.0, 5.0, 0.8, 7.0),
-    false,
-    0.0,
+    {"N", "amplitude of the first order", 0.0, 0.0, 50.0, log_normal(1.0, 5.0, 0.8, 7.0)},
     {{"only", "sines of the angle of drum or roller at the rows, so that constant speeds beat slowly",
       make_law<RippleAliasing>}},
     kRigGrounds,
     kRigGrounds,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

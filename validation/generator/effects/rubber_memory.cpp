@@ -5,16 +5,16 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class RubberMemory : public Effect {
  public:
-  RubberMemory(double excess_percent, Draws& draws) : excess_(0.01 * excess_percent) {
-    const double decay_min = draws.from(log_normal(3.0, 20.0, 2.0, 30.0));
-    const double apart = draws.uniform(1.2, 2.0);
-    const double recovery_min = draws.from(log_normal(8.0, 60.0, 5.0, 120.0));
-    weight_ = draws.uniform(0.35, 0.65);
+  explicit RubberMemory(const Making& of) : Effect(of), excess_(0.01 * of.size) {
+    const double decay_min = of.draws.from(log_normal(3.0, 20.0, 2.0, 30.0));
+    const double apart = of.draws.uniform(1.2, 2.0);
+    const double recovery_min = of.draws.from(log_normal(8.0, 60.0, 5.0, 120.0));
+    weight_ = of.draws.uniform(0.35, 0.65);
     decay_s_ = {60.0 * decay_min / apart, 60.0 * decay_min * apart};
     recovery_s_ = {60.0 * recovery_min / apart, 60.0 * recovery_min * apart};
     shape = {{"decay_min", decay_min},
@@ -55,13 +55,7 @@ class RubberMemory : public Effect {
 /// Structure that breaks down in pairs of bonds, ds/dt = -s^2 w/tau, as Kraus has it for filled rubber.
 class SecondOrderMemory : public Effect {
  public:
-  SecondOrderMemory(double excess_percent, Draws& draws) : excess_(0.01 * excess_percent) {
-    const double decay_min = draws.from(log_normal(3.0, 20.0, 2.0, 30.0));
-    const double recovery_min = draws.from(log_normal(8.0, 60.0, 5.0, 120.0));
-    shape = {{"decay_min", decay_min}, {"recovery_min", recovery_min}};
-    decay_s_ = kHalf * 60.0 * decay_min;  // half is gone when it is of a first-order decay
-    recovery_s_ = 60.0 * recovery_min;
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -81,24 +75,17 @@ class SecondOrderMemory : public Effect {
  private:
   static constexpr double kHalf = 0.69314718;  // ln 2
 
-  double excess_;
-  double decay_s_ = 1.0;
-  double recovery_s_ = 1.0;
+  double excess_ = 0.01 * size_;
+  // Half is gone when it is of a first-order decay.
+  double decay_s_ = kHalf * 60.0 * note("decay_min", draws_.from(log_normal(3.0, 20.0, 2.0, 30.0)));
+  double recovery_s_ = 60.0 * note("recovery_min", draws_.from(log_normal(8.0, 60.0, 5.0, 120.0)));
 };
 
 }  // namespace
 
-extern const EffectKind kind_rubber_memory;
 const EffectKind kind_rubber_memory{
     "rubber_memory",
-    "percent",
-    "higher loss after long rest",
-    0.0,
-    0.0,
-    100.0,
-    log_normal(1.0, 8.0, 0.6, 12.0),
-    false,
-    0.0,
+    {"percent", "higher loss after long rest", 0.0, 0.0, 100.0, log_normal(1.0, 8.0, 0.6, 12.0)},
     {{"two_parts",
       "two parts that break down under load and build up at rest or in skim, each with its own time constants: a "
       "stretched decay; work saturates with the square of the load",
@@ -108,4 +95,4 @@ const EffectKind kind_rubber_memory{
       "rest or in skim by one of first order",
       make_law<SecondOrderMemory>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,16 +4,12 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class SensorSelfHeating : public Effect {
  public:
-  SensorSelfHeating(double rise_dK, Draws& draws) : rise_dK_(rise_dK) {
-    time_s_ = 60.0 * draws.uniform(3.0, 15.0);
-    swept_ = draws.uniform(0.2, 0.6);
-    shape = {{"time_constant_min", time_s_ / 60.0}, {"swept_share_at_80_km_h", swept_}};
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     double rise = 0.0;
@@ -26,27 +22,19 @@ class SensorSelfHeating : public Effect {
   }
 
  private:
-  double rise_dK_;
-  double time_s_ = 1.0;
-  double swept_ = 0.0;
+  double rise_dK_ = size_;
+  double time_s_ = note_min("time_constant_min", 60.0 * draws_.uniform(3.0, 15.0));
+  double swept_ = note("swept_share_at_80_km_h", draws_.uniform(0.2, 0.6));
 };
 
 }  // namespace
 
-extern const EffectKind kind_sensor_self_heating;
 const EffectKind kind_sensor_self_heating{
     "sensor_self_heating",
-    "K",
-    "excess of the reading at standstill",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(1.5, 6.0, 1.0, 9.0),
-    false,
-    0.0,
+    {"K", "excess of the reading at standstill", 0.0, 0.0, 50.0, log_normal(1.5, 6.0, 1.0, 9.0)},
     {{"only", "first order from the start of each run, less in moving gas", make_law<SensorSelfHeating>}},
     kRigGrounds,
     kRigGrounds,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

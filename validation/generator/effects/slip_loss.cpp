@@ -5,16 +5,13 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 /// Force times slip, from the motor or brake, into the tread.
 class SlipLoss : public Effect {
  public:
-  SlipLoss(double stiffness_kN, Draws& draws) : stiffness_N_(1e3 * stiffness_kN) {
-    friction_ = draws.uniform(0.7, 1.1);
-    shape = {{"friction", friction_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     if (std::isinf(stiffness_N_)) return;
@@ -28,8 +25,8 @@ class SlipLoss : public Effect {
  private:
   virtual double find_slip(double force_N, double grip_N, double stiffness_N) const = 0;
 
-  double stiffness_N_;
-  double friction_ = 1.0;
+  double stiffness_N_ = 1e3 * size_;
+  double friction_ = note("friction", draws_.uniform(0.7, 1.1));
 };
 
 class BrushSlip : public SlipLoss {
@@ -57,21 +54,14 @@ class TanhSlip : public SlipLoss {
 
 }  // namespace
 
-extern const EffectKind kind_slip_loss;
 const EffectKind kind_slip_loss{
     "slip_loss",
-    "kN",
-    "force over slip where both are small",
-    std::numeric_limits<double>::infinity(),
-    5.0,
-    std::numeric_limits<double>::infinity(),
-    log_normal(60.0, 250.0, 45.0, 330.0),
-    false,
-    0.0,
+    {"kN", "force over slip where both are small", std::numeric_limits<double>::infinity(), 5.0,
+     std::numeric_limits<double>::infinity(), log_normal(60.0, 250.0, 45.0, 330.0)},
     {{"brush", "brush model with parabolic pressure, F over slip bends down to the friction limit; heats the tread",
       make_law<BrushSlip>},
      {"tanh", "force as grip x tanh(C s/grip) of the slip; heats the tread", make_law<TanhSlip>}},
     kDynoGround,
     kDynoGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

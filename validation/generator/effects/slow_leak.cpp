@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kAir_kPa = 101.325;
@@ -12,7 +12,7 @@ constexpr double kZero_K = 273.15;
 
 class SlowLeak : public Effect {
  public:
-  explicit SlowLeak(double rate_kPa_per_h) : rate_kPa_per_h_(rate_kPa_per_h) {}
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     // The rate of the size holds at the reference pressure; n falls as p does at constant temperature.
@@ -33,12 +33,12 @@ class SlowLeak : public Effect {
            298.15;
   }
 
-  double rate_kPa_per_h_;
+  double rate_kPa_per_h_ = size_;
 };
 
 class NozzleLeak : public SlowLeak {
  public:
-  NozzleLeak(double rate_kPa_per_h, Draws&) : SlowLeak(rate_kPa_per_h) {}
+  using SlowLeak::SlowLeak;
 
  private:
   double find_relative(const Instant& now) const override {
@@ -58,10 +58,7 @@ class NozzleLeak : public SlowLeak {
 /// Driven by the difference of pressures, faster in warm rubber.
 class Permeation : public SlowLeak {
  public:
-  Permeation(double rate_kPa_per_h, Draws& draws) : SlowLeak(rate_kPa_per_h) {
-    activation_K_ = draws.uniform(25e3, 45e3) / 8.314462618;
-    shape = {{"activation_K", activation_K_}};
-  }
+  using SlowLeak::SlowLeak;
 
  private:
   double find_relative(const Instant& now) const override {
@@ -70,26 +67,20 @@ class Permeation : public SlowLeak {
            std::exp(activation_K_ * (1.0 / 313.15 - 1.0 / warm_K));
   }
 
-  double activation_K_ = 0.0;
+  double activation_K_ = note("activation_K", draws_.uniform(25e3, 45e3) / 8.314462618);
 };
 
 }  // namespace
 
-extern const EffectKind kind_slow_leak;
 const EffectKind kind_slow_leak{
     "slow_leak",
-    "kPa/h",
-    "loss of pressure at the reference pressure; through a hole with gas at 25 degC, through rubber at 40 degC",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(0.2, 2.0, 0.1, 3.5),
-    false,
-    0.0,
+    {"kPa/h",
+     "loss of pressure at the reference pressure; through a hole with gas at 25 degC, through rubber at 40 degC", 0.0,
+     0.0, 50.0, log_normal(0.2, 2.0, 0.1, 3.5)},
     {{"nozzle", "a nozzle (Saint-Venant and Wantzel, sonic here); what leaves takes its enthalpy along",
       make_law<NozzleLeak>},
      {"permeation",
       "with the gauge pressure, and by Arrhenius' law faster in warm rubber; what leaves takes its enthalpy along",
       make_law<Permeation>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

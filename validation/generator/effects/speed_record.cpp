@@ -3,32 +3,26 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class SpeedRecord : public Effect {
  public:
-  SpeedRecord(double percent, Draws& draws) : error_(0.01 * percent) {
-    growing_ = draws.uniform(0.0, 0.3);
-    shape = {{"growing_share", growing_}};
-  }
+  using Effect::Effect;
 
   double true_speed_m_s(double recorded_m_s) const override {
     return recorded_m_s * (1.0 + error_ * (1.0 - growing_ + growing_ * recorded_m_s / kSpeed80_m_s));
   }
 
  private:
-  double error_;
-  double growing_ = 0.0;
+  double error_ = 0.01 * size_;
+  double growing_ = note("growing_share", draws_.uniform(0.0, 0.3));
 };
 
 /// v (1 + e (1 - o)) + e o v80 tanh(v/v_k): the part o of the error is a fixed speed.
 class SpeedOffset : public Effect {
  public:
-  SpeedOffset(double percent, Draws& draws) : error_(0.01 * percent) {
-    offset_share_ = draws.uniform(0.1, 0.4);
-    shape = {{"offset_share", offset_share_}};
-  }
+  using Effect::Effect;
 
   double true_speed_m_s(double recorded_m_s) const override {
     constexpr double kPace_m_s = 2.0;  // Assumed: from which on pulses are counted
@@ -37,26 +31,19 @@ class SpeedOffset : public Effect {
   }
 
  private:
-  double error_;
-  double offset_share_ = 0.0;
+  double error_ = 0.01 * size_;
+  double offset_share_ = note("offset_share", draws_.uniform(0.1, 0.4));
 };
 
 }  // namespace
 
-extern const EffectKind kind_speed_record;
 const EffectKind kind_speed_record{
     "speed_record",
-    "percent",
-    "true over recorded speed at 80 km/h, less one",
-    0.0,
-    -30.0,
-    30.0,
-    log_normal(1.0, 10.0, 0.7, 12.0),
-    true,
-    0.0,
+    {"percent", "true over recorded speed at 80 km/h, less one", 0.0, -30.0, 30.0, log_normal(1.0, 10.0, 0.7, 12.0),
+     true},
     {{"growing", "a scale with a part that grows with speed", make_law<SpeedRecord>},
      {"offset", "a scale beside a fixed speed, which is there from walking pace on", make_law<SpeedOffset>}},
     kEveryGround,
     kEveryGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,19 +4,14 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kSpeed120_m_s = 120.0 / 3.6;
 
 class StandingWave : public Effect {
  public:
-  StandingWave(double force_N, Draws& draws) : force_N_(force_N) {
-    critical_m_s_ = draws.from(normal(26.0, 33.0, 24.0, 32.0));
-    scale_m_s_ = draws.uniform(3.0, 8.0);
-    load_power_ = draws.uniform(0.3, 1.2);
-    shape = {{"critical_m_s", critical_m_s_}, {"scale_m_s", scale_m_s_}, {"load_power", load_power_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
@@ -26,21 +21,16 @@ class StandingWave : public Effect {
  private:
   double onset(double speed_m_s) const { return std::expm1(std::max(0.0, speed_m_s - critical_m_s_) / scale_m_s_); }
 
-  double force_N_;
-  double critical_m_s_ = 0.0;
-  double scale_m_s_ = 1.0;
-  double load_power_ = 1.0;
+  double force_N_ = size_;
+  double critical_m_s_ = note("critical_m_s", draws_.from(normal(26.0, 33.0, 24.0, 32.0)));
+  double scale_m_s_ = note("scale_m_s", draws_.uniform(3.0, 8.0));
+  double load_power_ = note("load_power", draws_.uniform(0.3, 1.2));
 };
 
 /// Square of the speed above the critical one, round the corner with a width s.
 class SoftSquare : public Effect {
  public:
-  SoftSquare(double force_N, Draws& draws) : force_N_(force_N) {
-    critical_m_s_ = draws.from(normal(26.0, 33.0, 24.0, 32.0));
-    width_m_s_ = draws.uniform(0.5, 2.0);  // Assumed
-    load_power_ = draws.uniform(0.3, 1.2);
-    shape = {{"critical_m_s", critical_m_s_}, {"width_m_s", width_m_s_}, {"load_power", load_power_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
@@ -51,28 +41,20 @@ class SoftSquare : public Effect {
  private:
   double corner(double speed_m_s) const { return std::log1p(std::exp((speed_m_s - critical_m_s_) / width_m_s_)); }
 
-  double force_N_;
-  double critical_m_s_ = 0.0;
-  double width_m_s_ = 1.0;
-  double load_power_ = 1.0;
+  double force_N_ = size_;
+  double critical_m_s_ = note("critical_m_s", draws_.from(normal(26.0, 33.0, 24.0, 32.0)));
+  double width_m_s_ = note("width_m_s", draws_.uniform(0.5, 2.0));  // Assumed
+  double load_power_ = note("load_power", draws_.uniform(0.3, 1.2));
 };
 
 }  // namespace
 
-extern const EffectKind kind_standing_wave;
 const EffectKind kind_standing_wave{
     "standing_wave",
-    "N",
-    "further loss at 120 km/h and the reference load",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(0.5, 4.0, 0.25, 6.0),
-    false,
-    0.0,
+    {"N", "further loss at 120 km/h and the reference load", 0.0, 0.0, 50.0, log_normal(0.5, 4.0, 0.25, 6.0)},
     {{"exponential", "exp((v - v_c)/s) - 1 above the critical speed, with a power of the load; heats the rubber",
       make_law<StandingWave>},
      {"soft_square", "square of a soft corner s ln(1 + exp((v - v_c)/s)), with a power of the load; heats the rubber",
       make_law<SoftSquare>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

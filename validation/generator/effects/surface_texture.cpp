@@ -2,16 +2,17 @@
 #include <cmath>
 
 #include "validation/generator/effect.h"
+#include "validation/generator/machine.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class SurfaceTexture : public Effect {
  public:
-  SurfaceTexture(double percent, Draws& draws) : change_(0.01 * percent) {
-    runs_ = draws.uniform(1.5, 4.0);
-    patch_m_ = 1e3 * draws.uniform(2.0, 8.0);
-    phase_ = draws.uniform(0.0, 6.2831853);
+  explicit SurfaceTexture(const Making& of) : Effect(of), change_(0.01 * of.size) {
+    runs_ = of.draws.uniform(1.5, 4.0);
+    patch_m_ = 1e3 * of.draws.uniform(2.0, 8.0);
+    phase_ = of.draws.uniform(0.0, 6.2831853);
     shape = {{"wears_in_runs", runs_}, {"patch_km", 1e-3 * patch_m_}};
   }
 
@@ -19,13 +20,13 @@ class SurfaceTexture : public Effect {
   void start(const RunStart& start, double* runs) const override { runs[0] = static_cast<double>(start.index); }
 
   void act(const double* runs, Instant& now) const override {
-    const bool on_road = now.specimen->kind == Kind::kRoad;
+    const bool on_road = now.specimen->machine->has_vehicle();
     const double patch = std::tanh(2.0 * std::sin(now.distance_m / patch_m_ * 3.1415927 + phase_ + 2.1 * runs[0]));
     now.loss_factor *= 1.0 + change_ * (on_road ? kRoadOverRig * patch : std::expm1(-runs[0] / runs_));
   }
 
   void rates(const double*, const Instant& now, double* rates) const override {
-    const bool on_road = now.specimen->kind == Kind::kRoad;
+    const bool on_road = now.specimen->machine->has_vehicle();
     rates[0] = on_road ? 0.0 : now.speed_m_s * now.load_N / now.specimen->reference_load_N / kRunWay_m;
   }
 
@@ -41,21 +42,14 @@ class SurfaceTexture : public Effect {
 
 }  // namespace
 
-extern const EffectKind kind_surface_texture;
 const EffectKind kind_surface_texture{
     "surface_texture",
-    "percent",
-    "fall of the loss as the surface wears in; on a road patches differ by five times that",
-    0.0,
-    0.0,
-    80.0,
-    log_normal(5.0, 15.0, 4.0, 20.0),
-    false,
-    0.0,
+    {"percent", "fall of the loss as the surface wears in; on a road patches differ by five times that", 0.0, 0.0, 80.0,
+     log_normal(5.0, 15.0, 4.0, 20.0)},
     {{"only", "exponential in runs and way rolled on a rig; on a road rough and smooth patches of some km by turns",
       make_law<SurfaceTexture>}},
     kEveryGround,
     kEveryGround,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

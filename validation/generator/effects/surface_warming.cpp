@@ -3,18 +3,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class SurfaceWarming : public Effect {
  public:
-  SurfaceWarming(double rise_dK, Draws& draws, const Specimen& specimen)
-      : rise_dK_(rise_dK), reference_W_(warm_heating_W(specimen)) {
-    skin_s_ = 60.0 * draws.uniform(2.0, 7.0);
-    body_s_ = 60.0 * draws.from(log_normal(12.0, 45.0, 9.0, 60.0));
-    skin_share_ = draws.uniform(0.1, 0.4);
-    shape = {{"skin_min", skin_s_ / 60.0}, {"body_min", body_s_ / 60.0}, {"skin_share", skin_share_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 2; }
 
@@ -35,22 +29,17 @@ class SurfaceWarming : public Effect {
   }
 
  private:
-  double rise_dK_;
-  double reference_W_;
-  double skin_s_ = 1.0;
-  double body_s_ = 1.0;
-  double skin_share_ = 0.0;
+  double rise_dK_ = size_;
+  double reference_W_ = warm_heating_W(specimen_);
+  double skin_s_ = note_min("skin_min", 60.0 * draws_.uniform(2.0, 7.0));
+  double body_s_ = note_min("body_min", 60.0 * draws_.from(log_normal(12.0, 45.0, 9.0, 60.0)));
+  double skin_share_ = note("skin_share", draws_.uniform(0.1, 0.4));
 };
 
 /// One body, theta' = (q - (s + (1 - s) x^0.8) theta)/tau, x = v/(80 km/h).
 class CooledBody : public Effect {
  public:
-  CooledBody(double rise_dK, Draws& draws, const Specimen& specimen)
-      : rise_dK_(rise_dK), reference_W_(warm_heating_W(specimen)) {
-    time_s_ = 60.0 * draws.from(log_normal(10.0, 40.0, 8.0, 55.0));
-    still_share_ = draws.uniform(0.2, 0.7);
-    shape = {{"time_constant_min", time_s_ / 60.0}, {"still_share", still_share_}};
-  }
+  using Effect::Effect;
 
   std::size_t state_count() const override { return 1; }
 
@@ -68,30 +57,21 @@ class CooledBody : public Effect {
   }
 
  private:
-  double rise_dK_;
-  double reference_W_;
-  double time_s_ = 1.0;
-  double still_share_ = 0.0;
+  double rise_dK_ = size_;
+  double reference_W_ = warm_heating_W(specimen_);
+  double time_s_ = note_min("time_constant_min", 60.0 * draws_.from(log_normal(10.0, 40.0, 8.0, 55.0)));
+  double still_share_ = note("still_share", draws_.uniform(0.2, 0.7));
 };
 
 }  // namespace
 
-extern const EffectKind kind_surface_warming;
 const EffectKind kind_surface_warming{
     "surface_warming",
-    "K",
-    "rise after long running at 80 km/h and the reference load",
-    0.0,
-    -30.0,
-    60.0,
-    log_normal(2.0, 15.0, 1.3, 20.0),
-    false,
-    0.0,
+    {"K", "rise after long running at 80 km/h and the reference load", 0.0, -30.0, 60.0,
+     log_normal(2.0, 15.0, 1.3, 20.0)},
     {{"skin_and_body", "skin and body, each of first order, driven by the heat of the tire instead of speed and load",
       make_law<SurfaceWarming>},
      {"cooled_body", "one body, driven by the heat of the tire, that the air cools faster with speed",
-      make_law<CooledBody>}},
-    kRigGrounds,
-    kRigGrounds};
+      make_law<CooledBody>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,15 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class TireGrowth : public Effect {
  public:
-  TireGrowth(double percent, Draws& draws) : growth_(0.01 * percent) {
-    power_ = draws.uniform(1.8, 2.3);
-    shape = {{"power", power_}};
-  }
+  using Effect::Effect;
 
   void enter(const double*, Instant& now) const override {
     // As a share of the load that is set: a tire in skim grows into the drum by the same height.
@@ -22,26 +19,19 @@ class TireGrowth : public Effect {
 
  private:
   static constexpr double kSpeed120_m_s = 120.0 / 3.6;
-  double growth_;
-  double power_ = 2.0;
+
+  double growth_ = 0.01 * size_;
+  double power_ = note("power", draws_.uniform(1.8, 2.3));
 };
 
 }  // namespace
 
-extern const EffectKind kind_tire_growth;
 const EffectKind kind_tire_growth{
     "tire_growth",
-    "percent",
-    "further load at 120 km/h, of the reference load",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(2.0, 8.0, 1.5, 12.0),
-    false,
-    0.0,
+    {"percent", "further load at 120 km/h, of the reference load", 0.0, 0.0, 50.0, log_normal(2.0, 8.0, 1.5, 12.0)},
     {{"only", "load rises with about the square of the speed by the same amount at every load", make_law<TireGrowth>}},
     kRigGrounds,
     kRigGrounds,
     true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,17 +4,12 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class ToeCamberDrag : public Effect {
  public:
-  ToeCamberDrag(double force_N, Draws& draws) : force_N_(force_N) {
-    heat_share_ = draws.uniform(0.3, 0.9);
-    saturation_ = draws.uniform(0.1, 0.8);
-    fall_per_K_ = draws.uniform(0.0, 0.003);
-    shape = {{"heat_share", heat_share_}, {"saturation", saturation_}, {"fall_per_K", fall_per_K_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
@@ -25,20 +20,16 @@ class ToeCamberDrag : public Effect {
   }
 
  private:
-  double force_N_;
-  double heat_share_ = 0.5;
-  double saturation_ = 0.0;
-  double fall_per_K_ = 0.0;
+  double force_N_ = size_;
+  double heat_share_ = note("heat_share", draws_.uniform(0.3, 0.9));
+  double saturation_ = note("saturation", draws_.uniform(0.1, 0.8));
+  double fall_per_K_ = note("fall_per_K", draws_.uniform(0.0, 0.003));
 };
 
 /// Cornering stiffness that rises with the load up to x_0 and falls beyond, sin(2 atan(x/x_0)).
 class ArctangentStiffness : public Effect {
  public:
-  ArctangentStiffness(double force_N, Draws& draws) : force_N_(force_N) {
-    heat_share_ = draws.uniform(0.3, 0.9);
-    peak_ = draws.uniform(1.2, 2.5);
-    shape = {{"heat_share", heat_share_}, {"peak_over_reference_load", peak_}};
-  }
+  using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
     const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
@@ -50,24 +41,16 @@ class ArctangentStiffness : public Effect {
  private:
   double stiffness(double load) const { return std::sin(2.0 * std::atan(load / peak_)); }
 
-  double force_N_;
-  double heat_share_ = 0.5;
-  double peak_ = 2.0;
+  double force_N_ = size_;
+  double heat_share_ = note("heat_share", draws_.uniform(0.3, 0.9));
+  double peak_ = note("peak_over_reference_load", draws_.uniform(1.2, 2.5));
 };
 
 }  // namespace
 
-extern const EffectKind kind_toe_camber_drag;
 const EffectKind kind_toe_camber_drag{
     "toe_camber_drag",
-    "N",
-    "drag at the reference load and 30 degC, of one wheel",
-    0.0,
-    0.0,
-    50.0,
-    log_normal(2.0, 12.0, 1.2, 18.0),
-    false,
-    0.0,
+    {"N", "drag at the reference load and 30 degC, of one wheel", 0.0, 0.0, 50.0, log_normal(2.0, 12.0, 1.2, 18.0)},
     {{"saturating",
       "side force x (1 + s)/(1 + s x) of the load ratio x, softer in warm rubber; a share heats the rubber",
       make_law<ToeCamberDrag>},
@@ -77,4 +60,4 @@ const EffectKind kind_toe_camber_drag{
     kEveryGround,
     kEveryGround};
 
-}  // namespace blind
+}  // namespace rollrig::generator

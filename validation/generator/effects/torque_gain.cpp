@@ -4,17 +4,14 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 constexpr double kReference_N = 60.0;
 
 class TorqueGain : public Effect {
  public:
-  TorqueGain(double percent, Draws& draws) : gain_(0.01 * percent) {
-    bend_ = draws.uniform(0.0, 0.3);
-    shape = {{"bend_at_60_N", bend_}};
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     for (double& force : record.force) {
@@ -24,17 +21,14 @@ class TorqueGain : public Effect {
   }
 
  private:
-  double gain_;
-  double bend_ = 0.0;
+  double gain_ = 0.01 * size_;
+  double bend_ = note("bend_at_60_N", draws_.uniform(0.0, 0.3));
 };
 
 /// Scale whose error moves with the air by up to 1 % of it per K (assumed).
 class GainWithAir : public Effect {
  public:
-  GainWithAir(double percent, Draws& draws) : gain_(0.01 * percent) {
-    per_K_ = draws.uniform(-0.01, 0.01);
-    shape = {{"share_per_K", per_K_}};
-  }
+  using Effect::Effect;
 
   void trace(RunRecord& record) const override {
     for (std::size_t row = 0; row < record.force.size(); ++row) {
@@ -43,29 +37,20 @@ class GainWithAir : public Effect {
   }
 
  private:
-  double gain_;
-  double per_K_ = 0.0;
+  double gain_ = 0.01 * size_;
+  double per_K_ = note("share_per_K", draws_.uniform(-0.01, 0.01));
 };
 
 }  // namespace
 
-extern const EffectKind kind_torque_gain;
 const EffectKind kind_torque_gain{
     "torque_gain",
-    "percent",
-    "error of scale at a force of 60 N and air of 25 degC",
-    0.0,
-    -20.0,
-    20.0,
-    normal(-2.0, 2.0, -4.0, 4.0),
-    false,
-    0.3,
+    {"percent", "error of scale at a force of 60 N and air of 25 degC", 0.0, -20.0, 20.0, normal(-2.0, 2.0, -4.0, 4.0),
+     false, 0.3},
     {{"bent", "gain of a bridge that bends, g (1 + q)/(1 + q F/60 N); also on a force at a roller",
       make_law<TorqueGain>},
      {"with_air",
       "a scale that moves with the temperature of the air, g (1 + k (T - 25 degC)); also on a force at a roller",
-      make_law<GainWithAir>}},
-    kRigGrounds,
-    kRigGrounds};
+      make_law<GainWithAir>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

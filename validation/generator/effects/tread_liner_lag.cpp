@@ -5,18 +5,12 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/plant.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class TreadLinerLag : public Effect {
  public:
-  TreadLinerLag(double halves_W_per_K, Draws& draws) : halves_W_per_K_(halves_W_per_K) {
-    layers_ = static_cast<std::size_t>(draws.whole(3, 6));
-    skew_ = draws.uniform(0.0, 0.5);
-    tread_share_ = draws.uniform(0.6, 1.0);
-    shape = {
-        {"layers", static_cast<double>(layers_)}, {"loss_skew_to_tread", skew_}, {"tread_share_of_air", tread_share_}};
-  }
+  using Effect::Effect;
 
   void lay_out(Wall& wall) const override {
     if (std::isinf(halves_W_per_K_)) return;
@@ -28,20 +22,16 @@ class TreadLinerLag : public Effect {
   }
 
  private:
-  double halves_W_per_K_;
-  std::size_t layers_ = 6;
-  double skew_ = 0.0;
-  double tread_share_ = 1.0;
+  double halves_W_per_K_ = size_;
+  std::size_t layers_ = static_cast<std::size_t>(note("layers", draws_.whole(3, 6)));
+  double skew_ = note("loss_skew_to_tread", draws_.uniform(0.0, 0.5));
+  double tread_share_ = note("tread_share_of_air", draws_.uniform(0.6, 1.0));
 };
 
 /// Two halves of the wall, each at one temperature, and the conductance between them.
 class TwoNodes : public Effect {
  public:
-  TwoNodes(double between_W_per_K, Draws& draws) : between_W_per_K_(between_W_per_K) {
-    skew_ = draws.uniform(0.0, 0.5);
-    tread_share_ = draws.uniform(0.6, 1.0);
-    shape = {{"loss_skew_to_tread", skew_}, {"tread_share_of_air", tread_share_}};
-  }
+  using Effect::Effect;
 
   void lay_out(Wall& wall) const override {
     if (std::isinf(between_W_per_K_)) return;
@@ -53,31 +43,24 @@ class TwoNodes : public Effect {
   }
 
  private:
-  double between_W_per_K_;
-  double skew_ = 0.0;
-  double tread_share_ = 1.0;
+  double between_W_per_K_ = size_;
+  double skew_ = note("loss_skew_to_tread", draws_.uniform(0.0, 0.5));
+  double tread_share_ = note("tread_share_of_air", draws_.uniform(0.6, 1.0));
 };
 
 }  // namespace
 
-extern const EffectKind kind_tread_liner_lag;
-const EffectKind kind_tread_liner_lag{"tread_liner_lag",
-                                      "W/K",
-                                      "conductance between the middles of the two halves of the wall",
-                                      std::numeric_limits<double>::infinity(),
-                                      5.0,
-                                      std::numeric_limits<double>::infinity(),
-                                      log_normal(30.0, 150.0, 20.0, 230.0),
-                                      false,
-                                      0.0,
-                                      {{"layers",
-                                        "conduction through three to six radial layers, each losing at its own "
-                                        "temperature, more towards the tread; road and most "
-                                        "of the air cool the outermost, the sensor and the gas see the innermost",
-                                        make_law<TreadLinerLag>},
-                                       {"two_nodes",
-                                        "two nodes, each with half of the heat and a loss of its own temperature; road "
-                                        "and most of the air cool the tread, the sensor and the gas see the liner",
-                                        make_law<TwoNodes>}}};
+const EffectKind kind_tread_liner_lag{
+    "tread_liner_lag",
+    {"W/K", "conductance between the middles of the two halves of the wall", std::numeric_limits<double>::infinity(),
+     5.0, std::numeric_limits<double>::infinity(), log_normal(30.0, 150.0, 20.0, 230.0)},
+    {{"layers",
+      "conduction through three to six radial layers, each losing at its own temperature, more towards the tread; road "
+      "and most of the air cool the outermost, the sensor and the gas see the innermost",
+      make_law<TreadLinerLag>},
+     {"two_nodes",
+      "two nodes, each with half of the heat and a loss of its own temperature; road and most of the air cool the "
+      "tread, the sensor and the gas see the liner",
+      make_law<TwoNodes>}}};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,21 +4,21 @@
 #include <cmath>
 
 #include "validation/generator/effect.h"
+#include "validation/generator/machine.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class WetSurface : public Effect {
  public:
-  WetSurface(double cooling_W_per_K, Draws& draws) : cooling_W_per_K_(cooling_W_per_K) {
-    drag_N_ = draws.uniform(0.02, 0.08);
-    below_dK_ = draws.uniform(2.0, 5.0);
+  explicit WetSurface(const Making& of) : Effect(of), cooling_W_per_K_(of.size) {
+    drag_N_ = note("drag_N_per_W_per_K_at_80_km_h", of.draws.uniform(0.02, 0.08));
+    below_dK_ = note("wet_bulb_below_air_dK", of.draws.uniform(2.0, 5.0));
     for (std::size_t i = 0; i < kMostRuns; ++i) {
-      start_s_[i] = draws.uniform(200.0, 900.0);
-      end_s_[i] = start_s_[i] + draws.uniform(400.0, 1500.0);
-      if (draws.happens(0.3)) end_s_[i] = start_s_[i];  // dry
+      start_s_[i] = of.draws.uniform(200.0, 900.0);
+      end_s_[i] = start_s_[i] + of.draws.uniform(400.0, 1500.0);
+      if (of.draws.happens(0.3)) end_s_[i] = start_s_[i];  // dry
     }
-    shape = {{"drag_N_per_W_per_K_at_80_km_h", drag_N_}, {"wet_bulb_below_air_dK", below_dK_}};
   }
 
   std::size_t state_count() const override { return 1; }
@@ -29,7 +29,7 @@ class WetSurface : public Effect {
     const double x = now.speed_m_s / kSpeed80_m_s;
     now.tread_heat_W -= wet * cooling_W_per_K_ * std::sqrt(x) * (now.rubber_degC - now.ambient_degC + below_dK_);
     // Assumed: a drum throws its water off, a road keeps it.
-    const double film = now.specimen->kind == Kind::kRoad ? 6.0 : 1.0;
+    const double film = now.specimen->machine->has_vehicle() ? 6.0 : 1.0;
     now.rig_force_N += film * wet * drag_N_ * cooling_W_per_K_ * std::pow(x, 1.6);
   }
 
@@ -55,22 +55,15 @@ class WetSurface : public Effect {
 
 }  // namespace
 
-extern const EffectKind kind_wet_surface;
-const EffectKind kind_wet_surface{"wet_surface",
-                                  "W/K",
-                                  "further cooling of the tread at 80 km/h while wet",
-                                  0.0,
-                                  0.0,
-                                  500.0,
-                                  log_normal(10.0, 50.0, 8.0, 80.0),
-                                  false,
-                                  0.0,
-                                  {{"only",
-                                    "in most runs wet for some minutes, then drying: cooling towards the wet bulb with "
-                                    "sqrt(v), drag with v^1.6, six times as much on a road",
-                                    make_law<WetSurface>}},
-                                  kEveryGround,
-                                  kEveryGround,
-                                  true};
+const EffectKind kind_wet_surface{
+    "wet_surface",
+    {"W/K", "further cooling of the tread at 80 km/h while wet", 0.0, 0.0, 500.0, log_normal(10.0, 50.0, 8.0, 80.0)},
+    {{"only",
+      "in most runs wet for some minutes, then drying: cooling towards the wet bulb with sqrt(v), drag with v^1.6, six "
+      "times as much on a road",
+      make_law<WetSurface>}},
+    kEveryGround,
+    kEveryGround,
+    true};
 
-}  // namespace blind
+}  // namespace rollrig::generator

@@ -4,17 +4,17 @@
 
 #include "validation/generator/effect.h"
 
-namespace blind {
+namespace rollrig::generator {
 namespace {
 
 class WindAndGrade : public Effect {
  public:
-  WindAndGrade(double wind_m_s, Draws& draws) : wind_m_s_(wind_m_s) {
-    gusts_ = draws.uniform(0.1, 0.3);
-    days_ = draws.uniform(0.0, 0.3);
-    slope_ = 0.01 * draws.uniform(-0.25, 0.25);
-    side_ = draws.uniform(0.0, 0.05);
-    for (double& phase : phases_) phase = draws.uniform(0.0, 6.2831853);
+  explicit WindAndGrade(const Making& of) : Effect(of), wind_m_s_(of.size) {
+    gusts_ = of.draws.uniform(0.1, 0.3);
+    days_ = of.draws.uniform(0.0, 0.3);
+    slope_ = 0.01 * of.draws.uniform(-0.25, 0.25);
+    side_ = of.draws.uniform(0.0, 0.05);
+    for (double& phase : phases_) phase = of.draws.uniform(0.0, 6.2831853);
     shape = {{"gusts_share", gusts_},
              {"days_share", days_},
              {"slope_percent_at_5_m_s", 100.0 * slope_},
@@ -53,11 +53,11 @@ class WindAndGrade : public Effect {
 /// Wind that the turns of the road bring more or less against the vehicle: sines of the distance.
 class TurningRoad : public Effect {
  public:
-  TurningRoad(double wind_m_s, Draws& draws) : wind_m_s_(wind_m_s) {
-    turning_ = draws.uniform(0.2, 0.5);
-    slope_ = 0.01 * draws.uniform(-0.25, 0.25);
-    side_ = draws.uniform(0.0, 0.05);
-    for (double& phase : phases_) phase = draws.uniform(0.0, 6.2831853);
+  explicit TurningRoad(const Making& of) : Effect(of), wind_m_s_(of.size) {
+    turning_ = of.draws.uniform(0.2, 0.5);
+    slope_ = 0.01 * of.draws.uniform(-0.25, 0.25);
+    side_ = of.draws.uniform(0.0, 0.05);
+    for (double& phase : phases_) phase = of.draws.uniform(0.0, 6.2831853);
     shape = {{"turning_share", turning_}, {"slope_percent_at_5_m_s", 100.0 * slope_}, {"drag_of_side_wind", side_}};
   }
 
@@ -89,25 +89,18 @@ class TurningRoad : public Effect {
 
 }  // namespace
 
-extern const EffectKind kind_wind_and_grade;
-const EffectKind kind_wind_and_grade{"wind_and_grade",
-                                     "m/s",
-                                     "mean wind against the vehicle",
-                                     0.0,
-                                     -20.0,
-                                     20.0,
-                                     normal(-5.0, 5.0, -8.0, 8.0),
-                                     false,
-                                     0.8,
-                                     {{"gusts",
-                                       "mean wind with gusts of five periods and a spread over the trips, drag of its "
-                                       "side part, and a slope in proportion",
-                                       make_law<WindAndGrade>},
-                                      {"turning_road",
-                                       "mean wind that the turns of the road bring more or less against the vehicle, "
-                                       "by distance, drag of its side part, and a slope in proportion",
-                                       make_law<TurningRoad>}},
-                                     kRoadGrounds,
-                                     kRoadGrounds};
+const EffectKind kind_wind_and_grade{
+    "wind_and_grade",
+    {"m/s", "mean wind against the vehicle", 0.0, -20.0, 20.0, normal(-5.0, 5.0, -8.0, 8.0), false, 0.8},
+    {{"gusts",
+      "mean wind with gusts of five periods and a spread over the trips, drag of its side part, and a slope in "
+      "proportion",
+      make_law<WindAndGrade>},
+     {"turning_road",
+      "mean wind that the turns of the road bring more or less against the vehicle, by distance, drag of its side "
+      "part, and a slope in proportion",
+      make_law<TurningRoad>}},
+    kRoadGrounds,
+    kRoadGrounds};
 
-}  // namespace blind
+}  // namespace rollrig::generator

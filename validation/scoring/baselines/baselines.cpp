@@ -6,7 +6,7 @@
 #include "validation/scoring/baselines/gaussian_process.h"
 #include "validation/scoring/baselines/linearized_set.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::at;
@@ -77,8 +77,8 @@ const std::vector<BaselineMethod>& all_baselines() {
   return methods;
 }
 
-std::string baseline_folder(const std::string& bank, const BaselineMethod& method) {
-  return (std::filesystem::path(bank) / ("answers-" + std::string(method.id))).string();
+std::string baseline_folder(const std::string& set, const BaselineMethod& method) {
+  return (std::filesystem::path(set) / ("answers-" + std::string(method.id))).string();
 }
 
 Diagnosis diagnose_by(const BaselineMethod& method, const measurements::MeasurementSet& measured,
@@ -89,4 +89,4 @@ Diagnosis diagnose_by(const BaselineMethod& method, const measurements::Measurem
   return diagnosis;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -1,5 +1,6 @@
 #pragma once
-/// Methods that a diagnosis has to beat, on the same sets, with answers of the same form (docs/blind.md, "Baselines").
+/// Methods that a diagnosis has to beat, on the same cases, with answers of the same form (docs/validation.md,
+/// "Baselines").
 
 #include <string>
 #include <vector>
@@ -7,7 +8,7 @@
 #include "validation/scoring/answer.h"
 #include "validation/scoring/baselines/naming.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 struct BaselineMethod {
   const char* id;  // of its folder, answers-<id>
@@ -17,8 +18,8 @@ struct BaselineMethod {
 
 const std::vector<BaselineMethod>& all_baselines();
 
-/// <bank>/answers-<id>.
-std::string baseline_folder(const std::string& bank, const BaselineMethod& method);
+/// <set>/answers-<id>.
+std::string baseline_folder(const std::string& set, const BaselineMethod& method);
 
 /// A set by one method: verdict, probabilities, one cause at most, sizes, and how far it shrinks the gap on runs left
 /// out. A method that names nothing has an unexplained set.
@@ -27,4 +28,4 @@ std::string baseline_folder(const std::string& bank, const BaselineMethod& metho
 diagnosis::Diagnosis diagnose_by(const BaselineMethod& method, const measurements::MeasurementSet& set,
                                  const Settings& settings);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

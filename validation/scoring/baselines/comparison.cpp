@@ -5,7 +5,7 @@
 #include "validation/scoring/baselines/baselines.h"
 #include "validation/scoring/figures.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreOptions& options) {
   std::vector<BaselineScore> scores;
@@ -13,7 +13,7 @@ std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreO
   for (const BaselineMethod& method : all_baselines()) {
     ScoreOrder of_method = order;
     of_method.by_baseline = true;
-    of_method.answers = baseline_folder(order.bank, method);
+    of_method.answers = baseline_folder(order.set, method);
     of_method.next_tests.clear();  // they were proposed by the diagnosis
     of_method.drawn_tests.clear();
     if (!std::filesystem::is_directory(of_method.answers)) continue;
@@ -42,4 +42,4 @@ void put_beside(std::vector<BaselineScore> baselines, Score& score) {
   score.baselines = std::move(baselines);
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -3,10 +3,10 @@
 
 #include "validation/scoring/score.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
-/// Figures of each baseline whose folder is in the bank, by the same truth, oracle and ceiling; none where the truth
-/// was left out of the race. A method that names nothing is judged by its shrinkage alone.
+/// Figures of each baseline whose folder is in the validation set, by the same truth, known-cause fits and upper bound;
+/// none where the truth was left out of the comparison. A method that names nothing is judged by its shrinkage alone.
 /// Errors   InputError: as read_cases()
 std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreOptions& options);
 
@@ -14,4 +14,4 @@ std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreO
 /// Checked  tests/validation/scoring/score_test.cpp
 void put_beside(std::vector<BaselineScore> baselines, Score& score);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

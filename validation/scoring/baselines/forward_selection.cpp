@@ -4,7 +4,7 @@
 
 #include "validation/scoring/baselines/naming.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 bool has_effect_of(const LinearData& data, const std::vector<std::size_t>& columns, std::size_t column) {
@@ -50,4 +50,4 @@ Naming name_by_bic(const LinearData& data) {
   return name_by_forward_selection(data, std::log(static_cast<double>(data.residual.size())));
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -8,7 +8,7 @@
 
 #include "diagnosis/comparison/eigen_index.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::at;
@@ -126,4 +126,4 @@ Eigen::VectorXd subtract_gaussian_process(const PreparedSet& set, const Eigen::V
   return rest;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -5,7 +5,7 @@
 
 #include "diagnosis/comparison/prepared_set.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 /// Regression with a squared-exponential kernel about 0. One factor for all length scales and the size of the signal
 /// are those of largest likelihood, on a grid; the noise is known. Equation  K(x, x') = s^2 exp(-|x - x'|^2/(2 f^2));
@@ -31,4 +31,4 @@ class GaussianProcess {
 Eigen::VectorXd subtract_gaussian_process(const diagnosis::PreparedSet& set, const Eigen::VectorXd& difference,
                                           std::size_t run);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 using diagnosis::at;
 
@@ -49,4 +49,4 @@ LeastSquares::Fit LeastSquares::fit(const std::vector<std::size_t>& columns) con
           chi2_ - scaled.dot(along)};
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -7,7 +7,7 @@
 
 #include "diagnosis/comparison/model.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 /// Whitened by the sensors and by what the base parameters and offsets can do within their priors: where there is no
 /// gap the residual is independent and of unit variance. A signature is what an effect adds to the residual at some
@@ -58,4 +58,4 @@ class LeastSquares {
   double chi2_;
 };
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

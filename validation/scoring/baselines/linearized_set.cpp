@@ -10,7 +10,7 @@
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 using diagnosis::at;
 using models::EffectParameter;
@@ -140,4 +140,4 @@ diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen) {
   return estimate;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

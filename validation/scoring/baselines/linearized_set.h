@@ -5,7 +5,7 @@
 #include "validation/scoring/answer.h"
 #include "validation/scoring/baselines/linear_data.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 /// An effect at one size and shape.
 struct TriedEffect {
@@ -22,7 +22,7 @@ struct ChosenEffect {
 };
 
 /// Data are those that the diagnosis compares: the same blocks without what stuck sensors read, the same priors of
-/// base parameters and offsets, the same effects in the race. Noise is that of the sensors, without model error.
+/// base parameters and offsets, the same effects in the comparison. Noise is that of the sensors, without model error.
 class LinearizedSet {
  public:
   /// Errors  InputError: a file lacks what the set's kind needs; nothing measured. RunFailure: the baseline as
@@ -50,4 +50,4 @@ class LinearizedSet {
 /// Size of a chosen effect: its distance from doing nothing goes by the amplitude.
 diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen);
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -6,7 +6,7 @@
 
 #include "validation/scoring/case.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 std::vector<std::string> find_named(const LinearData& data, const std::vector<std::size_t>& chosen) {
   std::vector<std::string> named;
@@ -41,4 +41,4 @@ Naming weigh(const LinearData& data, const std::vector<CandidateModel>& models, 
   return naming;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

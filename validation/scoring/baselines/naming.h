@@ -7,7 +7,7 @@
 
 #include "validation/scoring/baselines/linear_data.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 /// What a method makes of a set.
 struct Naming {
@@ -57,4 +57,4 @@ Naming name_by_sparse_regression(const LinearData& data);
 
 // Checked  tests/validation/scoring/baselines_test.cpp: all of the above
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

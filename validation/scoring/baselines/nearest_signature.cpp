@@ -4,7 +4,7 @@
 
 #include "validation/scoring/baselines/naming.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 
 using diagnosis::at;
 
@@ -31,4 +31,4 @@ Naming name_by_nearest_signature(const LinearData& data) {
   return naming;
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

@@ -4,7 +4,7 @@
 
 #include "validation/scoring/baselines/naming.h"
 
-namespace rollrig::proof {
+namespace rollrig::validation {
 namespace {
 
 using diagnosis::at;
@@ -58,4 +58,4 @@ Naming name_by_sparse_regression(const LinearData& data) {
   return weigh(data, path, best->columns);
 }
 
-}  // namespace rollrig::proof
+}  // namespace rollrig::validation

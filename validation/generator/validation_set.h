@@ -1,0 +1,48 @@
+#pragma once
+/// A validation set: cases in an order that tells nothing, with one truth file.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "validation/generator/measurement_set.h"
+#include "validation/generator/progress.h"
+
+namespace rollrig::generator {
+
+/// A campaign that a case may have.
+struct CampaignChoice {
+  const char* name;  // "" where all cases are of one kind
+  const Machine* machine = all_machines().front();
+  int runs = kMostRuns;  // at most
+  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+};
+
+constexpr const char* kMixed = "mixed";
+std::vector<CampaignChoice> mixed_campaigns();
+
+struct ValidationSetOrder {
+  std::uint64_t seed = 1;
+  std::string kind = kMixed;              // or of a machine
+  std::vector<CampaignChoice> campaigns;  // among which that of each case is drawn
+  int each = 0;                           // cases of each effect
+  int singles = 200;                      // cases of one effect, in turn, sizes small, middle and large in turn
+  int none = 40;                          // cases without effect
+  int pairs = 30;                         // cases of two effects, drawn among them
+  int outside = 30;                       // cases with an effect outside of the catalog, each as often as the others
+  std::vector<std::string> effects;       // among which
+  int runs = kMostRuns;
+  bool counterfactual = false;  // also counterfactual/<number>, to be kept from who diagnoses like the truth
+  std::string out;
+};
+
+/// Effects that sets of these campaigns have: of the catalog, or outside of it.
+std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside);
+
+/// Writes <out>/sets/<number>/, <out>/truth.json and <out>/truth.sha256, which sha256sum -c reads. `hashed` is told the
+/// SHA-256 of truth.json before any of it stands at its place.
+void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
+                          const Count& progress);
+
+}  // namespace rollrig::generator

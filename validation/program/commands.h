@@ -1,0 +1,28 @@
+#pragma once
+/// The commands of rollrig_validation. Words that commands and options once had stay accepted, and are not shown.
+
+#include <string>
+
+#include "cli/command.h"
+
+namespace rollrig::validation {
+
+/// make, make-case, list, upper-bound and follow-up: what the generator does.
+void add_generator_commands(CLI::App& app, cli::Action& action);
+/// run, baselines and known-cause: what answers cases.
+void add_answer_commands(CLI::App& app, cli::Action& action);
+void add_plan_command(CLI::App& app, cli::Action& action);
+void add_score_command(CLI::App& app, cli::Action& action);
+void add_release_check_command(CLI::App& app, cli::Action& action);
+
+constexpr const char* kSetHelp = "Folder made by rollrig_validation make";
+constexpr const char* kAloneFolder = "answers-alone";       // in a validation set: the true effect alone
+constexpr const char* kLeftOutFolder = "answers-left-out";  // likewise: without it
+
+/// A command with the validation set that it is for.
+CLI::App* add_set_command(CLI::App& app, const std::string& name, const std::string& what, std::string& set);
+
+/// A place in a validation set, unless another is given.
+std::string place_in(const std::string& set, const std::string& name, const std::string& given = {});
+
+}  // namespace rollrig::validation

@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/progress.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "validation/files.h"
+#include "validation/generator/follow_up.h"
+#include "validation/generator/options.h"
+#include "validation/generator/upper_bound.h"
+#include "validation/program/commands.h"
+
+namespace rollrig::validation {
+namespace {
+
+using namespace generator;
+
+constexpr int kMostCases = 2000;
+constexpr int kMostThreads = 1024;
+
+/// Counts cases on a terminal.
+class CaseCounter {
+ public:
+  Count count() {
+    return [this](std::size_t done, std::size_t of) { line_.show(fmt::format("{} of {} cases", done, of)); };
+  }
+
+ private:
+  cli::ProgressLine line_{"validation", false};
+};
+
+struct CaseOptions {
+  CaseWords words;
+  std::string out;
+  std::string truth;
+  std::string counterfactual;
+  SetOrder order;
+};
+
+void check_places(const CaseOptions& options) {
+  require_new_folder(options.out, "--out");
+  if (!options.truth.empty()) {
+    require_writable(options.truth);
+    if (lies_within(options.truth, options.out)) {
+      throw InputError(
+          {"the truth may not lie in the case", "", 0, "--truth", options.truth, "a file outside of --out", ""});
+    }
+  }
+  if (options.counterfactual.empty()) return;
+  require_new_folder(options.counterfactual, "--counterfactual");
+  if (lies_within(options.counterfactual, options.out) || lies_within(options.out, options.counterfactual)) {
+    throw InputError({"case and counterfactual may not lie in each other", "", 0, "--counterfactual",
+                      options.counterfactual, "a folder beside --out", ""});
+  }
+}
+
+int make_case_command(CaseOptions options) {
+  read_case(options.words, options.order);
+  check_places(options);
+  OutputFolder set(options.out, true);
+  std::optional<OutputFolder> without;
+  if (!options.counterfactual.empty()) without.emplace(options.counterfactual, true);
+  MadeSet made = make_set(options.order, without.has_value());
+  for (auto& [name, content] : made.files) set.add(name, std::move(content));
+  for (auto& [name, content] : made.counterfactual) without->add(name, std::move(content));
+  if (!options.truth.empty()) write_output(options.truth, made.truth.dump(2) + "\n");
+  set.commit();
+  if (without.has_value()) without->commit();
+  return cli::kDone;
+}
+
+struct MakeOptions {
+  ValidationSetOrder order;
+  std::string effects;
+};
+
+int make_command(MakeOptions options) {
+  ValidationSetOrder& order = options.order;
+  order.campaigns = read_campaigns(order.kind);
+  order.effects = options.effects.empty() ? drawn_effects(order.campaigns, false) : read_effects(options.effects);
+  check_drawn(order);
+  CaseCounter counter;
+  const auto hashed = [&order](const std::string& sha256) {
+    std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
+    if (!std::cout) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
+  };
+  write_validation_set(order, hashed, counter.count());
+  return cli::kDone;
+}
+
+int upper_bound_command(UpperBoundOrder order) {
+  CaseCounter counter;
+  const std::size_t cases = write_upper_bounds(order, counter.count());
+  std::cout << fmt::format("upper bound of {} cases with effects written to {}\n", cases, order.out);
+  return cli::kDone;
+}
+
+int follow_up_command(const FollowUpOrder& order) {
+  CaseCounter counter;
+  const std::size_t cases = write_follow_up(order, counter.count());
+  std::cout << fmt::format("{} cases with their next test in {}/sets\n", cases, follow_up_folder(order));
+  return cli::kDone;
+}
+
+int list_command() {
+  for (const EffectKind* kind : effect_kinds()) {
+    std::cout << fmt::format("{}{}\n  size     {} [{}]; {:g} does nothing\n", kind->id,
+                             kind->outside ? " (outside of the catalog)" : "", kind->size.meaning, kind->size.unit,
+                             kind->size.neutral);
+    for (const Form& form : kind->forms) std::cout << fmt::format("  form     {}: {}\n", form.name, form.law);
+    std::cout << fmt::format("  made on  {}\n  drawn on {}\n", list_grounds(kind->acts), list_grounds(kind->drawn));
+  }
+  return cli::kDone;
+}
+
+void add_make_case(CLI::App& app, cli::Action& action) {
+  CLI::App* command = app.add_subcommand("make-case", "One case: a measurement set with a hidden cause");
+  auto options = std::make_shared<CaseOptions>();
+  command->add_option("--kind", options->words.kind, "drum, dyno or road [drum]");
+  command->add_option("--baseline", options->words.baseline, "Of a road set: combined or constant_rrc [drawn]");
+  command->add_option("--effect", options->words.effects, "Effect, two as a,b, or none [none]");
+  command->add_option("--size", options->words.sizes, "Its size in its own unit, for two a,b [drawn]");
+  command->add_option("--form", options->words.forms, "Its functional form, for two a,b [drawn]");
+  command->add_option("--seed", options->order.seed, "Decides all that is drawn [1]");
+  command->add_option("--out", options->out, "Folder of the case, new or empty")->required();
+  command->add_option("--truth", options->truth, "File for the truth, outside of the case");
+  command->add_option("--counterfactual", options->counterfactual,
+                      "Folder for the same case without effect and without noise");
+  command->add_option("--runs", options->order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
+  command->add_flag("--noise-free", options->order.noise_free, "No errors of sensors, no drop-outs");
+  command->add_flag("--nominal-base", options->order.nominal_base, "Base parameters as the files have them");
+  command->callback([options, &action] { action = [options] { return make_case_command(*options); }; });
+}
+
+CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const ValidationSetOrder& defaults) {
+  CLI::App* command =
+      app.add_subcommand(name, "A validation set: cases in shuffled order, and one truth whose SHA-256 is printed");
+  auto options = std::make_shared<MakeOptions>();
+  options->order = defaults;
+  ValidationSetOrder& order = options->order;
+  const auto add_count = [&](const char* option, int& count, const char* what) {
+    command->add_option(option, count, fmt::format("{} [{}]", what, count))->check(CLI::Range(0, kMostCases));
+  };
+  command->add_option("--kind", order.kind,
+                      fmt::format("mixed: a campaign drawn for each case; or drum, dyno or road [{}]", order.kind));
+  command->add_option("--seed", order.seed, "Decides all that is drawn [1]");
+  add_count("--singles", order.singles, "Cases of one effect, small, middle and large in turn");
+  add_count("--each", order.each, "Cases of each effect");
+  add_count("--pairs", order.pairs, "Cases of two effects");
+  add_count("--none", order.none, "Cases without effect");
+  add_count("--outside", order.outside, "Cases with an effect outside of the catalog");
+  command->add_option("--effects", options->effects, "Effects, as a,b,c [all of the catalog that the kind shows]");
+  command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")->check(CLI::Range(1, kMostRuns));
+  command->add_flag("--counterfactual", order.counterfactual, "Also each case without effect and without noise");
+  command->add_option("--out", order.out, "Folder of the validation set, new or empty")->required();
+  command->callback([options, &action] { action = [options] { return make_command(*options); }; });
+  return command;
+}
+
+/// As `rollrig_blind bank` was called.
+ValidationSetOrder make_old_defaults() {
+  ValidationSetOrder order;
+  order.kind = all_machines().front()->name();
+  order.each = 20;
+  order.none = 100;
+  order.singles = order.pairs = order.outside = 0;
+  return order;
+}
+
+void add_upper_bound(CLI::App& app, cli::Action& action) {
+  auto order = std::make_shared<UpperBoundOrder>();
+  CLI::App* command =
+      add_set_command(app, "upper-bound", "Open the truth: what an ideal observer makes of the cases", order->set);
+  command->alias("ceiling");
+  command->add_option("--out", order->out, "File for the bound [upper_bound.json in the validation set]");
+  command->add_option("--cases", order->cases, "Numbers of cases, as 0001,0002 [all]")->delimiter(',');
+  command->add_option("--sets", order->cases)->delimiter(',')->group("");
+  command->add_flag("--detection", order->detection_alone,
+                    "Whether each is to be seen, and not what it can be told from: a tenth of the time");
+  command->add_option("--threads", order->threads, "Cases at a time [as many as there are cores]")
+      ->check(CLI::Range(1, kMostThreads));
+  command->callback([order, &action] { action = [order] { return upper_bound_command(*order); }; });
+}
+
+void add_follow_up(CLI::App& app, cli::Action& action) {
+  auto order = std::make_shared<FollowUpOrder>();
+  CLI::App* command = add_set_command(
+      app, "follow-up", "Open the truth: its cases again, with the follow-up tests that plan wrote", order->set);
+  command->alias("followup");
+  command->add_flag("--drawn", order->drawn, "The tests drawn from the menu, not those proposed");
+  command->add_option("--threads", order->threads, "Cases at a time [as many as there are cores]")
+      ->check(CLI::Range(1, kMostThreads));
+  command->callback([order, &action] { action = [order] { return follow_up_command(*order); }; });
+}
+
+}  // namespace
+
+void add_generator_commands(CLI::App& app, cli::Action& action) {
+  add_make(app, action, "make", {});
+  add_make(app, action, "bank", make_old_defaults())->group("");
+  add_make_case(app, action);
+  CLI::App* list = app.add_subcommand("list", "Effects, their sizes and laws");
+  list->callback([&action] { action = list_command; });
+  add_upper_bound(app, action);
+  add_follow_up(app, action);
+}
+
+}  // namespace rollrig::validation

@@ -1,0 +1,42 @@
+/// rollrig_validation: how well the diagnosis does on cases with a known hidden cause.
+#include <filesystem>
+#include <memory>
+
+#include "cli/help_formatter.h"
+#include "cli/program.h"
+#include "validation/program/commands.h"
+
+namespace rollrig::validation {
+
+CLI::App* add_set_command(CLI::App& app, const std::string& name, const std::string& what, std::string& set) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("set", set, kSetHelp)->required();
+  return command;
+}
+
+std::string place_in(const std::string& set, const std::string& name, const std::string& given) {
+  return given.empty() ? (std::filesystem::path(set) / name).string() : given;
+}
+
+namespace {
+
+int make_and_run(int argc, char** argv) {
+  CLI::App app{"rollrig_validation: how well the diagnosis does on cases with a known hidden cause",
+               "rollrig_validation"};
+  app.formatter(std::make_shared<cli::HelpFormatter>());
+  app.require_subcommand(1);
+  cli::Action action;
+  add_generator_commands(app, action);
+  add_answer_commands(app, action);
+  add_plan_command(app, action);
+  add_score_command(app, action);
+  add_release_check_command(app, action);
+  return cli::parse_and_act(app, action, argc, argv);
+}
+
+}  // namespace
+}  // namespace rollrig::validation
+
+int main(int argc, char** argv) {
+  return rollrig::cli::run_program([argc, argv] { return rollrig::validation::make_and_run(argc, argv); });
+}

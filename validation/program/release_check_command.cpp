@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "sim/core/file_io.h"
+#include "sim/core/text.h"
+#include "validation/program/commands.h"
+#include "validation/scoring/decision_settings.h"
+
+namespace rollrig::validation {
+namespace {
+
+struct Options {
+  std::string record;
+  bool write = false;
+};
+
+int release_check_command(const Options& options) {
+  const Json now = list_decision_settings();
+  if (options.write) {
+    write_output(options.record, now.dump(1) + "\n");
+    return cli::kDone;
+  }
+  const SettingsComparison comparison = compare_settings(read_settings(options.record), now);
+  std::string text = fmt::format("Thresholds, priors and errors of laws beside {}\n", options.record);
+  for (const std::string& id : comparison.new_effects) {
+    text += wrap("effect " + id + " is new, which asks for no new validation set", 2);
+  }
+  for (const std::string& change : comparison.changes) text += wrap(change, 2);
+  text += comparison.changes.empty()
+              ? "No new validation set is needed: what was there then is as it was.\n"
+              : wrap(
+                    "A new validation set is needed: the published results are of other settings (docs/validation.md, "
+                    "\"A new validation set\").",
+                    0);
+  std::cout << text;
+  return comparison.changes.empty() ? cli::kDone : cli::kDiffers;
+}
+
+}  // namespace
+
+void add_release_check_command(CLI::App& app, cli::Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "release-check", "Compare what decides a diagnosis with what it was when a validation set was answered");
+  auto options = std::make_shared<Options>();
+  command->add_option("record", options->record, "File with the settings of that validation set")->required();
+  command->add_flag("--write", options->write, "Write the settings of this program to that file instead");
+  command->callback([options, &action] { action = [options] { return release_check_command(*options); }; });
+}
+
+}  // namespace rollrig::validation

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validation/scoring/report.h"
+
+namespace rollrig::validation {
+namespace {
+
+std::string show_bar(const Figure& figure, const std::optional<double>& value) {
+  if (!value.has_value()) return "";
+  return fmt::format("{} {}", figure.more_is_better ? "at least" : "at most", format_value(figure, value));
+}
+
+/// "missed" where a figure misses its target, and its floor where it misses that as well.
+std::string judge(const Figure& figure) {
+  if (!figure.value.has_value()) return figure.note;
+  if (!figure.target.has_value()) return "";
+  if (figure.meets(figure.target)) return "met";
+  return figure.floor.has_value() && !figure.meets(figure.floor) ? "missed, floor too" : "missed";
+}
+
+std::string strip(const std::string& label) { return label.substr(label.find_first_not_of(' ')); }
+
+Table make_figures(const Score& score) {
+  Table table{
+      "Figures", {"figure", "value", "95 %", "cases", "target", "floor", "", "best baseline", "ideal observer"}, {}};
+  for (const Figure& figure : score.figures) {
+    const bool is_share = figure.unit == Unit::kPercent && figure.value.has_value();
+    std::string baseline = format_value(figure, figure.best_baseline);
+    if (figure.best_baseline.has_value()) baseline += fmt::format(" ({})", figure.best_baseline_id);
+    table.rows.push_back(
+        {strip(figure.label), format_value(figure, figure.value) + (is_share ? " %" : ""), format_interval(figure),
+         figure.interval.has_value() ? fmt::format("{} of {}", figure.k, figure.n) : fmt::format("{}", figure.n),
+         show_bar(figure, figure.target), show_bar(figure, figure.floor), judge(figure), baseline,
+         format_value(figure, figure.upper_bound)});
+  }
+  return table;
+}
+
+Table make_baselines(const Score& score) {
+  Table table{"Baselines", {"figure"}, {}};
+  for (const BaselineScore& baseline : score.baselines) table.columns.push_back(baseline.label);
+  for (const Figure& figure : score.figures) {
+    if (!figure.best_baseline.has_value()) continue;
+    table.rows.push_back({strip(figure.label)});
+    for (const BaselineScore& baseline : score.baselines) {
+      table.rows.back().push_back(format_value(figure, find_value(baseline, figure)));
+    }
+  }
+  return table;
+}
+
+Table make_tallies(const char* title, const Tallies& tallies) {
+  Table table{title,
+              {"", "cases", "named", "95 %", "other cause", "no gap", "unexplained", "failed",
+               "above 0.9: right, wrong", "mean set"},
+              {}};
+  const auto count = [](std::size_t n) { return fmt::format("{}", n); };
+  for (const auto& [name, tally] : tallies) {
+    const Interval interval = calc_wilson_95(tally.named, tally.cases);
+    table.rows.push_back({name, count(tally.cases), count(tally.named),
+                          fmt::format("{:.0f} to {:.0f}", 100.0 * interval.low, 100.0 * interval.high),
+                          count(tally.named_wrong), count(tally.no_gap), count(tally.unexplained), count(tally.failed),
+                          fmt::format("{}, {}", tally.right_above, tally.wrong_above),
+                          fmt::format("{:.2f}", tally.mean_named_set())});
+  }
+  return table;
+}
+
+Table make_confusion(const Confusion& confusion) {
+  Table table{"Confusions", {"true", "said"}, {}};
+  for (const auto& [truth, row] : confusion) {
+    std::string said;
+    for (const auto& [what, count] : row) said += fmt::format("{}{} {}", said.empty() ? "" : ", ", what, count);
+    table.rows.push_back({truth, said});
+  }
+  return table;
+}
+
+Table make_reliability(const Reliability& reliability) {
+  Table table{"Reliability", {"stated", "cases", "mean", "right", "95 %"}, {}};
+  for (std::size_t i = 0; i < reliability.size(); ++i) {
+    const ReliabilityBin& bin = reliability[i];
+    if (bin.cases == 0) continue;
+    const Interval interval = calc_wilson_95(bin.right, bin.cases);
+    table.rows.push_back(
+        {fmt::format("{} to {} %", 10 * i, 10 * (i + 1)), fmt::format("{}", bin.cases),
+         fmt::format("{:.1f} %", 100.0 * bin.mean_probability),
+         fmt::format("{:.1f} %", 100.0 * static_cast<double>(bin.right) / static_cast<double>(bin.cases)),
+         fmt::format("{:.1f} to {:.1f}", 100.0 * interval.low, 100.0 * interval.high)});
+  }
+  return table;
+}
+
+Table make_missed(const Score& score) {
+  Table table{"Missed", {"what the data are", "what was answered"}, {}};
+  for (const Case& one : score.missed) table.rows.push_back({describe_truth(one), describe_answer(one)});
+  return table;
+}
+
+/// Text in a cell of a table.
+std::string cell(std::string text) {
+  std::replace(text.begin(), text.end(), '|', '/');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text + " |";
+}
+
+}  // namespace
+
+std::vector<Table> make_score_tables(const Score& score) {
+  std::vector<Table> tables{make_figures(score),
+                            make_baselines(score),
+                            make_tallies("By effect", score.by_effect),
+                            make_tallies("By campaign", score.by_campaign),
+                            make_tallies("By size", score.by_size_class),
+                            make_confusion(score.confusion),
+                            make_reliability(score.reliability)};
+  for (Table& table : make_follow_up_tables(score)) tables.push_back(std::move(table));
+  tables.push_back(make_missed(score));
+  tables.erase(std::remove_if(tables.begin(), tables.end(), [](const Table& table) { return table.rows.empty(); }),
+               tables.end());
+  return tables;
+}
+
+std::string format_score_markdown(const Score& score) {
+  std::string text = fmt::format("{} cases. Intervals are Wilson's, 95 %.\n", score.cases);
+  for (const std::string& warning : score.warnings) text += "\n* " + warning;
+  if (!score.warnings.empty()) text += '\n';
+  for (const Table& table : make_score_tables(score)) {
+    text += fmt::format("\n### {}\n\n|", table.title);
+    for (const std::string& column : table.columns) text += ' ' + cell(column);
+    text += "\n|";
+    for (std::size_t i = 0; i < table.columns.size(); ++i) text += "---|";
+    text += '\n';
+    for (const std::vector<std::string>& row : table.rows) {
+      text += '|';
+      for (const std::string& content : row) text += ' ' + cell(content);
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace rollrig::validation

@@ -1,0 +1,54 @@
+#pragma once
+/// Diagnoses the cases of a validation set, one answer file a case.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "validation/scoring/answer.h"
+
+namespace rollrig::validation {
+
+/// A case to be diagnosed, and with which effects in the comparison.
+struct Task {
+  std::string number;
+  std::vector<std::string> only;
+  std::vector<std::string> without;
+};
+
+/// What answers a case. Throws what diagnosis::diagnose() throws.
+using AnswerBy = std::function<diagnosis::Diagnosis(const measurements::MeasurementSet& set, const Settings& settings)>;
+
+/// The diagnosis, on one thread.
+diagnosis::Diagnosis answer_by_diagnosis(const measurements::MeasurementSet& set, const Settings& settings);
+
+struct RunOrder {
+  std::string set;
+  std::string out;          // folder of the answers
+  std::vector<Task> tasks;  // the same in each process
+  int threads = 0;          // cases at the same time; 0: as many as the machine has
+  std::size_t rank = 0;     // this process takes every `ranks`-th task
+  std::size_t ranks = 1;
+  std::function<void(std::size_t done, std::size_t of)> progress = {};
+  AnswerBy answer_by = answer_by_diagnosis;
+};
+
+struct RunTally {
+  std::size_t kept = 0;                         // answered before, by this program, of these files
+  std::size_t made = 0;                         // answered now
+  std::map<std::string, std::string> failures;  // of the tasks of this process, why a case could not be diagnosed
+  bool interrupted = false;
+};
+
+/// A task for each case, all with the same comparison. Reads nothing but the names of the cases.
+std::vector<Task> plan_tasks(const std::string& set, const std::vector<std::string>& only,
+                             const std::vector<std::string>& without);
+
+/// Diagnoses what has no answer yet by this program, with this comparison, of these files. Each answer is written as
+/// soon as it is there, so that a run that was interrupted goes on where it stopped. Opens nothing but the cases.
+/// Errors   InputError: the folder of the answers cannot be written to. A case that cannot be diagnosed is an answer
+/// Checked  tests/validation/scoring/run_cases_test.cpp
+RunTally run_cases(const RunOrder& order);
+
+}  // namespace rollrig::validation
