@@ -55,7 +55,7 @@ TEST_CASE("an installed program runs from anywhere, and a project that finds the
   const InstalledPrefix prefix;
   const double rrc_N_per_kN = run_installed_program(prefix);
   for (const char* file : {"share/man/man1/rollrig.1", "share/zsh/site-functions/_rollrig",
-                           "share/bash-completion/completions/rollrig", "include/rollrig/scenarios/run_spec.h"}) {
+                           "share/bash-completion/completions/rollrig", "include/rollrig/scenarios/run/run_spec.h"}) {
     INFO(file);
     CHECK(fs::exists(prefix.file(file)));
   }
