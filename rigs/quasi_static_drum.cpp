@@ -20,14 +20,13 @@ void QuasiStaticDrum<S>::initialize(const sim::Segment& first, double time_s, S*
 
 template <class S>
 void QuasiStaticDrum<S>::begin_segment(const sim::Segment& segment, double time_s, S* state, S* integrals) {
-  find_motion(time_s, state);
-  const S before_J = calc_kinetic_J() + calc_spring_J();
+  const bool is_audited = detail_ == Detail::kFull;
+  if (is_audited) find_motion(time_s, state);
+  const S before_J = is_audited ? S(calc_kinetic_J() + calc_spring_J()) : zero<S>();
   present_.take(segment, time_s);
   find_motion(time_s, state);
   if (present_.drive_on) state[kSpeedState] = now().acting.speed_m_s;
-  if (detail_ == Detail::kFull) {
-    integrals[index_of(DrumIntegral::kKnotWork)] += calc_kinetic_J() + calc_spring_J() - before_J;
-  }
+  if (is_audited) integrals[index_of(DrumIntegral::kKnotWork)] += calc_kinetic_J() + calc_spring_J() - before_J;
 }
 
 /// Fills the wheel up to the losses, its motion and the torque.
