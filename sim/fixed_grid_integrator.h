@@ -1,6 +1,6 @@
 #pragma once
-/// Classical Runge-Kutta of order 4 on a grid that depends on the program alone, so that results are
-/// smooth functions of the parameters and can carry derivatives.
+/// Classical Runge-Kutta of order 4 on a grid that depends on the program alone, so that results are smooth functions
+/// of the parameters and can carry derivatives. Other rules on that grid derive from it.
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ class FixedGridIntegrator : public Integrator<S> {
     stop_ = stop;
     std::copy(state, state + n_, y_.begin());
     std::copy(integrals, integrals + m_, y_.begin() + static_cast<std::ptrdiff_t>(n_));
-    evaluate(time_s_, y_, rate_);
+    begin();
   }
 
   bool step(double end_time_s) override {
@@ -55,15 +55,14 @@ class FixedGridIntegrator : public Integrator<S> {
   void interpolate_state(double time_s, S* state) override { interpolate(time_s, 0, n_, state); }
   void interpolate_integrals(double time_s, S* integrals) override { interpolate(time_s, n_, total_, integrals); }
 
- private:
+ protected:
   using Vector = std::vector<S>;
 
-  void evaluate(double time_s, const Vector& y, Vector& rate) {
-    system_.evaluate(time_s, y.data(), rate.data(), rate.data() + n_);
-  }
+  /// At the start of a segment, from y_ at time_s_.
+  virtual void begin() { evaluate(time_s_, y_, rate_); }
 
   /// One step from y_before_ at before_s_, whose rate is rate_before_.
-  void advance_to(double target_s) {
+  virtual void advance_to(double target_s) {
     const double h_s = target_s - before_s_;
     const double middle_s = before_s_ + 0.5 * h_s;
     add_scaled(0.5 * h_s, rate_before_);
@@ -79,10 +78,35 @@ class FixedGridIntegrator : public Integrator<S> {
     time_s_ = target_s;
   }
 
+  /// Components from `first` to `last` at a share x of the way through the last step.
+  virtual void interpolate_step(double x, std::size_t first, std::size_t last, S* out) const {
+    const double h_s = time_s_ - before_s_;
+    const double to_before = (1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x);
+    const double to_after = x * x * (3.0 - 2.0 * x);
+    const double rate_to_before = x * (1.0 - x) * (1.0 - x) * h_s;
+    const double rate_to_after = x * x * (x - 1.0) * h_s;
+    for (std::size_t i = first; i < last; ++i) {
+      out[i - first] =
+          to_before * y_before_[i] + to_after * y_[i] + rate_to_before * rate_before_[i] + rate_to_after * rate_[i];
+    }
+  }
+
+  void evaluate(double time_s, const Vector& y, Vector& rate) {
+    system_.evaluate(time_s, y.data(), rate.data(), rate.data() + n_);
+  }
   void add_scaled(double h_s, const Vector& rate) {
     for (std::size_t i = 0; i < n_; ++i) stage_[i] = y_before_[i] + h_s * rate[i];
   }
 
+  OdeSystem<S>& system_;
+  std::size_t n_;
+  std::size_t m_;
+  std::size_t total_;
+  Vector y_, y_before_, rate_, rate_before_, k2_, k3_, k4_, stage_;
+  double time_s_ = 0.0;
+  double before_s_ = 0.0;
+
+ private:
   bool stop_inside_step() {
     const double sign = stop_->direction == StopCondition::Direction::kFalling ? 1.0 : -1.0;
     Vector inside(n_);
@@ -105,28 +129,10 @@ class FixedGridIntegrator : public Integrator<S> {
 
   void interpolate(double time_s, std::size_t first, std::size_t last, S* out) const {
     const double h_s = time_s_ - before_s_;
-    if (!(h_s > 0.0) || time_s == time_s_) {
-      std::copy(y_.begin() + static_cast<std::ptrdiff_t>(first), y_.begin() + static_cast<std::ptrdiff_t>(last), out);
-      return;
-    }
-    const double x = (time_s - before_s_) / h_s;
-    const double to_before = (1.0 + 2.0 * x) * (1.0 - x) * (1.0 - x);
-    const double to_after = x * x * (3.0 - 2.0 * x);
-    const double rate_to_before = x * (1.0 - x) * (1.0 - x) * h_s;
-    const double rate_to_after = x * x * (x - 1.0) * h_s;
-    for (std::size_t i = first; i < last; ++i) {
-      out[i - first] =
-          to_before * y_before_[i] + to_after * y_[i] + rate_to_before * rate_before_[i] + rate_to_after * rate_[i];
-    }
+    if (h_s > 0.0 && time_s != time_s_) return interpolate_step((time_s - before_s_) / h_s, first, last, out);
+    std::copy(y_.begin() + static_cast<std::ptrdiff_t>(first), y_.begin() + static_cast<std::ptrdiff_t>(last), out);
   }
 
-  OdeSystem<S>& system_;
-  std::size_t n_;
-  std::size_t m_;
-  std::size_t total_;
-  Vector y_, y_before_, rate_, rate_before_, k2_, k3_, k4_, stage_;
-  double time_s_ = 0.0;
-  double before_s_ = 0.0;
   double max_step_s_ = 0.0;
   const StopCondition* stop_ = nullptr;
 };

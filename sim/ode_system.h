@@ -34,7 +34,7 @@ struct Channel {
   bool is_mean() const { return integral != kInstant; }
 };
 
-/// A coordinate of a body, for a replay: a state under its name with unit.
+/// A coordinate of a body, for an animation: a state under its name with unit.
 struct PoseCoordinate {
   std::string name;
   std::size_t state = 0;  // its index
@@ -80,7 +80,7 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Starts afresh at a knot; nothing is remembered across it.
+  /// Starts at a knot. Remembers nothing across it, unless an integrator's own comment says so.
   virtual void start(double time_s, const S* state, const S* integrals, double max_step_s,
                      const StopCondition* stop) = 0;
   /// Takes one step, at most to `end_time_s`; true when the stop condition was met at time_s().
