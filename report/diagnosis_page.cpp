@@ -39,7 +39,7 @@ std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
 }
 
 std::vector<SimulatedSet> simulate_before_and_after(const diagnosis::PreparedSet& set, const Diagnosis& diagnosis) {
-  const models::Context<double> context = set.kind().make_context(set.source());
+  const models::Context<double> context = measurements::make_context(set.source());
   std::vector<SimulatedSet> simulated{simulate_set(set, "simulated, files' numbers", context, {})};
   const diagnosis::FittedSet& fitted = diagnosis.fitted;
   if (!fitted.recalibrated.empty()) simulated.push_back({"recalibrated", fitted.recalibrated});

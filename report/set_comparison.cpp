@@ -21,7 +21,7 @@ void simulate_run(const PreparedSet& set, std::size_t run, models::Corner<double
                   std::vector<double>& values) {
   const PreparedRun& prepared = set.runs()[run];
   const sim::Recording<double> recording =
-      prepared.resimulation->simulate(set.source(), prepared.measured, corner, rigs::Detail::kMeasured);
+      prepared.resimulation.simulate(set.source(), prepared.measured, corner, rigs::Detail::kMeasured);
   for (const Series& series : set.series()) {
     if (series.run != run) continue;
     const std::vector<double>& rows = recording.channel(set.channels()[series.channel]);

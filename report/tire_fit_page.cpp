@@ -98,10 +98,9 @@ Block make_correlations(const TireFit& fit) {
 }
 
 /// The context with every estimate put in, nuisances too.
-models::Context<double> make_fitted_context(const diagnosis::PreparedSet& prepared, measurements::MeasurementSet set,
-                                            const TireFit& fit) {
+models::Context<double> make_fitted_context(measurements::MeasurementSet set, const TireFit& fit) {
   set.tire = fit.tire;
-  models::Context<double> context = prepared.kind().make_context(set);
+  models::Context<double> context = measurements::make_context(set);
   for (const Estimate& at : fit.estimates) {
     estimation::find_parameter(context, at.key) = at.value * unit_of_key(last_part(at.key)).factor;
   }
@@ -120,7 +119,7 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
   page.add(std::move(result));
   page.add({"What is left", "", {make_channels(fit)}});
   const diagnosis::PreparedSet prepared(set);
-  const SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared, prepared.source(), fit), {});
+  const SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared.source(), fit), {});
   Section runs{"Data, fit and residuals", "Sensor offsets are not taken off: a residual may lie beside zero by one."};
   for (std::size_t run = 0; run < prepared.runs().size(); ++run) {
     runs.blocks.push_back(make_comparison(prepared, run, {fitted}));

@@ -73,10 +73,8 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
 }  // namespace
 
 sim::Recording<double> resimulate_baseline(const MeasurementSet& set, const MeasuredRun& run) {
-  const MeasurementKind& kind = kind_of(set);
-  models::Corner<double> corner(kind.make_context(set), {});
-  sim::Recording<double> recording =
-      kind.make_resimulation(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
+  models::Corner<double> corner(measurements::make_context(set), {});
+  sim::Recording<double> recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
   for (std::size_t c = 0; c < recording.channels.size(); ++c) {
     const std::vector<double>& values = recording.values[c];
     if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;

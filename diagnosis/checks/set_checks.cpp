@@ -155,7 +155,7 @@ void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline
 }  // namespace
 
 SetChecks check_set(const MeasurementSet& set, int threads) {
-  kind_of(set).make_context(set);  // throws where the files lack what the kind needs
+  measurements::make_context(set);  // throws where the files lack what the kind needs
   require_noise(set);
   SetChecks checks;
   check_assumed(set, checks);

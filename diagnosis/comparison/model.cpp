@@ -87,9 +87,8 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   }
   sim::Recording<S> recording;
   try {
-    recording =
-        run.resimulation->simulate(set_.source(), run.measured, corner,
-                                   set_.extra().sensors.empty() ? rigs::Detail::kMeasured : rigs::Detail::kFull);
+    recording = run.resimulation.simulate(set_.source(), run.measured, corner,
+                                          set_.extra().sensors.empty() ? rigs::Detail::kMeasured : rigs::Detail::kFull);
   } catch (const RunFailure&) {
     return false;
   }

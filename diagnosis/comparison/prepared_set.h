@@ -7,14 +7,13 @@
 
 #include "diagnosis/comparison/eigen_index.h"
 #include "diagnosis/comparison/run_phases.h"
-#include "measurements/measurement_set.h"
+#include "measurements/resimulation.h"
 #include "measurements/whitener.h"
 #include "models/ports.h"
 
 namespace rollrig::diagnosis {
 
 class MeasurementKind;
-class Resimulation;
 
 using measurements::Block;
 using measurements::Whitener;
@@ -51,7 +50,7 @@ struct Series {
 
 struct PreparedRun {
   measurements::MeasuredRun measured;
-  std::shared_ptr<const Resimulation> resimulation;
+  measurements::Resimulation resimulation;
   std::vector<RunPhase> phases;
 };
 

@@ -13,30 +13,9 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-class DrumResimulation : public Resimulation {
- public:
-  explicit DrumResimulation(const MeasuredRun& run) : program_(measurements::make_drum_replay(run)) {}
-
-  sim::Recording<double> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<double>& corner,
-                                  rigs::Detail detail) const override {
-    return measurements::replay_drum_run<double>(set, run, program_, corner, detail);
-  }
-  sim::Recording<Jet> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<Jet>& corner,
-                               rigs::Detail detail) const override {
-    return measurements::replay_drum_run<Jet>(set, run, program_, corner, detail);
-  }
-
- private:
-  sim::Program program_;
-};
-
 class DrumKind : public KindWithRig {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kDrum; }
-
-  std::shared_ptr<const Resimulation> make_resimulation(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<DrumResimulation>(run);
-  }
 
   ForceChannel force_channel(const MeasurementSet& set) const override {
     return {"drum_torque_Nm", "torque", 2.0 / set.rig->drum.diameter_m};

@@ -5,7 +5,6 @@
 #include "diagnosis/kinds/driving_phases.h"
 #include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
-#include "diagnosis/kinds/wheel_resimulation.h"
 #include "measurements/sample_selection.h"
 #include "models/parasitic_loss.h"
 
@@ -20,11 +19,6 @@ constexpr const char* kLoss = "loss_force_N";
 class DynoKind : public KindWithRig {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kDyno; }
-
-  std::shared_ptr<const Resimulation> make_resimulation(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelResimulation>(run, measurements::replay_dyno_run<double>,
-                                               measurements::replay_dyno_run<Jet>);
-  }
 
   ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }
 

@@ -7,10 +7,6 @@ namespace rollrig::diagnosis {
 
 class KindWithRig : public MeasurementKind {
  public:
-  models::Context<double> make_context(const measurements::MeasurementSet& set) const override {
-    return rigs::make_context(set.tire, *set.rig, set.baseline);
-  }
-
   Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
                                    const models::Context<double>& context) const override {
     Uncertainties uncertainties;

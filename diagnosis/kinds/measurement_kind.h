@@ -13,21 +13,9 @@
 #include "diagnosis/findings/perturbations.h"
 #include "diagnosis/next_test/test_menu.h"
 #include "measurements/measurement_set.h"
-#include "measurements/replay.h"
+#include "measurements/resimulation.h"
 
 namespace rollrig::diagnosis {
-
-/// A measured run made ready to be simulated again from its recorded inputs.
-class Resimulation {
- public:
-  virtual ~Resimulation() = default;
-  /// What the sensors would have shown, rows at the run's own times; of the set and run that it was made for.
-  /// Throws RunFailure.
-  virtual sim::Recording<double> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
-                                          models::Corner<double>& corner, rigs::Detail detail) const = 0;
-  virtual sim::Recording<Jet> simulate(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
-                                       models::Corner<Jet>& corner, rigs::Detail detail) const = 0;
-};
 
 /// The one channel of a kind that measures a force.
 struct ForceChannel {
@@ -42,11 +30,6 @@ class MeasurementKind {
 
   virtual models::RigKind rig_kind() const = 0;
 
-  // How a run is simulated.
-  /// Throws InputError where the set's files lack what its kind needs.
-  virtual models::Context<double> make_context(const measurements::MeasurementSet& set) const = 0;
-  virtual std::shared_ptr<const Resimulation> make_resimulation(const measurements::MeasurementSet& set,
-                                                                const measurements::MeasuredRun& run) const = 0;
   /// Adds the columns that every method reads and that this kind does not record.
   virtual void complete(const measurements::MeasurementSet& /*set*/, measurements::MeasuredRun& /*run*/) const {}
 

@@ -4,7 +4,6 @@
 
 #include "diagnosis/kinds/driving_phases.h"
 #include "diagnosis/kinds/kinds.h"
-#include "diagnosis/kinds/wheel_resimulation.h"
 #include "measurements/sample_selection.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
@@ -20,15 +19,6 @@ constexpr const char* kTraction = "traction_force_N";
 class RoadKind : public MeasurementKind {
  public:
   models::RigKind rig_kind() const override { return models::RigKind::kFlat; }
-
-  models::Context<double> make_context(const MeasurementSet& set) const override {
-    return measurements::make_road_context(set);
-  }
-
-  std::shared_ptr<const Resimulation> make_resimulation(const MeasurementSet&, const MeasuredRun& run) const override {
-    return std::make_shared<WheelResimulation>(run, measurements::replay_road_run<double>,
-                                               measurements::replay_road_run<Jet>);
-  }
 
   /// Every tire carries its share of the weight.
   void complete(const MeasurementSet& set, MeasuredRun& run) const override {

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include "measurements/replay.h"
 #include "measurements/sample_selection.h"
 #include "sim/core/parallel.h"
 
@@ -20,7 +19,7 @@ void store_derivatives(const Jet& value, std::size_t columns, double* out) {
 DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
-  for (const measurements::MeasuredRun& run : set_.runs) replays_.push_back(measurements::make_drum_replay(run));
+  for (const measurements::MeasuredRun& run : set_.runs) runs_.emplace_back(run, set_.kind);
   collect_series();
   std::size_t priors = 0;
   for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;
@@ -61,7 +60,7 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
   for (std::size_t i = 0; i < parameters_.size(); ++i) find_parameter(context, parameters_[i].key) = values[i];
   models::Corner<S> corner(std::move(context), {});
   const measurements::MeasuredRun& run = set_.runs[r];
-  const sim::Recording<S> recording = measurements::replay_drum_run<S>(set_, run, replays_[r], corner);
+  const sim::Recording<S> recording = runs_[r].simulate(set_, run, corner);
   for (const ComparedSeries& series : series_) {
     if (series.run != r) continue;
     const std::vector<S>& simulated = recording.channel(series.channel);

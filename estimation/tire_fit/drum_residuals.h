@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "estimation/parameters.h"
-#include "measurements/measurement_set.h"
+#include "measurements/resimulation.h"
 #include "measurements/whitener.h"
 
 namespace rollrig::estimation {
@@ -52,7 +52,7 @@ class DrumResiduals {
   const measurements::MeasurementSet& set_;
   models::Context<double> context_;
   std::vector<FreeParameter> parameters_;
-  std::vector<sim::Program> replays_;
+  std::vector<measurements::Resimulation> runs_;
   std::vector<ComparedSeries> series_;
   std::vector<double> offset_sd_;
   std::vector<std::vector<double>> whitened_ones_;  // one a series: what a unit offset does to its residuals

@@ -8,7 +8,7 @@
 
 namespace rollrig::scenarios {
 
-/// Settings of scenarios that follow a file as a run of a measurement set is replayed.
+/// Settings of scenarios that follow a file as a run of a measurement set is simulated again.
 struct RecordedInputs {
   FilePath program;
   std::optional<double> pressure_Pa;

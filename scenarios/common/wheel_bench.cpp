@@ -1,5 +1,8 @@
 #include "scenarios/common/wheel_bench.h"
 
+#include <algorithm>
+
+#include "measurements/resimulation.h"
 #include "scenarios/common/virtual_sensors.h"
 
 namespace rollrig::scenarios {
@@ -20,59 +23,54 @@ measurements::MeasurementSet make_set(const RunSpec& spec, const measurements::M
   return set;
 }
 
-models::Context<double> make_context(const measurements::MeasurementSet& set) {
-  return set.kind == measurements::SetKind::kRoad ? measurements::make_road_context(set)
-                                                  : rigs::make_context(set.tire, *set.rig, set.baseline);
-}
-
-/// Adds a recording's channels to those of another with the same rows; what is there already stays.
-void add_channels(sim::Recording<double> from, sim::Recording<double>& recording) {
-  for (std::size_t i = 0; i < from.channels.size(); ++i) {
-    const auto is_same = [&](const sim::Channel& channel) { return channel.name == from.channels[i].name; };
-    if (std::any_of(recording.channels.begin(), recording.channels.end(), is_same)) continue;
-    recording.channels.push_back(from.channels[i]);
-    recording.values.push_back(std::move(from.values[i]));
-  }
-}
-
-/// Rows with their given columns; phases are the run-up, where there is one, and the file.
-sim::Recording<double> begin_recording(const measurements::MeasuredRun& rows, measurements::SetKind kind) {
-  sim::Recording<double> recording;
-  recording.time_s = rows.time_s;
-  if (rows.time_s.front() < 0.0) recording.phases.push_back({"run-up", rows.time_s.front(), 0.0});
-  recording.phases.push_back({"program", 0.0, rows.time_s.back()});
-  for (const double time_s : rows.time_s) recording.phase.push_back(time_s < 0.0 ? 0 : recording.phases.size() - 1);
+/// Puts given columns before what was simulated, of which each channel stays once.
+void put_given_first(const measurements::MeasuredRun& rows, measurements::SetKind kind,
+                     sim::Recording<double>& recording) {
+  std::vector<sim::Channel> channels;
+  std::vector<std::vector<double>> values;
+  const auto add = [&](const std::string& name, const std::vector<double>& column) {
+    const auto is_same = [&](const sim::Channel& channel) { return channel.name == name; };
+    if (std::any_of(channels.begin(), channels.end(), is_same)) return;
+    channels.push_back({name});
+    values.push_back(column);
+  };
   const measurements::SetColumns& columns = measurements::columns_of(kind);
   for (const auto* fields : {&columns.given, &columns.optional_given}) {
     for (const Field& field : *fields) {
-      if (!rows.has(field.key)) continue;
-      recording.channels.push_back({field.key});
-      recording.values.push_back(rows.columns.at(field.key));
+      if (rows.has(field.key)) add(field.key, rows.columns.at(field.key));
     }
   }
-  return recording;
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) add(recording.channels[i].name, recording.values[i]);
+  recording.channels = std::move(channels);
+  recording.values = std::move(values);
+}
+
+/// Phases are the run-up, where there is one, and the file.
+void name_phases(sim::Recording<double>& recording) {
+  const std::vector<double>& time_s = recording.time_s;
+  recording.phases.clear();
+  recording.phase_integrals.clear();
+  if (time_s.front() < 0.0) recording.phases.push_back({"run-up", time_s.front(), 0.0});
+  recording.phases.push_back({"program", 0.0, time_s.back()});
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    recording.phase[i] = time_s[i] < 0.0 ? 0 : recording.phases.size() - 1;
+  }
 }
 
 }  // namespace
 
 models::Context<double> make_wheel_context(const RunSpec& spec, const measurements::MeasuredRun& rows) {
-  return make_context(make_set(spec, rows));
+  return measurements::make_context(make_set(spec, rows));
 }
 
 void simulate_rows(const RunSpec& spec, const RecordedInputs&, const measurements::MeasuredRun& rows,
                    const sim::Progress& progress, Outcome& outcome) {
   const measurements::MeasurementSet set = make_set(spec, rows);
-  models::Corner<double> corner(make_context(set), spec.effects);
-  const std::vector<measurements::WheelInterval> intervals = measurements::make_wheel_intervals(rows);
-  const bool is_road = set.kind == measurements::SetKind::kRoad;
-  const auto ledger = is_road ? measurements::make_road_ledger(rows, corner, set.vehicle->tires)
-                              : measurements::make_dyno_ledger(rows, corner);
-  const auto replay = is_road ? measurements::replay_road_run<double> : measurements::replay_dyno_run<double>;
-  outcome.recording = begin_recording(rows, set.kind);
-  add_channels(replay(set, rows, intervals, corner, ledger.get()), outcome.recording);
-  add_channels(ledger->take_means(), outcome.recording);
-  outcome.recording.audit = ledger->make_audit();
+  models::Corner<double> corner(measurements::make_context(set), spec.effects);
+  outcome.recording = measurements::Resimulation(rows, set.kind).simulate(set, rows, corner, rigs::Detail::kFull);
   outcome.recording.audit.require_closed(sim::kAuditLimit);
+  put_given_first(rows, set.kind, outcome.recording);
+  name_phases(outcome.recording);
   SetRun run;
   run.id = rows.id;
   run.start_s = rows.time_s.front();

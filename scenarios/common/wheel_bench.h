@@ -1,7 +1,6 @@
 #pragma once
-/// Runs a file's rows as the replay of a set's run does: one wheel on its roller, or a vehicle on the road.
+/// Runs a file's rows as a set's run is simulated again: one wheel on its roller, or a vehicle on the road.
 
-#include "measurements/wheel_ledger.h"
 #include "scenarios/common/recorded_inputs.h"
 #include "scenarios/run/rig_scenario.h"
 
@@ -10,8 +9,8 @@ namespace rollrig::scenarios {
 /// What the equations take of the spec's tire on its roller or on the road. Throws InputError.
 models::Context<double> make_wheel_context(const RunSpec& spec, const measurements::MeasuredRun& rows);
 
-/// Replays `rows`, checks both audits, applies sensors, and puts recording and set run into `outcome`: given columns,
-/// measured ones, then those of the ledger. What is written as a set is replayed to the same values.
+/// Simulates `rows`, checks both audits, applies sensors, and puts recording and set run into `outcome`: given columns,
+/// measured ones, then what only a simulation knows. A set written of it is resimulated to the same values.
 void simulate_rows(const RunSpec& spec, const RecordedInputs& given, const measurements::MeasuredRun& rows,
                    const sim::Progress& progress, Outcome& outcome);
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "measurements/measurement_set.h"
-#include "measurements/wheel_ledger.h"
+#include "models/quantities.h"
 #include "sim/core/csv.h"
 
 namespace rollrig::scenarios {
@@ -27,7 +27,7 @@ bool is_left_empty(measurements::SetKind kind, const sim::Recording<double>& rec
   if (kind == measurements::SetKind::kDyno && column == quantities::kLossForce.header())
     return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
   if (kind == measurements::SetKind::kRoad && column == quantities::kTractionForce.header())
-    return recording.channel(measurements::kFrictionBrake)[row] > 0.0;
+    return recording.channel(quantities::kFrictionBrake)[row] > 0.0;
   return false;
 }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "measurements/replay.h"
+#include "measurements/resimulation.h"
 #include "measurements/sensor_file.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
@@ -58,7 +58,7 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
   set.sensors = measurements::read_sensor_asset("source");
   for (measurements::MeasuredRun& run : runs) {
     models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), effects);
-    const auto recording = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
+    const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
     set.runs.push_back(std::move(run));
   }

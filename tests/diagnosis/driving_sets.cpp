@@ -86,12 +86,11 @@ measurements::MeasurementSet begin_set(measurements::SetKind kind, models::Basel
 
 void measure_again(measurements::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
                    const std::function<void(models::Context<double>&)>& change) {
-  const diagnosis::MeasurementKind& kind = diagnosis::kind_of(set);
-  models::Context<double> context = kind.make_context(set);
+  models::Context<double> context = measurements::make_context(set);
   if (change) change(context);
   for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, effects);
-    const auto recording = kind.make_resimulation(set, run)->simulate(set, run, corner, rigs::Detail::kMeasured);
+    const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
   }
 }

@@ -84,7 +84,7 @@ TEST_CASE("slip is named where a wheel drives and brakes", "[fast]") {
 TEST_CASE("on a dynamometer a base parameter off by twice its uncertainty is made up for by what the fit moves",
           "[fast]") {
   const measurements::MeasurementSet nominal = make_dyno_set({}, 3);
-  const models::Context<double> context = diagnosis::kind_of(nominal).make_context(nominal);
+  const models::Context<double> context = measurements::make_context(nominal);
   const auto base = diagnosis::find_base_parameters(nominal, context);
   const auto a0 =
       std::find_if(base.begin(), base.end(), [](const auto& one) { return one.key == "tire.rolling_resistance.A0_N"; });

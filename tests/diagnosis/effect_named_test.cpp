@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "diagnosis/diagnosis.h"
-#include "measurements/replay.h"
+#include "measurements/resimulation.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
 
@@ -28,7 +28,7 @@ measurements::MeasurementSet measure_with(const measurements::MeasurementSet& ca
   const models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
   for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, {effect});
-    const auto recording = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
+    const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns.at(channel) = recording.channel(channel);
   }
   return tests::add_noise(set, 7);

@@ -72,7 +72,7 @@ TEST_CASE("wind is named where the traction force is well known", "[fast]") {
 
 TEST_CASE("on the road the vehicle's own numbers are found again", "[fast]") {
   measurements::MeasurementSet set = make_road_set({}, 6);
-  const auto base = diagnosis::find_base_parameters(set, diagnosis::kind_of(set).make_context(set));
+  const auto base = diagnosis::find_base_parameters(set, measurements::make_context(set));
   Ids keys;
   for (const auto& one : base) keys.push_back(one.key);
   CHECK(keys ==

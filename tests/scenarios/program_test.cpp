@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "measurements/measurement_set.h"
-#include "measurements/replay.h"
+#include "measurements/resimulation.h"
 #include "scenarios/common/written_set.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
@@ -141,7 +141,7 @@ TEST_CASE("what memory a tire starts with goes by its rest, and into the set", "
   CHECK_FALSE(follow(rows).set_runs[0].rest_before_s.has_value());
 }
 
-TEST_CASE("a program written as a set is replayed to the same channels, memory and all", "[fast]") {
+TEST_CASE("a program written as a set is resimulated to the same channels, memory and all", "[fast]") {
   const TemporaryFolder folder;
   tests::write_file(folder.file("steps.csv"), kEverything);
   scenarios::RunSpec spec = tests::make_spec(
@@ -159,13 +159,13 @@ TEST_CASE("a program written as a set is replayed to the same channels, memory a
   const measurements::MeasuredRun& run = set.runs[0];
   CHECK(run.rest_before_s.has_value());
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), spec.effects);
-  const auto replayed = measurements::replay_drum_run<double>(set, run, measurements::make_drum_replay(run), corner);
+  const auto resimulated = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
   for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC"}) {
     const std::vector<double>& measured = run.columns.at(channel);
     double worst = 0.0;
     for (std::size_t i = 0; i < measured.size(); ++i) {
       if (run.columns.at("speed_km_h")[i] < 1.0 || std::isnan(measured[i])) continue;
-      worst = std::max(worst, std::abs(replayed.channel(channel)[i] - measured[i]) / (1.0 + std::abs(measured[i])));
+      worst = std::max(worst, std::abs(resimulated.channel(channel)[i] - measured[i]) / (1.0 + std::abs(measured[i])));
     }
     INFO(channel);
     CHECK(worst < 2e-4);

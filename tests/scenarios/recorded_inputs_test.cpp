@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "measurements/wheel_ledger.h"
 #include "scenarios/common/written_set.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
@@ -124,7 +123,7 @@ TEST_CASE("a set holds no loss force below 20 km/h and no traction where frictio
     CHECK(run.columns.size() == (is_road ? 4 : 5));
     int empty = 0;
     for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-      const bool expected = is_road ? outcome.recording.channel(measurements::kFrictionBrake)[row] > 0.0
+      const bool expected = is_road ? outcome.recording.channel(models::quantities::kFrictionBrake)[row] > 0.0
                                     : outcome.recording.channel("speed_km_h")[row] < 20.0 / 3.6;
       CHECK(std::isnan(run.columns.at(channel)[row]) == expected);
       empty += expected ? 1 : 0;

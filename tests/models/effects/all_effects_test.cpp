@@ -74,7 +74,7 @@ TEST_CASE("every effect is the baseline to the bit at its off value, and where i
 TEST_CASE("every effect grows with its size", "[fast]") {
   for (const Effect* effect : models::all_effects()) {
     if (effect->on_double.trace != nullptr) continue;   // not at the corner
-    if (effect->info.id == "wind_and_grade") continue;  // acts on the vehicle: tests/measurements/wheel_replay_test.cpp
+    if (effect->info.id == "wind_and_grade") continue;  // acts on the vehicle: tests/measurements/resimulation_test.cpp
     for (const RigKind kind : effect->info.acts_on) {
       if (effect->info.id == "curvature_exponent" && kind == RigKind::kDrum) continue;  // the reference drum
       INFO(effect->info.id << " on " << models::name_of(kind));

@@ -1,4 +1,4 @@
-// Runs of a vehicle simulated again from recorded inputs: on a dynamometer and on the road.
+// Runs simulated again from recorded inputs: on a drum, on a dynamometer and on the road.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "measurements/wheel_replay.h"
+#include "measurements/resimulation.h"
 #include "models/vehicle/vehicle.h"
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/support/drum_fixture.h"
@@ -14,18 +14,16 @@
 #include "tests/support/vehicle_fixture.h"
 
 using namespace rollrig;
-using measurements::make_wheel_intervals;
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 using models::ActiveEffect;
 
 namespace {
 
-sim::Recording<double> replay(const MeasurementSet& set, const MeasuredRun& run,
-                              const std::vector<ActiveEffect>& effects) {
-  models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
-  models::Corner<double> corner(context, effects);
-  return measurements::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
+sim::Recording<double> resimulate(const MeasurementSet& set, const MeasuredRun& run,
+                                  const std::vector<ActiveEffect>& effects) {
+  models::Corner<double> corner(measurements::make_context(set), effects);
+  return measurements::Resimulation(run, set.kind).simulate(set, run, corner);
 }
 
 /// The quarter vehicle of the simulator on its roller or on the road, and what it recorded as a run.
@@ -84,12 +82,13 @@ TEST_CASE("a dynamometer run is what the simulator's vehicle shows on its roller
     set.kind = measurements::SetKind::kDyno;
     set.tire = fixture.tire;
     set.rig = fixture.rig;
-    const sim::Recording<double> replayed = replay(set, run, fixture.effects);
+    const sim::Recording<double> resimulated = resimulate(set, run, fixture.effects);
     // Next to standstill forces fade within less than a second.
-    CHECK(largest_difference(replayed.channel("loss_force_N"), simulated.channel("loss_force_N"), 3) < 0.3);
-    CHECK(largest_difference(replayed.channel("liner_temperature_degC"), simulated.channel("liner_temperature_degC")) <
-          0.02);
-    CHECK(largest_difference(replayed.channel("cavity_pressure_kPa"), simulated.channel("cavity_pressure_kPa")) < 15.0);
+    CHECK(largest_difference(resimulated.channel("loss_force_N"), simulated.channel("loss_force_N"), 3) < 0.3);
+    CHECK(largest_difference(resimulated.channel("liner_temperature_degC"),
+                             simulated.channel("liner_temperature_degC")) < 0.02);
+    CHECK(largest_difference(resimulated.channel("cavity_pressure_kPa"), simulated.channel("cavity_pressure_kPa")) <
+          15.0);
   }
 }
 
@@ -100,10 +99,10 @@ TEST_CASE("drive and brake force cost slip, by their square, and no more", "[fas
   std::vector<double>& force_N = run.columns.at("longitudinal_force_N");
   const double compliance_per_N = 1.0 / 100e3;
   const ActiveEffect slip = tests::make_active(models::find_effect("slip_loss"), {0.01});
-  const std::vector<double> baseline = replay(set, run, {}).channel("loss_force_N");
+  const std::vector<double> baseline = resimulate(set, run, {}).channel("loss_force_N");
   for (const double held_N : {800.0, -800.0}) {
     std::fill(force_N.begin(), force_N.end(), held_N);
-    const std::vector<double> loss_N = replay(set, run, {slip}).channel("loss_force_N");
+    const std::vector<double> loss_N = resimulate(set, run, {slip}).channel("loss_force_N");
     // At the start the tire is as cold with slip as without.
     std::size_t row = 0;
     while (speed_m_s[row] < 5.0) ++row;
@@ -112,7 +111,7 @@ TEST_CASE("drive and brake force cost slip, by their square, and no more", "[fas
   }
 }
 
-TEST_CASE("no effect makes a replay unstable, wherever a fit usually looks", "[fast]") {
+TEST_CASE("no effect makes a resimulation unstable, wherever a fit usually looks", "[fast]") {
   MeasurementSet set = tests::make_dyno_set({}, 1);
   MeasuredRun run = thin_out(set.runs.front(), 2);
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
@@ -137,10 +136,10 @@ TEST_CASE("no effect makes a replay unstable, wherever a fit usually looks", "[f
         values.push_back(std::clamp(value, parameter.range.lower, parameter.range.upper));
       }
       INFO(effect->info.id << " at " << fmt::format("{}", fmt::join(values, ", ")));
-      const sim::Recording<double> replayed = replay(set, run, {tests::make_active(*effect, values)});
+      const sim::Recording<double> resimulated = resimulate(set, run, {tests::make_active(*effect, values)});
       const auto largest = [&](const char* channel) {
         double most = 0.0;
-        for (const double value : replayed.channel(channel))
+        for (const double value : resimulated.channel(channel))
           most = std::isfinite(value) ? std::max(most, std::abs(value)) : 1e99;
         return most;
       };
@@ -154,8 +153,8 @@ TEST_CASE("no effect makes a replay unstable, wherever a fit usually looks", "[f
 TEST_CASE("what is recorded every other second gives nearly the same", "[fast]") {
   const MeasurementSet set = tests::make_dyno_set({}, 1);
   const MeasuredRun thin = thin_out(set.runs.front(), 2);
-  const std::vector<double> every = replay(set, set.runs.front(), {}).channel("liner_temperature_degC");
-  const std::vector<double> other = replay(set, thin, {}).channel("liner_temperature_degC");
+  const std::vector<double> every = resimulate(set, set.runs.front(), {}).channel("liner_temperature_degC");
+  const std::vector<double> other = resimulate(set, thin, {}).channel("liner_temperature_degC");
   double largest = 0.0;
   for (std::size_t i = 0; i < other.size(); ++i) largest = std::max(largest, std::abs(other[i] - every[2 * i]));
   CHECK(largest < 0.1);
@@ -165,8 +164,8 @@ TEST_CASE("rows far apart are simulated in parts, so that a steady run does not 
   MeasurementSet set = tests::make_dyno_set({}, 1);
   MeasuredRun& run = set.runs.front();
   std::fill(run.columns.at("speed_km_h").begin(), run.columns.at("speed_km_h").end(), 25.0);
-  const std::vector<double> fine = replay(set, run, {}).channel("liner_temperature_degC");
-  const std::vector<double> coarse = replay(set, thin_out(run, 10), {}).channel("liner_temperature_degC");
+  const std::vector<double> fine = resimulate(set, run, {}).channel("liner_temperature_degC");
+  const std::vector<double> coarse = resimulate(set, thin_out(run, 10), {}).channel("liner_temperature_degC");
   for (std::size_t i = 2; i < coarse.size(); ++i) CHECK(coarse[i] == Approx(fine[10 * i]).margin(0.01));
 }
 
@@ -177,12 +176,13 @@ TEST_CASE("derivatives of a run agree with differences", "[fast]") {
   models::Context<Jet> moved = models::convert_context<Jet>(context);
   moved.tire.thermal.z_W_per_K = Jet(context.tire.thermal.z_W_per_K, 0);
   models::Corner<Jet> corner(moved, {});
-  const auto derived = measurements::replay_dyno_run(set, run, make_wheel_intervals(run), corner);
+  const measurements::Resimulation resimulation(run, set.kind);
+  const auto derived = resimulation.simulate(set, run, corner);
   const auto at = [&](double z_W_per_K) {
     models::Context<double> other = context;
     other.tire.thermal.z_W_per_K = z_W_per_K;
     models::Corner<double> at_other(other, {});
-    return measurements::replay_dyno_run(set, run, make_wheel_intervals(run), at_other).channel("loss_force_N");
+    return resimulation.simulate(set, run, at_other).channel("loss_force_N");
   };
   const double step = 0.01;
   const std::size_t row = run.time_s.size() - 10;
@@ -219,7 +219,7 @@ double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::
   context.vehicle = set.vehicle->body;
   context.tire = set.tire.parameters_with_class_values(5000.0, 250e3);
   models::Corner<double> corner(context, effects);
-  return measurements::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N")[row];
+  return measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("traction_force_N")[row];
 }
 
 }  // namespace
@@ -277,13 +277,33 @@ TEST_CASE("on the road the simulator's vehicle pulls as much", "[fast]") {
   models::Context<double> context = fixture.context();
   context.vehicle = fixture.vehicle.body;
   models::Corner<double> corner(context, {});
-  const auto replayed =
-      measurements::replay_road_run(set, run, make_wheel_intervals(run), corner).channel("traction_force_N");
+  const auto resimulated =
+      measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("traction_force_N");
   const std::vector<double>& quarter = simulated.channel("traction_force_N");
   const double density_ratio = 98.21e3 / kStandardAtmosphere_Pa;  // of the rig's air, at the same temperature
   for (const std::size_t row : {300, 600, 900}) {
     const double v = run.columns.at("speed_km_h")[row];
     const double drag_N = 0.5 * kStandardAtmosphere_Pa / (287.05 * 293.15) * fixture.vehicle.body.drag_area_m2 * v * v;
-    CHECK(replayed[row] - (1.0 - density_ratio) * drag_N == Approx(4.0 * quarter[row]).epsilon(2e-3));
+    CHECK(resimulated[row] - (1.0 - density_ratio) * drag_N == Approx(4.0 * quarter[row]).epsilon(2e-3));
   }
+}
+
+TEST_CASE("a resimulated run shows trace effects the recorded load and ambient", "[fast]") {
+  tests::Campaign campaign = tests::make_short_campaign();
+  measurements::MeasurementSet set = tests::simulate_campaign(campaign);
+  measurements::MeasuredRun run = set.runs.front();
+  std::vector<double>& ambient_K = run.columns.at("ambient_degC");
+  for (std::size_t row = 0; row < ambient_K.size(); ++row) ambient_K[row] += 0.002 * run.time_s[row];
+  const models::Effect& effect = models::find_effect("torque_zero_drift");
+  const auto torque_with = [&](double ambient_min_per_K) {
+    models::ActiveEffect drift = tests::make_effect_at("torque_zero_drift", 0.5);
+    drift.parameters[2] = ambient_min_per_K * 60.0;
+    models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {drift});
+    return measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("drum_torque_Nm");
+  };
+  REQUIRE(std::string(effect.info.parameters[2].key) == "ambient_min_per_K");
+  const std::vector<double> without = torque_with(0.0);
+  const std::vector<double> with = torque_with(5.0);
+  CHECK(with.front() == Approx(without.front()).margin(1e-3));
+  CHECK(with.back() - without.back() > 0.01);  // the air is warmer than at the start, and the drift positive
 }

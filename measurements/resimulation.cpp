@@ -1,0 +1,234 @@
+#include "measurements/resimulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "models/reference_conditions.h"
+#include "models/tire/rolling_resistance.h"
+#include "rigs/quasi_static_drum.h"
+#include "rigs/recorded_road.h"
+#include "rigs/recorded_roller.h"
+#include "rigs/standstill_grid.h"
+#include "rigs/trace_effects.h"
+#include "sim/fixed_grid_integrator.h"
+#include "sim/lagged_midpoint_integrator.h"
+#include "sim/simulate.h"
+
+namespace rollrig::measurements {
+namespace {
+
+namespace quantities = models::quantities;
+using rigs::DrumInput;
+using rigs::VehicleInput;
+
+/// Straight lines between the rows of a run.
+class Rows {
+ public:
+  explicit Rows(const MeasuredRun& run)
+      : run_(run),
+        speed_m_s_(run.column(quantities::kSpeed)),
+        ambient_K_(run.column(quantities::kAmbient)),
+        surface_K_(find(quantities::kSurfaceTemperature)),
+        load_N_(find(quantities::kLoad)),
+        force_N_(find(quantities::kLongitudinalForce)),
+        elevation_m_(find(quantities::kElevation)) {}
+
+  std::size_t count() const { return run_.time_s.size(); }
+  double duration_s(std::size_t row) const { return run_.time_s[row + 1] - run_.time_s[row]; }
+
+  /// From `start_s` after a row, for the machine of a kind.
+  sim::Segment make_segment(SetKind kind, std::size_t row, double start_s, double duration_s) const {
+    const bool is_road = kind == SetKind::kRoad;
+    sim::Segment segment{duration_s,
+                         std::vector<sim::Ramp>(is_road ? rigs::kVehicleInputCount : rigs::kRollerInputCount)};
+    std::vector<sim::Ramp>& inputs = segment.inputs;
+    const sim::Ramp ambient = line(ambient_K_, row, start_s);
+    if (is_road) {
+      inputs[index_of(VehicleInput::kSpeed)] = line(speed_m_s_, row, start_s);
+      inputs[index_of(VehicleInput::kAmbient)] = ambient;
+      inputs[index_of(VehicleInput::kSlope)] = {calc_slope(row), 0.0};
+      return segment;
+    }
+    inputs[index_of(DrumInput::kSpeed)] = line(speed_m_s_, row, start_s);
+    inputs[index_of(DrumInput::kLoad)] = {(*load_N_)[row], 0.0};
+    inputs[index_of(DrumInput::kAmbient)] = ambient;
+    inputs[index_of(DrumInput::kSurface)] = surface_K_ != nullptr ? line(*surface_K_, row, start_s) : ambient;
+    if (force_N_ == nullptr) return segment;
+    inputs[rigs::kLongitudinalForceInput] = {calc_rms_with_sign(line(*force_N_, row, start_s), duration_s), 0.0};
+    return segment;
+  }
+
+ private:
+  const std::vector<double>* find(const Quantity& quantity) const {
+    return run_.has(quantity) ? &run_.column(quantity) : nullptr;
+  }
+
+  sim::Ramp line(const std::vector<double>& values, std::size_t row, double start_s) const {
+    const sim::Ramp ramp{values[row], (values[row + 1] - values[row]) / duration_s(row)};
+    return {ramp.at(start_s), ramp.slope_per_s};
+  }
+
+  double calc_slope(std::size_t row) const {
+    constexpr double kSlowest_m_s = 1.0;  // Assumed: below it the way is too short to tell
+    if (elevation_m_ == nullptr) return 0.0;
+    const double speed_m_s = 0.5 * (speed_m_s_[row] + speed_m_s_[row + 1]);
+    const double rise_m = (*elevation_m_)[row + 1] - (*elevation_m_)[row];
+    return speed_m_s < kSlowest_m_s ? 0.0 : rise_m / (speed_m_s * duration_s(row));
+  }
+
+  /// Of a force over a stretch.
+  static double calc_rms_with_sign(const sim::Ramp& force_N, double duration_s) {
+    const double middle_N = force_N.at(0.5 * duration_s);
+    const double change_N = force_N.slope_per_s * duration_s;
+    return std::copysign(std::sqrt(middle_N * middle_N + change_N * change_N / 12.0), middle_N);
+  }
+
+  const MeasuredRun& run_;
+  const std::vector<double>& speed_m_s_;
+  const std::vector<double>& ambient_K_;
+  const std::vector<double>* surface_K_;
+  const std::vector<double>* load_N_;
+  const std::vector<double>* force_N_;
+  const std::vector<double>* elevation_m_;
+};
+
+/// Steps between two rows, an even number where there are several, so that none lies across the middle.
+int count_steps(double between_s) {
+  constexpr double kLongest_s = 2.5;  // Assumed: a tenth of the gas's time constant
+  const auto steps = static_cast<int>(std::ceil(between_s / kLongest_s - 1e-9));
+  return steps > 1 ? steps + steps % 2 : 1;
+}
+
+/// Straight lines between rows and a load held from row to row, in segments of one step that do not lie across the
+/// middle between two rows. Of the longitudinal force, its root mean square over the segment, with the sign of its
+/// middle; the slope is the rise of the road over the way between two rows. Rows are the samples.
+sim::Program make_wheel_program(const MeasuredRun& run, SetKind kind) {
+  const Rows rows(run);
+  sim::Phase phase;
+  phase.name = run.id;
+  for (std::size_t row = 0; row + 1 < rows.count(); ++row) {
+    const int steps = count_steps(rows.duration_s(row));
+    const double step_s = rows.duration_s(row) / steps;
+    for (int i = 0; i < steps; ++i) phase.segments.push_back(rows.make_segment(kind, row, i * step_s, step_s));
+  }
+  sim::Program program;
+  program.start_time_s = run.time_s.front();
+  program.sample_times_s = run.time_s;
+  program.phases = {std::move(phase)};
+  return program;
+}
+
+}  // namespace
+
+double find_tire_load_N(const rigs::VehicleFile& vehicle) {
+  return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
+}
+
+models::Context<double> make_context(const MeasurementSet& set) {
+  if (set.kind != SetKind::kRoad) return rigs::make_context(set.tire, *set.rig, set.baseline);
+  const rigs::VehicleFile& vehicle = *set.vehicle;
+  if (vehicle.road_load.has_value()) {
+    throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
+                      "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
+  }
+  models::Context<double> context;
+  context.rig_kind = models::RigKind::kFlat;
+  context.baseline = set.baseline;
+  context.vehicle = vehicle.body;
+  context.tire =
+      set.baseline == models::Baseline::kConstantRrc
+          ? set.tire.parameters_with_class_values(find_tire_load_N(vehicle), set.runs.front().cold_pressure_Pa)
+          : set.tire.parameters_on("", set.baseline);
+  return context;
+}
+
+namespace {
+
+/// Temperature, pressure and history that a run states of its beginning.
+template <class S>
+rigs::RigStart<S> make_start(const MeasuredRun& run, double ambient_pressure_Pa) {
+  rigs::RigStart<S> start;
+  start.tire_temperature_K = S(run.initial_tire_temperature_K);
+  start.cold_pressure_Pa = S(run.cold_pressure_Pa);
+  start.ambient_pressure_Pa = S(ambient_pressure_Pa);
+  start.history.soaked = !run.rest_before_s.has_value() && !run.started_warm;
+  start.history.rest_before_s = S(run.rest_before_s.value_or(0.0));
+  start.history.started_warm = run.started_warm;
+  return start;
+}
+
+/// Temperature of a vehicle's tire in steady driving at 80 km/h under its static load. Assumed: at the cold pressure,
+/// which a warm tire exceeds by some 10 %, so that it would lose 4 % less.
+template <class S>
+S calc_warm_temperature_K(const models::Context<S>& context, double tires, const rigs::RigStart<S>& start) {
+  const S speed_m_s = models::get_reference_speed_m_s<S>();
+  const S load_N = context.vehicle.mass_kg * S(kStandardGravity_m_s2 / tires);
+  const S cooling_W_per_K = context.tire.thermal.z_W_per_K + context.tire.thermal.f_W_s_per_m_K * speed_m_s;
+  S warm_K = start.tire_temperature_K;
+  constexpr int kRounds = 20;  // each takes about a third of the error
+  for (int i = 0; i < kRounds; ++i) {
+    const S loss_N = models::calc_curvature_factor(context) *
+                     models::calc_rolling_resistance_N(context.tire, speed_m_s, load_N, start.cold_pressure_Pa, warm_K);
+    warm_K = start.tire_temperature_K + loss_N * speed_m_s / cooling_W_per_K;
+  }
+  return warm_K;
+}
+
+/// Effects of the port "trace", beside the recorded inputs that they may read.
+template <class S>
+void apply_trace_beside_given(const MeasuredRun& run, const models::Corner<S>& corner, sim::Recording<S>& recording) {
+  if (!rigs::has_trace_effects(corner)) return;
+  for (const Quantity& quantity : {quantities::kLoad, quantities::kAmbient}) {
+    if (!run.has(quantity)) continue;
+    const std::vector<double>& given = run.column(quantity);
+    recording.channels.push_back({quantity.header()});
+    recording.values.emplace_back(given.begin(), given.end());
+  }
+  rigs::apply_trace_effects(corner, recording);
+}
+
+template <class S, template <class> class Integrator, class Machine>
+sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
+  Integrator<S> integrator(machine);
+  return sim::simulate<S>(machine, integrator, program);
+}
+
+}  // namespace
+
+Resimulation::Resimulation(const MeasuredRun& run, SetKind kind)
+    : program_(kind == SetKind::kDrum
+                   ? rigs::refine_near_standstill(make_replay(run), rigs::index_of(DrumInput::kSpeed))
+                   : make_wheel_program(run, kind)) {}
+
+template <class S>
+sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<S>& corner,
+                                         rigs::Detail detail) const {
+  const bool is_road = set.kind == SetKind::kRoad;
+  const bool surface_recorded = !is_road && run.has(quantities::kSurfaceTemperature);
+  const rigs::RigStart<S> start =
+      make_start<S>(run, is_road ? kStandardAtmosphere_Pa : set.rig->environment.ambient_pressure_Pa);
+  sim::Recording<S> recording;
+  if (is_road) {
+    const bool begins_warm = run.started_warm && set.baseline == models::Baseline::kCombined;  // else no loss sees it
+    const S temperature_K =
+        begins_warm ? calc_warm_temperature_K(corner.context(), set.vehicle->tires, start) : start.tire_temperature_K;
+    recording = run_on<S, sim::LaggedMidpointIntegrator>(
+        rigs::RecordedRoad<S>(corner, *set.vehicle, start, temperature_K, detail), program_);
+  } else if (set.kind == SetKind::kDyno) {
+    recording = run_on<S, sim::LaggedMidpointIntegrator>(
+        rigs::RecordedRoller<S>(corner, start, surface_recorded, detail), program_);
+  } else {
+    recording = run_on<S, sim::FixedGridIntegrator>(rigs::QuasiStaticDrum<S>(corner, start, surface_recorded, detail),
+                                                    program_);
+  }
+  apply_trace_beside_given(run, corner, recording);
+  return recording;
+}
+
+template sim::Recording<double> Resimulation::simulate(const MeasurementSet&, const MeasuredRun&,
+                                                       models::Corner<double>&, rigs::Detail) const;
+template sim::Recording<Jet> Resimulation::simulate(const MeasurementSet&, const MeasuredRun&, models::Corner<Jet>&,
+                                                    rigs::Detail) const;
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,39 @@
+#pragma once
+/// A measured run simulated again from its recorded inputs.
+
+#include "measurements/measurement_set.h"
+#include "models/corner.h"
+#include "rigs/rig_system.h"
+#include "sim/recording.h"
+
+namespace rollrig::measurements {
+
+/// What the equations take of a set's machine and tire. On the road all tires are alike, and against the constant
+/// coefficient a tire file may lack all but that: values of its class then stand in. Throws InputError where a vehicle
+/// on the road is given by its road load, or the tire lacks a table.
+models::Context<double> make_context(const MeasurementSet& set);
+
+/// Load of one of a vehicle's tires, its share of the weight.
+double find_tire_load_N(const rigs::VehicleFile& vehicle);
+
+/// A run made ready to be simulated, as often as wanted.
+///
+/// Machine   drum: rigs/quasi_static_drum.h on the fixed grid; dyno: rigs/recorded_roller.h, and road:
+///           rigs/recorded_road.h, by the lagged midpoint rule. A drive right after another (tire_state = "warm")
+///           begins at the temperature of steady driving at 80 km/h (Assumed)
+/// Checked   tests/measurements/resimulation_test.cpp
+class Resimulation {
+ public:
+  Resimulation(const MeasuredRun& run, SetKind kind);
+
+  /// What the sensors would have shown, rows at the run's own times, trace effects applied; in full detail also what
+  /// only a simulation knows. `set` and `run` are those that it was made for. Throws RunFailure.
+  template <class S>
+  sim::Recording<S> simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<S>& corner,
+                             rigs::Detail detail = rigs::Detail::kMeasured) const;
+
+ private:
+  sim::Program program_;
+};
+
+}  // namespace rollrig::measurements

@@ -1,0 +1,35 @@
+#pragma once
+/// One measured wheel of a vehicle on the roller of a dynamometer, simulated again.
+
+#include "rigs/drum_channels.h"
+#include "rigs/recorded_wheel.h"
+
+namespace rollrig::rigs {
+
+/// Input of a roller's program after those of a drum: force of the wheel on the roller.
+constexpr std::size_t kLongitudinalForceInput = kDrumInputCount;
+constexpr std::size_t kRollerInputCount = kDrumInputCount + 1;
+
+/// One wheel on the roller of a dynamometer. Its detail is measured: loss_force, readings of the tire, and of the rim
+/// where an effect has one.
+///
+/// Equation  the wheel: models/wheel/rolling_wheel.h with X = -Fx, loss_force its calc_loss_force_N. Power of the hub
+///           D v + X s v, of the roller (F_rr - F_rr/(1 + r_l k) + F_par + j m_r a + X) v; s left out of D
+/// Symbols   as in rolling_wheel.h; Fx recorded force of the wheel on its roller, which is that of the contact; m_r
+///           equivalent mass of the roller, j factor on it (1 in the baseline)
+/// Source    baseline.md, "Rig"
+template <class S>
+class RecordedRoller : public RecordedWheel<S> {
+ public:
+  RecordedRoller(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded, Detail detail);
+
+ private:
+  void read_inputs(double time_s, models::InputPort<S>& inputs) const override;
+  void find_force() override;
+  RecordedPowers<S> find_powers() const override;
+};
+
+extern template class RecordedRoller<double>;
+extern template class RecordedRoller<Jet>;
+
+}  // namespace rollrig::rigs
