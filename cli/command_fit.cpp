@@ -5,6 +5,7 @@
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "diagnosis/checks/set_checks.h"
+#include "estimation/parameters.h"
 #include "estimation/tire_fit/fit_tire.h"
 #include "report/fit_pages.h"
 #include "sim/core/error.h"
@@ -21,16 +22,15 @@ struct Options {
   int threads = 0;
 };
 
-std::string short_name(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
-
 scenarios::ResultTable make_table(const estimation::TireFit& fit) {
   scenarios::ResultTable table{"Fitted, with standard uncertainty and 95 % interval (* beside a prior)",
                                {"parameter", "value", "sd", "from", "to"},
                                {}};
   for (const estimation::Estimate& estimate : fit.estimates) {
     const auto number = [](double value) { return fmt::format("{:.4g}", value); };
-    table.rows.push_back({short_name(estimate.key) + (estimate.nuisance ? " *" : ""), number(estimate.value),
-                          number(estimate.sd), number(estimate.lower_95()), number(estimate.upper_95())});
+    table.rows.push_back({estimation::find_file_key(estimate.key) + (estimate.nuisance ? " *" : ""),
+                          number(estimate.value), number(estimate.sd), number(estimate.lower_95()),
+                          number(estimate.upper_95())});
   }
   return table;
 }
@@ -46,7 +46,7 @@ std::string format_fit(const measurements::MeasurementSet& set, const estimation
   text += wrap(fmt::format("two-step regression of the source (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "
                            "{:.4g} 1/degC, B1 {:.4g} s/(m degC), z {:.4g} W/K, f {:.4g} W s/(m K){}",
                            two_step.A0_N, two_step.A1_N_s_per_m, two_step.B0_per_K, two_step.B1_s_per_m_K,
-                           two_step.z_W_per_K, two_step.f_W_s_per_m_K,
+                           two_step.rest_conductance_W_per_K, two_step.speed_conductance_W_s_per_m_K,
                            two_step.H_gas_W_per_K.has_value() ? fmt::format(", H {:.4g} W/K", *two_step.H_gas_W_per_K)
                                                               : std::string()),
                2);

@@ -12,34 +12,47 @@ namespace rollrig::estimation {
 
 /// A number that a fit may move.
 struct FreeParameter {
-  std::string
-      key;  // "tire.rolling_resistance.A0_N", "parasitic.c0_N", "vehicle.mass_kg", "tire.load_map.0.B0_per_degC"
+  /// As JSON output names it: "tire.rolling_resistance.A0_N", "parasitic.c0_N", "vehicle.mass_kg",
+  /// "tire.load_map.0.B0_per_degC", "tire.thermal.z_W_per_K" (Field::output_key).
+  std::string key;
   double start_SI = 0.0;
   double prior_sd_SI = 0.0;  // 0: no prior; else normal around start_SI
   double lower_SI = -std::numeric_limits<double>::infinity();
 };
 
+/// Calls visit(table, field, member) for every number of a context that a fit may move; of the tire's tables the name
+/// is "tire.<table>".
+template <class S, class Visit>
+void visit_parameters(models::Context<S>& context, Visit&& visit) {
+  const auto in_table = [&visit](const std::string& table) {
+    return [&visit, table](const Field& field, S& member) { visit(table, field, member); };
+  };
+  models::TireParameters<S>::visit_all(context.tire, [&](const std::string& table, const Field& field, S& member) {
+    visit("tire." + table, field, member);
+  });
+  models::ParasiticParameters<S>::visit(context.parasitic, in_table("parasitic"));
+  models::VehicleBody<S>::visit(context.vehicle, in_table("vehicle"));
+}
+
 /// The member of a context that a key names. Throws std::invalid_argument for an unknown key.
 template <class S>
 S& find_parameter(models::Context<S>& context, const std::string& key) {
   S* found = nullptr;
-  const auto match = [&](const std::string& candidate, S& member) {
-    if (candidate == key) found = &member;
-  };
-  models::TireParameters<S>::visit_all(context.tire, [&](const char* table, const Field& field, S& member) {
-    match(std::string("tire.") + table + "." + field.key, member);
+  visit_parameters(context, [&](const std::string& table, const Field& field, S& member) {
+    if (key == table + "." + field.output_key()) found = &member;
   });
-  models::ParasiticParameters<S>::visit(
-      context.parasitic, [&](const Field& field, S& member) { match(std::string("parasitic.") + field.key, member); });
-  models::VehicleBody<S>::visit(
-      context.vehicle, [&](const Field& field, S& member) { match(std::string("vehicle.") + field.key, member); });
-  for (std::size_t i = 0; i < context.tire.load_map.size(); ++i) {
-    models::LoadMapEntry<S>::visit(context.tire.load_map[i], [&](const Field& field, S& member) {
-      match("tire.load_map." + std::to_string(i) + "." + field.key, member);
-    });
-  }
   if (found == nullptr) throw std::invalid_argument("no parameter '" + key + "'");
   return *found;
+}
+
+/// The key as a person knows it: as files of the newest format have it, without "tire.".
+inline std::string find_file_key(const std::string& key) {
+  std::string found = key;
+  models::Context<double> any;
+  visit_parameters(any, [&](const std::string& table, const Field& field, double&) {
+    if (key == table + "." + field.output_key()) found = table + "." + field.key;
+  });
+  return found.rfind("tire.", 0) == 0 ? found.substr(5) : found;
 }
 
 }  // namespace rollrig::estimation

@@ -164,7 +164,7 @@ template <class S>
 S calc_warm_temperature_K(const models::Context<S>& context, double tires, const rigs::RigStart<S>& start) {
   const S speed_m_s = models::get_reference_speed_m_s<S>();
   const S load_N = context.vehicle.mass_kg * S(kStandardGravity_m_s2 / tires);
-  const S cooling_W_per_K = context.tire.thermal.z_W_per_K + context.tire.thermal.f_W_s_per_m_K * speed_m_s;
+  const S cooling_W_per_K = models::calc_cooling_W_per_K(context.tire.thermal, speed_m_s);
   S warm_K = start.tire_temperature_K;
   constexpr int kRounds = 20;  // each takes about a third of the error
   for (int i = 0; i < kRounds; ++i) {

@@ -201,9 +201,9 @@ void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& 
   network.heat_capacity_J_per_K[rubber] = thermal.heat_capacity_J_per_K;
   network.heat_capacity_J_per_K[index_of(Node::kGas)] = thermal.gas_heat_capacity_J_per_K;
   network.heat_W[rubber] = now.heating_force_N * now.motion.rolling_speed_m_s;
-  network.road_W_per_K[rubber] = thermal.road_share_of_z * thermal.z_W_per_K;
-  network.air_W_per_K[rubber] =
-      (S(1.0) - thermal.road_share_of_z) * thermal.z_W_per_K + thermal.f_W_s_per_m_K * now.boundary.air_speed_m_s;
+  network.road_W_per_K[rubber] = thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K;
+  network.air_W_per_K[rubber] = (S(1.0) - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K +
+                                thermal.speed_conductance_W_s_per_m_K * now.boundary.air_speed_m_s;
   network.link(Node::kRubber, Node::kGas) = thermal.H_gas_W_per_K;
 }
 

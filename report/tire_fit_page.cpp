@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "estimation/parameters.h"
 #include "report/blocks.h"
 #include "report/fit_pages.h"
 #include "report/set_comparison.h"
@@ -17,9 +18,6 @@ using estimation::TireFit;
 
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-/// "load_map.0.A0_N", "thermal.z_W_per_K": the key without what all share.
-std::string short_key(const std::string& key) { return key.rfind("tire.", 0) == 0 ? key.substr(5) : key; }
-
 /// What the two-step regression says of a parameter, in the unit of its key.
 std::optional<double> find_two_step(const estimation::TwoStepEstimate& two_step, const std::string& key) {
   if (key.find("load_map") != std::string::npos) return std::nullopt;
@@ -28,8 +26,8 @@ std::optional<double> find_two_step(const estimation::TwoStepEstimate& two_step,
   if (last == "A1_N_s_per_m") return two_step.A1_N_s_per_m;
   if (last == "B0_per_degC") return two_step.B0_per_K;
   if (last == "B1_s_per_m_degC") return two_step.B1_s_per_m_K;
-  if (last == "z_W_per_K") return two_step.z_W_per_K;
-  if (last == "f_W_s_per_m_K") return two_step.f_W_s_per_m_K;
+  if (last == "z_W_per_K") return two_step.rest_conductance_W_per_K;
+  if (last == "f_W_s_per_m_K") return two_step.speed_conductance_W_s_per_m_K;
   if (last == "H_gas_W_per_K") return two_step.H_gas_W_per_K;
   return std::nullopt;
 }
@@ -40,9 +38,9 @@ Block make_parameters(const TireFit& fit) {
                                {}};
   for (const Estimate& at : fit.estimates) {
     const std::optional<double> two_step = find_two_step(fit.two_step, at.key);
-    table.rows.push_back({short_key(at.key), fmt::format("{:.5g}", at.value), fmt::format("{:.2g}", at.sd),
-                          fmt::format("{:.5g}", at.lower_95()), fmt::format("{:.5g}", at.upper_95()),
-                          pretty_unit(unit_of_key(last_part(at.key)).symbol),
+    table.rows.push_back({estimation::find_file_key(at.key), fmt::format("{:.5g}", at.value),
+                          fmt::format("{:.2g}", at.sd), fmt::format("{:.5g}", at.lower_95()),
+                          fmt::format("{:.5g}", at.upper_95()), pretty_unit(unit_of_key(last_part(at.key)).symbol),
                           two_step.has_value() ? fmt::format("{:.5g}", *two_step) : "-",
                           at.nuisance ? "held by the files' uncertainty" : ""});
   }
@@ -59,7 +57,7 @@ Block make_intervals(const TireFit& fit) {
     if (at.nuisance || at.value == 0.0) continue;
     const double half_percent = std::abs(100.0 * (at.upper_95() - at.value) / at.value);
     const std::optional<double> other = find_two_step(fit.two_step, at.key);
-    names.push_back(name_without_unit(last_part(at.key)));
+    names.push_back(name_without_unit(last_part(estimation::find_file_key(at.key))));
     two_step.push_back(other.has_value() ? rounded(100.0 * (*other - at.value) / at.value) : Json(nullptr));
     low.push_back(rounded(-half_percent));
     high.push_back(rounded(half_percent));
@@ -86,7 +84,7 @@ Block make_correlations(const TireFit& fit) {
                  {"legend", "Shade: size of the correlation."}};
   constexpr double kShade = 4.0;  // a correlation of 1 has the deepest shade
   for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
-    const std::string name = name_without_unit(last_part(fit.estimates[i].key));
+    const std::string name = name_without_unit(last_part(estimation::find_file_key(fit.estimates[i].key)));
     block["columns"].push_back(name);
     Json cells = Json::array();
     for (const double r : fit.correlation[i]) {

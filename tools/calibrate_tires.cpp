@@ -105,8 +105,10 @@ void calibrate_file(const std::string& folder, const std::string& path) {
   text = replace_number(text, "thermal", "heat_capacity_J_per_K", tire.values.thermal.heat_capacity_J_per_K);
   for (const char* rig : {"drum_2m", "dyno_1m2"}) {
     const std::string table = std::string("thermal.rig.") + rig;
-    text = replace_number(text, table, "z_W_per_K", *tire.rig_thermal.at(rig).z_W_per_K);
-    text = replace_number(text, table, "f_W_s_per_m_K", *tire.rig_thermal.at(rig).f_W_s_per_m_K);
+    text =
+        replace_number(text, table, "conductance_at_rest_W_per_K", *tire.rig_thermal.at(rig).rest_conductance_W_per_K);
+    text = replace_number(text, table, "conductance_per_speed_W_s_per_m_K",
+                          *tire.rig_thermal.at(rig).speed_conductance_W_s_per_m_K);
   }
   fmt::print("{}\n", name);
   report(tests, fit);

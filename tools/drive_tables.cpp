@@ -59,7 +59,7 @@ std::string make_figure_table(const std::string& folder) {
     text += section_row(fmt::format("C {:.0f} J/K", C_J_per_K), fit.differences) +
             fmt::format(" {:.2f} |\n", 100.0 * fit.rms);
     fits += fmt::format("{}at {:.0f} J/K z {:.1f} W/K and f {:.2f} W s/(m K)", fits.empty() ? "" : "; ", C_J_per_K,
-                        fit.z_W_per_K, fit.f_W_s_per_m_K);
+                        fit.rest_conductance_W_per_K, fit.speed_conductance_W_s_per_m_K);
   }
   return text +
          "\nA 55.1434 N, B 0.0177 at 80 km/h (22.22 m/s); 64.7752 N, 0.0191 at 120 km/h. Heat capacity C: 1640 J/(kg "

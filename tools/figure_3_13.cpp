@@ -34,8 +34,8 @@ struct Sections {
 
   std::vector<double> differences(const double* x) const {
     scenarios::RunSpec at = spec;
-    at.tire.rig_thermal["dyno_1m2"].z_W_per_K = std::exp(x[0]);
-    at.tire.rig_thermal["dyno_1m2"].f_W_s_per_m_K = std::exp(x[1]);
+    at.tire.rig_thermal["dyno_1m2"].rest_conductance_W_per_K = std::exp(x[0]);
+    at.tire.rig_thermal["dyno_1m2"].speed_conductance_W_s_per_m_K = std::exp(x[1]);
     std::vector<double> found;
     const Json result = scenarios::run_scenario(at, {}).result;
     for (const Json& section : result["sections"]) found.push_back(section["difference_percent"].get<double>() / 100.0);

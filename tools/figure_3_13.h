@@ -6,8 +6,8 @@
 namespace rollrig::tools {
 
 struct CoolingFit {
-  double z_W_per_K = 0.0;
-  double f_W_s_per_m_K = 0.0;
+  double rest_conductance_W_per_K = 0.0;
+  double speed_conductance_W_s_per_m_K = 0.0;
   double rms = 0.0;                 // over the eight sections of Tables 4.4 and 4.5, a fraction
   std::vector<double> differences;  // of them, virtual, in the order driven
 };

@@ -189,8 +189,9 @@ std::string yokota_table() {
   };
   add("a50 of the assets: z 17.2 W/K (half to the road), f 1.44 W s/(m K)", {});
   add("as much in all, most of it to the road: z 44.8 W/K (0.90), f 0.2",
-      {"tire.thermal.rig.drum_2m.z_W_per_K=44.8", "tire.thermal.rig.drum_2m.f_W_s_per_m_K=0.2",
-       "tire.thermal.road_share_of_z=0.90"});
+      {"tire.thermal.rig.drum_2m.conductance_at_rest_W_per_K=44.8",
+       "tire.thermal.rig.drum_2m.conductance_per_speed_W_s_per_m_K=0.2",
+       "tire.thermal.road_share_of_conductance_at_rest=0.90"});
   return text +
          "\nBoth rise, as they must, and their sum (8 of 10 degC) agrees with Yokota's: the rest is the loss's own "
          "fall\n"

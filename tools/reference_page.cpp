@@ -93,7 +93,7 @@ std::string describe_table(const std::string& name) {
 std::string describe_tire_file() {
   using Tire = models::TireParameters<double>;
   std::string text =
-      "\n## Tire file\n\n`format = \"rollrig-tire/1\"`, `name`, `designation`, and the tables below. A "
+      "\n## Tire file\n\n`format = \"rollrig-tire/2\"`, `name`, `designation`, and the tables below. A "
       "number of `[rolling_resistance]`, `[thermal]`\nand `[constant]` may have its standard uncertainty "
       "beside it, under its key with `_sd`.\n";
   text += describe_table<decltype(Tire::geometry)>("geometry");
@@ -102,8 +102,9 @@ std::string describe_tire_file() {
   text += describe_table<models::LoadMapEntry<double>>("[rolling_resistance.load_map]");
   text += describe_table<decltype(Tire::thermal)>("thermal");
   text +=
-      "\n`[thermal.rig.<rig name>]`: `z_W_per_K` and `f_W_s_per_m_K` as identified on that rig, in place of the "
-      "above.\n";
+      "\n`[thermal.rig.<rig name>]`: `conductance_at_rest_W_per_K` and `conductance_per_speed_W_s_per_m_K` as "
+      "identified "
+      "on that rig, in place of the above.\n";
   text += describe_table<decltype(Tire::constant)>("constant");
   text +=
       "\n`[iso_28580]` (`rrc_N_per_kN`, `load_N`, `pressure_kPa`): what the tire's own test says; load and pressure "

@@ -73,16 +73,16 @@ Calibration Calibration::of(const models::TireFile& tire) {
   const double A80_N = rr.A0_N + rr.A1_N_s_per_m * kLowSpeed_m_s;
   const double A120_N = rr.A0_N + rr.A1_N_s_per_m * kHighSpeed_m_s;
   const auto on = [&tire](const char* rig) { return tire.parameters_on(rig, models::Baseline::kCombined).thermal; };
-  const double drum_G_W_per_K = on("drum_2m").z_W_per_K + on("drum_2m").f_W_s_per_m_K * kLowSpeed_m_s;
+  const double drum_G_W_per_K = models::calc_cooling_W_per_K(on("drum_2m"), kLowSpeed_m_s);
   Calibration c;
   c.x = {std::log(A80_N),
          A120_N / A80_N,
          rr.B0_per_K + rr.B1_s_per_m_K * kLowSpeed_m_s,
          rr.B1_s_per_m_K * (kHighSpeed_m_s - kLowSpeed_m_s),
-         std::log(on("dyno_1m2").z_W_per_K),
-         std::log(on("dyno_1m2").f_W_s_per_m_K),
+         std::log(on("dyno_1m2").rest_conductance_W_per_K),
+         std::log(on("dyno_1m2").speed_conductance_W_s_per_m_K),
          std::log(drum_G_W_per_K),
-         on("drum_2m").z_W_per_K / drum_G_W_per_K,
+         on("drum_2m").rest_conductance_W_per_K / drum_G_W_per_K,
          std::log(p.thermal.heat_capacity_J_per_K)};
   return c;
 }
@@ -94,11 +94,11 @@ void Calibration::put(models::TireFile& tire) const {
   rr.A0_N = A80_N - rr.A1_N_s_per_m * kLowSpeed_m_s;
   rr.B1_s_per_m_K = x[kBRise] / (kHighSpeed_m_s - kLowSpeed_m_s);
   rr.B0_per_K = x[kB80] - rr.B1_s_per_m_K * kLowSpeed_m_s;
-  tire.rig_thermal["dyno_1m2"].z_W_per_K = std::exp(x[kLogDynoZ]);
-  tire.rig_thermal["dyno_1m2"].f_W_s_per_m_K = std::exp(x[kLogDynoF]);
+  tire.rig_thermal["dyno_1m2"].rest_conductance_W_per_K = std::exp(x[kLogDynoZ]);
+  tire.rig_thermal["dyno_1m2"].speed_conductance_W_s_per_m_K = std::exp(x[kLogDynoF]);
   const double drum_G_W_per_K = std::exp(x[kLogDrumG]);
-  tire.rig_thermal["drum_2m"].z_W_per_K = x[kDrumZShare] * drum_G_W_per_K;
-  tire.rig_thermal["drum_2m"].f_W_s_per_m_K = (1.0 - x[kDrumZShare]) * drum_G_W_per_K / kLowSpeed_m_s;
+  tire.rig_thermal["drum_2m"].rest_conductance_W_per_K = x[kDrumZShare] * drum_G_W_per_K;
+  tire.rig_thermal["drum_2m"].speed_conductance_W_s_per_m_K = (1.0 - x[kDrumZShare]) * drum_G_W_per_K / kLowSpeed_m_s;
   tire.values.thermal.heat_capacity_J_per_K = std::exp(x[kLogCapacity]);
 }
 

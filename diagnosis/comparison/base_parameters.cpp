@@ -49,10 +49,10 @@ void add_loss_law(const models::TireFile& tire, const models::Context<double>& c
     uncertainties.usual["tire.constant.rrc_N_per_kN"] = 0.05 * context.tire.constant.rrc;
     return;
   }
-  models::RollingResistanceParameters<double>::visit(tire.standard_uncertainties.rolling_resistance,
-                                                     [&](const Field& field, const double& member) {
-                                                       put(std::string("tire.rolling_resistance.") + field.key, member);
-                                                     });
+  models::RollingResistanceParameters<double>::visit(
+      tire.standard_uncertainties.rolling_resistance, [&](const Field& field, const double& member) {
+        put(std::string("tire.rolling_resistance.") + field.output_key(), member);
+      });
   for (std::size_t i = 0; i < tire.standard_uncertainties.load_map.size(); ++i) {
     models::LoadMapEntry<double>::visit(tire.standard_uncertainties.load_map[i],
                                         [&](const Field& field, const double& member) {
@@ -69,23 +69,24 @@ void add_loss_law(const models::TireFile& tire, const models::Context<double>& c
 void add_heat_balance(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
                       Uncertainties& uncertainties) {
   const Put put = put_given(uncertainties);
-  models::TireThermalParameters<double>::visit(
-      tire.standard_uncertainties.thermal,
-      [&](const Field& field, const double& member) { put(std::string("tire.thermal.") + field.key, member); });
+  models::TireThermalParameters<double>::visit(tire.standard_uncertainties.thermal,
+                                               [&](const Field& field, const double& member) {
+                                                 put(std::string("tire.thermal.") + field.output_key(), member);
+                                               });
   const auto on_rig = tire.rig_thermal.find(rig);
   if (on_rig != tire.rig_thermal.end()) {
-    put("tire.thermal.z_W_per_K", on_rig->second.z_sd_W_per_K.value_or(0.0));
-    put("tire.thermal.f_W_s_per_m_K", on_rig->second.f_sd_W_s_per_m_K.value_or(0.0));
+    put("tire.thermal.z_W_per_K", on_rig->second.rest_conductance_sd_W_per_K.value_or(0.0));
+    put("tire.thermal.f_W_s_per_m_K", on_rig->second.speed_conductance_sd_W_s_per_m_K.value_or(0.0));
   }
   const auto& thermal = context.tire.thermal;
   auto& usual = uncertainties.usual;
   usual["tire.thermal.heat_capacity_J_per_K"] = 0.05 * thermal.heat_capacity_J_per_K;
   usual["tire.thermal.gas_heat_capacity_J_per_K"] = 0.10 * thermal.gas_heat_capacity_J_per_K;
   usual["tire.thermal.H_gas_W_per_K"] = 0.15 * thermal.H_gas_W_per_K;
-  const double cooling_W_per_K = thermal.z_W_per_K + thermal.f_W_s_per_m_K * kReferenceSpeed_m_s;
-  usual["tire.thermal.z_W_per_K"] = 0.08 * std::max(thermal.z_W_per_K, 0.1 * cooling_W_per_K);
+  const double cooling_W_per_K = models::calc_cooling_W_per_K(thermal, kReferenceSpeed_m_s);
+  usual["tire.thermal.z_W_per_K"] = 0.08 * std::max(thermal.rest_conductance_W_per_K, 0.1 * cooling_W_per_K);
   usual["tire.thermal.f_W_s_per_m_K"] =
-      0.08 * std::max(thermal.f_W_s_per_m_K, 0.1 * cooling_W_per_K / kReferenceSpeed_m_s);
+      0.08 * std::max(thermal.speed_conductance_W_s_per_m_K, 0.1 * cooling_W_per_K / kReferenceSpeed_m_s);
 }
 
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties) {

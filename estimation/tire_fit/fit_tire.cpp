@@ -86,8 +86,8 @@ models::Context<double> make_start_context(const measurements::MeasurementSet& s
   rr.A1_N_s_per_m = start.A1_N_s_per_m;
   rr.B0_per_K = start.B0_per_K;
   rr.B1_s_per_m_K = start.B1_s_per_m_K;
-  context.tire.thermal.z_W_per_K = std::max(0.0, start.z_W_per_K);
-  context.tire.thermal.f_W_s_per_m_K = std::max(0.0, start.f_W_s_per_m_K);
+  context.tire.thermal.rest_conductance_W_per_K = std::max(0.0, start.rest_conductance_W_per_K);
+  context.tire.thermal.speed_conductance_W_s_per_m_K = std::max(0.0, start.speed_conductance_W_s_per_m_K);
   if (start.H_gas_W_per_K.has_value()) context.tire.thermal.H_gas_W_per_K = std::max(0.1, *start.H_gas_W_per_K);
   context.tire.load_map.clear();
   for (const double load_N : map_loads_N) {
@@ -181,8 +181,9 @@ void put_estimates(const measurements::MeasurementSet& set, const models::Contex
     sd.thermal.H_gas_W_per_K = uncertainty.tire.thermal.H_gas_W_per_K;
   }
   // z and f belong to the rig on which they were found (§4.2.3).
-  fit.tire.rig_thermal[set.rig->name] = {best.tire.thermal.z_W_per_K, uncertainty.tire.thermal.z_W_per_K,
-                                         best.tire.thermal.f_W_s_per_m_K, uncertainty.tire.thermal.f_W_s_per_m_K};
+  fit.tire.rig_thermal[set.rig->name] = {
+      best.tire.thermal.rest_conductance_W_per_K, uncertainty.tire.thermal.rest_conductance_W_per_K,
+      best.tire.thermal.speed_conductance_W_s_per_m_K, uncertainty.tire.thermal.speed_conductance_W_s_per_m_K};
 }
 
 void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
@@ -190,8 +191,8 @@ void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
   const std::string rig = "thermal.rig." + set.rig->name + ".";
   for (const Estimate& estimate : fit.estimates) {
     if (estimate.nuisance) continue;
-    const std::string key = last_part(estimate.key);
-    const bool of_rig = key == "z_W_per_K" || key == "f_W_s_per_m_K";
+    const std::string key = last_part(find_file_key(estimate.key));
+    const bool of_rig = key.rfind("conductance_", 0) == 0;
     const std::string table = estimate.key.find("load_map") != std::string::npos ? "rolling_resistance.load_map."
                               : of_rig                                           ? rig
                               : estimate.key.find("rolling_resistance") != std::string::npos ? "rolling_resistance."
@@ -324,8 +325,8 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
                       {"A1_N_s_per_m", two_step.A1_N_s_per_m},
                       {"B0_per_degC", two_step.B0_per_K},
                       {"B1_s_per_m_degC", two_step.B1_s_per_m_K},
-                      {"z_W_per_K", two_step.z_W_per_K},
-                      {"f_W_s_per_m_K", two_step.f_W_s_per_m_K}};
+                      {"z_W_per_K", two_step.rest_conductance_W_per_K},
+                      {"f_W_s_per_m_K", two_step.speed_conductance_W_s_per_m_K}};
   if (two_step.H_gas_W_per_K.has_value()) json["two_step"]["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;

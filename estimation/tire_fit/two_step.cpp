@@ -163,8 +163,8 @@ void fit_heat(const measurements::MeasurementSet& set, TwoStepEstimate& estimate
   design.col(0) = as_vector(balance.to_z);
   design.col(1) = as_vector(balance.to_f);
   const Eigen::Vector2d solution = design.colPivHouseholderQr().solve(as_vector(balance.heat_J));
-  estimate.z_W_per_K = solution[0];
-  estimate.f_W_s_per_m_K = solution[1];
+  estimate.rest_conductance_W_per_K = solution[0];
+  estimate.speed_conductance_W_s_per_m_K = solution[1];
   if (!balance.to_H.empty()) {
     Eigen::MatrixXd gas_design(static_cast<Eigen::Index>(balance.to_H.size()), 2);
     gas_design.col(0) = as_vector(balance.to_H);

@@ -22,9 +22,9 @@ struct TwoStepEstimate {
   double A1_N_s_per_m = 0.0;
   double B0_per_K = 0.0;
   double B1_s_per_m_K = 0.0;
-  double z_W_per_K = 0.0;
-  double f_W_s_per_m_K = 0.0;
-  std::optional<double> H_gas_W_per_K;  // where the gas temperature was measured
+  double rest_conductance_W_per_K = 0.0;       // the source's z
+  double speed_conductance_W_s_per_m_K = 0.0;  // its f
+  std::optional<double> H_gas_W_per_K;         // where the gas temperature was measured
 };
 
 /// Step 1: ln of the loss, freed of pressure and load, over the liner temperature, for every speed; A and

@@ -72,7 +72,7 @@ struct TireTemperature {
     using std::abs;
     const TireParameters<S>& tire = now.context->tire;
     const S reference_m_s = get_reference_speed_m_s<S>();
-    const S standing_m_s = tire.thermal.z_W_per_K / tire.thermal.f_W_s_per_m_K;
+    const S standing_m_s = tire.thermal.rest_conductance_W_per_K / tire.thermal.speed_conductance_W_s_per_m_K;
     const S speed_m_s = abs(now.motion.speed_m_s);
     const S heat = now.loss.factor * (speed_m_s / reference_m_s) *
                    (positive_part(now.motion.load_N) / tire.rolling_resistance.reference_load_N);

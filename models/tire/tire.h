@@ -1,6 +1,7 @@
 #pragma once
 /// A tire as a file describes it: the numbers that the equations of models/ take.
 
+#include <string>
 #include <vector>
 
 #include "sim/core/scalar.h"
@@ -110,9 +111,9 @@ struct TireThermalParameters {
   S heat_capacity_J_per_K{};
   S gas_heat_capacity_J_per_K{};
   S H_gas_W_per_K{};
-  S z_W_per_K{};
-  S road_share_of_z{};
-  S f_W_s_per_m_K{};
+  S rest_conductance_W_per_K{};  // the source's z
+  S road_share_of_rest_conductance{};
+  S speed_conductance_W_s_per_m_K{};  // the source's f
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -120,10 +121,21 @@ struct TireThermalParameters {
     visit(Field{"gas_heat_capacity_J_per_K", positive(), "Heat capacity of the inflation gas"},
           p.gas_heat_capacity_J_per_K);
     visit(Field{"H_gas_W_per_K", positive(), "Conductance from rubber to gas"}, p.H_gas_W_per_K);
-    visit(Field{"z_W_per_K", non_negative(), "Speed-independent conductance to air and road"}, p.z_W_per_K);
-    visit(Field{"road_share_of_z", between(0.0, 1.0), "Share of z that goes to the road. Assumed: 0.5", 0.5},
-          p.road_share_of_z);
-    visit(Field{"f_W_s_per_m_K", non_negative(), "Conductance to air per unit of speed"}, p.f_W_s_per_m_K);
+    visit(Field{"conductance_at_rest_W_per_K",
+                non_negative(),
+                "Speed-independent conductance to air and road",
+                {},
+                "z_W_per_K"},
+          p.rest_conductance_W_per_K);
+    visit(Field{"road_share_of_conductance_at_rest", between(0.0, 1.0),
+                "Share of the conductance at rest that goes to the road. Assumed: 0.5", 0.5, "road_share_of_z"},
+          p.road_share_of_rest_conductance);
+    visit(Field{"conductance_per_speed_W_s_per_m_K",
+                non_negative(),
+                "Conductance to air per unit of speed",
+                {},
+                "f_W_s_per_m_K"},
+          p.speed_conductance_W_s_per_m_K);
   }
 };
 
@@ -148,15 +160,18 @@ struct TireParameters {
   TireThermalParameters<S> thermal;
   ConstantLossParameters<S> constant;
 
-  /// Calls visit(table, field, member) for every number outside the load map.
+  /// Calls visit(table, field, member) for every number; the tables of the load map are "load_map.0" and so on.
   template <class Self, class Visit>
   static void visit_all(Self& p, Visit&& visit) {
-    const auto table = [&visit](const char* name) {
+    const auto table = [&visit](const std::string& name) {
       return [&visit, name](const Field& field, auto& member) { visit(name, field, member); };
     };
     TireGeometry<S>::visit(p.geometry, table("geometry"));
     TireStiffness<S>::visit(p.stiffness, table("stiffness"));
     RollingResistanceParameters<S>::visit(p.rolling_resistance, table("rolling_resistance"));
+    for (std::size_t i = 0; i < p.load_map.size(); ++i) {
+      LoadMapEntry<S>::visit(p.load_map[i], table("load_map." + std::to_string(i)));
+    }
     TireThermalParameters<S>::visit(p.thermal, table("thermal"));
     ConstantLossParameters<S>::visit(p.constant, table("constant"));
   }
@@ -184,6 +199,15 @@ TireParameters<S> convert_tire(const TireParameters<double>& from) {
   to.thermal = convert<S>(from.thermal);
   to.constant = convert<S>(from.constant);
   return to;
+}
+
+/// What the tire gives to air and road per kelvin, all in all.
+/// Equation  z + f v
+/// Symbols   z conductance at rest [W/K], f per speed [W s/(m K)], v speed of the air at the tire [m/s]
+/// Source    (3.12), (3.17)
+template <class S>
+S calc_cooling_W_per_K(const TireThermalParameters<S>& thermal, const S& air_speed_m_s) {
+  return thermal.rest_conductance_W_per_K + thermal.speed_conductance_W_s_per_m_K * air_speed_m_s;
 }
 
 /// Loaded radius r_l = D/2 - Fz/k_z [m]: also the rolling radius (baseline: "Rig").

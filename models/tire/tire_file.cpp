@@ -9,7 +9,7 @@
 namespace rollrig::models {
 namespace {
 
-constexpr int kFormatVersion = 1;
+constexpr int kFormatVersion = 2;
 constexpr const char* kFormat = "rollrig-tire";
 
 template <class Group>
@@ -70,11 +70,7 @@ void read_rig_thermal(const ConfigTable& thermal, TireFile& tire) {
   TableReader rigs_reader(*rigs, "[thermal.rig]");
   for (const std::string& rig : rigs->keys()) {
     TableReader own(*rigs_reader.table(rig), fmt::format("[thermal.rig.{}]", rig));
-    RigThermal& at = tire.rig_thermal[rig];
-    at.z_W_per_K = own.number_or_none({"z_W_per_K", non_negative(), ""});
-    at.z_sd_W_per_K = own.number_or_none({"z_W_per_K_sd", positive(), ""});
-    at.f_W_s_per_m_K = own.number_or_none({"f_W_s_per_m_K", non_negative(), ""});
-    at.f_sd_W_s_per_m_K = own.number_or_none({"f_W_s_per_m_K_sd", positive(), ""});
+    read_fields(own, tire.rig_thermal[rig]);
     own.finish();
   }
 }
@@ -155,8 +151,10 @@ TireParameters<double> TireFile::parameters_on(const std::string& rig_name, Base
   TireParameters<double> on_rig = values;
   const auto it = rig_thermal.find(rig_name);
   if (it == rig_thermal.end()) return on_rig;
-  on_rig.thermal.z_W_per_K = it->second.z_W_per_K.value_or(on_rig.thermal.z_W_per_K);
-  on_rig.thermal.f_W_s_per_m_K = it->second.f_W_s_per_m_K.value_or(on_rig.thermal.f_W_s_per_m_K);
+  auto& thermal = on_rig.thermal;
+  thermal.rest_conductance_W_per_K = it->second.rest_conductance_W_per_K.value_or(thermal.rest_conductance_W_per_K);
+  thermal.speed_conductance_W_s_per_m_K =
+      it->second.speed_conductance_W_s_per_m_K.value_or(thermal.speed_conductance_W_s_per_m_K);
   return on_rig;
 }
 
@@ -223,13 +221,9 @@ void write_rig_thermal(TomlText& out, const std::map<std::string, RigThermal>& r
   for (const auto& [rig, at] : rigs) {
     const std::string table = "thermal.rig." + rig;
     out.header("[" + table + "]", table);
-    const auto optional_number = [&out](const char* key, const std::optional<double>& value) {
-      if (value.has_value()) out.number(key, *value);
-    };
-    optional_number("z_W_per_K", at.z_W_per_K);
-    optional_number("z_W_per_K_sd", at.z_sd_W_per_K);
-    optional_number("f_W_s_per_m_K", at.f_W_s_per_m_K);
-    optional_number("f_W_s_per_m_K_sd", at.f_sd_W_s_per_m_K);
+    RigThermal::visit(at, [&out](const Field& field, const std::optional<double>& value) {
+      if (value.has_value()) out.number(field.key, *value);
+    });
   }
 }
 

@@ -10,12 +10,22 @@
 
 namespace rollrig::models {
 
-/// z and f as identified on one rig ([thermal.rig.<name>]); what is absent there is taken from [thermal].
+/// Conductances as identified on one rig ([thermal.rig.<name>]); what is absent there is taken from [thermal].
 struct RigThermal {
-  std::optional<double> z_W_per_K;
-  std::optional<double> z_sd_W_per_K;
-  std::optional<double> f_W_s_per_m_K;
-  std::optional<double> f_sd_W_s_per_m_K;
+  std::optional<double> rest_conductance_W_per_K;
+  std::optional<double> rest_conductance_sd_W_per_K;
+  std::optional<double> speed_conductance_W_s_per_m_K;
+  std::optional<double> speed_conductance_sd_W_s_per_m_K;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"conductance_at_rest_W_per_K", non_negative(), "", {}, "z_W_per_K"}, p.rest_conductance_W_per_K);
+    visit(Field{"conductance_at_rest_W_per_K_sd", positive(), "", {}, "z_W_per_K_sd"}, p.rest_conductance_sd_W_per_K);
+    visit(Field{"conductance_per_speed_W_s_per_m_K", non_negative(), "", {}, "f_W_s_per_m_K"},
+          p.speed_conductance_W_s_per_m_K);
+    visit(Field{"conductance_per_speed_W_s_per_m_K_sd", positive(), "", {}, "f_W_s_per_m_K_sd"},
+          p.speed_conductance_sd_W_s_per_m_K);
+  }
 };
 
 /// [iso_28580]: what the tire's label or a test says, for comparison and as default test conditions.
@@ -46,10 +56,9 @@ struct TireFile {
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
   /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,
-  /// H 4 W/K, z 12 W/K, f 1.4 W s/(m K), 220 kN/m, slip stiffness 75 kN, pressure exponent 0.4, the load and the
-  /// pressure given as references. Throws InputError without [constant].
-  /// Source    Assumed: those of the asset tires
-  /// Checked   tests/models/tire_file_test.cpp
+  /// H 4 W/K, conductance 12 W/K at rest and 1.4 W s/(m K) per speed, 220 kN/m, slip stiffness 75 kN, pressure exponent
+  /// 0.4, the load and the pressure given as references. Throws InputError without [constant]. Source    Assumed: those
+  /// of the asset tires Checked   tests/models/tire_file_test.cpp
   TireParameters<double> parameters_with_class_values(double load_N, double pressure_Pa) const;
 };
 

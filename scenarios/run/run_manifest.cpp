@@ -19,7 +19,8 @@ Json parameters_to_json(const Parameters& parameters) {
 Json tire_to_json(const models::TireFile& tire, const models::TireParameters<double>& on_rig) {
   Json json = {{"name", tire.name}, {"file", tire.path}, {"sha256", calc_sha256(tire.content)}};
   models::TireParameters<double>::visit_all(on_rig,
-                                            [&json](const char* table, const Field& field, const double& value) {
+                                            [&json](const std::string& table, const Field& field, const double& value) {
+                                              if (table.rfind("load_map", 0) == 0) return;  // an array, below
                                               json[table][field.key] = unit_of_key(field.key).from_si(value);
                                             });
   json["load_map"] = Json::array();

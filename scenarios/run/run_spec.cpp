@@ -145,7 +145,8 @@ void set_run_value(ConfigTable& document, const std::string& assignment) {
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0) {
     throw InputError({fmt::format("--set '{}' is not key=value", assignment), "command line", 0, "--set", assignment,
-                      "--set speed_km_h=100, --set tire.thermal.z_W_per_K=12, --set effects.<id>.<parameter>=...", ""});
+                      "--set speed_km_h=100, --set tire.thermal.H_gas_W_per_K=3, --set effects.<id>.<parameter>=...",
+                      ""});
   }
   std::string key = assignment.substr(0, equals);
   const std::string first = key.substr(0, key.find('.'));

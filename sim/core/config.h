@@ -44,7 +44,7 @@ ConfigTable read_config(const std::string& path);
 /// Parses TOML text; `name` stands for the file in messages.
 ConfigTable parse_config(std::string_view text, const std::string& name);
 
-/// Sets a dotted key ("tire.thermal.z_W_per_K") to a value written as in TOML; what is not TOML is taken
+/// Sets a dotted key ("tire.thermal.H_gas_W_per_K") to a value written as in TOML; what is not TOML is taken
 /// as a string. Tables on the way are made where absent.
 void set_config_value(ConfigTable& root, const std::string& dotted_key, const std::string& value,
                       const std::string& origin_name);

@@ -62,6 +62,22 @@ const ConfigValue* TableReader::find(const std::string& key) {
   return table_.find(key);
 }
 
+/// Looks under both of the field's keys, and names in `field` the one that holds. Beside the file's own a run may give
+/// the other, which then holds.
+const ConfigValue* TableReader::find(Field& field) {
+  const ConfigValue* value = find(field.key);
+  if (field.old_key == nullptr || std::string(field.old_key) == field.key) return value;
+  const ConfigValue* old = find(field.old_key);
+  if (old == nullptr) return value;
+  const bool is_given_by_run = old->origin.file != table_.origin.file;
+  if (value != nullptr && is_given_by_run == (value->origin.file != table_.origin.file)) {
+    throw problem(field.old_key, fmt::format("'{}' and '{}' are one number", field.old_key, field.key), "one of them");
+  }
+  if (value != nullptr && !is_given_by_run) return value;
+  field.key = field.old_key;
+  return old;
+}
+
 const ConfigValue& TableReader::require(const std::string& key) {
   const ConfigValue* value = find(key);
   if (value != nullptr) return *value;
@@ -92,17 +108,16 @@ double TableReader::convert(const Field& field, const ConfigValue& value) const 
   return unit_of_key(field.key).to_si(*number);
 }
 
-double TableReader::number(const Field& field) {
-  if (field.fallback.has_value()) {
-    const ConfigValue* value = find(field.key);
-    return value != nullptr ? convert(field, *value) : unit_of_key(field.key).to_si(*field.fallback);
-  }
-  const ConfigValue& value = require(field.key);
-  return convert(field, value);
+double TableReader::number(const Field& declared) {
+  const std::optional<double> given = number_or_none(declared);
+  if (given.has_value()) return *given;
+  if (!declared.fallback.has_value()) require(declared.key);
+  return unit_of_key(declared.key).to_si(*declared.fallback);
 }
 
-std::optional<double> TableReader::number_or_none(const Field& field) {
-  const ConfigValue* value = find(field.key);
+std::optional<double> TableReader::number_or_none(const Field& declared) {
+  Field field = declared;
+  const ConfigValue* value = find(field);
   if (value == nullptr) return std::nullopt;
   return convert(field, *value);
 }
@@ -198,10 +213,12 @@ void TableReader::finish() const {
   }
 }
 
-void check_format(TableReader& reader, const std::string& kind, int version) {
-  const std::string wanted = fmt::format("{}/{}", kind, version);
+void check_format(TableReader& reader, const std::string& kind, int newest_version) {
+  const std::string wanted = fmt::format("{}/{}", kind, newest_version);
   const std::string given = reader.text("format");
-  if (given == wanted) return;
+  for (int version = 1; version <= newest_version; ++version) {
+    if (given == fmt::format("{}/{}", kind, version)) return;
+  }
   const bool same_kind = given.rfind(kind + "/", 0) == 0;
   throw reader.problem("format",
                        same_kind ? fmt::format("format version '{}' is not known to this program", given)

@@ -36,6 +36,10 @@ struct Field {
   Range range;
   const char* doc;
   std::optional<double> fallback = std::nullopt;  // in the file's unit; absent = the key is required
+  const char* old_key = nullptr;                  // of an earlier format; it is read as well
+
+  /// The name of the number in JSON output, which keeps that of the first format.
+  const char* output_key() const { return old_key != nullptr ? old_key : key; }
 };
 
 /// Reads one table, key by key, and then refuses what nobody asked for.
@@ -74,6 +78,7 @@ class TableReader {
 
  private:
   const ConfigValue* find(const std::string& key);
+  const ConfigValue* find(Field& field);
   const ConfigValue& require(const std::string& key);
   double convert(const Field& field, const ConfigValue& value) const;
   std::string full_key(const std::string& key) const;
@@ -83,8 +88,8 @@ class TableReader {
   std::vector<std::string> known_;
 };
 
-/// Checks the `format` key: present, of the wanted kind and of a version that this program reads.
-void check_format(TableReader& reader, const std::string& kind, int version);
+/// Checks the `format` key: present, of the wanted kind and of a version from 1 to the newest that this program reads.
+void check_format(TableReader& reader, const std::string& kind, int newest_version);
 
 /// A text of a file that is one of a few.
 struct Choice {
@@ -118,7 +123,8 @@ template <class P>
 void read_standard_uncertainties(TableReader& reader, P& uncertainties) {
   P::visit(uncertainties, [&reader](const Field& field, auto& member) {
     const std::string key = std::string(field.key) + "_sd";
-    member = reader.number_or_none({key.c_str(), positive(), "standard uncertainty"}).value_or(0.0);
+    const std::string old_key = std::string(field.output_key()) + "_sd";
+    member = reader.number_or_none({key.c_str(), positive(), "", std::nullopt, old_key.c_str()}).value_or(0.0);
   });
 }
 

@@ -59,6 +59,27 @@ TEST_CASE("dotted keys of --set make the tables on their way", "[fast]") {
   CHECK_THROWS_AS(set_config_value(config, "a..b", "1", "--set"), InputError);
 }
 
+TEST_CASE("a number is read under its old key too, and what a run gives holds under either", "[fast]") {
+  const auto read = [](const ConfigTable& config) {
+    TableReader reader(config, "");
+    const double length_m = reader.number({"length_m", between(0.0, 10.0), "", 7.0, "l_m"});
+    reader.finish();
+    return length_m;
+  };
+  CHECK(read(parse_config("l_m = 2", "file.toml")) == 2.0);
+  CHECK(read(parse_config("length_m = 2", "file.toml")) == 2.0);
+  CHECK(read(parse_config("", "file.toml")) == 7.0);
+  for (const auto& [in_file, by_run] : {std::pair{"l_m", "length_m"}, {"length_m", "l_m"}, {"l_m", "l_m"}}) {
+    ConfigTable config = parse_config(std::string(in_file) + " = 2", "file.toml");
+    set_config_value(config, by_run, "3", "--set");
+    CHECK(read(config) == 3.0);
+    set_config_value(config, by_run, "11", "--set");
+    CHECK_THROWS_WITH(read(config), Catch::Contains(std::string("'") + by_run + "' is out of range"));
+  }
+  CHECK_THROWS_WITH(read(parse_config("length_m = 2\nl_m = 2", "file.toml")),
+                    Catch::Contains("'l_m' and 'length_m' are one number") && Catch::Contains("line 2"));
+}
+
 TEST_CASE("the nearest known name is found, and nothing when none is near", "[fast]") {
   const std::vector<std::string> known{"A0_N", "A1_N_s_per_m", "pressure_exponent"};
   CHECK(nearest_name("pressure_exponnet", known) == "pressure_exponent");

@@ -106,22 +106,22 @@ TEST_CASE("priors stand around the values of the files", "[fast]") {
 
 TEST_CASE("z and f are those of the set's rig, with its uncertainty", "[fast]") {
   auto set = make_set();
-  set.tire.standard_uncertainties.thermal.z_W_per_K = 9.0;
+  set.tire.standard_uncertainties.thermal.rest_conductance_W_per_K = 9.0;
   auto& on_rig = set.tire.rig_thermal.at(set.rig->name);
-  on_rig.z_sd_W_per_K = 0.7;
-  on_rig.f_sd_W_s_per_m_K = 0.05;
-  set.tire.rig_thermal["dyno_1m2"].z_sd_W_per_K = 3.0;
+  on_rig.rest_conductance_sd_W_per_K = 0.7;
+  on_rig.speed_conductance_sd_W_s_per_m_K = 0.05;
+  set.tire.rig_thermal["dyno_1m2"].rest_conductance_sd_W_per_K = 3.0;
   const auto base = find(set);
-  CHECK(base.at("tire.thermal.z_W_per_K").start_SI == *on_rig.z_W_per_K);
+  CHECK(base.at("tire.thermal.z_W_per_K").start_SI == *on_rig.rest_conductance_W_per_K);
   CHECK(base.at("tire.thermal.z_W_per_K").prior_sd_SI == 0.7);
-  CHECK(base.at("tire.thermal.f_W_s_per_m_K").start_SI == *on_rig.f_W_s_per_m_K);
+  CHECK(base.at("tire.thermal.f_W_s_per_m_K").start_SI == *on_rig.speed_conductance_W_s_per_m_K);
   CHECK(base.at("tire.thermal.f_W_s_per_m_K").prior_sd_SI == 0.05);
 }
 
 TEST_CASE("further numbers move only where the file gives an uncertainty", "[fast]") {
   auto set = make_set();
   set.tire.standard_uncertainties.rolling_resistance.pressure_exponent = 0.03;
-  set.tire.standard_uncertainties.thermal.road_share_of_z = 0.1;
+  set.tire.standard_uncertainties.thermal.road_share_of_rest_conductance = 0.1;
   const auto base = find(set);
   CHECK(base.size() == find(make_set()).size() + 2);
   CHECK(base.at("tire.rolling_resistance.pressure_exponent").prior_sd_SI == 0.03);
@@ -156,7 +156,7 @@ TEST_CASE("with a map over load its lines move, each by its share, and not the l
 TEST_CASE("a number that is zero can still move", "[fast]") {
   auto set = make_set();
   set.rig->parasitic.c2_N_s2_per_m2 = 0.0;
-  set.tire.rig_thermal.at(set.rig->name).z_W_per_K = 0.0;
+  set.tire.rig_thermal.at(set.rig->name).rest_conductance_W_per_K = 0.0;
   const auto base = find(set);
   CHECK(base.at("parasitic.c2_N_s2_per_m2").prior_sd_SI > 0.0);
   CHECK(base.at("tire.thermal.z_W_per_K").prior_sd_SI > 0.0);

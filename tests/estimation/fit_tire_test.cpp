@@ -32,7 +32,7 @@ TEST_CASE("the two-step regression starts near", "[fast]") {
   REQUIRE(start.speeds.size() == 2);
   CHECK(start.speeds[0].speed_m_s == Approx(80.0 / 3.6));
   CHECK(start.A0_N == Approx(find_truth(set, "tire.rolling_resistance.A0_N")).epsilon(0.03));
-  CHECK(start.f_W_s_per_m_K == Approx(1.4).epsilon(0.05));
+  CHECK(start.speed_conductance_W_s_per_m_K == Approx(1.4).epsilon(0.05));
   REQUIRE(start.H_gas_W_per_K.has_value());
   CHECK(*start.H_gas_W_per_K == Approx(4.0).epsilon(0.1));
 }
@@ -43,9 +43,10 @@ TEST_CASE("the fitted tire file holds the estimates with their uncertainties, z 
   const auto back = models::read_tire(parse_config(models::write_tire(fit.tire, fit.notes), "fitted"));
   CHECK(back.values.rolling_resistance.A0_N == Approx(fit.estimates[0].value));
   CHECK(back.standard_uncertainties.rolling_resistance.A0_N == Approx(fit.estimates[0].sd));
-  CHECK(*back.rig_thermal.at("drum_2m").z_W_per_K == Approx(fit.estimates[4].value));
-  CHECK(*back.rig_thermal.at("drum_2m").f_sd_W_s_per_m_K == Approx(fit.estimates[5].sd));
-  CHECK(back.values.thermal.z_W_per_K == set.tire.values.thermal.z_W_per_K);  // other rigs keep theirs
+  CHECK(*back.rig_thermal.at("drum_2m").rest_conductance_W_per_K == Approx(fit.estimates[4].value));
+  CHECK(*back.rig_thermal.at("drum_2m").speed_conductance_sd_W_s_per_m_K == Approx(fit.estimates[5].sd));
+  CHECK(back.values.thermal.rest_conductance_W_per_K ==
+        set.tire.values.thermal.rest_conductance_W_per_K);  // other rigs keep theirs
 }
 
 TEST_CASE("what the files give with an uncertainty moves within it and widens the intervals", "[fast]") {

@@ -174,19 +174,19 @@ TEST_CASE("derivatives of a run agree with differences", "[fast]") {
   const MeasuredRun& run = set.runs.front();
   const models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
   models::Context<Jet> moved = models::convert_context<Jet>(context);
-  moved.tire.thermal.z_W_per_K = Jet(context.tire.thermal.z_W_per_K, 0);
+  moved.tire.thermal.rest_conductance_W_per_K = Jet(context.tire.thermal.rest_conductance_W_per_K, 0);
   models::Corner<Jet> corner(moved, {});
   const measurements::Resimulation resimulation(run, set.kind);
   const auto derived = resimulation.simulate(set, run, corner);
   const auto at = [&](double z_W_per_K) {
     models::Context<double> other = context;
-    other.tire.thermal.z_W_per_K = z_W_per_K;
+    other.tire.thermal.rest_conductance_W_per_K = z_W_per_K;
     models::Corner<double> at_other(other, {});
     return resimulation.simulate(set, run, at_other).channel("loss_force_N");
   };
   const double step = 0.01;
   const std::size_t row = run.time_s.size() - 10;
-  const double z = context.tire.thermal.z_W_per_K;
+  const double z = context.tire.thermal.rest_conductance_W_per_K;
   const double difference = (at(z + step)[row] - at(z - step)[row]) / (2.0 * step);
   CHECK(derived.channel("loss_force_N")[row].v[0] == Approx(difference).epsilon(1e-5));
 }

@@ -75,8 +75,8 @@ TEST_CASE("skim load leaves its share of the loss", "[fast]") {
 TEST_CASE("the road's share of z acts on the surface's temperature", "[fast]") {
   tests::DrumFixture fixture;
   fixture.tire.rig_thermal.clear();
-  fixture.tire.values.thermal.z_W_per_K = 12.0;
-  fixture.tire.values.thermal.road_share_of_z = 0.25;
+  fixture.tire.values.thermal.rest_conductance_W_per_K = 12.0;
+  fixture.tire.values.thermal.road_share_of_rest_conductance = 0.25;
   const Corner<double> corner = fixture.corner();
   std::vector<double> rates;
   const Instant<double> now = evaluate(corner, states_at(corner, 310.0), 0.0, 5400.0, rates);

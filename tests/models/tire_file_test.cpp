@@ -1,5 +1,6 @@
 #include "models/tire/tire_file.h"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <catch2/catch.hpp>
 
 #include "tests/support/drum_fixture.h"
@@ -12,11 +13,11 @@ TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
   tire.values.load_map = {{{30.0, 0.8, 0.010, 1e-4}, 5000.0}, {{44.0, 1.2, 0.012, 2e-4}, 7000.0}};
   tire.standard_uncertainties.load_map.resize(2);
   tire.standard_uncertainties.load_map[1].B0_per_K = 1e-4;
-  tire.rig_thermal["other"].f_sd_W_s_per_m_K = 0.1;
+  tire.rig_thermal["other"].speed_conductance_sd_W_s_per_m_K = 0.1;
   const models::TireFile back = models::read_tire(parse_config(models::write_tire(tire), "written"));
   std::vector<double> before, after;
   const auto collect = [](std::vector<double>& into) {
-    return [&into](const char*, const Field&, const double& value) { into.push_back(value); };
+    return [&into](const std::string&, const Field&, const double& value) { into.push_back(value); };
   };
   models::TireParameters<double>::visit_all(tire.values, collect(before));
   models::TireParameters<double>::visit_all(back.values, collect(after));
@@ -25,18 +26,73 @@ TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
   CHECK(back.standard_uncertainties.rolling_resistance.A0_N == 0.5);
   CHECK(back.values.load_map[1].A1_N_s_per_m == 1.2);
   CHECK(back.standard_uncertainties.load_map[1].B0_per_K == 1e-4);
-  CHECK(back.rig_thermal.at("other").f_sd_W_s_per_m_K == 0.1);
+  CHECK(back.rig_thermal.at("other").speed_conductance_sd_W_s_per_m_K == 0.1);
   CHECK(back.iso_28580->load_N == 6865.0);
   CHECK(back.sweep_loads_N == tire.sweep_loads_N);
+}
+
+TEST_CASE("a file of format 1 is read under its old keys, each as the key of format 2", "[fast]") {
+  const std::string old_keys = R"(
+z_W_per_K = 11.5
+z_W_per_K_sd = 0.7
+road_share_of_z = 0.35
+road_share_of_z_sd = 0.1
+f_W_s_per_m_K = 1.25
+f_W_s_per_m_K_sd = 0.06
+[thermal.rig.drum_67in]
+z_W_per_K = 9.5
+z_W_per_K_sd = 0.8
+f_W_s_per_m_K = 1.75
+f_W_s_per_m_K_sd = 0.09
+)";
+  const std::string before = R"(name = "t"
+[geometry]
+outer_diameter_m = 0.7
+section_width_m = 0.2
+rim_diameter_m = 0.48
+mass_kg = 9.0
+wheel_mass_kg = 9.0
+spin_inertia_kg_m2 = 1.0
+[thermal]
+heat_capacity_J_per_K = 17000.0
+gas_heat_capacity_J_per_K = 90.0
+H_gas_W_per_K = 4.5
+)";
+  using boost::algorithm::replace_all_copy;
+  std::string new_keys = replace_all_copy(old_keys, "road_share_of_z", "road_share_of_conductance_at_rest");
+  new_keys = replace_all_copy(new_keys, "\nz_W_per_K", "\nconductance_at_rest_W_per_K");
+  new_keys = replace_all_copy(new_keys, "\nf_W_s_per_m_K", "\nconductance_per_speed_W_s_per_m_K");
+  for (const std::string& text :
+       {"format = \"rollrig-tire/1\"\n" + before + old_keys, "format = \"rollrig-tire/2\"\n" + before + new_keys}) {
+    const models::TireFile tire = models::read_tire(parse_config(text, "t.toml"));
+    const auto& thermal = tire.values.thermal;
+    const auto& sd = tire.standard_uncertainties.thermal;
+    CHECK(thermal.rest_conductance_W_per_K == 11.5);
+    CHECK(sd.rest_conductance_W_per_K == 0.7);
+    CHECK(thermal.road_share_of_rest_conductance == 0.35);
+    CHECK(sd.road_share_of_rest_conductance == 0.1);
+    CHECK(thermal.speed_conductance_W_s_per_m_K == 1.25);
+    CHECK(sd.speed_conductance_W_s_per_m_K == 0.06);
+    const models::RigThermal& on_rig = tire.rig_thermal.at("drum_67in");
+    CHECK(on_rig.rest_conductance_W_per_K == 9.5);
+    CHECK(on_rig.rest_conductance_sd_W_per_K == 0.8);
+    CHECK(on_rig.speed_conductance_W_s_per_m_K == 1.75);
+    CHECK(on_rig.speed_conductance_sd_W_s_per_m_K == 0.09);
+    CHECK_THAT(models::write_tire(tire), Catch::StartsWith("format = \"rollrig-tire/2\"") &&
+                                             Catch::Contains("conductance_at_rest_W_per_K_sd = 0.8") &&
+                                             !Catch::Contains("z_W_per_K ="));
+  }
 }
 
 TEST_CASE("values of a rig's own stand in for the general ones on that rig only", "[fast]") {
   models::TireFile tire = tests::read_asset_tire();
   tire.rig_thermal = {{"here", {5.0, {}, {}, {}}}};
   const auto combined = models::Baseline::kCombined;
-  CHECK(tire.parameters_on("here", combined).thermal.z_W_per_K == 5.0);
-  CHECK(tire.parameters_on("here", combined).thermal.f_W_s_per_m_K == tire.values.thermal.f_W_s_per_m_K);
-  CHECK(tire.parameters_on("there", combined).thermal.z_W_per_K == tire.values.thermal.z_W_per_K);
+  CHECK(tire.parameters_on("here", combined).thermal.rest_conductance_W_per_K == 5.0);
+  CHECK(tire.parameters_on("here", combined).thermal.speed_conductance_W_s_per_m_K ==
+        tire.values.thermal.speed_conductance_W_s_per_m_K);
+  CHECK(tire.parameters_on("there", combined).thermal.rest_conductance_W_per_K ==
+        tire.values.thermal.rest_conductance_W_per_K);
 }
 
 TEST_CASE("tables that a use does not need may be absent, and what it needs is named", "[fast]") {
@@ -69,6 +125,7 @@ rrc_N_per_kN_sd = 2.5
   const models::TireFile whole = tests::read_asset_tire();
   models::TireFile with_constant = whole;
   with_constant.has_constant = true;
-  CHECK(with_constant.parameters_with_class_values(4000.0, 260e3).thermal.z_W_per_K == whole.values.thermal.z_W_per_K);
+  CHECK(with_constant.parameters_with_class_values(4000.0, 260e3).thermal.rest_conductance_W_per_K ==
+        whole.values.thermal.rest_conductance_W_per_K);
   CHECK_THROWS_WITH(whole.parameters_with_class_values(4000.0, 260e3), Catch::Contains("[constant]"));
 }

@@ -85,8 +85,8 @@ TEST_CASE("Table 4.2: the source's ISO column, and the order of the tires in the
 TEST_CASE("a50 with A and B of Figure 3.13: z and f alone bring Tables 4.4 and 4.5 to a few points", "[published]") {
   const std::vector<double> published = tools::read_published_tire(kFolder, "a50").sections();
   const tools::CoolingFit fit = tools::fit_cooling_to_figure_3_13(published, 18040.0);
-  CHECK(fit.z_W_per_K > 0.0);
-  CHECK(fit.f_W_s_per_m_K > 0.0);
+  CHECK(fit.rest_conductance_W_per_K > 0.0);
+  CHECK(fit.speed_conductance_W_s_per_m_K > 0.0);
   CHECK(fit.rms < 0.02);  // a trial of the source's numbers came to 1.5 points
 }
 

@@ -16,8 +16,8 @@ namespace {
 /// The context with no heat leaving the rubber by other ways than an effect's.
 models::Context<double> insulated(RigKind kind) {
   models::Context<double> context = make_context_on(kind);
-  context.tire.thermal.z_W_per_K = 0.0;
-  context.tire.thermal.f_W_s_per_m_K = 0.0;
+  context.tire.thermal.rest_conductance_W_per_K = 0.0;
+  context.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
   context.tire.thermal.H_gas_W_per_K = 0.0;
   return context;
 }

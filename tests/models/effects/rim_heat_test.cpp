@@ -28,8 +28,8 @@ void check_heat_balance(HandFedCorner<double>& at) {
 
 TEST_CASE("tire, gas and rim that lose nothing come to one temperature, and no heat is lost", "[fast]") {
   auto context = make_context_on(RigKind::kDrum);
-  context.tire.thermal.z_W_per_K = 0.0;
-  context.tire.thermal.f_W_s_per_m_K = 0.0;
+  context.tire.thermal.rest_conductance_W_per_K = 0.0;
+  context.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
   HandFedCorner<double> at(context, {rim_at(2.0)});
   at.inputs.speed_m_s = 0.0;
   at.temperature_K(Node::kRim) = 330.0;
@@ -45,8 +45,8 @@ TEST_CASE("a rim in steady rolling passes on what its conductances in series let
   HandFedCorner<double> at(make_context_on(RigKind::kDrum), {rim_at(3.0, 0.0)});
   at.advance(8.0 * 3600.0, 20000);
   const auto& thermal = at.corner.context().tire.thermal;
-  const double rubber_air_W_per_K =
-      (1.0 - thermal.road_share_of_z) * thermal.z_W_per_K + thermal.f_W_s_per_m_K * at.inputs.speed_m_s;
+  const double rubber_air_W_per_K = (1.0 - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K +
+                                    thermal.speed_conductance_W_s_per_m_K * at.inputs.speed_m_s;
   const double series_W_per_K = 1.0 / (1.0 / 3.0 + 1.0 / (0.4 * rubber_air_W_per_K));
   const double over_ambient_K = at.temperature_K(Node::kRubber) - at.inputs.ambient_K;
   CHECK(at.now.heat.to_air_W - rubber_air_W_per_K * over_ambient_K ==
