@@ -85,8 +85,8 @@ std::string replace_number(const std::string& text, const std::string& table, co
   const std::string old = text.substr(line + 1, end - line - 1);
   const std::size_t comment = old.find('#');
   std::string fresh = fmt::format("{} = {:.7g}", key, value);
-  constexpr std::size_t kCommentColumn = 38;  // as in the assets
-  if (comment != std::string::npos) fresh = fmt::format("{:<{}}{}", fresh, kCommentColumn, old.substr(comment));
+  constexpr std::size_t kCommentColumn = 37;  // as in the assets
+  if (comment != std::string::npos) fresh = fmt::format("{:<{}} {}", fresh, kCommentColumn, old.substr(comment));
   return text.substr(0, line + 1) + fresh + text.substr(end);
 }
 
