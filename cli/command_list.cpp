@@ -79,7 +79,7 @@ void describe_effect(const models::EffectInfo& info) {
               << wrap(parameter.doc, 6);
   }
   std::cout << "Acts on\n" << wrap(list_kinds(info.acts_on), 2);
-  if (info.only_against.has_value()) std::cout << "Acts only against\n  the baseline constant_rrc\n";
+  if (info.only_against != nullptr) std::cout << "Acts only against\n  the baseline constant_rrc\n";
   if (!info.faint_on.empty()) std::cout << "Too faint to be seen on\n" << wrap(list_kinds(info.faint_on), 2);
   std::cout << "Shows in\n" << wrap(join_or_none(info.visible_in), 2);
   std::cout << "Leaves clean\n" << wrap(join_or_none(info.clean_in), 2);

@@ -58,7 +58,7 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
       names += " " + info.id;
       if (!models::acts_on(info, spec.rig.kind)) {
         names += fmt::format(" (does not act on {})", name_of(spec.rig.kind));
-      } else if (!models::acts_in(info, spec.rig.kind, spec.baseline)) {
+      } else if (!models::acts_in(info, spec.rig.kind, spec.tire.model(spec.baseline))) {
         names += " (this baseline has it)";
       }
     }

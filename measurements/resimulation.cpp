@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "models/reference_conditions.h"
-#include "models/tire/rolling_resistance.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/recorded_road.h"
 #include "rigs/recorded_roller.h"
@@ -134,7 +133,6 @@ models::Context<double> make_context(const MeasurementSet& set) {
   }
   models::Context<double> context;
   context.rig_kind = models::RigKind::kFlat;
-  context.baseline = set.baseline;
   context.vehicle = vehicle.body;
   context.tire =
       set.baseline == models::Baseline::kConstantRrc
@@ -161,15 +159,15 @@ rigs::RigStart<S> make_start(const MeasuredRun& run, double ambient_pressure_Pa)
 /// Temperature of a vehicle's tire in steady driving at 80 km/h under its static load. Assumed: at the cold pressure,
 /// which a warm tire exceeds by some 10 %, so that it would lose 4 % less.
 template <class S>
-S calc_warm_temperature_K(const models::Context<S>& context, double tires, const rigs::RigStart<S>& start) {
+S calc_warm_temperature_K(const models::Corner<S>& corner, double tires, const rigs::RigStart<S>& start) {
+  const models::Context<S>& context = corner.context();
   const S speed_m_s = models::get_reference_speed_m_s<S>();
   const S load_N = context.vehicle.mass_kg * S(kStandardGravity_m_s2 / tires);
   const S cooling_W_per_K = models::calc_cooling_W_per_K(context.tire.thermal, speed_m_s);
   S warm_K = start.tire_temperature_K;
   constexpr int kRounds = 20;  // each takes about a third of the error
   for (int i = 0; i < kRounds; ++i) {
-    const S loss_N = models::calc_curvature_factor(context) *
-                     models::calc_rolling_resistance_N(context.tire, speed_m_s, load_N, start.cold_pressure_Pa, warm_K);
+    const S loss_N = corner.calc_law_N(speed_m_s, load_N, start.cold_pressure_Pa, warm_K);
     warm_K = start.tire_temperature_K + loss_N * speed_m_s / cooling_W_per_K;
   }
   return warm_K;
@@ -210,9 +208,9 @@ sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const Measur
       make_start<S>(run, is_road ? kStandardAtmosphere_Pa : set.rig->environment.ambient_pressure_Pa);
   sim::Recording<S> recording;
   if (is_road) {
-    const bool begins_warm = run.started_warm && set.baseline == models::Baseline::kCombined;  // else no loss sees it
+    const bool begins_warm = run.started_warm && corner.context().tire.model().info.loss_follows_heat;
     const S temperature_K =
-        begins_warm ? calc_warm_temperature_K(corner.context(), set.vehicle->tires, start) : start.tire_temperature_K;
+        begins_warm ? calc_warm_temperature_K(corner, set.vehicle->tires, start) : start.tire_temperature_K;
     recording = run_on<S, sim::LaggedMidpointIntegrator>(
         rigs::RecordedRoad<S>(corner, *set.vehicle, start, temperature_K, detail), program_);
   } else if (set.kind == SetKind::kDyno) {

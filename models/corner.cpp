@@ -21,25 +21,33 @@ std::vector<S> convert_parameters(const ActiveEffect& active) {
   return parameters;
 }
 
-/// The functions of an effect on this kind of rig, against this baseline: none where it does not act.
+/// The functions of an effect on this kind of rig, for this tire: none where it does not act.
 template <class S>
 const EffectHooks<S>* find_hooks(const Effect& effect, const Context<S>& context) {
   static const EffectHooks<S> none;
-  return acts_in(effect.info, context.rig_kind, context.baseline) ? &effect.hooks<S>() : &none;
+  return acts_in(effect.info, context.rig_kind, context.tire.model()) ? &effect.hooks<S>() : &none;
 }
 
 }  // namespace
 
 template <class S>
-Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects) : context_(std::move(context)) {
+Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects)
+    : context_(std::move(context)),
+      model_(&context_.tire.model().template hooks<S>()),
+      curvature_factor_(context_.tire.model().info.loss_follows_curvature ? calc_curvature_factor(context_) : S(1.0)) {
+  nodes_[index_of(Node::kGas)] = true;
+  for (const auto& [node, name] : context_.tire.model().info.nodes) {
+    nodes_[index_of(node)] = true;
+    names_[index_of(node)] = name;
+  }
   for (const ActiveEffect& active : effects) {
-    if (!acts_in(active.effect->info, context_.rig_kind, context_.baseline)) continue;
+    if (!acts_in(active.effect->info, context_.rig_kind, context_.tire.model())) continue;
     for (std::size_t i = 0; i < kNodeCount; ++i) nodes_[i] = nodes_[i] || active.effect->info.nodes[i];
   }
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (!nodes_[i]) continue;
     node_state_[i] = states_.size();
-    states_.push_back({fmt::format("{}_temperature_degC", kNodeNames[i]), kTemperatureScale_K});
+    states_.push_back({fmt::format("{}_temperature_degC", names_[i]), kTemperatureScale_K});
   }
   for (const ActiveEffect& active : effects) {
     effects_.push_back(
@@ -90,16 +98,6 @@ void Corner<S>::apply_inputs(const S* x, Instant<S>& now) const {
 }
 
 template <class S>
-S Corner<S>::calc_law_N(const Instant<S>& now) const {
-  using std::abs;
-  if (context_.baseline == Baseline::kConstantRrc) {
-    return calc_constant_rolling_resistance_N(context_.tire, now.motion.load_N);
-  }
-  return now.curvature_factor * calc_rolling_resistance_N(context_.tire, S(abs(now.motion.speed_m_s)),
-                                                          now.motion.load_N, now.pressure_Pa, now.loss.temperature_K);
-}
-
-template <class S>
 void Corner<S>::calc_losses(const S* x, Instant<S>& now) const {
   using std::abs;
   const S speed_m_s = abs(now.motion.speed_m_s);
@@ -109,14 +107,14 @@ void Corner<S>::calc_losses(const S* x, Instant<S>& now) const {
   run_port(&EffectHooks<S>::gas, x, now, now.gas);
   now.pressure_Pa = calc_gauge_pressure_Pa(now.inflation, now.thermal.temperature_K[index_of(Node::kGas)],
                                            now.gas.mass_ratio, now.gas.volume_ratio);
-  now.curvature_factor = context_.baseline == Baseline::kConstantRrc ? S(1.0) : calc_curvature_factor(context_);
-  now.loss = LossPort<S>{S(1.0), now.thermal.temperature_K[index_of(Node::kRubber)], zero<S>(), zero<S>()};
+  now.curvature_factor = curvature_factor_;
+  now.loss = LossPort<S>{S(1.0), model_->find_loss_temperature_K(context_.tire, now.thermal), zero<S>(), zero<S>()};
   run_port(&EffectHooks<S>::loss, x, now, now.loss);
   now.parasitic = {S(1.0), zero<S>()};
   run_port(&EffectHooks<S>::parasitic, x, now, now.parasitic);
 
   const S fade = calc_standstill_fade(now.motion.speed_m_s);
-  const S law_N = now.loss.factor * calc_law_N(now);
+  const S law_N = now.loss.factor * (now.curvature_factor * model_->calc_loss_N(now));
   now.rolling_resistance_N = fade * (law_N + now.loss.extra_force_N);
   now.heating_force_N = fade * (law_N + now.loss.extra_heating_force_N);
   now.parasitic_N =
@@ -125,7 +123,7 @@ void Corner<S>::calc_losses(const S* x, Instant<S>& now) const {
 
 template <class S>
 void Corner<S>::calc_rates(const S* x, Instant<S>& now, S* rates) const {
-  fill_baseline_network(now, now.thermal);
+  fill_network(now, now.thermal);
   run_port(&EffectHooks<S>::thermal, x, now, now.thermal);
   now.heat = calc_heat_flows(now.thermal, now.acting.ambient_K, now.boundary.surface_K);
   for (std::size_t i = 0; i < kNodeCount; ++i) {
@@ -157,7 +155,7 @@ void Corner<S>::require_possible(const S* x) const {
     throw RunFailure(fmt::format(
         "the temperature of the tire's {} is {}: values of the tire, the rig or an effect are beyond what can be "
         "simulated; nearer to the usual ones, they may be within",
-        kNodeNames[i], is));
+        names_[i], is));
   }
 }
 
@@ -166,7 +164,7 @@ S Corner<S>::calc_stored_heat_J(const S* x) const {
   Instant<S> at_rest;  // capacities do not depend on the motion
   at_rest.context = &context_;
   fill_temperatures(x, at_rest.thermal);
-  fill_baseline_network(at_rest, at_rest.thermal);
+  fill_network(at_rest, at_rest.thermal);
   run_port(&EffectHooks<S>::thermal, x, at_rest, at_rest.thermal);
   S stored_J = at_rest.thermal.under_way_J;
   for (std::size_t i = 0; i < kNodeCount; ++i) {
@@ -183,12 +181,10 @@ void Corner<S>::fill_temperatures(const S* x, ThermalNetwork<S>& network) const 
   }
 }
 
+/// The network of the tire's model, with nothing yet of nodes that effects ask for.
 template <class S>
-void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& network) const {
-  using std::abs;
-  const TireThermalParameters<S>& thermal = context_.tire.thermal;
-  const std::size_t rubber = index_of(Node::kRubber);
-  for (std::size_t i = 0; i < kNodeCount; ++i) {  // of further nodes: theirs who ask for them
+void Corner<S>::fill_network(const Instant<S>& now, ThermalNetwork<S>& network) const {
+  for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (!nodes_[i]) continue;
     network.heat_capacity_J_per_K[i] = network.heat_W[i] = zero<S>();
     network.air_W_per_K[i] = network.road_W_per_K[i] = zero<S>();
@@ -198,13 +194,19 @@ void Corner<S>::fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& 
   }
   network.under_way_J = zero<S>();
   network.under_way_W = zero<S>();
-  network.heat_capacity_J_per_K[rubber] = thermal.heat_capacity_J_per_K;
-  network.heat_capacity_J_per_K[index_of(Node::kGas)] = thermal.gas_heat_capacity_J_per_K;
-  network.heat_W[rubber] = now.heating_force_N * now.motion.rolling_speed_m_s;
-  network.road_W_per_K[rubber] = thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K;
-  network.air_W_per_K[rubber] = (S(1.0) - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K +
-                                thermal.speed_conductance_W_s_per_m_K * now.boundary.air_speed_m_s;
-  network.link(Node::kRubber, Node::kGas) = thermal.H_gas_W_per_K;
+  model_->fill_network(now, network);
+  add_tire_heat(now, HeatSource::kHysteresis, S(now.heating_force_N * now.motion.rolling_speed_m_s), network);
+}
+
+template <class S>
+S Corner<S>::calc_law_N(const S& speed_m_s, const S& load_N, const S& pressure_Pa, const S& temperature_K) const {
+  Instant<S> now;
+  now.context = &context_;
+  now.motion.speed_m_s = speed_m_s;
+  now.motion.load_N = load_N;
+  now.pressure_Pa = pressure_Pa;
+  now.loss.temperature_K = temperature_K;
+  return curvature_factor_ * model_->calc_loss_N(now);
 }
 
 template class Corner<double>;

@@ -31,7 +31,6 @@ class Corner {
   Corner(Context<S> context, const std::vector<ActiveEffect>& effects);
 
   const Context<S>& context() const { return context_; }
-  Context<S>& context() { return context_; }
   /// Effects that are on, in the order of the registry; their parameters may be set anew.
   std::vector<Installed>& effects() { return effects_; }
   const std::vector<Installed>& effects() const { return effects_; }
@@ -57,6 +56,9 @@ class Corner {
   /// Throws RunFailure where a node is colder or hotter than anything of a tire can be.
   void require_possible(const S* x) const;
 
+  /// What the law of the tire's model alone loses on this surface where all of the tire has one temperature [N].
+  S calc_law_N(const S& speed_m_s, const S& load_N, const S& pressure_Pa, const S& temperature_K) const;
+
   /// Heat stored in all nodes, from 0 K, and on its way into them [J].
   S calc_stored_heat_J(const S* x) const;
 
@@ -70,13 +72,15 @@ class Corner {
     }
   }
   void fill_temperatures(const S* x, ThermalNetwork<S>& network) const;
-  void fill_baseline_network(const Instant<S>& now, ThermalNetwork<S>& network) const;
-  S calc_law_N(const Instant<S>& now) const;
+  void fill_network(const Instant<S>& now, ThermalNetwork<S>& network) const;
 
   Context<S> context_;
+  const TireModelHooks<S>* model_;
+  S curvature_factor_;
   std::vector<Installed> effects_;
   std::vector<CornerState> states_;
-  NodeSet nodes_ = kBaselineNodes;
+  NodeSet nodes_{};
+  std::array<const char*, kNodeCount> names_{"", "gas", "tread", "rim", "", ""};
   std::array<std::size_t, kNodeCount> node_state_{};
 };
 
@@ -92,7 +96,6 @@ Context<S> convert_context(const Context<double>& from) {
   to.parasitic = convert<S>(from.parasitic);
   to.vehicle = convert<S>(from.vehicle);
   to.rig_kind = from.rig_kind;
-  to.baseline = from.baseline;
   to.surface_curvature_per_m = quantity<S>(from.surface_curvature_per_m, Dimension{} / dimension::kLength);
   to.machine_radius_m = quantity<S>(from.machine_radius_m, dimension::kLength);
   to.machine_mass_kg = quantity<S>(from.machine_mass_kg, dimension::kMass);

@@ -27,15 +27,14 @@ bool acts_on(const EffectInfo& info, RigKind kind) {
   return std::find(info.acts_on.begin(), info.acts_on.end(), kind) != info.acts_on.end();
 }
 
-bool acts_in(const EffectInfo& info, RigKind kind, Baseline baseline) {
-  return acts_on(info, kind) && info.only_against.value_or(baseline) == baseline;
+bool acts_in(const EffectInfo& info, RigKind kind, const TireModel& model) {
+  for (const auto& [node, name] : model.info.nodes) {
+    if (info.nodes[index_of(node)]) return false;
+  }
+  return acts_on(info, kind) && (info.only_against == nullptr || model.info.id == info.only_against);
 }
 
-std::vector<std::string> effect_ids() {
-  std::vector<std::string> ids;
-  for (const Effect* effect : all_effects()) ids.push_back(effect->info.id);
-  return ids;
-}
+std::vector<std::string> effect_ids() { return list_ids(all_effects()); }
 
 const Effect& find_effect(const std::string& id) {
   for (const Effect* effect : all_effects()) {

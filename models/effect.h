@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "models/ports.h"
+#include "models/tire/tire_model.h"
 
 namespace rollrig::models {
 
@@ -55,12 +55,12 @@ struct EffectInfo {
   std::vector<EffectParameter> parameters;  // the size first
   std::vector<EffectState> states;
   std::vector<RigKind> acts_on{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};  // elsewhere a corner leaves it out
-  std::optional<Baseline> only_against = std::nullopt;  // the baseline that lacks it; the other has it
-  std::vector<RigKind> faint_on{};                      // of these, where it changes too little to be seen
-  NodeSet nodes{};                                      // thermal nodes that it needs beside the baseline's
-  std::vector<std::string> visible_in;       // measured channels, of any rig kind, that a finite size changes
-  std::vector<std::string> clean_in;         // measured channels, of any rig kind, that it leaves bit-identical
-  std::vector<std::string> confused_with;    // ids
+  const char* only_against = nullptr;      // id of the tire model that lacks it; others have it
+  std::vector<RigKind> faint_on{};         // of these, where it changes too little to be seen
+  NodeSet nodes{};                         // thermal nodes that it adds; it does not act on a tire model that has them
+  std::vector<std::string> visible_in;     // measured channels, of any rig kind, that a finite size changes
+  std::vector<std::string> clean_in;       // measured channels, of any rig kind, that it leaves bit-identical
+  std::vector<std::string> confused_with;  // ids
   std::vector<std::string> splitting_tests;  // tests that tell it from those
   LawError law_error{};                      // where it exceeds the diagnosis' usual shares
 };
@@ -70,8 +70,8 @@ const char* name_of(RigKind kind);
 
 /// Whether the effect changes anything on such a rig.
 bool acts_on(const EffectInfo& info, RigKind kind);
-/// The same against a baseline.
-bool acts_in(const EffectInfo& info, RigKind kind, Baseline baseline);
+/// The same for a tire of that model.
+bool acts_in(const EffectInfo& info, RigKind kind, const TireModel& model);
 
 /// An effect's own numbers at one instant.
 template <class S>
@@ -105,66 +105,41 @@ struct EffectHooks {
 /// An effect as the registry holds it: what it declares, and its functions for the three scalars.
 struct Effect {
   EffectInfo info;
-  EffectHooks<double> on_double;
-  EffectHooks<Jet> on_jet;
-  EffectHooks<DimensionedScalar> on_dimensioned;
+  ForEachScalar<EffectHooks> by_scalar;
 
   template <class S>
-  const EffectHooks<S>& hooks() const;
+  const EffectHooks<S>& hooks() const {
+    return std::get<EffectHooks<S>>(by_scalar);
+  }
 };
-
-template <>
-inline const EffectHooks<double>& Effect::hooks<double>() const {
-  return on_double;
-}
-template <>
-inline const EffectHooks<Jet>& Effect::hooks<Jet>() const {
-  return on_jet;
-}
-template <>
-inline const EffectHooks<DimensionedScalar>& Effect::hooks<DimensionedScalar>() const {
-  return on_dimensioned;
-}
 
 namespace detail {
 
-// Finds E::port<S> where E has it; leaves the hook nullptr where it has not.
-#define ROLLRIG_FIND_HOOK(port)                           \
-  template <class E, class S>                             \
-  auto find_##port(int)->decltype(&E::template port<S>) { \
-    return &E::template port<S>;                          \
-  }                                                       \
-  template <class E, class S>                             \
-  std::nullptr_t find_##port(long) {                      \
-    return nullptr;                                       \
-  }
-ROLLRIG_FIND_HOOK(input)
-ROLLRIG_FIND_HOOK(boundary)
-ROLLRIG_FIND_HOOK(gas)
-ROLLRIG_FIND_HOOK(contact)
-ROLLRIG_FIND_HOOK(loss)
-ROLLRIG_FIND_HOOK(parasitic)
-ROLLRIG_FIND_HOOK(thermal)
-ROLLRIG_FIND_HOOK(rates)
-ROLLRIG_FIND_HOOK(initial)
-ROLLRIG_FIND_HOOK(inflated)
-ROLLRIG_FIND_HOOK(trace)
-#undef ROLLRIG_FIND_HOOK
+/// Sets a hook to what `find` gives for E; leaves it nullptr where E has no such function.
+template <class E, class Hook, class Find>
+void set_where_found(Hook& hook, Find find) {
+  if constexpr (std::is_invocable_v<Find, E>) hook = find(E{});
+}
 
 template <class E, class S>
 EffectHooks<S> find_hooks() {
   EffectHooks<S> hooks;
-  hooks.input = find_input<E, S>(0);
-  hooks.boundary = find_boundary<E, S>(0);
-  hooks.gas = find_gas<E, S>(0);
-  hooks.contact = find_contact<E, S>(0);
-  hooks.loss = find_loss<E, S>(0);
-  hooks.parasitic = find_parasitic<E, S>(0);
-  hooks.thermal = find_thermal<E, S>(0);
-  hooks.rates = find_rates<E, S>(0);
-  hooks.initial = find_initial<E, S>(0);
-  hooks.inflated = find_inflated<E, S>(0);
-  hooks.trace = find_trace<E, S>(0);
+#define ROLLRIG_SET_HOOK(port)                                                                      \
+  set_where_found<E>(hooks.port, [](auto effect) -> decltype(&decltype(effect)::template port<S>) { \
+    return &decltype(effect)::template port<S>;                                                     \
+  });
+  ROLLRIG_SET_HOOK(input)
+  ROLLRIG_SET_HOOK(boundary)
+  ROLLRIG_SET_HOOK(gas)
+  ROLLRIG_SET_HOOK(contact)
+  ROLLRIG_SET_HOOK(loss)
+  ROLLRIG_SET_HOOK(parasitic)
+  ROLLRIG_SET_HOOK(thermal)
+  ROLLRIG_SET_HOOK(rates)
+  ROLLRIG_SET_HOOK(initial)
+  ROLLRIG_SET_HOOK(inflated)
+  ROLLRIG_SET_HOOK(trace)
+#undef ROLLRIG_SET_HOOK
   return hooks;
 }
 
@@ -172,9 +147,11 @@ EffectHooks<S> find_hooks() {
 
 /// The effect that struct E describes.
 template <class E>
-Effect make_effect() {
-  return {E::info(), detail::find_hooks<E, double>(), detail::find_hooks<E, Jet>(),
-          detail::find_hooks<E, DimensionedScalar>()};
+const Effect& make_effect() {
+  static const Effect effect{
+      E::info(),
+      {detail::find_hooks<E, double>(), detail::find_hooks<E, Jet>(), detail::find_hooks<E, DimensionedScalar>()}};
+  return effect;
 }
 
 /// An effect switched on, with its parameters in SI units, in the order of its declaration.

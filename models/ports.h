@@ -1,5 +1,5 @@
 #pragma once
-/// The ports: places in the chain of equations where an effect may act, in the order of baseline.md.
+/// The ports: places in the chain of equations where an effect may act, in the order of evaluation.
 ///
 /// One evaluation fills an Instant port by port. An effect's function for a port receives the Instant,
 /// of which everything that stands before its port is filled, and the port itself, which it changes.
@@ -17,20 +17,16 @@
 
 namespace rollrig::models {
 
-/// Which law gives the loss before any effect acts (formats.md, `baseline`).
-enum class Baseline { kCombined, kConstantRrc };
-
 /// What a tire rolls on: a test drum, a roller of a dynamometer under a vehicle, or the road.
 enum class RigKind { kDrum, kDyno, kFlat };
 
-/// What does not change in a run: the tire, the machine under it, and the baseline.
+/// What does not change in a run: the tire with its model, and the machine under it.
 template <class S>
 struct Context {
   TireParameters<S> tire;
   ParasiticParameters<S> parasitic;
   VehicleBody<S> vehicle;  // of a measured vehicle on the road; elsewhere a rig's layout has it
   RigKind rig_kind = RigKind::kDrum;
-  Baseline baseline = Baseline::kCombined;
   S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
   S machine_radius_m{};         // torque at the machine's axis over force at its surface; 0 on the flat
   S machine_mass_kg{};          // inertia of drum or roller as mass at its surface, J/R^2; 0 on the flat
@@ -98,14 +94,14 @@ struct ContactPort {
 template <class S>
 struct LossPort {
   S factor{};         // on the rolling resistance of the law; 1 in the baseline
-  S temperature_K{};  // that the law sees; the rubber node's in the baseline
+  S temperature_K{};  // that the law sees; in the baseline that of the tire's model
 
-  /// Adds a resisting force of the tire, of which `heat_share` heats the rubber.
+  /// Adds a resisting force of the tire, of which `heat_share` heats the tire.
   void add_force(const S& force_N, const S& heat_share) {
     extra_force_N += force_N;
     extra_heating_force_N += force_N * heat_share;
   }
-  /// Adds a resisting force of the tire, all of which heats the rubber.
+  /// Adds a resisting force of the tire, all of which heats the tire.
   void add_heating_force(const S& force_N) { add_force(force_N, S(1.0)); }
 
   S extra_force_N{};
@@ -119,7 +115,7 @@ struct ParasiticPort {
   S extra_force_N{};  // at the surface
 };
 
-/// Port "thermal": the network itself, which the baseline has filled.
+/// Port "thermal": the network itself, which the tire's model has filled.
 template <class S>
 using ThermalPort = ThermalNetwork<S>;
 
@@ -140,9 +136,9 @@ struct Instant {
   ParasiticPort<S> parasitic;
   ThermalPort<S> thermal;  // its temperatures are filled from the start
 
-  S curvature_factor{};      // K of baseline.md
+  S curvature_factor{};      // K of drum_curvature.h; 1 for a model that knows no curvature
   S rolling_resistance_N{};  // F_rr with every effect, faded at standstill
-  S heating_force_N{};       // part of it that heats the rubber
+  S heating_force_N{};       // part of it that heats the tire
   S parasitic_N{};           // faded at standstill
   HeatFlows<S> heat;
 };

@@ -19,25 +19,18 @@ using estimation::TireFit;
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 /// What the two-step regression says of a parameter, in the unit of its key.
-std::optional<double> find_two_step(const estimation::TwoStepEstimate& two_step, const std::string& key) {
-  if (key.find("load_map") != std::string::npos) return std::nullopt;
+std::optional<double> find_two_step(const Json& two_step, const std::string& key) {
   const std::string last = last_part(key);
-  if (last == "A0_N") return two_step.A0_N;
-  if (last == "A1_N_s_per_m") return two_step.A1_N_s_per_m;
-  if (last == "B0_per_degC") return two_step.B0_per_K;
-  if (last == "B1_s_per_m_degC") return two_step.B1_s_per_m_K;
-  if (last == "z_W_per_K") return two_step.rest_conductance_W_per_K;
-  if (last == "f_W_s_per_m_K") return two_step.speed_conductance_W_s_per_m_K;
-  if (last == "H_gas_W_per_K") return two_step.H_gas_W_per_K;
-  return std::nullopt;
+  if (key.find("load_map") != std::string::npos || !two_step.contains(last)) return std::nullopt;
+  return two_step[last].get<double>();
 }
 
-Block make_parameters(const TireFit& fit) {
+Block make_parameters(const TireFit& fit, const Json& two_steps) {
   scenarios::ResultTable table{"Parameters with their 95 % intervals",
                                {"parameter", "value", "sd", "from", "to", "unit", "two-step regression", ""},
                                {}};
   for (const Estimate& at : fit.estimates) {
-    const std::optional<double> two_step = find_two_step(fit.two_step, at.key);
+    const std::optional<double> two_step = find_two_step(two_steps, at.key);
     table.rows.push_back({estimation::find_file_key(at.key), fmt::format("{:.5g}", at.value),
                           fmt::format("{:.2g}", at.sd), fmt::format("{:.5g}", at.lower_95()),
                           fmt::format("{:.5g}", at.upper_95()), pretty_unit(unit_of_key(last_part(at.key)).symbol),
@@ -48,7 +41,7 @@ Block make_parameters(const TireFit& fit) {
 }
 
 /// Each parameter in percent of its value: the interval, and the two-step regression of the source in it.
-Block make_intervals(const TireFit& fit) {
+Block make_intervals(const TireFit& fit, const Json& two_steps) {
   Json names = Json::array();
   Json two_step = Json::array();
   Json low = Json::array();
@@ -56,7 +49,7 @@ Block make_intervals(const TireFit& fit) {
   for (const Estimate& at : fit.estimates) {
     if (at.nuisance || at.value == 0.0) continue;
     const double half_percent = std::abs(100.0 * (at.upper_95() - at.value) / at.value);
-    const std::optional<double> other = find_two_step(fit.two_step, at.key);
+    const std::optional<double> other = find_two_step(two_steps, at.key);
     names.push_back(name_without_unit(last_part(estimation::find_file_key(at.key))));
     two_step.push_back(other.has_value() ? rounded(100.0 * (*other - at.value) / at.value) : Json(nullptr));
     low.push_back(rounded(-half_percent));
@@ -111,9 +104,10 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
   Page page{
       "fit tire", fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
       fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run"))};
+  const Json document = estimation::make_fit_json(set, fit);
   Section result = begin_section("Parameters", fit.warnings);
-  result.blocks.push_back(make_parameters(fit));
-  result.blocks.push_back(make_intervals(fit));
+  result.blocks.push_back(make_parameters(fit, document["two_step"]));
+  result.blocks.push_back(make_intervals(fit, document["two_step"]));
   page.add(std::move(result));
   page.add({"What is left", "", {make_channels(fit)}});
   const diagnosis::PreparedSet prepared(set);
@@ -124,7 +118,7 @@ Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& 
   }
   page.add(std::move(runs));
   page.add({"Correlations", "", {make_correlations(fit)}});
-  page.add(make_document(estimation::make_fit_json(set, fit), "The fit as JSON"));
+  page.add(make_document(document, "The fit as JSON"));
   return page;
 }
 

@@ -58,7 +58,7 @@ class QuasiStaticRig : public RigSystem<S> {
     }
   }
   std::size_t tire_temperature_state() const override {
-    return wheels_.front().first_state + wheels_.front().corner->state_of(models::Node::kRubber);
+    return wheels_.front().first_state + wheels_.front().corner->state_of(models::Node::kLiner);
   }
 
   /// Puts a wheel at the start of a run, on which `load_N` rests.

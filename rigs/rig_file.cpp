@@ -92,7 +92,6 @@ models::Context<double> make_context(const models::TireFile& tire, const RigFile
   context.tire = tire.parameters_on(rig.name, baseline);
   context.parasitic = rig.parasitic;
   context.rig_kind = rig.kind;
-  context.baseline = baseline;
   if (rig.kind != RigKind::kFlat) {
     const double radius_m = rig.drum.diameter_m / 2.0;
     context.surface_curvature_per_m = 2.0 / rig.drum.diameter_m;

@@ -110,7 +110,7 @@ class RigSystem : public sim::OdeSystem<S> {
 /// Temperature of the liner, pressure and temperature of the gas, as their sensors read them.
 template <class S>
 void put_tire_readings(const models::Instant<S>& now, S* readings) {
-  readings[0] = now.thermal.temperature_K[models::index_of(models::Node::kRubber)];
+  readings[0] = now.thermal.temperature_K[models::index_of(models::Node::kLiner)];
   readings[1] = now.pressure_Pa;
   readings[2] = now.thermal.temperature_K[models::index_of(models::Node::kGas)];
 }

@@ -95,7 +95,7 @@ void SimbodySystem::set_drive(bool on, double* y) {
 }
 
 std::size_t SimbodySystem::tire_temperature_state() const {
-  return slip_state(0) + 1 + corners_.front()->state_of(models::Node::kRubber);
+  return slip_state(0) + 1 + corners_.front()->state_of(models::Node::kLiner);
 }
 
 void SimbodySystem::evaluate(double time_s, const double* y, double* rates, double* integrands) {

@@ -106,7 +106,7 @@ models::Context<double> make_vehicle_context(const models::TireFile& tire, const
                                              const VehicleFile& vehicle, models::Baseline baseline) {
   models::Context<double> context = make_context(tire, rig, baseline);
   if (rig.kind == RigKind::kFlat && vehicle.road_load.has_value()) {
-    context.baseline = models::Baseline::kConstantRrc;
+    context.tire.own = {&models::find_tire_model(models::kConstantModel), {}};
     context.tire.constant.rrc = 0.0;
   }
   return context;

@@ -74,12 +74,13 @@ std::string write_equations(const std::string& root, const std::string& file) {
   return page.empty() ? "" : fmt::format("### {}\n\n{}", file, page);
 }
 
-std::string write_effects() {
+/// What effects or tire models declare of themselves.
+template <class Registered>
+std::string write_declared(const std::vector<const Registered*>& all) {
   std::string page;
-  for (const models::Effect* effect : models::all_effects()) {
-    const models::EffectInfo& info = effect->info;
-    page += fmt::format("* [`{0}`](reference.md#{0}): {1}. {2}.\n\n  Source: {3}.\n\n", info.id, info.summary,
-                        info.equation, info.source);
+  for (const Registered* one : all) {
+    page += fmt::format("* [`{0}`](reference.md#{0}): {1}. {2}.\n\n  Source: {3}.\n\n", one->info.id, one->info.summary,
+                        one->info.equation, one->info.source);
   }
   return page;
 }
@@ -113,24 +114,33 @@ bool is_in_words(const std::string& line) {
   return std::count(before.begin(), before.end(), '"') % 2 == 1;
 }
 
+/// What their sources say that is assumed.
+template <class Registered>
+std::string write_declared_assumed(const std::string& folder, const std::vector<const Registered*>& all) {
+  std::string rows;
+  for (const Registered* one : all) {
+    const std::size_t at = one->info.source.find("Assumed: ");
+    if (at == std::string::npos) continue;
+    rows += fmt::format("| {0}/{1}.cpp | `{1}` | {2} |\n", folder, one->info.id,
+                        escape_cell(one->info.source.substr(at + 9)));
+  }
+  return rows;
+}
+
 std::string write_assumed(const std::string& root) {
   std::string page = "| file | number | assumed |\n|---|---|---|\n";
-  for (const models::Effect* effect : models::all_effects()) {
-    const std::size_t at = effect->info.source.find("Assumed: ");
-    if (at == std::string::npos) continue;
-    page += fmt::format("| models/effects/{0}.cpp | `{0}` | {1} |\n", effect->info.id,
-                        escape_cell(effect->info.source.substr(at + 9)));
-  }
+  page += write_declared_assumed("models/tire", models::all_tire_models());
+  page += write_declared_assumed("models/effects", models::all_effects());
   const std::vector<std::string> folders{"models",     "rigs",      "sim",      "measurements",
                                          "estimation", "scenarios", "diagnosis"};
   std::vector<std::string> files = list_files(root, folders, {".h", ".cpp"});
   const std::vector<std::string> assets = list_files(root, {"assets"}, {".toml"});
   files.insert(files.end(), assets.begin(), assets.end());
   for (const std::string& file : files) {
-    const bool is_effect = text::starts_with(file, "models/effects/");
+    const bool is_declared = text::starts_with(file, "models/effects/") || text::starts_with(file, "models/tire/");
     const std::vector<std::string> lines = read_lines(root + "/" + file);
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (lines[i].find(kAssumed) == std::string::npos || (is_effect && is_in_words(lines[i]))) continue;
+      if (lines[i].find(kAssumed) == std::string::npos || (is_declared && is_in_words(lines[i]))) continue;
       page += write_assumed_row(file, lines, i);
     }
   }
@@ -144,14 +154,17 @@ std::string make_physics_page(const std::string& root) {
       "# Physics\n\nGenerated from the program's own comments and declarations (`ninja docs_pages`); a test holds the "
       "page to them.\n\n\"The source\" is the thesis that rollrig implements ([CITATION.cff](../CITATION.cff)); "
       "`effects.md` and `baseline.md` are the specification of the catalog and of the baseline that it was written "
-      "to. Neither is part of rollrig: what they say stands here.\n\n[Equations](#equations), [effects](#effects), "
+      "to. Neither is part of rollrig: what they say stands here.\n\n[Equations](#equations), [tire "
+      "models](#tire-models), [effects](#effects), "
       "[what is assumed](#what-is-assumed)\n\n"
       "## Equations\n\n";
   for (const std::string& file :
        list_files(root, {"models", "rigs", "sim", "measurements", "estimation", "scenarios", "diagnosis"}, {".h"})) {
     page += write_equations(root, file);
   }
-  page += "## Effects\n\nParameters, ranges and priors are in [reference.md](reference.md).\n\n" + write_effects();
+  page += "## Tire models\n\nWhat `model` in a tire file may say.\n\n" + write_declared(models::all_tire_models());
+  page += "## Effects\n\nParameters, ranges and priors are in [reference.md](reference.md).\n\n" +
+          write_declared(models::all_effects());
   page +=
       "## What is assumed\n\nEvery number without a source, as it is marked where it stands.\n\n" + write_assumed(root);
   return page;

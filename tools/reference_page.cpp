@@ -66,7 +66,7 @@ std::string describe(const models::EffectInfo& effect) {
                     parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
   }
   text += fmt::format("\n*Acts on* {}", list_kinds(effect.acts_on));
-  if (effect.only_against.has_value()) text += ", only against the baseline `constant_rrc`";
+  if (effect.only_against != nullptr) text += ", only against the baseline `constant_rrc`";
   if (!effect.faint_on.empty()) text += fmt::format(", too little to be seen on {}", list_kinds(effect.faint_on));
   text += fmt::format(". *Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
                       list_or_none(effect.visible_in), list_or_none(effect.clean_in),
@@ -74,10 +74,9 @@ std::string describe(const models::EffectInfo& effect) {
   return text;
 }
 
-template <class Group>
-std::string describe_keys() {
+std::string describe_keys(const std::vector<Field>& fields) {
   std::string text = "\n| key | allowed | default | meaning |\n|---|---|---|---|\n";
-  for (const Field& field : list_fields<Group>()) {
+  for (const Field& field : fields) {
     text +=
         fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.range.to_string()),
                     field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required", cell(field.doc));
@@ -86,16 +85,37 @@ std::string describe_keys() {
 }
 
 template <class Group>
+std::string describe_keys() {
+  return describe_keys(list_fields<Group>());
+}
+
+template <class Group>
 std::string describe_table(const std::string& name) {
   return fmt::format("\n`[{}]`\n", name) + describe_keys<Group>();
+}
+
+/// The tire models, each with the table of its own numbers.
+std::string describe_tire_models() {
+  std::string text = "\n`model`, by default `" + models::default_tire_model().info.id + "`:\n";
+  for (const models::TireModel* model : models::all_tire_models()) {
+    const models::TireModelInfo& info = model->info;
+    text += fmt::format("\n<a name=\"{0}\"></a>`{0}`: {1}. Needs `[{2}]`.\n", info.id, info.summary,
+                        boost::algorithm::join(info.tables, "]`, `["));
+    std::vector<Field> fields;
+    for (const models::TireModelParameter& own : info.parameters) fields.push_back(own.field);
+    if (!fields.empty()) text += fmt::format("\n`[{}]`\n", info.id) + describe_keys(fields);
+  }
+  return text;
 }
 
 std::string describe_tire_file() {
   using Tire = models::TireParameters<double>;
   std::string text =
-      "\n## Tire file\n\n`format = \"rollrig-tire/2\"`, `name`, `designation`, and the tables below. A "
-      "number of `[rolling_resistance]`, `[thermal]`\nand `[constant]` may have its standard uncertainty "
+      "\n## Tire file\n\n`format = \"rollrig-tire/2\"`, `name`, `designation`, `model`, and the tables below. A "
+      "number of `[rolling_resistance]`, `[thermal]`,\n`[constant]` and a model's own may have its standard "
+      "uncertainty "
       "beside it, under its key with `_sd`.\n";
+  text += describe_tire_models();
   text += describe_table<decltype(Tire::geometry)>("geometry");
   text += describe_table<decltype(Tire::stiffness)>("stiffness");
   text += describe_table<decltype(Tire::rolling_resistance)>("rolling_resistance");

@@ -170,7 +170,7 @@ GapCandidate match_all(const GapCurve& curve, const PowerErrors& wanted) {
   GapCandidate candidate;
   candidate.effect = curve.effect;
   candidate.sign = curve.sign;
-  const auto& hooks = curve.effect->on_double;
+  const auto& hooks = curve.effect->hooks<double>();
   candidate.is_of_tire = hooks.loss != nullptr || hooks.thermal != nullptr || hooks.gas != nullptr;
   candidate.common = match(curve, flatten(wanted), std::nullopt);
   candidate.log_weight = find_log_weight(curve, flatten(wanted), std::nullopt);

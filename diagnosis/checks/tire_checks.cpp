@@ -89,7 +89,7 @@ void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, 
     for (const RunMisfit& misfit : misfits) sum += misfit.sum_of_squares();
     return sum;
   };
-  if (set.baseline != models::Baseline::kCombined) return;  // a coefficient alone does not tell tires apart
+  if (!set.tire.model(set.baseline).info.loss_follows_heat) return;  // a coefficient alone does not tell tires apart
   const double own = sum_of(baseline.misfits);
   if (own < kVisible * static_cast<double>(set.runs.size())) return;
   for (const std::string& name : list_assets("tires")) {

@@ -1,9 +1,11 @@
 #include "diagnosis/comparison/base_parameters.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <functional>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "models/tire/tire_model.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -21,79 +23,63 @@ void add_lines(const std::string& table, const models::SpeedLines<double>& lines
   sd[table + "B1_s_per_m_degC"] = 0.04 * fall_per_K / kReferenceSpeed_m_s;
 }
 
-/// Whether a key names one of the lines over speed that a map over load replaces.
-bool is_replaced_by_map(const std::string& key) {
-  constexpr const char* kTable = "tire.rolling_resistance.";
-  bool replaced = false;
-  models::SpeedLines<double> lines;
-  models::SpeedLines<double>::visit(
-      lines, [&](const Field& field, double&) { replaced = replaced || key == std::string(kTable) + field.key; });
-  return replaced;
+void add_heat_balance(const models::TireThermalParameters<double>& thermal, std::map<std::string, double>& sd) {
+  const double cooling_W_per_K = models::calc_cooling_W_per_K(thermal, kReferenceSpeed_m_s);
+  sd["tire.thermal.heat_capacity_J_per_K"] = 0.05 * thermal.heat_capacity_J_per_K;
+  sd["tire.thermal.gas_heat_capacity_J_per_K"] = 0.10 * thermal.gas_heat_capacity_J_per_K;
+  sd["tire.thermal.H_gas_W_per_K"] = 0.15 * thermal.H_gas_W_per_K;
+  sd["tire.thermal.z_W_per_K"] = 0.08 * std::max(thermal.rest_conductance_W_per_K, 0.1 * cooling_W_per_K);
+  sd["tire.thermal.f_W_s_per_m_K"] =
+      0.08 * std::max(thermal.speed_conductance_W_s_per_m_K, 0.1 * cooling_W_per_K / kReferenceSpeed_m_s);
 }
 
-using Put = std::function<void(const std::string& key, double sd_SI)>;
+void put_given(const std::string& key, double sd_SI, Uncertainties& uncertainties) {
+  if (sd_SI > 0.0) uncertainties.given[key] = sd_SI;
+}
 
-/// Puts a standard uncertainty where a file gives one.
-Put put_given(Uncertainties& uncertainties) {
-  return [&uncertainties](const std::string& key, double sd_SI) {
-    if (sd_SI > 0.0) uncertainties.given[key] = sd_SI;
-  };
+/// Puts the standard uncertainties of a table that a file gives.
+template <class Group>
+void add_given(const std::string& table, const Group& sd, Uncertainties& uncertainties) {
+  Group::visit(sd,
+               [&](const Field& field, double sd_SI) { put_given(table + field.output_key(), sd_SI, uncertainties); });
 }
 
 }  // namespace
 
-void add_loss_law(const models::TireFile& tire, const models::Context<double>& context, Uncertainties& uncertainties) {
-  const Put put = put_given(uncertainties);
-  if (context.baseline == models::Baseline::kConstantRrc) {
-    put("tire.constant.rrc_N_per_kN", tire.standard_uncertainties.constant.rrc);
-    uncertainties.usual["tire.constant.rrc_N_per_kN"] = 0.05 * context.tire.constant.rrc;
-    return;
+void add_tire(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
+              bool heat_is_seen, Uncertainties& uncertainties) {
+  const models::TireModelInfo& model = context.tire.model().info;
+  const auto enters = [&](const std::string& table) {
+    return model.uses(table) && (heat_is_seen || table != "thermal");
+  };
+  auto& usual = uncertainties.usual;
+  const auto& map = context.tire.load_map;
+  if (enters("rolling_resistance") && map.empty()) {
+    add_lines("tire.rolling_resistance.", context.tire.rolling_resistance, usual);
   }
-  models::RollingResistanceParameters<double>::visit(
-      tire.standard_uncertainties.rolling_resistance, [&](const Field& field, const double& member) {
-        put(std::string("tire.rolling_resistance.") + field.output_key(), member);
+  for (std::size_t i = 0; i < map.size() && enters("load_map"); ++i)
+    add_lines(fmt::format("tire.load_map.{}.", i), map[i], usual);
+  if (enters("constant")) usual["tire.constant.rrc_N_per_kN"] = 0.05 * context.tire.constant.rrc;
+  if (enters("thermal")) add_heat_balance(context.tire.thermal, usual);
+  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+    const models::TireModelParameter& own = model.parameters[i];
+    usual["tire." + model.id + "." + own.field.output_key()] = own.usual_sd * std::abs(context.tire.own[i]);
+  }
+  models::TireParameters<double>::visit_all(
+      tire.standard_uncertainties, [&](const std::string& table, const Field& field, double sd_SI) {
+        const bool has_map_instead =
+            table == "rolling_resistance" && usual.count(std::string("tire.load_map.0.") + field.key) == 1;
+        if (enters(table) && !has_map_instead)
+          put_given("tire." + table + "." + field.output_key(), sd_SI, uncertainties);
       });
-  for (std::size_t i = 0; i < tire.standard_uncertainties.load_map.size(); ++i) {
-    models::LoadMapEntry<double>::visit(tire.standard_uncertainties.load_map[i],
-                                        [&](const Field& field, const double& member) {
-                                          put("tire.load_map." + std::to_string(i) + "." + field.key, member);
-                                        });
-  }
-  auto& usual = uncertainties.usual;
-  if (context.tire.load_map.empty()) add_lines("tire.rolling_resistance.", context.tire.rolling_resistance, usual);
-  for (std::size_t i = 0; i < context.tire.load_map.size(); ++i) {
-    add_lines("tire.load_map." + std::to_string(i) + ".", context.tire.load_map[i], usual);
-  }
-}
-
-void add_heat_balance(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
-                      Uncertainties& uncertainties) {
-  const Put put = put_given(uncertainties);
-  models::TireThermalParameters<double>::visit(tire.standard_uncertainties.thermal,
-                                               [&](const Field& field, const double& member) {
-                                                 put(std::string("tire.thermal.") + field.output_key(), member);
-                                               });
   const auto on_rig = tire.rig_thermal.find(rig);
-  if (on_rig != tire.rig_thermal.end()) {
-    put("tire.thermal.z_W_per_K", on_rig->second.rest_conductance_sd_W_per_K.value_or(0.0));
-    put("tire.thermal.f_W_s_per_m_K", on_rig->second.speed_conductance_sd_W_s_per_m_K.value_or(0.0));
-  }
-  const auto& thermal = context.tire.thermal;
-  auto& usual = uncertainties.usual;
-  usual["tire.thermal.heat_capacity_J_per_K"] = 0.05 * thermal.heat_capacity_J_per_K;
-  usual["tire.thermal.gas_heat_capacity_J_per_K"] = 0.10 * thermal.gas_heat_capacity_J_per_K;
-  usual["tire.thermal.H_gas_W_per_K"] = 0.15 * thermal.H_gas_W_per_K;
-  const double cooling_W_per_K = models::calc_cooling_W_per_K(thermal, kReferenceSpeed_m_s);
-  usual["tire.thermal.z_W_per_K"] = 0.08 * std::max(thermal.rest_conductance_W_per_K, 0.1 * cooling_W_per_K);
-  usual["tire.thermal.f_W_s_per_m_K"] =
-      0.08 * std::max(thermal.speed_conductance_W_s_per_m_K, 0.1 * cooling_W_per_K / kReferenceSpeed_m_s);
+  if (on_rig == tire.rig_thermal.end() || !enters("thermal")) return;
+  put_given("tire.thermal.z_W_per_K", on_rig->second.rest_conductance_sd_W_per_K.value_or(0.0), uncertainties);
+  put_given("tire.thermal.f_W_s_per_m_K", on_rig->second.speed_conductance_sd_W_s_per_m_K.value_or(0.0), uncertainties);
 }
 
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties) {
-  const Put put = put_given(uncertainties);
-  models::ParasiticParameters<double>::visit(
-      file.parasitic_uncertainties,
-      [&](const Field& field, const double& member) { put(std::string("parasitic.") + field.key, member); });
+  add_given("parasitic.", file.parasitic_uncertainties, uncertainties);
   const auto& rig = file.parasitic;
   const double parasitic_N = models::calc_parasitic_N(rig, kReferenceSpeed_m_s);
   auto& usual = uncertainties.usual;
@@ -104,10 +90,7 @@ void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties)
 }
 
 void add_vehicle(const rigs::VehicleFile& file, Uncertainties& uncertainties) {
-  const Put put = put_given(uncertainties);
-  rigs::VehicleBody::visit(file.uncertainties, [&](const Field& field, const double& member) {
-    put(std::string("vehicle.") + field.key, member);
-  });
+  add_given("vehicle.", file.uncertainties, uncertainties);
   uncertainties.usual["vehicle.mass_kg"] = 0.03 * file.body.mass_kg;
   uncertainties.usual["vehicle.rotating_mass_kg"] = 0.3 * file.body.rotating_mass_kg;
   uncertainties.usual["vehicle.drag_area_m2"] = 0.05 * file.body.drag_area_m2;
@@ -121,7 +104,6 @@ std::vector<FreeParameter> find_base_parameters(const measurements::MeasurementS
   models::Context<double> at = context;
   std::vector<FreeParameter> parameters;
   for (const auto& [key, value] : sd) {
-    if (!context.tire.load_map.empty() && is_replaced_by_map(key)) continue;
     const double start = estimation::find_parameter(at, key);
     if (value > 0.0) parameters.push_back({key, start, value});
   }

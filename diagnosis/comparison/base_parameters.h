@@ -17,12 +17,12 @@ struct Uncertainties {
 };
 
 /// Groups of numbers that a kind of set moves (kinds/measurement_kind.h).
-/// The law of the set's baseline. A0, A1: 2 % of the loss at 80 km/h; B0, B1: 4 %; the constant coefficient: 5 %.
-/// Further numbers of [rolling_resistance] where the file gives one.
-void add_loss_law(const models::TireFile& tire, const models::Context<double>& context, Uncertainties& uncertainties);
-/// Heat capacities: 5 % (rubber) and 10 % (gas); H: 15 %; z and f: 8 %. Further numbers of [thermal] likewise.
-void add_heat_balance(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
-                      Uncertainties& uncertainties);
+/// What the tire's model uses. A0, A1: 2 % of the loss at 80 km/h; B0, B1: 4 %; the constant coefficient: 5 %. Where
+/// the tire's heat shows in what is measured, heat capacities: 5 % (rubber) and 10 % (gas); H: 15 %; conductances to
+/// air and road: 8 %. The model's own numbers: the share that it declares. Further numbers where the file gives an
+/// uncertainty.
+void add_tire(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
+              bool heat_is_seen, Uncertainties& uncertainties);
 /// c0, c1, c2: 5 % of their value and 1 % of the parasitic force at 80 km/h.
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties);
 /// Mass: 3 %; rotating mass: 30 %; drag area: 5 %.

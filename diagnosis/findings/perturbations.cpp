@@ -108,8 +108,8 @@ S one_watt() {
 struct TireHeatPerturbation : TimePerturbation {
   static models::EffectInfo info() { return describe("tire heat"); }
   template <class S>
-  static void thermal(const EffectView<S>& self, const Instant<S>&, models::ThermalPort<S>& port) {
-    port.heat_W[models::index_of(models::Node::kRubber)] += calc(self, one_watt<S>());
+  static void thermal(const EffectView<S>& self, const Instant<S>& now, models::ThermalPort<S>& port) {
+    models::add_tire_heat(now, models::HeatSource::kHysteresis, calc(self, one_watt<S>()), port);
   }
 };
 

@@ -10,8 +10,7 @@ class KindWithRig : public MeasurementKind {
   Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
                                    const models::Context<double>& context) const override {
     Uncertainties uncertainties;
-    add_loss_law(set.tire, context, uncertainties);
-    add_heat_balance(set.tire, set.rig->name, context, uncertainties);
+    add_tire(set.tire, set.rig->name, context, true, uncertainties);
     add_parasitic_loss(*set.rig, uncertainties);
     return uncertainties;
   }

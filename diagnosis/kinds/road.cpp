@@ -46,8 +46,7 @@ class RoadKind : public MeasurementKind {
   /// Against the constant coefficient nothing of the tire's heat is seen.
   Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
     Uncertainties uncertainties;
-    add_loss_law(set.tire, context, uncertainties);
-    if (set.baseline == models::Baseline::kCombined) add_heat_balance(set.tire, "", context, uncertainties);
+    add_tire(set.tire, "", context, context.tire.model().info.loss_follows_heat, uncertainties);
     add_vehicle(*set.vehicle, uncertainties);
     return uncertainties;
   }

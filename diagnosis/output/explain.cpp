@@ -94,7 +94,7 @@ std::string describe(const models::EffectInfo& info) {
     text += wrap(parameter.doc, 3 * kIndent);
   }
   text += section("Acts on", list_kinds(info.acts_on));
-  if (info.only_against.has_value())
+  if (info.only_against != nullptr)
     text += section("Acts only against", "the baseline constant_rrc: the combined one has it");
   if (!info.faint_on.empty()) text += section("Too faint to be seen on", list_kinds(info.faint_on));
   text += section("Revealed by", join_or(info.visible_in, "no measured channel"));

@@ -33,9 +33,9 @@ class Term {
 /// Every term that a comparison may try, in the order in which a hypothesis lists them.
 const std::vector<const Term*>& all_terms();
 
-/// Those that act on such a machine against such a baseline and can be seen there: of these the ones in `only` (all
+/// Those that act on such a machine with such a tire and can be seen there: of these the ones in `only` (all
 /// where it is empty), less those in `without`.
-std::vector<const Term*> choose_terms(models::RigKind machine, models::Baseline baseline,
+std::vector<const Term*> choose_terms(models::RigKind machine, const models::TireModel& tire,
                                       const std::vector<std::string>& only, const std::vector<std::string>& without);
 
 /// The term of that name, or nullptr.

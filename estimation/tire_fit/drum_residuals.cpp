@@ -7,15 +7,6 @@
 #include "sim/core/parallel.h"
 
 namespace rollrig::estimation {
-namespace {
-
-void store_derivatives(double, std::size_t, double*) {}
-void store_derivatives(const Jet& value, std::size_t columns, double* out) {
-  for (std::size_t c = 0; c < columns; ++c) out[c] = value.v[static_cast<Eigen::Index>(c)];
-}
-
-}  // namespace
-
 DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
@@ -71,7 +62,9 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
     for (std::size_t k = 0; k < n; ++k) {
       const S& at = simulated[series.rows[k]];
       difference[k] = measured[series.rows[k]] - value_of(at);
-      store_derivatives(at, columns, derivatives.data() + k * columns);
+      if constexpr (std::is_same_v<S, Jet>) {
+        for (std::size_t c = 0; c < columns; ++c) derivatives[k * columns + c] = at.v[static_cast<Eigen::Index>(c)];
+      }
     }
     series.whitener.apply(difference.data(), 1);
     std::copy(difference.begin(), difference.end(), residuals + series.first_residual);
@@ -82,13 +75,6 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
       for (std::size_t c = 0; c < columns; ++c) row[c] = -derivatives[k * columns + c];
     }
   }
-}
-
-template <class S>
-void DrumResiduals::evaluate_runs(const std::vector<S>& values, std::size_t first_column, std::size_t columns,
-                                  double* residuals, double* jacobian) const {
-  parallel_for(set_.runs.size(), threads_,
-               [&](std::size_t r) { evaluate_run(r, values, first_column, columns, residuals, jacobian); });
 }
 
 void DrumResiduals::add_offsets_and_priors(const double* unknowns, double* residuals, double* jacobian) const {
@@ -119,8 +105,12 @@ void DrumResiduals::add_offsets_and_priors(const double* unknowns, double* resid
 
 void DrumResiduals::evaluate(const double* unknowns, double* residuals, double* jacobian) const {
   const std::size_t p = parameters_.size();
+  const auto evaluate_runs = [&](const auto& values, std::size_t first_column, std::size_t columns) {
+    parallel_for(set_.runs.size(), threads_,
+                 [&](std::size_t r) { evaluate_run(r, values, first_column, columns, residuals, jacobian); });
+  };
   if (jacobian == nullptr) {
-    evaluate_runs(std::vector<double>(unknowns, unknowns + p), 0, 0, residuals, nullptr);
+    evaluate_runs(std::vector<double>(unknowns, unknowns + p), 0, 0);
   } else {
     std::fill(jacobian, jacobian + residual_count_ * unknown_count(), 0.0);
     for (std::size_t first = 0; first < p; first += kJetWidth) {
@@ -130,7 +120,7 @@ void DrumResiduals::evaluate(const double* unknowns, double* residuals, double* 
         const bool varied = i >= first && i < first + columns;
         values.push_back(varied ? Jet(unknowns[i], static_cast<int>(i - first)) : Jet(unknowns[i]));
       }
-      evaluate_runs(values, first, columns, residuals, jacobian);
+      evaluate_runs(values, first, columns);
     }
   }
   add_offsets_and_priors(unknowns, residuals, jacobian);

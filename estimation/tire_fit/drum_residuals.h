@@ -41,9 +41,6 @@ class DrumResiduals {
 
  private:
   template <class S>
-  void evaluate_runs(const std::vector<S>& values, std::size_t first_column, std::size_t columns, double* residuals,
-                     double* jacobian) const;
-  template <class S>
   void evaluate_run(std::size_t run, const std::vector<S>& values, std::size_t first_column, std::size_t columns,
                     double* residuals, double* jacobian) const;
   void add_offsets_and_priors(const double* unknowns, double* residuals, double* jacobian) const;

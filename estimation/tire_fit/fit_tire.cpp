@@ -7,9 +7,11 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "estimation/tire_fit/drum_residuals.h"
 #include "measurements/sample_selection.h"
+#include "models/tire/tire_model.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
@@ -77,22 +79,23 @@ std::vector<double> find_loads_N(const measurements::MeasurementSet& set) {
   return loads_N;
 }
 
+using Lines = models::SpeedLines<double>;
+
 /// The context from which the fit starts: the files', with the two-step estimate put in.
 models::Context<double> make_start_context(const measurements::MeasurementSet& set, const TwoStepEstimate& start,
                                            const std::vector<double>& map_loads_N) {
   models::Context<double> context = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
-  auto& rr = context.tire.rolling_resistance;
-  rr.A0_N = start.A0_N;
-  rr.A1_N_s_per_m = start.A1_N_s_per_m;
-  rr.B0_per_K = start.B0_per_K;
-  rr.B1_s_per_m_K = start.B1_s_per_m_K;
+  Lines& lines = context.tire.rolling_resistance;
+  lines = start;
   context.tire.thermal.rest_conductance_W_per_K = std::max(0.0, start.rest_conductance_W_per_K);
   context.tire.thermal.speed_conductance_W_s_per_m_K = std::max(0.0, start.speed_conductance_W_s_per_m_K);
   if (start.H_gas_W_per_K.has_value()) context.tire.thermal.H_gas_W_per_K = std::max(0.1, *start.H_gas_W_per_K);
   context.tire.load_map.clear();
   for (const double load_N : map_loads_N) {
-    const double share = load_N / rr.reference_load_N;
-    context.tire.load_map.push_back({{share * rr.A0_N, share * rr.A1_N_s_per_m, rr.B0_per_K, rr.B1_s_per_m_K}, load_N});
+    const double share = load_N / context.tire.rolling_resistance.reference_load_N;
+    context.tire.load_map.push_back({lines, load_N});
+    context.tire.load_map.back().A0_N *= share;
+    context.tire.load_map.back().A1_N_s_per_m *= share;
   }
   return context;
 }
@@ -106,21 +109,26 @@ void add_free(FreeKeys& keys, models::Context<double>& context, const std::strin
   keys.parameters.push_back({key, find_parameter(context, key), sd_SI, lower_SI});
 }
 
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
 /// Nuisances: what the files give with an uncertainty and the fit does not ask for.
-void add_nuisances(const measurements::MeasurementSet& set, bool free_H, models::Context<double>& context,
-                   FreeKeys& keys) {
-  const auto& thermal_sd = set.tire.standard_uncertainties.thermal;
+void add_nuisances(const measurements::MeasurementSet& set, models::Context<double>& context, FreeKeys& keys) {
+  std::set<std::string> asked_for;
+  for (const Field& line : list_fields<Lines>()) asked_for.insert(line.key);
+  for (const FreeParameter& parameter : keys.parameters) asked_for.insert(last_part(parameter.key));
   const auto add = [&](const std::string& key, double sd) {
-    if (sd > 0.0) add_free(keys, context, key, 0.0, sd);
+    if (sd > 0.0 && asked_for.count(last_part(key)) == 0) add_free(keys, context, key, 0.0, sd);
   };
-  add("tire.thermal.heat_capacity_J_per_K", thermal_sd.heat_capacity_J_per_K);
-  add("tire.thermal.gas_heat_capacity_J_per_K", thermal_sd.gas_heat_capacity_J_per_K);
-  if (!free_H) add("tire.thermal.H_gas_W_per_K", thermal_sd.H_gas_W_per_K);
-  add("tire.rolling_resistance.pressure_exponent",
-      set.tire.standard_uncertainties.rolling_resistance.pressure_exponent);
-  add("parasitic.c0_N", set.rig->parasitic_uncertainties.c0_N);
-  add("parasitic.c1_N_s_per_m", set.rig->parasitic_uncertainties.c1_N_s_per_m);
-  add("parasitic.c2_N_s2_per_m2", set.rig->parasitic_uncertainties.c2_N_s2_per_m2);
+  for (const std::string& table :
+       {std::string("thermal"), std::string("rolling_resistance"), context.tire.model().info.id}) {
+    models::TireParameters<double>::visit_all(set.tire.standard_uncertainties,
+                                              [&](const std::string& of, const Field& field, const double& sd) {
+                                                if (of == table) add("tire." + of + "." + field.output_key(), sd);
+                                              });
+  }
+  models::ParasiticParameters<double>::visit(
+      set.rig->parasitic_uncertainties,
+      [&](const Field& field, const double& sd) { add(std::string("parasitic.") + field.key, sd); });
 }
 
 FreeKeys choose_free(const measurements::MeasurementSet& set, bool free_H, models::Context<double>& context) {
@@ -130,25 +138,22 @@ FreeKeys choose_free(const measurements::MeasurementSet& set, bool free_H, model
   if (!context.tire.load_map.empty()) tables.clear();
   for (std::size_t i = 0; i < context.tire.load_map.size(); ++i) tables.push_back(fmt::format("tire.load_map.{}.", i));
   for (const std::string& table : tables) {
-    for (const char* key : {"A0_N", "A1_N_s_per_m", "B0_per_degC", "B1_s_per_m_degC"}) {
-      add_free(keys, context, table + key, kNoBound, 0.0);
-    }
+    for (const Field& line : list_fields<Lines>()) add_free(keys, context, table + line.key, kNoBound, 0.0);
   }
   add_free(keys, context, "tire.thermal.z_W_per_K", 0.0, 0.0);
   add_free(keys, context, "tire.thermal.f_W_s_per_m_K", 0.0, 0.0);
   if (free_H) add_free(keys, context, "tire.thermal.H_gas_W_per_K", 1e-3, 0.0);
   keys.asked_for = keys.parameters.size();
-  add_nuisances(set, free_H, context, keys);
+  add_nuisances(set, context, keys);
   return keys;
 }
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 void put_estimates(const measurements::MeasurementSet& set, const models::Context<double>& start, const FreeKeys& keys,
                    const std::vector<double>& unknowns, const Eigen::MatrixXd& covariance, TireFit& fit) {
   models::Context<double> best = start;
   models::Context<double> uncertainty;
   uncertainty.tire.load_map.resize(start.tire.load_map.size());
+  uncertainty.tire.own = start.tire.own;
   for (std::size_t i = 0; i < keys.parameters.size(); ++i) {
     const std::string& key = keys.parameters[i].key;
     const Unit unit = unit_of_key(last_part(key));
@@ -169,13 +174,7 @@ void put_estimates(const measurements::MeasurementSet& set, const models::Contex
   fit.tire.values.load_map = best.tire.load_map;
   auto& sd = fit.tire.standard_uncertainties;
   sd.load_map = uncertainty.tire.load_map;
-  if (best.tire.load_map.empty()) {
-    const auto& from = uncertainty.tire.rolling_resistance;
-    sd.rolling_resistance.A0_N = from.A0_N;
-    sd.rolling_resistance.A1_N_s_per_m = from.A1_N_s_per_m;
-    sd.rolling_resistance.B0_per_K = from.B0_per_K;
-    sd.rolling_resistance.B1_s_per_m_K = from.B1_s_per_m_K;
-  }
+  if (best.tire.load_map.empty()) static_cast<Lines&>(sd.rolling_resistance) = uncertainty.tire.rolling_resistance;
   if (uncertainty.tire.thermal.H_gas_W_per_K > 0.0) {
     fit.tire.values.thermal.H_gas_W_per_K = best.tire.thermal.H_gas_W_per_K;
     sd.thermal.H_gas_W_per_K = uncertainty.tire.thermal.H_gas_W_per_K;
@@ -188,16 +187,13 @@ void put_estimates(const measurements::MeasurementSet& set, const models::Contex
 
 void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
   const std::string from = fmt::format("fitted to set '{}'", set.name);
-  const std::string rig = "thermal.rig." + set.rig->name + ".";
   for (const Estimate& estimate : fit.estimates) {
     if (estimate.nuisance) continue;
-    const std::string key = last_part(find_file_key(estimate.key));
-    const bool of_rig = key.rfind("conductance_", 0) == 0;
-    const std::string table = estimate.key.find("load_map") != std::string::npos ? "rolling_resistance.load_map."
-                              : of_rig                                           ? rig
-                              : estimate.key.find("rolling_resistance") != std::string::npos ? "rolling_resistance."
-                                                                                             : "thermal.";
-    fit.notes[table + key] = from;
+    const std::string key = find_file_key(estimate.key);  // "load_map.0.A0_N", "thermal.H_gas_W_per_K"
+    std::string table = key.substr(0, key.find('.') + 1);
+    if (table == "load_map.") table = "rolling_resistance.load_map.";
+    if (last_part(key).rfind("conductance_", 0) == 0) table += "rig." + set.rig->name + ".";
+    fit.notes[table + last_part(key)] = from;
   }
 }
 
@@ -321,12 +317,9 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
         {{"channel", channel.channel}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
   }
   const TwoStepEstimate& two_step = fit.two_step;
-  json["two_step"] = {{"A0_N", two_step.A0_N},
-                      {"A1_N_s_per_m", two_step.A1_N_s_per_m},
-                      {"B0_per_degC", two_step.B0_per_K},
-                      {"B1_s_per_m_degC", two_step.B1_s_per_m_K},
-                      {"z_W_per_K", two_step.rest_conductance_W_per_K},
-                      {"f_W_s_per_m_K", two_step.speed_conductance_W_s_per_m_K}};
+  Lines::visit(two_step, [&](const Field& line, double value) { json["two_step"][line.key] = value; });
+  json["two_step"]["z_W_per_K"] = two_step.rest_conductance_W_per_K;
+  json["two_step"]["f_W_s_per_m_K"] = two_step.speed_conductance_W_s_per_m_K;
   if (two_step.H_gas_W_per_K.has_value()) json["two_step"]["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;

@@ -38,7 +38,7 @@ LossSamples& find_speed(std::vector<LossSamples>& speeds, double speed_m_s) {
   return speeds.back();
 }
 
-/// K of baseline.md: the rig's drum against the one on which A0 and A1 hold.
+/// K of drum_curvature.h: the rig's drum against the one on which A0 and A1 hold.
 double find_curvature_factor(const measurements::MeasurementSet& set) {
   return models::calc_drum_correction(2.0 / set.tire.values.rolling_resistance.reference_drum_diameter_m,
                                       2.0 / set.rig->drum.diameter_m, set.tire.values.geometry.outer_diameter_m / 2.0);
@@ -118,10 +118,7 @@ void collect_heat(const measurements::MeasurementSet& set, const measurements::M
   const auto& thermal = set.tire.values.thermal;
   const bool gas_measured = run.has("gas_temperature_degC");
   models::TireParameters<double> tire = set.tire.values;
-  tire.rolling_resistance.A0_N = estimate.A0_N;
-  tire.rolling_resistance.A1_N_s_per_m = estimate.A1_N_s_per_m;
-  tire.rolling_resistance.B0_per_K = estimate.B0_per_K;
-  tire.rolling_resistance.B1_s_per_m_K = estimate.B1_s_per_m_K;
+  static_cast<models::SpeedLines<double>&>(tire.rolling_resistance) = estimate;
   const std::vector<double>& liner = run.columns.at("liner_temperature_degC");
   const std::vector<double>& ambient_K = run.columns.at("ambient_degC");
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");

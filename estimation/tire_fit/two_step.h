@@ -16,12 +16,8 @@ struct SpeedFit {
   double B_per_K = 0.0;
 };
 
-struct TwoStepEstimate {
+struct TwoStepEstimate : models::SpeedLines<double> {
   std::vector<SpeedFit> speeds;
-  double A0_N = 0.0;
-  double A1_N_s_per_m = 0.0;
-  double B0_per_K = 0.0;
-  double B1_s_per_m_K = 0.0;
   double rest_conductance_W_per_K = 0.0;       // the source's z
   double speed_conductance_W_s_per_m_K = 0.0;  // its f
   std::optional<double> H_gas_W_per_K;         // where the gas temperature was measured

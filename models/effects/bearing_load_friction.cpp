@@ -37,9 +37,6 @@ struct BearingLoadFriction {
 
 }  // namespace
 
-const Effect& effect_bearing_load_friction() {
-  static const Effect effect = make_effect<BearingLoadFriction>();
-  return effect;
-}
+const Effect& effect_bearing_load_friction() { return make_effect<BearingLoadFriction>(); }
 
 }  // namespace rollrig::models

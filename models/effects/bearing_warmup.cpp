@@ -105,9 +105,6 @@ struct BearingWarmup {
 
 }  // namespace
 
-const Effect& effect_bearing_warmup() {
-  static const Effect effect = make_effect<BearingWarmup>();
-  return effect;
-}
+const Effect& effect_bearing_warmup() { return make_effect<BearingWarmup>(); }
 
 }  // namespace rollrig::models

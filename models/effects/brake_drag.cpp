@@ -64,9 +64,6 @@ struct BrakeDrag {
 
 }  // namespace
 
-const Effect& effect_brake_drag() {
-  static const Effect effect = make_effect<BrakeDrag>();
-  return effect;
-}
+const Effect& effect_brake_drag() { return make_effect<BrakeDrag>(); }
 
 }  // namespace rollrig::models

@@ -13,16 +13,16 @@ struct BrakeHeat {
     info.id = "brake_heat";
     info.summary = "A share of the friction brake's power reaches the tire, late, through the rim";
     info.equation =
-        "P = w F_brake |v|; dD/dt = d P - D/tau_d, Q = (1 - d) P + D/tau_d, dE/dt = Q - E/tau; (1 - g) E/tau heats the "
-        "rubber, g E/tau the gas: D and E are the heat in disc and rim that is bound for the tire, tau = C_rim/(UA + "
-        "UA_air). With a rim node linked to the tire (rim_heat), Q (1 + UA_air/UA) goes into that node instead, of "
-        "which Q reaches rubber and gas in the end";
+        "P = w F_brake |v|; dD/dt = d P - D/tau_d, Q = (1 - d) P + D/tau_d, dE/dt = Q - E/tau; (1 - g) E/tau heats "
+        "the liner's side, g E/tau the gas: D and E are the heat in disc and rim that is bound for the tire, tau = "
+        "C_rim/(UA + UA_air). With a rim node linked to the tire (rim_heat), Q (1 + UA_air/UA) goes into that node "
+        "instead, of which Q reaches tire and gas in the end";
     info.source =
-        "source §4.2.2, §4.4.1: brakes left out; 2 to 15 % reaches the tire, rim 5 to 9 kJ/K, UA 0.5 to 4 W/K: "
-        "effects.md. The baseline has no heat to the rim, so E counts what the brake adds to a rim that else "
-        "exchanges nothing. Assumed: UA_air 4 to 30 W/K (0.5 m2 in moving air), hence tau 3 to 30 min; tau_d, a "
-        "disc of 3 to 6 kJ/K that loses 10 to 40 W/K to rim and air; g, the rim's well faces the gas, its beads the "
-        "rubber; 1 - d, what pads and hot air give to the rim at once";
+        "source §4.2.2, §4.4.1: brakes left out. No tire model has heat to the rim, so E counts what the brake adds "
+        "to a rim that else exchanges nothing. Assumed: w, since most of a disc's heat goes straight to the air; a "
+        "rim of 6 to 10 kg of light alloy, UA 0.5 to 4 W/K and UA_air 4 to 30 W/K (0.5 m2 in moving air), hence tau 3 "
+        "to 30 min; tau_d, a disc of 3 to 6 kJ/K that loses 10 to 40 W/K to rim and air; g, the rim's well faces the "
+        "gas, its beads the liner's side of the rubber; 1 - d, what pads and hot air give to the rim at once";
     info.parameters = {
         {"share_percent", between(0.0, 100.0), {2.0, 15.0, Prior::Scale::kLog}, "w, of the brake's power", 0.0},
         {"time_constant_min", between(0.5, 600.0), {3.0, 30.0, Prior::Scale::kLog}, "tau, of the rim"},
@@ -58,7 +58,7 @@ struct BrakeHeat {
   static S calc_rim_link_W_per_K(const ThermalPort<S>& port) {
     const std::size_t rim = index_of(Node::kRim);
     if (!port.active[rim]) return zero<S>();
-    return port.link_W_per_K[index_of(Node::kRubber)][rim] + port.link_W_per_K[index_of(Node::kGas)][rim];
+    return port.link_W_per_K[index_of(Node::kLiner)][rim] + port.link_W_per_K[index_of(Node::kGas)][rim];
   }
 
   template <class S>
@@ -66,7 +66,7 @@ struct BrakeHeat {
     const std::size_t rim = index_of(Node::kRim);
     const S into_rim_W = calc_into_rim_W(self, now);
     const S arriving_W = self.state(kInRim) / self.parameter(kTimeConstant);
-    port.heat_W[index_of(Node::kRubber)] += (S(1.0) - self.parameter(kGasShare)) * arriving_W;
+    port.heat_W[index_of(Node::kLiner)] += (S(1.0) - self.parameter(kGasShare)) * arriving_W;
     port.heat_W[index_of(Node::kGas)] += self.parameter(kGasShare) * arriving_W;
     port.under_way_J += self.state(kInDisc) + self.state(kInRim);
     port.under_way_W += calc_bound_for_tire_W(self, now) - arriving_W;
@@ -89,9 +89,6 @@ struct BrakeHeat {
 
 }  // namespace
 
-const Effect& effect_brake_heat() {
-  static const Effect effect = make_effect<BrakeHeat>();
-  return effect;
-}
+const Effect& effect_brake_heat() { return make_effect<BrakeHeat>(); }
 
 }  // namespace rollrig::models

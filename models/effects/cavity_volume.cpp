@@ -19,10 +19,10 @@ struct CavityVolume {
         "gas by dT/T = -(kappa - 1) dw, which goes into the rubber: p ~ T_gas (1 - (kappa - 1) (w - w_f))/w, dw_f/dt "
         "= (w - w_f) H/C_gas";
     info.source =
-        "0 to 1 %, with load and speed: effects.md. Assumed: m about 1, q up to 1, the square (centrifugal force), l "
-        "from 0 (pressure set on the lifted wheel) to 1 (on the loaded one). Heat of compression: ideal gas, kappa = "
-        "1.4; what it heats the rubber by is nothing beside the rubber's own loss. The run starts in equilibrium "
-        "under its first load, at rest";
+        "Assumed: e up to 1 %, as the contact presses in some 0.4 l of 40 l; m about 1, q up to 1, the square "
+        "(centrifugal force), l from 0 (pressure set on the lifted wheel) to 1 (on the loaded one). Heat of "
+        "compression: ideal gas, kappa = 1.4; what it heats the rubber by is nothing beside the rubber's own loss. "
+        "The run starts in equilibrium under its first load, at rest";
     info.parameters = {
         {"contraction_percent",
          between(-5.0, 10.0),
@@ -68,16 +68,13 @@ struct CavityVolume {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     const std::size_t gas = index_of(Node::kGas);
     const S change = calc_change(self, *now.context, now.motion.load_N, now.motion.speed_m_s);
-    rates[kFelt] = (change - self.state(kFelt)) * now.thermal.link_W_per_K[index_of(Node::kRubber)][gas] /
+    rates[kFelt] = (change - self.state(kFelt)) * now.thermal.link_W_per_K[index_of(Node::kLiner)][gas] /
                    now.thermal.heat_capacity_J_per_K[gas];
   }
 };
 
 }  // namespace
 
-const Effect& effect_cavity_volume() {
-  static const Effect effect = make_effect<CavityVolume>();
-  return effect;
-}
+const Effect& effect_cavity_volume() { return make_effect<CavityVolume>(); }
 
 }  // namespace rollrig::models

@@ -67,9 +67,6 @@ struct CellAirWarming {
 
 }  // namespace
 
-const Effect& effect_cell_air_warming() {
-  static const Effect effect = make_effect<CellAirWarming>();
-  return effect;
-}
+const Effect& effect_cell_air_warming() { return make_effect<CellAirWarming>(); }
 
 }  // namespace rollrig::models

@@ -162,9 +162,6 @@ struct ClockShift {
 
 }  // namespace
 
-const Effect& effect_clock_shift() {
-  static const Effect effect = make_effect<ClockShift>();
-  return effect;
-}
+const Effect& effect_clock_shift() { return make_effect<ClockShift>(); }
 
 }  // namespace rollrig::models

@@ -53,9 +53,6 @@ struct ConvectionLaw {
 
 }  // namespace
 
-const Effect& effect_convection_law() {
-  static const Effect effect = make_effect<ConvectionLaw>();
-  return effect;
-}
+const Effect& effect_convection_law() { return make_effect<ConvectionLaw>(); }
 
 }  // namespace rollrig::models

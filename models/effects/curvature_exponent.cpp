@@ -30,9 +30,6 @@ struct CurvatureExponent {
 
 }  // namespace
 
-const Effect& effect_curvature_exponent() {
-  static const Effect effect = make_effect<CurvatureExponent>();
-  return effect;
-}
+const Effect& effect_curvature_exponent() { return make_effect<CurvatureExponent>(); }
 
 }  // namespace rollrig::models

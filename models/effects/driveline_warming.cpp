@@ -67,9 +67,6 @@ struct DrivelineWarming {
 
 }  // namespace
 
-const Effect& effect_driveline_warming() {
-  static const Effect effect = make_effect<DrivelineWarming>();
-  return effect;
-}
+const Effect& effect_driveline_warming() { return make_effect<DrivelineWarming>(); }
 
 }  // namespace rollrig::models

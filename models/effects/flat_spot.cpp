@@ -59,9 +59,6 @@ struct FlatSpot {
 
 }  // namespace
 
-const Effect& effect_flat_spot() {
-  static const Effect effect = make_effect<FlatSpot>();
-  return effect;
-}
+const Effect& effect_flat_spot() { return make_effect<FlatSpot>(); }
 
 }  // namespace rollrig::models

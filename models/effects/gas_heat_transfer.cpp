@@ -16,9 +16,9 @@ struct GasHeatTransfer {
         "temperature sooner or later";
     info.equation = "H <- H h^(1 - s + s |v|/v_ref), not above 3 H; v_ref = 80 km/h";
     info.source =
-        "1 to 8 W/K other than assumed: effects.md; as a ratio to the tire file's H, about 4 W/K, so that 1 is the "
-        "baseline for every tire. Assumed: s, since a turning tire stirs its gas, so that what is off may go with "
-        "speed";
+        "source §3.3.2.2: H is another author's, not measured. As a ratio to the tire file's H, so that 1 is the "
+        "baseline for every tire. Assumed: h, 1 to 8 W/K where files have about 4; s, since a turning tire stirs its "
+        "gas, so that what is off may go with speed";
     info.parameters = {{"transfer_ratio",
                         between(0.02, 50.0),
                         {0.25, 2.0, Prior::Scale::kLog},
@@ -36,20 +36,16 @@ struct GasHeatTransfer {
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     using std::abs;
     using std::pow;
-    constexpr double kMost =
-        3.0;  // 12 W/K, the most of effects.md; faster gas hardly differs from gas that follows at once
+    constexpr double kMost = 3.0;  // Assumed: faster gas hardly differs from gas that follows at once
     const S speed_ratio = abs(now.motion.speed_m_s) / get_reference_speed_m_s<S>();
     const S stirring = S(1.0) + self.parameter(kStirred) * (speed_ratio - S(1.0));
     const S factor = pow(self.parameter(kRatio), stirring);
-    port.link(Node::kRubber, Node::kGas) *= value_of(factor) > kMost ? S(kMost) : factor;
+    port.link(Node::kLiner, Node::kGas) *= value_of(factor) > kMost ? S(kMost) : factor;
   }
 };
 
 }  // namespace
 
-const Effect& effect_gas_heat_transfer() {
-  static const Effect effect = make_effect<GasHeatTransfer>();
-  return effect;
-}
+const Effect& effect_gas_heat_transfer() { return make_effect<GasHeatTransfer>(); }
 
 }  // namespace rollrig::models

@@ -40,9 +40,6 @@ struct InertiaError {
 
 }  // namespace
 
-const Effect& effect_inertia_error() {
-  static const Effect effect = make_effect<InertiaError>();
-  return effect;
-}
+const Effect& effect_inertia_error() { return make_effect<InertiaError>(); }
 
 }  // namespace rollrig::models

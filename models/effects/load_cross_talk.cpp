@@ -65,9 +65,6 @@ struct LoadCrossTalk {
 
 }  // namespace
 
-const Effect& effect_load_cross_talk() {
-  static const Effect effect = make_effect<LoadCrossTalk>();
-  return effect;
-}
+const Effect& effect_load_cross_talk() { return make_effect<LoadCrossTalk>(); }
 
 }  // namespace rollrig::models

@@ -33,9 +33,6 @@ struct LoadExponent {
 
 }  // namespace
 
-const Effect& effect_load_exponent() {
-  static const Effect effect = make_effect<LoadExponent>();
-  return effect;
-}
+const Effect& effect_load_exponent() { return make_effect<LoadExponent>(); }
 
 }  // namespace rollrig::models

@@ -50,9 +50,6 @@ struct LoadRecord {
 
 }  // namespace
 
-const Effect& effect_load_record() {
-  static const Effect effect = make_effect<LoadRecord>();
-  return effect;
-}
+const Effect& effect_load_record() { return make_effect<LoadRecord>(); }
 
 }  // namespace rollrig::models

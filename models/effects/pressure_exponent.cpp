@@ -35,9 +35,6 @@ struct PressureExponent {
 
 }  // namespace
 
-const Effect& effect_pressure_exponent() {
-  static const Effect effect = make_effect<PressureExponent>();
-  return effect;
-}
+const Effect& effect_pressure_exponent() { return make_effect<PressureExponent>(); }
 
 }  // namespace rollrig::models

@@ -54,9 +54,6 @@ struct PressureRecord {
 
 }  // namespace
 
-const Effect& effect_pressure_record() {
-  static const Effect effect = make_effect<PressureRecord>();
-  return effect;
-}
+const Effect& effect_pressure_record() { return make_effect<PressureRecord>(); }
 
 }  // namespace rollrig::models

@@ -12,12 +12,12 @@ struct RimHeat {
     info.id = "rim_heat";
     info.summary = "Tire and gas give heat to the rim, which stores it and gives it to the air, faster with speed";
     info.equation =
-        "C_rim dT_rim/dt = (1 - g) U (T - T_rim) + g U (T_gas - T_rim) - r a (T_rim - T_amb); a: what the rubber "
-        "has to the air at that speed, (1 - road share) z + f v";
+        "C_rim dT_rim/dt = (1 - g) U (T - T_rim) + g U (T_gas - T_rim) - r a (T_rim - T_amb); a: what the tire has to "
+        "the air at that speed, (1 - road share) z + f v";
     info.source =
-        "source §3.3.2.1 leaves the rim out; U 0.5 to 4 W/K, rim 5 to 9 kJ/K, to air faster with speed: effects.md. "
-        "Assumed: g about a half (bead seats, well of the rim), r: 4 to 30 W/K of 0.5 m2 in moving air, with the "
-        "part that goes with speed as large as the tire's; the rim starts at the tire's temperature";
+        "source §3.3.2.1 leaves the rim out. Assumed: U of two bead seats and of gas at the well; 6 to 10 kg of light "
+        "alloy; g about a half (bead seats, well of the rim), r: 4 to 30 W/K of 0.5 m2 in moving air, with the part "
+        "that goes with speed as large as the tire's; the rim starts at the tire's temperature";
     info.parameters = {{"conductance_W_per_K",
                         between(0.0, 100.0),
                         {0.5, 4.0, Prior::Scale::kLog},
@@ -28,7 +28,7 @@ struct RimHeat {
                        {"air_ratio",
                         between(0.0, 20.0),
                         {0.15, 0.8, Prior::Scale::kLog},
-                        "r, conductance of the rim to the air, relative to the rubber's"}};
+                        "r, conductance of the rim to the air, relative to the tire's"}};
     info.nodes[index_of(Node::kRim)] = true;
     info.faint_on = {RigKind::kFlat};  // some K cooler costs a few parts in a thousand of what accelerating takes
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
@@ -45,17 +45,14 @@ struct RimHeat {
     const S& all_W_per_K = self.parameter(kConductance);
     const S& gas_share = self.parameter(kGasShare);
     port.heat_capacity_J_per_K[rim] += self.parameter(kCapacity);
-    port.air_W_per_K[rim] += self.parameter(kAirRatio) * port.air_W_per_K[index_of(Node::kRubber)];
-    port.link(Node::kRubber, Node::kRim) += (S(1.0) - gas_share) * all_W_per_K;
+    port.air_W_per_K[rim] += self.parameter(kAirRatio) * port.calc_tire_air_W_per_K();
+    port.link(Node::kLiner, Node::kRim) += (S(1.0) - gas_share) * all_W_per_K;
     port.link(Node::kGas, Node::kRim) += gas_share * all_W_per_K;
   }
 };
 
 }  // namespace
 
-const Effect& effect_rim_heat() {
-  static const Effect effect = make_effect<RimHeat>();
-  return effect;
-}
+const Effect& effect_rim_heat() { return make_effect<RimHeat>(); }
 
 }  // namespace rollrig::models

@@ -66,9 +66,6 @@ struct RubberMemory {
 
 }  // namespace
 
-const Effect& effect_rubber_memory() {
-  static const Effect effect = make_effect<RubberMemory>();
-  return effect;
-}
+const Effect& effect_rubber_memory() { return make_effect<RubberMemory>(); }
 
 }  // namespace rollrig::models

@@ -14,15 +14,15 @@ struct SlowLeak {
     info.id = "slow_leak";
     info.summary =
         "The tire loses gas, all the time alike or faster while warm: the pressure falls, and the loss rises after "
-        "hours; filling it anew "
-        "sets that back";
+        "hours; filling it anew sets that back";
     info.equation =
         "m/m_0 <- (m/m_0)(1 - s), ds/dt = r exp(e (T - 40 degC))/(p_cold + p_amb) tanh(p/p_0); p_0 = 10 kPa: no "
         "overpressure, no leak";
     info.source =
-        "source (3.14) has the gas sealed; 0.2 to 2 kPa/h: effects.md. Assumed: the pressure that drives it hardly "
-        "changes; e, a hole knows no temperature, while gas goes through rubber with 25 to 45 kJ/mol, 0.03 to 0.055 /K "
-        "at 40 degC, of a warm tire; T of the liner; tight before the run, whose cold pressure is read at its start";
+        "source (3.14) has the gas sealed. Assumed: r, since sound rubber lets through some kPa a month, and a tire "
+        "that loses more than 2 kPa an hour is mended; the pressure that drives it hardly changes; e, a hole knows no "
+        "temperature, while gas goes through rubber with 25 to 45 kJ/mol, 0.03 to 0.055 /K at 40 degC, of a warm "
+        "tire; T of the liner; tight before the run, whose cold pressure is read at its start";
     info.parameters = {{"rate_kPa_per_h",
                         between(0.0, 100.0),
                         {0.2, 2.0, Prior::Scale::kLog},
@@ -46,7 +46,7 @@ struct SlowLeak {
   static void rates(const EffectView<S>& self, const Instant<S>& now, S* rates) {
     using std::exp;
     using std::tanh;
-    const S warmer_dK = now.thermal.temperature_K[index_of(Node::kRubber)] - get_reference_temperature_K<S>() -
+    const S warmer_dK = now.thermal.temperature_K[index_of(Node::kLiner)] - get_reference_temperature_K<S>() -
                         quantity<S>(15.0, dimension::kTemperature);
     const S low_Pa = quantity<S>(10e3, dimension::kPressure);
     const S filled_abs_Pa = now.inflation.cold_pressure_Pa + now.inflation.ambient_pressure_Pa;
@@ -62,9 +62,6 @@ struct SlowLeak {
 
 }  // namespace
 
-const Effect& effect_slow_leak() {
-  static const Effect effect = make_effect<SlowLeak>();
-  return effect;
-}
+const Effect& effect_slow_leak() { return make_effect<SlowLeak>(); }
 
 }  // namespace rollrig::models

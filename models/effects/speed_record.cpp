@@ -60,9 +60,6 @@ struct SpeedRecord {
 
 }  // namespace
 
-const Effect& effect_speed_record() {
-  static const Effect effect = make_effect<SpeedRecord>();
-  return effect;
-}
+const Effect& effect_speed_record() { return make_effect<SpeedRecord>(); }
 
 }  // namespace rollrig::models

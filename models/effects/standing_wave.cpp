@@ -51,9 +51,6 @@ struct StandingWave {
 
 }  // namespace
 
-const Effect& effect_standing_wave() {
-  static const Effect effect = make_effect<StandingWave>();
-  return effect;
-}
+const Effect& effect_standing_wave() { return make_effect<StandingWave>(); }
 
 }  // namespace rollrig::models

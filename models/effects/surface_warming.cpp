@@ -77,9 +77,6 @@ struct SurfaceWarming {
 
 }  // namespace
 
-const Effect& effect_surface_warming() {
-  static const Effect effect = make_effect<SurfaceWarming>();
-  return effect;
-}
+const Effect& effect_surface_warming() { return make_effect<SurfaceWarming>(); }
 
 }  // namespace rollrig::models

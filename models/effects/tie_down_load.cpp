@@ -50,9 +50,6 @@ struct TieDownLoad {
 
 }  // namespace
 
-const Effect& effect_tie_down_load() {
-  static const Effect effect = make_effect<TieDownLoad>();
-  return effect;
-}
+const Effect& effect_tie_down_load() { return make_effect<TieDownLoad>(); }
 
 }  // namespace rollrig::models

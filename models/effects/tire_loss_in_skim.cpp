@@ -13,9 +13,11 @@ struct TireLossInSkim {
     info.summary =
         "At skim load the tire keeps a loss of its own beyond its share of the load; it falls as the tire warms";
     info.equation =
-        "F_rr <- F_rr + F_s ((Fz + F_0)/(F_skim + F_0))^m exp(-b (T - 25 degC)) tanh(Fz/F_0); F_0 = 20 N: "
-        "below it the contact is lost";
-    info.source = "source §4.1.7, §5.2; 0.3 to 3 N: effects.md. Assumed: exponential fall, power of the load, F_0";
+        "F_rr <- F_rr + F_s ((Fz + F_0)/(F_skim + F_0))^m exp(-b (T - 25 degC)) tanh(Fz/F_0); F_0 = 20 N: below it "
+        "the contact is lost";
+    info.source =
+        "source §4.1.7, §5.2: what is measured in skim depends on the tire's temperature. Assumed: F_s, some tenths "
+        "of such a loss; exponential fall, power of the load, F_0";
     info.parameters = {
         {"force_N",
          between(-20.0, 20.0),
@@ -44,18 +46,14 @@ struct TireLossInSkim {
     const S reference_K = quantity<S>(kZeroCelsius_K + 25.0, dimension::kTemperature);
     const S load_N = positive_part(now.motion.load_N);
     const S load_ratio = (load_N + contact_N) / (now.context->skim_load_N + contact_N);
-    const S temperature_K = now.thermal.temperature_K[index_of(Node::kRubber)];
     port.add_heating_force(self.parameter(kForce) * pow(load_ratio, self.parameter(kLoadPower)) *
-                           exp(-self.parameter(kTemperatureCoefficient) * (temperature_K - reference_K)) *
+                           exp(-self.parameter(kTemperatureCoefficient) * (port.temperature_K - reference_K)) *
                            tanh(load_N / contact_N));
   }
 };
 
 }  // namespace
 
-const Effect& effect_tire_loss_in_skim() {
-  static const Effect effect = make_effect<TireLossInSkim>();
-  return effect;
-}
+const Effect& effect_tire_loss_in_skim() { return make_effect<TireLossInSkim>(); }
 
 }  // namespace rollrig::models

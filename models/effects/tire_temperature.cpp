@@ -16,14 +16,14 @@ struct TireTemperature {
         "The tire's loss falls as the tire warms: more after a cold start, in cold air and at low speed than one "
         "constant coefficient says";
     info.equation =
-        "F_rr <- F_rr e, e = exp(-B (T - T_r)), T_r = 25 degC + D + d; tau dT/dt = D q - g (T - T_amb), "
-        "q = L v Fz/(v_r Fz_ref), L factor of all effects on the loss, e among them; g = (v_0 + v)/(v_0 + v_r); v_r = "
-        "80 km/h, v_0 = z/f";
+        "F_rr <- F_rr e, e = exp(-B (T - T_r)), T_r = 25 degC + D + d; tau dT/dt = D q - g (T - T_amb), q = L v "
+        "Fz/(v_r Fz_ref), L factor of all effects on the loss, e among them; g = (v_0 + v)/(v_0 + v_r); v_r = 80 "
+        "km/h, v_0 = z/f";
     info.source =
         "source (3.4), (3.8) to (3.14), with the heat balance in units of that at 80 km/h, 25 degC and the reference "
-        "load, where the coefficient of ISO 28580 holds; B 0.008 to 0.03 /K, warm-up 5 to 30 min: effects.md. "
-        "Assumed: D; d, since a coefficient off a label may be of another tire's test; z/f of the tire's file or its "
-        "class. Right after another run the tire begins D above its start";
+        "load, where the coefficient of ISO 28580 holds. Assumed: B, half to twice that of Figure 3.13; tau and D of "
+        "tires from small to large; d, since a coefficient off a label may be of another tire's test; z/f of the "
+        "tire's file or its class. Right after another run the tire begins D above its start";
     info.parameters = {
         {"fall_per_K",
          between(-0.1, 0.2),
@@ -40,7 +40,7 @@ struct TireTemperature {
          {-8.0, 8.0},
          "d, at which the coefficient holds, over that of 25 degC"}};
     info.states = {{"tire_temperature_degC", 10.0, "T, that the loss follows"}};
-    info.only_against = Baseline::kConstantRrc;
+    info.only_against = kConstantModel;
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
                        "cavity_pressure_kPa"};
     info.confused_with = {"driveline_warming", "wind_and_grade", "rubber_memory"};
@@ -84,9 +84,6 @@ struct TireTemperature {
 
 }  // namespace
 
-const Effect& effect_tire_temperature() {
-  static const Effect effect = make_effect<TireTemperature>();
-  return effect;
-}
+const Effect& effect_tire_temperature() { return make_effect<TireTemperature>(); }
 
 }  // namespace rollrig::models

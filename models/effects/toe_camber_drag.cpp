@@ -41,9 +41,6 @@ struct ToeCamberDrag {
 
 }  // namespace
 
-const Effect& effect_toe_camber_drag() {
-  static const Effect effect = make_effect<ToeCamberDrag>();
-  return effect;
-}
+const Effect& effect_toe_camber_drag() { return make_effect<ToeCamberDrag>(); }
 
 }  // namespace rollrig::models

@@ -59,9 +59,6 @@ struct TorqueGain {
 
 }  // namespace
 
-const Effect& effect_torque_gain() {
-  static const Effect effect = make_effect<TorqueGain>();
-  return effect;
-}
+const Effect& effect_torque_gain() { return make_effect<TorqueGain>(); }
 
 }  // namespace rollrig::models

@@ -74,9 +74,6 @@ struct TorqueZeroDrift {
 
 }  // namespace
 
-const Effect& effect_torque_zero_drift() {
-  static const Effect effect = make_effect<TorqueZeroDrift>();
-  return effect;
-}
+const Effect& effect_torque_zero_drift() { return make_effect<TorqueZeroDrift>(); }
 
 }  // namespace rollrig::models

@@ -11,17 +11,17 @@ struct TreadLinerLag {
     EffectInfo info;
     info.id = "tread_liner_lag";
     info.summary =
-        "Tread and liner are two nodes: the tread takes part of heat and cooling, the sensor sees the liner, and "
-        "the loss follows both";
+        "Tread and liner are two nodes: the tread takes part of heat and cooling, the sensor sees the liner, and the "
+        "loss follows both";
     info.equation =
         "tread: share s of the rubber's heat capacity, q = 1 - (1 - s)^h of its heat, c = 1 - (1 - s)^k of its "
-        "cooling to air and road; liner: the rest; between them 4 s (1 - s) G, which is G for two halves; "
-        "F_rr sees (1 - q) T_liner + q T_tread, since each part's loss follows its own temperature";
+        "cooling to air and road; liner: the rest; between them 4 s (1 - s) G, which is G for two halves; F_rr sees "
+        "(1 - q) T_liner + q T_tread, since each part's loss follows its own temperature";
     info.source =
-        "source §3.3.2.1, §4.2.2: one lumped node; G 30 to 150 W/K: effects.md. As a share, since a conductance "
-        "has no value at which it does nothing, and so that no time constant goes to 0 with the size. Assumed: "
-        "s about a half (tread, belts and their rubber), h (heat evenly by mass = 1), k (most of the air and all "
-        "of the road act on the tread)";
+        "source §3.3.2.1, §4.2.2: one lumped node. As a share, since a conductance has no value at which it does "
+        "nothing, and so that no time constant goes to 0 with the size. Assumed: G, 0.45 m2 and 1 to 4 mm of rubber "
+        "of 0.25 W/(m K); s about a half (tread, belts and their rubber), h (heat evenly by mass = 1), k (most of the "
+        "air and all of the road act on the tread)";
     info.parameters = {
         {"tread_share", between(0.0, 0.95), {0.3, 0.7}, "s, of the rubber's heat capacity that is the tread's", 0.0},
         {"conductance_W_per_K",
@@ -53,7 +53,7 @@ struct TreadLinerLag {
   static void loss(const EffectView<S>& self, const Instant<S>& now, LossPort<S>& port) {
     const auto& temperature_K = now.thermal.temperature_K;
     port.temperature_K += calc_part(self.parameter(kShare), self.parameter(kHeatPower)) *
-                          (temperature_K[index_of(Node::kTread)] - temperature_K[index_of(Node::kRubber)]);
+                          (temperature_K[index_of(Node::kTread)] - temperature_K[index_of(Node::kLiner)]);
   }
 
   /// All of the tread is in proportion to its share, so its temperature has a limit as that goes to 0. There
@@ -61,7 +61,7 @@ struct TreadLinerLag {
   /// bit and derivatives by the share are right.
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>&, ThermalPort<S>& port) {
-    const std::size_t rubber = index_of(Node::kRubber);
+    const std::size_t rubber = index_of(Node::kLiner);
     const std::size_t tread = index_of(Node::kTread);
     const S& share = self.parameter(kShare);
     const S trace = S(value_of(share) == 0.0 ? 1e-30 : 0.0);  // below rounding in any sum over the nodes
@@ -75,16 +75,13 @@ struct TreadLinerLag {
     split(port.air_W_per_K, self.parameter(kCoolingPower));
     split(port.road_W_per_K, self.parameter(kCoolingPower));
     const S full_W_per_K = S(4.0) * self.parameter(kConductance);
-    port.link(Node::kRubber, Node::kTread) += share * (S(1.0) - share) * full_W_per_K;
+    port.link(Node::kLiner, Node::kTread) += share * (S(1.0) - share) * full_W_per_K;
     port.heat_W[tread] += trace * full_W_per_K * (port.temperature_K[rubber] - port.temperature_K[tread]);
   }
 };
 
 }  // namespace
 
-const Effect& effect_tread_liner_lag() {
-  static const Effect effect = make_effect<TreadLinerLag>();
-  return effect;
-}
+const Effect& effect_tread_liner_lag() { return make_effect<TreadLinerLag>(); }
 
 }  // namespace rollrig::models

@@ -39,9 +39,6 @@ struct WindAndGrade {
 
 }  // namespace
 
-const Effect& effect_wind_and_grade() {
-  static const Effect effect = make_effect<WindAndGrade>();
-  return effect;
-}
+const Effect& effect_wind_and_grade() { return make_effect<WindAndGrade>(); }
 
 }  // namespace rollrig::models

@@ -42,9 +42,6 @@ struct Windage {
 
 }  // namespace
 
-const Effect& effect_windage() {
-  static const Effect effect = make_effect<Windage>();
-  return effect;
-}
+const Effect& effect_windage() { return make_effect<Windage>(); }
 
 }  // namespace rollrig::models

@@ -18,7 +18,7 @@ S calc_drum_correction(const S& curvature_1_per_m, const S& curvature_2_per_m, c
   return sqrt((S(1.0) + tire_radius_m * curvature_2_per_m) / (S(1.0) + tire_radius_m * curvature_1_per_m));
 }
 
-/// K of baseline.md: from the drum on which A0 and A1 hold to the surface of this context.
+/// K, the correction from the drum on which A0 and A1 hold to the surface of this context.
 template <class S>
 S calc_curvature_factor(const Context<S>& context) {
   const S reference_per_m = S(2.0) / context.tire.rolling_resistance.reference_drum_diameter_m;

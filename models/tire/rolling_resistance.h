@@ -46,7 +46,7 @@ LossCoefficients<S> calc_loss_coefficients(const TireParameters<S>& tire, const 
 /// Equation  F_rr = (p/p_ref)^-a A exp(-B T),  A and B from calc_loss_coefficients
 /// Symbols   p gauge pressure [Pa], p_ref reference [Pa], a pressure exponent [1], T tire temperature;
 ///           speed v [m/s], load Fz [N]; given in K, T stands in degC in the exponential
-/// Validity  p > 0. Fitted above 20 km/h (§4.2.1); used from standstill up (baseline.md)
+/// Validity  p > 0. Fitted above 20 km/h (§4.2.1). Assumed: it holds from standstill up
 /// Energy    F_rr v is taken from the motion and heats the rubber (source (3.8))
 /// Source    (3.2) to (3.5); (3.5) is the same law with A divided by RRc_ISO Fz/1000
 /// Checked   tests/models/rolling_resistance_test.cpp
@@ -61,15 +61,9 @@ S calc_rolling_resistance_N(const TireParameters<S>& tire, const S& speed_m_s, c
          exp(-c.B_per_K * temperature_above_0degC_dK);
 }
 
-/// Rolling resistance by a constant coefficient: F_rr = RRc Fz [N].
-template <class S>
-S calc_constant_rolling_resistance_N(const TireParameters<S>& tire, const S& load_N) {
-  return tire.constant.rrc * load_N;
-}
-
 /// Factor by which rolling and bearing forces fade below walking pace, with the sign of the motion.
 /// Equation  tanh(v / 0.05 m/s)
-/// Source    baseline.md
+/// Source    Assumed: forces of friction reverse with the motion, within walking pace, and are smooth for a solver
 template <class S>
 S calc_standstill_fade(const S& speed_m_s) {
   using std::tanh;

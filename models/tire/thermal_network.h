@@ -8,24 +8,26 @@
 
 namespace rollrig::models {
 
-/// Nodes that may exist. Rubber and gas always do; the rubber node is the inner liner's side, which the
-/// sensor reads. Tread and rim exist when an effect asks for them.
-enum class Node : std::size_t { kRubber, kGas, kTread, kRim };
-constexpr std::size_t kNodeCount = 4;
-constexpr std::array<const char*, kNodeCount> kNodeNames{"rubber", "gas", "tread", "rim"};
+/// Nodes by what they are, so that effects and sensors find them in every tire. Each tire has the gas and the liner's
+/// side of the rubber (all of it in a model with one node), which the sensor reads and which faces gas and rim. Tread
+/// and rim exist where the tire's model has them or an effect asks for them. The further ones are for models alone.
+enum class Node : std::size_t { kLiner, kGas, kTread, kRim, kFurther1, kFurther2 };
+constexpr std::size_t kNodeCount = 6;
+
+/// Kinds of heat that arise in a tire; its model says in which nodes.
+enum class HeatSource { kHysteresis, kFriction };
 
 constexpr std::size_t index_of(Node node) { return static_cast<std::size_t>(node); }
 
 /// Which nodes a tire has.
 using NodeSet = std::array<bool, kNodeCount>;
-constexpr NodeSet kBaselineNodes{true, true, false, false};
 
 template <class S>
 struct ThermalNetwork {
   template <class T>
   using PerNode = std::array<T, kNodeCount>;
 
-  NodeSet active = kBaselineNodes;
+  NodeSet active{true, true};
   PerNode<S> temperature_K{};
   PerNode<S> heat_capacity_J_per_K{};
   PerNode<S> heat_W{};                 // generated in the node or brought into it
@@ -39,6 +41,15 @@ struct ThermalNetwork {
     const std::size_t i = index_of(a);
     const std::size_t j = index_of(b);
     return i < j ? link_W_per_K[i][j] : link_W_per_K[j][i];
+  }
+
+  /// What all of the tire, without gas and rim, gives to the ambient air.
+  S calc_tire_air_W_per_K() const {
+    S sum = air_W_per_K[index_of(Node::kLiner)];
+    for (const Node node : {Node::kTread, Node::kFurther1, Node::kFurther2}) {
+      if (active[index_of(node)]) sum += air_W_per_K[index_of(node)];
+    }
+    return sum;
   }
 };
 
@@ -62,7 +73,7 @@ template <class S>
 HeatFlows<S> calc_heat_flows(const ThermalNetwork<S>& network, const S& ambient_K, const S& surface_K) {
   HeatFlows<S> flows;
   flows.heat_in_W = network.under_way_W;
-  std::array<S, kNodeCount> net_W{};
+  std::array<S, kNodeCount>& net_W = flows.temperature_rate_K_s;
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (!network.active[i]) continue;
     const S air_W = network.air_W_per_K[i] * (network.temperature_K[i] - ambient_K);
@@ -77,9 +88,7 @@ HeatFlows<S> calc_heat_flows(const ThermalNetwork<S>& network, const S& ambient_
       net_W[i] -= through_W;
       net_W[j] += through_W;
     }
-  }
-  for (std::size_t i = 0; i < kNodeCount; ++i) {
-    if (network.active[i]) flows.temperature_rate_K_s[i] = net_W[i] / network.heat_capacity_J_per_K[i];
+    net_W[i] = net_W[i] / network.heat_capacity_J_per_K[i];  // all that flows into it is in
   }
   return flows;
 }

@@ -150,6 +150,35 @@ struct ConstantLossParameters {
   }
 };
 
+struct TireModel;  // models/tire/tire_model.h
+
+/// A number that only one tire model has.
+struct TireModelParameter {
+  Field field;
+  double usual = 0.0;     // of a passenger car's tire, in the unit of the key; tests take it
+  double usual_sd = 0.0;  // its standard uncertainty where a file gives none, as a share of the value
+};
+
+constexpr const char* kConstantModel = "constant_rrc";
+const TireModel& default_tire_model();
+const std::string& id_of(const TireModel& model);
+const std::vector<TireModelParameter>& own_parameters_of(const TireModel& model);
+
+/// The model of a tire, and the numbers that only this model has, in the order of its declaration.
+template <class S>
+struct OwnParameters {
+  const TireModel* model = &default_tire_model();
+  std::vector<S> values;
+
+  const S& operator[](std::size_t i) const { return values[i]; }
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    const std::vector<TireModelParameter>& declared = own_parameters_of(*p.model);
+    for (std::size_t i = 0; i < p.values.size(); ++i) visit(declared[i].field, p.values[i]);
+  }
+};
+
 /// Every number of a tire that enters an equation.
 template <class S>
 struct TireParameters {
@@ -159,6 +188,9 @@ struct TireParameters {
   std::vector<LoadMapEntry<S>> load_map;  // by increasing load; empty = one set of coefficients
   TireThermalParameters<S> thermal;
   ConstantLossParameters<S> constant;
+  OwnParameters<S> own;
+
+  const TireModel& model() const { return *own.model; }
 
   /// Calls visit(table, field, member) for every number; the tables of the load map are "load_map.0" and so on.
   template <class Self, class Visit>
@@ -174,6 +206,7 @@ struct TireParameters {
     }
     TireThermalParameters<S>::visit(p.thermal, table("thermal"));
     ConstantLossParameters<S>::visit(p.constant, table("constant"));
+    OwnParameters<S>::visit(p.own, table(id_of(p.model())));
   }
 };
 
@@ -198,6 +231,10 @@ TireParameters<S> convert_tire(const TireParameters<double>& from) {
   for (const LoadMapEntry<double>& entry : from.load_map) to.load_map.push_back(convert<S>(entry));
   to.thermal = convert<S>(from.thermal);
   to.constant = convert<S>(from.constant);
+  to.own.model = from.own.model;
+  OwnParameters<double>::visit(from.own, [&to](const Field& field, const double& value) {
+    to.own.values.push_back(quantity<S>(value, unit_of_key(field.key).dimension));
+  });
   return to;
 }
 
@@ -210,7 +247,7 @@ S calc_cooling_W_per_K(const TireThermalParameters<S>& thermal, const S& air_spe
   return thermal.rest_conductance_W_per_K + thermal.speed_conductance_W_s_per_m_K * air_speed_m_s;
 }
 
-/// Loaded radius r_l = D/2 - Fz/k_z [m]: also the rolling radius (baseline: "Rig").
+/// Loaded radius r_l = D/2 - Fz/k_z [m]. Assumed: a linear spring, and that it is the rolling radius as well.
 template <class S>
 S calc_loaded_radius_m(const TireParameters<S>& tire, const S& load_N) {
   return tire.geometry.outer_diameter_m / 2.0 - load_N / tire.stiffness.vertical_N_per_m;

@@ -1,9 +1,10 @@
 #include "models/tire/tire_file.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/trim.hpp>
+
+#include "models/tire/tire_model.h"
 #include "sim/core/error.h"
 
 namespace rollrig::models {
@@ -12,25 +13,16 @@ namespace {
 constexpr int kFormatVersion = 2;
 constexpr const char* kFormat = "rollrig-tire";
 
+/// Reads a table; false where it is absent. Beside the values stand uncertainties where there is a place for them.
 template <class Group>
-bool read_group(TableReader& file, const char* name, Group& values) {
+bool read_group(TableReader& file, const std::string& name, Group& values, Group* uncertainties = nullptr,
+                const char* other_key = "") {
   const ConfigTable* table = file.table(name);
   if (table == nullptr) return false;
   TableReader reader(*table, fmt::format("[{}]", name));
   read_fields(reader, values);
-  reader.finish();
-  return true;
-}
-
-template <class Group>
-bool read_identified_group(TableReader& file, const char* name, Group& values, Group& uncertainties,
-                           const std::vector<std::string>& other_keys = {}) {
-  const ConfigTable* table = file.table(name);
-  if (table == nullptr) return false;
-  TableReader reader(*table, fmt::format("[{}]", name));
-  read_fields(reader, values);
-  read_standard_uncertainties(reader, uncertainties);
-  for (const std::string& key : other_keys) reader.accept(key);
+  if (uncertainties != nullptr) read_standard_uncertainties(reader, *uncertainties);
+  reader.accept(other_key);
   reader.finish();
   return true;
 }
@@ -75,16 +67,18 @@ void read_rig_thermal(const ConfigTable& thermal, TireFile& tire) {
   }
 }
 
-void read_iso_reference(TableReader& file, TireFile& tire) {
-  const ConfigTable* table = file.table("iso_28580");
-  if (table == nullptr) return;
-  TableReader reader(*table, "[iso_28580]");
-  Iso28580Reference reference;
-  reference.rrc = reader.number({"rrc_N_per_kN", positive(), ""});
-  reference.load_N = reader.number({"load_N", positive(), ""});
-  reference.pressure_Pa = reader.number({"pressure_kPa", positive(), ""});
-  reader.finish();
-  tire.iso_28580 = reference;
+/// The model and the table of its own numbers.
+void read_model(TableReader& file, TireFile& tire) {
+  const TireModel& model =
+      find_tire_model(file.text_or("model", default_tire_model().info.id, list_ids(all_tire_models())));
+  const std::string& table = model.info.id;
+  for (OwnParameters<double>* own : {&tire.values.own, &tire.standard_uncertainties.own}) {
+    *own = {&model, std::vector<double>(model.info.parameters.size())};
+  }
+  if (model.info.parameters.empty()) return;
+  if (!read_group(file, table, tire.values.own, &tire.standard_uncertainties.own)) {
+    throw file.problem(table, fmt::format("missing table [{0}], which model \"{0}\" needs", table));
+  }
 }
 
 void read_sweep_loads(TableReader& file, TireFile& tire) {
@@ -103,11 +97,8 @@ void check_geometry(const ConfigTable& table, const TireGeometry<double>& geomet
 }
 
 InputError missing_table(const TireFile& tire, const char* table, const std::string& needed_by) {
-  InputProblem problem;
-  problem.what = fmt::format("tire '{}' has no table [{}], which {} needs", tire.name, table, needed_by);
-  problem.file = tire.path;
-  problem.allowed = fmt::format("a table [{}]", table);
-  return InputError(problem);
+  return InputError({fmt::format("tire '{}' has no table [{}], which {} needs", tire.name, table, needed_by), tire.path,
+                     0, "", "", fmt::format("a table [{}]", table), ""});
 }
 
 }  // namespace
@@ -119,36 +110,42 @@ TireFile read_tire(const ConfigTable& config) {
   check_format(file, kFormat, kFormatVersion);
   tire.name = file.text("name");
   tire.designation = file.text_or("designation", tire.name);
+  read_model(file, tire);
   if (!read_group(file, "geometry", tire.values.geometry)) throw file.problem("geometry", "missing table [geometry]");
   check_geometry(*file.table("geometry"), tire.values.geometry);
   tire.has_stiffness = read_group(file, "stiffness", tire.values.stiffness);
-  tire.has_rolling_resistance = read_identified_group(file, "rolling_resistance", tire.values.rolling_resistance,
-                                                      tire.standard_uncertainties.rolling_resistance, {"load_map"});
+  TireParameters<double>& sd = tire.standard_uncertainties;
+  tire.has_rolling_resistance =
+      read_group(file, "rolling_resistance", tire.values.rolling_resistance, &sd.rolling_resistance, "load_map");
   if (tire.has_rolling_resistance) {
     const ConfigTable& table = *file.table("rolling_resistance");
     check_loss(table, "[rolling_resistance]", tire.values.rolling_resistance,
                tire.values.rolling_resistance.lowest_speed_m_s);
     read_load_map(table, tire);
   }
-  tire.has_thermal =
-      read_identified_group(file, "thermal", tire.values.thermal, tire.standard_uncertainties.thermal, {"rig"});
+  tire.has_thermal = read_group(file, "thermal", tire.values.thermal, &sd.thermal, "rig");
   if (tire.has_thermal) read_rig_thermal(*file.table("thermal"), tire);
-  tire.has_constant =
-      read_identified_group(file, "constant", tire.values.constant, tire.standard_uncertainties.constant);
-  read_iso_reference(file, tire);
+  tire.has_constant = read_group(file, "constant", tire.values.constant, &sd.constant);
+  Iso28580Reference iso_28580;
+  if (read_group(file, "iso_28580", iso_28580)) tire.iso_28580 = iso_28580;
   read_sweep_loads(file, tire);
   file.finish();
   return tire;
 }
 
+const TireModel& TireFile::model(Baseline baseline) const {
+  return baseline == Baseline::kConstantRrc ? find_tire_model(kConstantModel) : values.model();
+}
+
 TireParameters<double> TireFile::parameters_on(const std::string& rig_name, Baseline baseline) const {
-  const bool combined = baseline == Baseline::kCombined;
-  const std::string needed_by = combined ? "the combined model" : "baseline constant_rrc";
+  const TireModelInfo& info = model(baseline).info;
   if (!has_stiffness) throw missing_table(*this, "stiffness", "a rig");
-  if (combined && !has_rolling_resistance) throw missing_table(*this, "rolling_resistance", needed_by);
-  if (!has_thermal) throw missing_table(*this, "thermal", "a rig");
-  if (!combined && !has_constant) throw missing_table(*this, "constant", needed_by);
+  for (const auto& [table, is_there] : {std::pair{"rolling_resistance", has_rolling_resistance},
+                                        std::pair{"thermal", has_thermal}, std::pair{"constant", has_constant}}) {
+    if (info.uses(table) && !is_there) throw missing_table(*this, table, fmt::format("tire model {}", info.id));
+  }
   TireParameters<double> on_rig = values;
+  if (baseline == Baseline::kConstantRrc) on_rig.own = {&model(baseline), {}};
   const auto it = rig_thermal.find(rig_name);
   if (it == rig_thermal.end()) return on_rig;
   auto& thermal = on_rig.thermal;
@@ -161,6 +158,7 @@ TireParameters<double> TireFile::parameters_on(const std::string& rig_name, Base
 TireParameters<double> TireFile::parameters_with_class_values(double load_N, double pressure_Pa) const {
   if (!has_constant) throw missing_table(*this, "constant", "baseline constant_rrc");
   TireParameters<double> filled = values;
+  filled.own = {&find_tire_model(kConstantModel), {}};
   if (!has_stiffness) filled.stiffness = {220e3, 300.0, 75e3, 0.3, 1.0};
   if (!has_thermal) {
     constexpr double kSpecificHeat_J_per_kg_K = 1640.0;
@@ -184,9 +182,9 @@ class TomlText {
  public:
   explicit TomlText(const std::map<std::string, std::string>& notes) : notes_(notes) {}
 
-  void header(const std::string& header, const std::string& table) {
+  void header(const std::string& header) {
     text_ += fmt::format("\n{}\n", header);
-    table_ = table;
+    table_ = boost::algorithm::trim_copy_if(header, boost::algorithm::is_any_of("[]"));
   }
   void line(const std::string& key, const std::string& value) {
     const std::string assignment = fmt::format("{} = {}", key, value);
@@ -197,7 +195,8 @@ class TomlText {
     line(key, fmt::format("{:.10g}", unit_of_key(key).from_si(si_value)));
   }
   template <class Group>
-  void group(const Group& values, const Group* uncertainties = nullptr) {
+  void group(const std::string& name, const Group& values, const Group* uncertainties = nullptr) {
+    header(name);
     std::vector<double> sd;
     if (uncertainties != nullptr)
       Group::visit(*uncertainties, [&sd](const Field&, const double& x) { sd.push_back(x); });
@@ -217,16 +216,6 @@ class TomlText {
   std::string table_;
 };
 
-void write_rig_thermal(TomlText& out, const std::map<std::string, RigThermal>& rigs) {
-  for (const auto& [rig, at] : rigs) {
-    const std::string table = "thermal.rig." + rig;
-    out.header("[" + table + "]", table);
-    RigThermal::visit(at, [&out](const Field& field, const std::optional<double>& value) {
-      if (value.has_value()) out.number(field.key, *value);
-    });
-  }
-}
-
 }  // namespace
 
 std::string write_tire(const TireFile& tire, const std::map<std::string, std::string>& notes) {
@@ -234,37 +223,31 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
   out.line("format", fmt::format("\"{}/{}\"", kFormat, kFormatVersion));
   out.line("name", "\"" + tire.name + "\"");
   out.line("designation", "\"" + tire.designation + "\"");
-  out.header("[geometry]", "geometry");
-  out.group(tire.values.geometry);
-  if (tire.has_stiffness) {
-    out.header("[stiffness]", "stiffness");
-    out.group(tire.values.stiffness);
-  }
+  const std::string& model = tire.values.model().info.id;
+  if (&tire.values.model() != &default_tire_model()) out.line("model", "\"" + model + "\"");
+  const TireParameters<double>& sd = tire.standard_uncertainties;
+  out.group("[geometry]", tire.values.geometry);
+  if (tire.has_stiffness) out.group("[stiffness]", tire.values.stiffness);
   if (tire.has_rolling_resistance) {
-    out.header("[rolling_resistance]", "rolling_resistance");
-    out.group(tire.values.rolling_resistance, &tire.standard_uncertainties.rolling_resistance);
+    out.group("[rolling_resistance]", tire.values.rolling_resistance, &sd.rolling_resistance);
     for (std::size_t i = 0; i < tire.values.load_map.size(); ++i) {
-      out.header("[[rolling_resistance.load_map]]", "rolling_resistance.load_map");
-      out.group(tire.values.load_map[i], &tire.standard_uncertainties.load_map[i]);
+      out.group("[[rolling_resistance.load_map]]", tire.values.load_map[i], &sd.load_map[i]);
     }
   }
   if (tire.has_thermal) {
-    out.header("[thermal]", "thermal");
-    out.group(tire.values.thermal, &tire.standard_uncertainties.thermal);
-    write_rig_thermal(out, tire.rig_thermal);
+    out.group("[thermal]", tire.values.thermal, &sd.thermal);
+    for (const auto& [rig, at] : tire.rig_thermal) {
+      out.header(fmt::format("[thermal.rig.{}]", rig));
+      RigThermal::visit(at, [&out](const Field& field, const std::optional<double>& value) {
+        if (value.has_value()) out.number(field.key, *value);
+      });
+    }
   }
-  if (tire.has_constant) {
-    out.header("[constant]", "constant");
-    out.group(tire.values.constant, &tire.standard_uncertainties.constant);
-  }
-  if (tire.iso_28580.has_value()) {
-    out.header("[iso_28580]", "iso_28580");
-    out.number("rrc_N_per_kN", tire.iso_28580->rrc);
-    out.number("load_N", tire.iso_28580->load_N);
-    out.number("pressure_kPa", tire.iso_28580->pressure_Pa);
-  }
+  if (!tire.values.own.values.empty()) out.group("[" + model + "]", tire.values.own, &sd.own);
+  if (tire.has_constant) out.group("[constant]", tire.values.constant, &sd.constant);
+  if (tire.iso_28580.has_value()) out.group("[iso_28580]", *tire.iso_28580);
   if (!tire.sweep_loads_N.empty()) {
-    out.header("[load_sweep]", "load_sweep");
+    out.header("[load_sweep]");
     out.line("loads_N", fmt::format("[{:.10g}]", fmt::join(tire.sweep_loads_N, ", ")));
   }
   return out.take();

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 
-#include "models/ports.h"
 #include "models/tire/tire.h"
 
 namespace rollrig::models {
@@ -33,6 +32,19 @@ struct Iso28580Reference {
   double rrc = 0.0;  // N/N
   double load_N = 0.0;
   double pressure_Pa = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"rrc_N_per_kN", positive(), ""}, p.rrc);
+    visit(Field{"load_N", positive(), ""}, p.load_N);
+    visit(Field{"pressure_kPa", positive(), ""}, p.pressure_Pa);
+  }
+};
+
+/// Which law gives the loss before any effect acts (`baseline` of runs and sets).
+enum class Baseline {
+  kCombined,    // that of the tire file's model
+  kConstantRrc  // a constant coefficient
 };
 
 struct TireFile {
@@ -50,15 +62,19 @@ struct TireFile {
   std::optional<Iso28580Reference> iso_28580;
   std::vector<double> sweep_loads_N;  // [load_sweep] loads_N: the loads of its load sweep; may be empty
 
+  /// The model of the tire against a baseline.
+  const TireModel& model(Baseline baseline) const;
+
   /// The parameters as they hold on a rig of that name. Throws InputError when a table is absent that
-  /// the baseline needs.
+  /// the model needs.
   TireParameters<double> parameters_on(const std::string& rig_name, Baseline baseline) const;
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
   /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,
   /// H 4 W/K, conductance 12 W/K at rest and 1.4 W s/(m K) per speed, 220 kN/m, slip stiffness 75 kN, pressure exponent
-  /// 0.4, the load and the pressure given as references. Throws InputError without [constant]. Source    Assumed: those
-  /// of the asset tires Checked   tests/models/tire_file_test.cpp
+  /// 0.4, the load and the pressure given as references. Throws InputError without [constant].
+  /// Source    Assumed: those of the asset tires
+  /// Checked   tests/models/tire_file_test.cpp
   TireParameters<double> parameters_with_class_values(double load_N, double pressure_Pa) const;
 };
 

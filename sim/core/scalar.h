@@ -4,6 +4,7 @@
 #include <ceres/jet.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "sim/core/dimension.h"
 
@@ -20,6 +21,10 @@ using Jet = ceres::Jet<double, kJetWidth>;
 inline double value_of(double x) { return x; }
 inline double value_of(const Jet& x) { return x.a; }
 inline double value_of(const DimensionedScalar& x) { return x.value(); }
+
+/// Something for each of the scalars: std::get<Of<S>> is that of S.
+template <template <class> class Of>
+using ForEachScalar = std::tuple<Of<double>, Of<Jet>, Of<DimensionedScalar>>;
 
 /// A constant of an equation, given in SI units with its dimension.
 template <class S>

@@ -62,22 +62,6 @@ const ConfigValue* TableReader::find(const std::string& key) {
   return table_.find(key);
 }
 
-/// Looks under both of the field's keys, and names in `field` the one that holds. Beside the file's own a run may give
-/// the other, which then holds.
-const ConfigValue* TableReader::find(Field& field) {
-  const ConfigValue* value = find(field.key);
-  if (field.old_key == nullptr || std::string(field.old_key) == field.key) return value;
-  const ConfigValue* old = find(field.old_key);
-  if (old == nullptr) return value;
-  const bool is_given_by_run = old->origin.file != table_.origin.file;
-  if (value != nullptr && is_given_by_run == (value->origin.file != table_.origin.file)) {
-    throw problem(field.old_key, fmt::format("'{}' and '{}' are one number", field.old_key, field.key), "one of them");
-  }
-  if (value != nullptr && !is_given_by_run) return value;
-  field.key = field.old_key;
-  return old;
-}
-
 const ConfigValue& TableReader::require(const std::string& key) {
   const ConfigValue* value = find(key);
   if (value != nullptr) return *value;
@@ -117,7 +101,19 @@ double TableReader::number(const Field& declared) {
 
 std::optional<double> TableReader::number_or_none(const Field& declared) {
   Field field = declared;
-  const ConfigValue* value = find(field);
+  const ConfigValue* value = find(field.key);
+  const bool has_old_key = field.old_key != nullptr && std::string(field.old_key) != field.key;
+  if (const ConfigValue* old = has_old_key ? find(field.old_key) : nullptr) {
+    const auto is_given_by_run = [this](const ConfigValue& at) { return at.origin.file != table_.origin.file; };
+    if (value != nullptr && is_given_by_run(*old) == is_given_by_run(*value)) {
+      throw problem(field.old_key, fmt::format("'{}' and '{}' are one number", field.old_key, field.key),
+                    "one of them");
+    }
+    if (value == nullptr || is_given_by_run(*old)) {
+      value = old;
+      field.key = field.old_key;
+    }
+  }
   if (value == nullptr) return std::nullopt;
   return convert(field, *value);
 }

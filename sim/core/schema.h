@@ -51,7 +51,8 @@ class TableReader {
   bool has(const std::string& key) const;
   /// A number in SI units, checked against its range. Throws InputError.
   double number(const Field& field);
-  /// A number in SI units where present; `<key>_sd` is read with number_or_none({"x_sd", positive(), ""}).
+  /// A number in SI units where present; `<key>_sd` is read with number_or_none({"x_sd", positive(), ""}). Of the key
+  /// and its old one, that holds which a run gives beside the file.
   std::optional<double> number_or_none(const Field& field);
   /// A list of numbers in SI units, at least one; `fallback` (in SI units) where absent.
   std::vector<double> numbers_or(const Field& field, const std::vector<double>& fallback);
@@ -78,7 +79,6 @@ class TableReader {
 
  private:
   const ConfigValue* find(const std::string& key);
-  const ConfigValue* find(Field& field);
   const ConfigValue& require(const std::string& key);
   double convert(const Field& field, const ConfigValue& value) const;
   std::string full_key(const std::string& key) const;

@@ -37,7 +37,7 @@ struct Missing {
 struct MissingHeat : Missing {
   template <class S>
   static void thermal(const models::EffectView<S>& self, const models::Instant<S>&, models::ThermalPort<S>& port) {
-    port.heat_W[models::index_of(models::Node::kRubber)] +=
+    port.heat_W[models::index_of(models::Node::kLiner)] +=
         calc(self, quantity<S>(1.0, dimension::kForce * dimension::kSpeed));
   }
 };

@@ -142,7 +142,7 @@ TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[
     const models::EffectInfo& info = effect->info;
     const auto dyno = models::RigKind::kDyno;
     const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), dyno) != info.faint_on.end();
-    if (!models::acts_in(info, dyno, models::Baseline::kCombined) || faint) continue;
+    if (!models::acts_in(info, dyno, models::default_tire_model()) || faint) continue;
     measurements::MeasurementSet set = campaign;
     tests::measure_again(set, {tests::make_effect_at(info.id, 0.7)});
     const Diagnosis found = diagnosis::diagnose(tests::add_noise(set, 7), {});

@@ -17,7 +17,7 @@ bool contains(const std::vector<std::string>& ids, const std::string& id) {
 
 bool is_seen_on_drum(const models::EffectInfo& info) {
   const auto& faint = info.faint_on;
-  return models::acts_in(info, models::RigKind::kDrum, models::Baseline::kCombined) &&
+  return models::acts_in(info, models::RigKind::kDrum, models::default_tire_model()) &&
          std::find(faint.begin(), faint.end(), models::RigKind::kDrum) == faint.end();
 }
 

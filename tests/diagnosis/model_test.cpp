@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnosis/comparison/base_parameters.h"
+#include "models/tire/model_parts.h"
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/fit_study.h"
 
@@ -41,8 +42,9 @@ Eigen::VectorXd make_unknowns(const Model& model) {
   return unknowns;
 }
 
-void check_derivatives(const Hypothesis& hypothesis) {
-  const Model model(two_runs(), base(), hypothesis);
+void check_derivatives(const PreparedSet& set, const std::vector<estimation::FreeParameter>& base,
+                       const Hypothesis& hypothesis) {
+  const Model model(set, base, hypothesis);
   const Eigen::VectorXd unknowns = make_unknowns(model);
   Eigen::VectorXd residuals;
   RowMatrix jacobian;
@@ -63,7 +65,55 @@ void check_derivatives(const Hypothesis& hypothesis) {
   }
 }
 
+void check_derivatives(const Hypothesis& hypothesis) { check_derivatives(two_runs(), base(), hypothesis); }
+
+/// A tire model with more numbers of its own than a Jet has places: each is a term of speed and load in the loss.
+struct ManyNumbers : models::OneNode {
+  static constexpr int kCount = 20;
+
+  static models::TireModelInfo info() {
+    models::TireModelInfo info;
+    info.id = "many_numbers";
+    info.nodes = {{models::Node::kLiner, "rubber"}};
+    info.tables = {"rolling_resistance", "thermal"};
+    for (int i = 0; i < kCount; ++i) info.parameters.push_back({{kKeys[i], any_number(), ""}, 0.01, 0.1});
+    return info;
+  }
+
+  template <class S>
+  static S calc_loss_N(const models::Instant<S>& now) {
+    using std::pow;
+    S factor(1.0);
+    const S speed = now.motion.speed_m_s / quantity<S>(30.0, dimension::kSpeed) + S(0.1);
+    const S load = now.motion.load_N / quantity<S>(4000.0, dimension::kForce);
+    for (int i = 0; i < kCount; ++i) {
+      factor += now.context->tire.own[static_cast<std::size_t>(i)] * pow(speed, S(i % 5)) * pow(load, S(i / 5));
+    }
+    return factor * models::CombinedLaw::calc_loss_N(now);
+  }
+
+  static constexpr const char* kKeys[kCount]{"a0", "a1", "a2", "a3", "a4", "b0", "b1", "b2", "b3", "b4",
+                                             "c0", "c1", "c2", "c3", "c4", "d0", "d1", "d2", "d3", "d4"};
+};
+
 }  // namespace
+
+TEST_CASE("a tire model may have more numbers than derivatives are taken by at once", "[fast]") {
+  const models::TireModel& many = models::make_tire_model<ManyNumbers>();
+  measurements::MeasurementSet set = two_runs().source();
+  set.tire.values.own = {&many, {}};
+  for (int i = 0; i < ManyNumbers::kCount; ++i) set.tire.values.own.values.push_back(0.01 * (1 + i % 3));
+  set.tire.standard_uncertainties.own = {&many, std::vector<double>(ManyNumbers::kCount)};
+  set.tire.standard_uncertainties.own.values[7] = 0.004;
+  const PreparedSet prepared(set);
+  const auto parameters = diagnosis::find_base_parameters(set, prepared.context());
+  REQUIRE(parameters.size() == base().size() + ManyNumbers::kCount);
+  for (const estimation::FreeParameter& parameter : parameters) {
+    if (parameter.key == "tire.many_numbers.b2") CHECK(parameter.prior_sd_SI == 0.004);
+    if (parameter.key == "tire.many_numbers.d4") CHECK(parameter.prior_sd_SI == Approx(0.1 * 0.02));
+  }
+  check_derivatives(prepared, parameters, with({"rim_heat"}));
+}
 
 TEST_CASE("derivatives of residuals are those of the simulation", "[fast]") {
   check_derivatives({});

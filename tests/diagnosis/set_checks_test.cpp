@@ -121,7 +121,7 @@ TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") 
   int sets = 0;
   int stopped = 0;
   for (const models::Effect* effect : models::all_effects()) {
-    if (!models::acts_in(effect->info, models::RigKind::kDrum, models::Baseline::kCombined)) continue;
+    if (!models::acts_in(effect->info, models::RigKind::kDrum, models::default_tire_model())) continue;
     std::seed_seq seed(effect->info.id.begin(), effect->info.id.end());  // whatever effects there are beside it
     std::mt19937_64 random(seed);
     for (int i = 0; i < kDraws; ++i) {

@@ -123,7 +123,7 @@ TEST_CASE("no effect makes a resimulation unstable, wherever a fit usually looks
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> within(-2.0, 2.0);  // prior units
   for (const models::Effect* effect : models::all_effects()) {
-    if (!models::acts_in(effect->info, models::RigKind::kDyno, models::Baseline::kCombined)) continue;
+    if (!models::acts_in(effect->info, models::RigKind::kDyno, models::default_tire_model())) continue;
     for (int draw = 0; draw < 25; ++draw) {
       std::vector<double> values;
       for (const models::EffectParameter& parameter : effect->info.parameters) {
@@ -215,9 +215,9 @@ double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::
                   std::size_t row = 30) {
   models::Context<double> context;
   context.rig_kind = models::RigKind::kFlat;
-  context.baseline = set.baseline;
   context.vehicle = set.vehicle->body;
   context.tire = set.tire.parameters_with_class_values(5000.0, 250e3);
+  if (set.baseline == models::Baseline::kCombined) context.tire.own = set.tire.values.own;
   models::Corner<double> corner(context, effects);
   return measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("traction_force_N")[row];
 }

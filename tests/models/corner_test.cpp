@@ -95,7 +95,8 @@ TEST_CASE("a constant coefficient takes neither speed nor temperature nor pressu
   CHECK(evaluate(corner, states_at(corner, 330.0), 30.0, 5000.0, rates).rolling_resistance_N == Approx(40.0));
 }
 
-TEST_CASE("dimensions are right through every port, with every effect on, on every kind of rig", "[fast]") {
+TEST_CASE("dimensions are right through every port, with every effect on, on every kind of rig and tire model",
+          "[fast]") {
   using Q = DimensionedScalar;
   std::vector<models::ActiveEffect> all;
   for (const std::string& id : models::effect_ids()) all.push_back(tests::switch_on(id));
@@ -103,7 +104,9 @@ TEST_CASE("dimensions are right through every port, with every effect on, on eve
   initial.soaked = GENERATE(true, false);
   initial.rest_before_s = Q(3600.0, dimension::kTime);
   const auto kind = GENERATE(models::RigKind::kDrum, models::RigKind::kDyno, models::RigKind::kFlat);
-  tests::HandFedCorner<Q> at(tests::make_context_on(kind), all, initial, 310.0);
+  models::Context<double> context = tests::make_context_on(kind);
+  context.tire.own = tests::make_own(GENERATE("combined", "constant_rrc"));
+  tests::HandFedCorner<Q> at(context, all, initial, 310.0);
   at.inputs.speed_m_s = 36.0;  // where everything acts that acts at some speeds only
   at.inputs.acceleration_m_s2 = 0.1;
   at.inputs.surface_recorded = GENERATE(true, false);
@@ -126,7 +129,7 @@ TEST_CASE("a node colder, hotter or less than a number is no tire's, whichever i
   const Corner<double> corner = tests::DrumFixture().corner();
   const auto fine = states_at(corner, 298.15);
   CHECK_NOTHROW(corner.require_possible(fine.data()));
-  for (const auto& [node, name] : {std::pair{Node::kRubber, "rubber"}, std::pair{Node::kGas, "gas"}}) {
+  for (const auto& [node, name] : {std::pair{Node::kLiner, "rubber"}, std::pair{Node::kGas, "gas"}}) {
     for (const double temperature_K : {50.0, 2000.0, -1e9, std::nan("")}) {
       auto x = fine;
       x[corner.state_of(node)] = temperature_K;

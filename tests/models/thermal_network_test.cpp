@@ -15,8 +15,8 @@ Network four_nodes() {
   network.heat_W = {500.0, 0.0, 200.0, 30.0};
   network.air_W_per_K = {10.0, 0.0, 20.0, 3.0};
   network.road_W_per_K = {5.0, 0.0, 2.0, 0.0};
-  network.link(Node::kRubber, Node::kGas) = 4.0;
-  network.link(Node::kTread, Node::kRubber) = 60.0;
+  network.link(Node::kLiner, Node::kGas) = 4.0;
+  network.link(Node::kTread, Node::kLiner) = 60.0;
   network.link(Node::kGas, Node::kRim) = 2.0;
   return network;
 }
@@ -45,7 +45,7 @@ TEST_CASE("heat flows from warm to cold, and a link is the same from both sides"
   Network network;
   network.temperature_K = {310.0, 300.0, 0.0, 0.0};
   network.heat_capacity_J_per_K = {100.0, 50.0, 0.0, 0.0};
-  network.link(Node::kGas, Node::kRubber) = 5.0;
+  network.link(Node::kGas, Node::kLiner) = 5.0;
   const auto flows = models::calc_heat_flows(network, 290.0, 290.0);
   CHECK(flows.temperature_rate_K_s[0] == Approx(-0.5));  // 50 W over 100 J/K
   CHECK(flows.temperature_rate_K_s[1] == Approx(1.0));

@@ -37,17 +37,17 @@ sim::Program drum_program() {
   return program;
 }
 
-/// What the constant coefficient needs beside the tire's file.
+/// The tire with another model, and what the constant coefficient needs beside its file.
 template <class Fixture>
-void choose_baseline(models::Baseline baseline, Fixture& fixture) {
-  fixture.baseline = baseline;
+void choose_model(const std::string& model, Fixture& fixture) {
+  fixture.tire.values.own = make_own(model);
   fixture.tire.has_constant = true;
   fixture.tire.values.constant.rrc = 0.0075;
 }
 
-sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects, models::Baseline baseline) {
+sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects, const std::string& model) {
   DrumFixture fixture;
-  choose_baseline(baseline, fixture);
+  choose_model(model, fixture);
   models::Corner<Jet> corner(models::convert_context<Jet>(fixture.context()), effects);
   corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
   rigs::RigStart<Jet> start;
@@ -62,9 +62,9 @@ sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects, models::Ba
   return recording;
 }
 
-DrumFixture drum_with(const Effects& effects, models::Baseline baseline) {
+DrumFixture drum_with(const Effects& effects, const std::string& model) {
   DrumFixture fixture;
-  choose_baseline(baseline, fixture);
+  choose_model(model, fixture);
   fixture.effects = effects;
   return fixture;
 }
@@ -74,9 +74,9 @@ constexpr double kLoadShare = 0.55;  // of the axle, so that the wheel's load is
 constexpr double kDynoPressure_Pa = 230e3;  // other than the tire's reference pressure
 
 /// A driven quarter at the rear: 1.2 kN of drive and 1.6 kN of friction brake force at the wheel.
-VehicleFixture dyno_with(const Effects& effects, models::Baseline baseline) {
+VehicleFixture dyno_with(const Effects& effects, const std::string& model) {
   VehicleFixture fixture("dyno_1m2", false, rigs::QuarterWheel::kRear);
-  choose_baseline(baseline, fixture);
+  choose_model(model, fixture);
   fixture.vehicle.geometry.front_load_share = 1.0 - kLoadShare;
   fixture.vehicle.brakes.front_share = 0.3;
   fixture.cold_pressure_Pa = kDynoPressure_Pa;
@@ -97,9 +97,9 @@ sim::Program dyno_program() {
 }
 
 /// A driven quarter at the front that hardly recuperates, so that moderate braking heats its brake.
-VehicleFixture road_with(const Effects& effects, models::Baseline baseline) {
+VehicleFixture road_with(const Effects& effects, const std::string& model) {
   VehicleFixture fixture("flat", false, rigs::QuarterWheel::kFront);
-  choose_baseline(baseline, fixture);
+  choose_model(model, fixture);
   fixture.vehicle.driven_axle = rigs::DrivenAxle::kFront;
   fixture.vehicle.geometry.front_load_share = kLoadShare;
   fixture.vehicle.powertrain.regeneration_limit_m_s2 = 0.1;
@@ -159,38 +159,38 @@ const std::vector<Campaign>& campaigns() {
        "drum_torque_Nm",
        {"load", "skim", "fast"},
        sim::kAuditLimit,
-       [](const Effects& effects, models::Baseline against) {
-         return drum_with(effects, against).run_quasi_static(drum_program());
+       [](const Effects& effects, const std::string& model) {
+         return drum_with(effects, model).run_quasi_static(drum_program());
        },
-       [](const Effects& effects, models::Baseline against) {
-         return drum_with(effects, against).run_multibody(drum_program());
+       [](const Effects& effects, const std::string& model) {
+         return drum_with(effects, model).run_multibody(drum_program());
        },
        run_drum_with_derivatives},
       {models::RigKind::kDyno,
        "loss_force_N",
        {"fast", "slow", "fastest", "slow again"},
        scenarios::kDriveAuditLimit,
-       [](const Effects& effects, models::Baseline against) {
-         return dyno_with(effects, against).run_quasi_static(dyno_program());
+       [](const Effects& effects, const std::string& model) {
+         return dyno_with(effects, model).run_quasi_static(dyno_program());
        },
-       [](const Effects& effects, models::Baseline against) {
-         return dyno_with(effects, against).run_multibody(dyno_program());
+       [](const Effects& effects, const std::string& model) {
+         return dyno_with(effects, model).run_multibody(dyno_program());
        },
-       [](const Effects& effects, models::Baseline against) {
-         return run_vehicle_with_derivatives(dyno_with(effects, against), dyno_program());
+       [](const Effects& effects, const std::string& model) {
+         return run_vehicle_with_derivatives(dyno_with(effects, model), dyno_program());
        }},
       {models::RigKind::kFlat,
        "traction_force_N",
        {"fast", "fast again", "slow"},
        scenarios::kDriveAuditLimit,
-       [](const Effects& effects, models::Baseline against) {
-         return road_with(effects, against).run_quasi_static(road_program());
+       [](const Effects& effects, const std::string& model) {
+         return road_with(effects, model).run_quasi_static(road_program());
        },
-       [](const Effects& effects, models::Baseline against) {
-         return road_with(effects, against).run_multibody(road_program());
+       [](const Effects& effects, const std::string& model) {
+         return road_with(effects, model).run_multibody(road_program());
        },
-       [](const Effects& effects, models::Baseline against) {
-         return run_vehicle_with_derivatives(road_with(effects, against), road_program());
+       [](const Effects& effects, const std::string& model) {
+         return run_vehicle_with_derivatives(road_with(effects, model), road_program());
        }}};
   return all;
 }

@@ -20,10 +20,10 @@ struct Campaign {
   std::string force_channel;                // the fidelities are compared in it, and in temperature
   std::vector<std::string> settled_phases;  // at whose end force and temperature hold still
   double audit_limit;
-  std::function<sim::Recording<double>(const Effects&, models::Baseline)> run_quasi_static;
-  std::function<sim::Recording<double>(const Effects&, models::Baseline)> run_multibody;
+  std::function<sim::Recording<double>(const Effects&, const std::string& tire_model)> run_quasi_static;
+  std::function<sim::Recording<double>(const Effects&, const std::string& tire_model)> run_multibody;
   /// With derivatives by the first parameter of the only effect, in place 0.
-  std::function<sim::Recording<Jet>(const Effects&, models::Baseline)> run_with_derivatives;
+  std::function<sim::Recording<Jet>(const Effects&, const std::string& tire_model)> run_with_derivatives;
 };
 
 /// Measured channels of a rig kind (formats.md).

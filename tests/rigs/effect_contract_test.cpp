@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -99,9 +100,14 @@ void check_declaration(const EffectInfo& info) {
   CHECK_FALSE(info.splitting_tests.empty());
 }
 
-/// The baseline against which an effect keeps its contract.
-models::Baseline baseline_for(const Effect& effect) {
-  return effect.info.only_against.value_or(models::Baseline::kCombined);
+/// Tire models on which an effect keeps its contract: one alone, or all whose loss follows their temperature.
+std::vector<std::string> models_for(const Effect& effect) {
+  if (effect.info.only_against != nullptr) return {effect.info.only_against};
+  std::vector<std::string> ids;
+  for (const models::TireModel* model : models::all_tire_models()) {
+    if (model->info.loss_follows_heat) ids.push_back(model->info.id);
+  }
+  return ids;
 }
 
 /// Fills everything that a port may not yet read with NaN, so that whoever reads it betrays itself.
@@ -120,9 +126,9 @@ void poison(models::Instant<double>& now) {
   now.thermal.air_W_per_K.fill(nan);
 }
 
-void check_reads_only_what_stands_before(const Effect& effect, models::RigKind kind) {
+void check_reads_only_what_stands_before(const Effect& effect, models::RigKind kind, const std::string& model) {
   models::Context<double> context = tests::make_context_on(kind);
-  context.baseline = baseline_for(effect);
+  context.tire.own = tests::make_own(model);
   context.tire.constant.rrc = 0.0075;
   const models::Corner<double> corner(context, {tests::make_active(effect, usual_values(effect.info))});
   std::vector<double> x(corner.state_count());
@@ -161,9 +167,9 @@ bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-void check_is_baseline(const Campaign& campaign, const Effects& effects, models::Baseline against,
+void check_is_baseline(const Campaign& campaign, const Effects& effects, const std::string& model,
                        const sim::Recording<double>& baseline) {
-  const auto recording = campaign.run_quasi_static(effects, against);
+  const auto recording = campaign.run_quasi_static(effects, model);
   for (const std::string& channel : measured_on(campaign.kind)) {
     INFO(channel);
     CHECK(is_same(recording.channel(channel), baseline.channel(channel)));
@@ -185,9 +191,9 @@ double find_change(const std::vector<double>& changed, const std::vector<double>
 constexpr double kVisible = 1e-3;  // of a channel's span
 constexpr double kFaint = 1e-2;
 
-void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, const sim::Recording<double>& baseline) {
-  const auto on =
-      campaign.run_quasi_static(at_size(effect, effect.info.parameters[0].prior.high), baseline_for(effect));
+void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, const std::string& model,
+                               const sim::Recording<double>& baseline) {
+  const auto on = campaign.run_quasi_static(at_size(effect, effect.info.parameters[0].prior.high), model);
   const bool faint = is_faint(effect.info, campaign.kind);
   for (const std::string& channel : measured_on(campaign.kind)) {
     if (!faint) break;
@@ -205,9 +211,9 @@ void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, c
   }
 }
 
-void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects, models::Baseline against) {
-  const auto multibody = campaign.run_multibody(effects, against);
-  const auto quasi_static = campaign.run_quasi_static(effects, against);
+void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects, const std::string& model) {
+  const auto multibody = campaign.run_multibody(effects, model);
+  const auto quasi_static = campaign.run_quasi_static(effects, model);
   CHECK_NOTHROW(multibody.audit.require_closed(campaign.audit_limit));
   CHECK_NOTHROW(quasi_static.audit.require_closed(campaign.audit_limit));
   if (measured_on(campaign.kind).count("liner_temperature_degC") == 1) {
@@ -234,15 +240,15 @@ std::size_t find_most_sensitive(const std::vector<Jet>& channel) {
   return best;
 }
 
-void check_derivative(const Campaign& campaign, const Effect& effect) {
+void check_derivative(const Campaign& campaign, const Effect& effect, const std::string& model) {
   const models::EffectParameter& size = effect.info.parameters[0];
   const double center = size.prior.center();
   const double step = 1e-3 * (size.prior.high - size.prior.low);
   const double to_file_unit = unit_of_key(size.key).factor;
-  const auto derivatives = campaign.run_with_derivatives(at_size(effect, center), baseline_for(effect));
+  const auto derivatives = campaign.run_with_derivatives(at_size(effect, center), model);
   std::vector<sim::Recording<double>> runs;
   for (const double steps : {-2.0, -1.0, 1.0, 2.0}) {
-    runs.push_back(campaign.run_quasi_static(at_size(effect, center + steps * step), baseline_for(effect)));
+    runs.push_back(campaign.run_quasi_static(at_size(effect, center + steps * step), model));
   }
   for (const std::string& channel : select_measured(effect.info.visible_in, campaign.kind)) {
     INFO(channel);
@@ -255,27 +261,30 @@ void check_derivative(const Campaign& campaign, const Effect& effect) {
   }
 }
 
-void check_on_campaign(const Campaign& campaign, const Effect& effect, const sim::Recording<double>& baseline) {
+void check_on_campaign(const Campaign& campaign, const Effect& effect, const std::string& model,
+                       const sim::Recording<double>& baseline) {
   const EffectInfo& info = effect.info;
-  const models::Baseline against = baseline_for(effect);
-  const std::string name = info.id + " on " + models::name_of(campaign.kind);
-  if (!models::acts_on(info, campaign.kind)) {
+  std::string name = info.id + " on " + models::name_of(campaign.kind);
+  if (model != "combined") name += ", " + model;
+  if (!models::acts_in(info, campaign.kind, models::find_tire_model(model))) {
     DYNAMIC_SECTION(name << ": it does not act there, which is the baseline to the bit") {
-      check_is_baseline(campaign, at_size(effect, info.parameters[0].prior.high), against, baseline);
+      check_is_baseline(campaign, at_size(effect, info.parameters[0].prior.high), model, baseline);
     }
     return;
   }
   DYNAMIC_SECTION(name << ": at its off value it is the baseline to the bit") {
-    check_is_baseline(campaign, at_size(effect, *info.parameters[0].off), against, baseline);
+    check_is_baseline(campaign, at_size(effect, *info.parameters[0].off), model, baseline);
   }
   DYNAMIC_SECTION(name << ": a step of its size shows where it says, and nowhere that it calls clean") {
-    check_shows_where_it_says(campaign, effect, baseline);
+    check_shows_where_it_says(campaign, effect, model, baseline);
   }
   DYNAMIC_SECTION(name << ": both audits close with it on, and the fidelities agree") {
-    check_audits_and_fidelities(campaign, {tests::make_active(effect, usual_values(info))}, against);
+    check_audits_and_fidelities(campaign, {tests::make_active(effect, usual_values(info))}, model);
   }
   if (is_faint(info, campaign.kind)) return;  // a derivative as small as rounding
-  DYNAMIC_SECTION(name << ": its derivative by size agrees with differences") { check_derivative(campaign, effect); }
+  DYNAMIC_SECTION(name << ": its derivative by size agrees with differences") {
+    check_derivative(campaign, effect, model);
+  }
 }
 
 }  // namespace
@@ -285,7 +294,7 @@ TEST_CASE("every effect declares itself, and reads only what stands before its p
     DYNAMIC_SECTION(effect->info.id << ": declaration") { check_declared_file(effect->info); }
     for (const models::RigKind kind : kKinds) {
       DYNAMIC_SECTION(effect->info.id << " on " << models::name_of(kind) << ": what it reads") {
-        check_reads_only_what_stands_before(*effect, kind);
+        for (const std::string& model : models_for(*effect)) check_reads_only_what_stands_before(*effect, kind, model);
       }
     }
   }
@@ -293,22 +302,30 @@ TEST_CASE("every effect declares itself, and reads only what stands before its p
 
 TEST_CASE("every effect keeps the contract", "[fast][contract]") {
   for (const Campaign& campaign : tests::campaigns()) {
-    const auto combined = campaign.run_quasi_static({}, models::Baseline::kCombined);
-    const auto constant = campaign.run_quasi_static({}, models::Baseline::kConstantRrc);
+    std::map<std::string, sim::Recording<double>> baselines;
+    for (const models::TireModel* model : models::all_tire_models()) {
+      baselines[model->info.id] = campaign.run_quasi_static({}, model->info.id);
+    }
     for (const Effect* effect : models::all_effects()) {
-      const bool is_combined = baseline_for(*effect) == models::Baseline::kCombined;
-      check_on_campaign(campaign, *effect, is_combined ? combined : constant);
+      for (const std::string& model : models_for(*effect)) {
+        check_on_campaign(campaign, *effect, model, baselines.at(model));
+      }
     }
   }
 }
 
-TEST_CASE("both audits close with every effect on at once, and the fidelities agree", "[fast][contract]") {
+TEST_CASE("both audits close on every tire model with no effect and with every one, and the fidelities agree",
+          "[fast][contract]") {
   for (const Campaign& campaign : tests::campaigns()) {
     Effects all;
     for (const Effect* effect : models::all_effects()) {
       all.push_back(tests::make_active(*effect, usual_values(effect->info)));
     }
-    check_audits_and_fidelities(campaign, all, models::Baseline::kCombined);
+    for (const models::TireModel* model : models::all_tire_models()) {
+      INFO(model->info.id << " on " << models::name_of(campaign.kind));
+      check_audits_and_fidelities(campaign, {}, model->info.id);
+      check_audits_and_fidelities(campaign, all, model->info.id);
+    }
   }
 }
 

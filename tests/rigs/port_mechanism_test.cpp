@@ -71,7 +71,7 @@ struct InsideTheTire {
   }
   template <class S>
   static void thermal(const EffectView<S>&, const Instant<S>& now, models::ThermalPort<S>& port) {
-    const std::size_t rubber = models::index_of(Node::kRubber);
+    const std::size_t rubber = models::index_of(Node::kLiner);
     const std::size_t tread = models::index_of(Node::kTread);
     const std::size_t rim = models::index_of(Node::kRim);
     port.heat_capacity_J_per_K[tread] = S(0.5) * port.heat_capacity_J_per_K[rubber];
@@ -81,8 +81,8 @@ struct InsideTheTire {
     std::swap(port.air_W_per_K[tread], port.air_W_per_K[rubber]);
     std::swap(port.road_W_per_K[tread], port.road_W_per_K[rubber]);
     const Dimension conductance = dimension::kPower / dimension::kTemperature;
-    port.link(Node::kTread, Node::kRubber) = quantity<S>(60.0, conductance);
-    port.link(Node::kRubber, Node::kRim) = quantity<S>(2.0, conductance);
+    port.link(Node::kTread, Node::kLiner) = quantity<S>(60.0, conductance);
+    port.link(Node::kLiner, Node::kRim) = quantity<S>(2.0, conductance);
     port.heat_capacity_J_per_K[rim] = quantity<S>(7000.0, conductance * dimension::kTime);
     port.air_W_per_K[rim] =
         quantity<S>(3.0, conductance) + quantity<S>(0.1, conductance / dimension::kSpeed) * now.boundary.air_speed_m_s;
@@ -147,11 +147,11 @@ DrumFixture with(double size) {
 
 TEST_CASE("an effect's hooks are found where it has them, and nowhere else", "[fast]") {
   const models::Effect effect = models::make_effect<Logger>();
-  CHECK(effect.on_double.trace != nullptr);
-  CHECK(effect.on_jet.trace != nullptr);
-  CHECK(effect.on_dimensioned.trace != nullptr);
-  CHECK(effect.on_double.loss == nullptr);
-  CHECK(effect.on_double.rates == nullptr);
+  CHECK(effect.hooks<double>().trace != nullptr);
+  CHECK(effect.hooks<Jet>().trace != nullptr);
+  CHECK(effect.hooks<DimensionedScalar>().trace != nullptr);
+  CHECK(effect.hooks<double>().loss == nullptr);
+  CHECK(effect.hooks<double>().rates == nullptr);
 }
 
 TEST_CASE("input, boundary, gas and contact ports act in both fidelities alike", "[fast]") {

@@ -70,10 +70,10 @@ TEST_CASE("energy closes on the roller and on the road, with any effect on", "[f
     const models::EffectParameter& size = effect->info.parameters.front();
     INFO(id);
     const std::string on = "effects." + id + "." + size.key + "=" + std::to_string(size.prior.center());
-    if (models::acts_in(effect->info, models::RigKind::kDyno, models::Baseline::kCombined)) {
+    if (models::acts_in(effect->info, models::RigKind::kDyno, models::default_tire_model())) {
       check_closed(on_roller({on}).run());
     }
-    if (models::acts_in(effect->info, models::RigKind::kFlat, models::Baseline::kCombined)) {
+    if (models::acts_in(effect->info, models::RigKind::kFlat, models::default_tire_model())) {
       check_closed(on_road({on}).run());
     }
   }

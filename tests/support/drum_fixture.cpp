@@ -10,6 +10,14 @@ models::TireFile read_asset_tire(const std::string& name) {
   return models::read_tire(read_config(find_asset("tires", name)));
 }
 
+models::OwnParameters<double> make_own(const std::string& model) {
+  models::OwnParameters<double> own{&models::find_tire_model(model), {}};
+  for (const models::TireModelParameter& declared : own.model->info.parameters) {
+    own.values.push_back(unit_of_key(declared.field.key).to_si(declared.usual));
+  }
+  return own;
+}
+
 rigs::RigFile read_asset_rig() { return rigs::read_rig(read_config(find_asset("rigs", "drum_2m"))); }
 
 rigs::RigStart<double> DrumFixture::start() const {

@@ -18,6 +18,9 @@ namespace rollrig::tests {
 models::TireFile read_asset_tire(const std::string& name = "a50");
 rigs::RigFile read_asset_rig();
 
+/// A tire model with usual numbers of its own.
+models::OwnParameters<double> make_own(const std::string& model);
+
 /// A drum test that a test may change before it runs.
 struct DrumFixture {
   models::TireFile tire = read_asset_tire();

@@ -73,7 +73,7 @@ TEST_CASE("of windage nothing heats the rubber", "[fast]") {
   CHECK(with.now.heat.heat_in_W == without.evaluate().heat.heat_in_W);
   with.advance(1800.0);
   without.advance(1800.0);
-  CHECK(with.temperature_K(Node::kRubber) == without.temperature_K(Node::kRubber));
+  CHECK(with.temperature_K(Node::kLiner) == without.temperature_K(Node::kLiner));
 }
 
 TEST_CASE("the air in the cell warms by its rise with its time constant, and the tire with it", "[fast]") {
@@ -88,7 +88,7 @@ TEST_CASE("the air in the cell warms by its rise with its time constant, and the
   warm.inputs.ambient_K = 302.15;
   warm.inputs.speed_m_s = 80.0 / 3.6;
   warm.advance(12.0 * 3600.0, 20000);
-  CHECK(at.temperature_K(Node::kRubber) == Approx(warm.temperature_K(Node::kRubber)).margin(1e-4));
+  CHECK(at.temperature_K(Node::kLiner) == Approx(warm.temperature_K(Node::kLiner)).margin(1e-4));
   CHECK(at.now.rolling_resistance_N == Approx(warm.now.rolling_resistance_N).epsilon(1e-5));
 }
 
@@ -152,10 +152,10 @@ TEST_CASE("without any power it is a fan, which blows at standstill too", "[fast
   HandFedCorner<double> still(make_context_on(RigKind::kDrum), {});
   still.inputs.speed_m_s = 0.0;
   for (auto* at : {&fan, &still}) {
-    at->temperature_K(Node::kRubber) = 330.0;
+    at->temperature_K(Node::kLiner) = 330.0;
     at->advance(600.0);
   }
-  CHECK(fan.temperature_K(Node::kRubber) < still.temperature_K(Node::kRubber) - 1.0);
+  CHECK(fan.temperature_K(Node::kLiner) < still.temperature_K(Node::kLiner) - 1.0);
 }
 
 TEST_CASE("a fan across the tire adds by squares: at the reference speed as before, all of it left at standstill",
@@ -246,7 +246,7 @@ TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H), sti
     context.tire.thermal.heat_capacity_J_per_K = 1e9;  // a tire that keeps its temperature
     HandFedCorner<double> at(context, {switch_on("gas_heat_transfer", {ratio, 0.0})});
     at.inputs.speed_m_s = 0.0;
-    at.temperature_K(Node::kRubber) = 318.15;
+    at.temperature_K(Node::kLiner) = 318.15;
     const auto& thermal = context.tire.thermal;
     at.advance(thermal.gas_heat_capacity_J_per_K / (ratio * thermal.H_gas_W_per_K));
     CHECK(318.15 - at.temperature_K(Node::kGas) == Approx(20.0 * std::exp(-1.0)).epsilon(1e-5));
@@ -255,12 +255,12 @@ TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H), sti
       HandFedCorner<double> stirred(context, {switch_on("gas_heat_transfer", {ratio, 1.0})});
       stirred.inputs.speed_m_s = km_h / 3.6;
       stirred.inputs.load_N = 0.0;
-      stirred.temperature_K(Node::kRubber) = 318.15;
+      stirred.temperature_K(Node::kLiner) = 318.15;
       stirred.advance(thermal.gas_heat_capacity_J_per_K / (factor * thermal.H_gas_W_per_K));
       CHECK(318.15 - stirred.temperature_K(Node::kGas) == Approx(20.0 * std::exp(-1.0)).epsilon(1e-4));
     }
     HandFedCorner<double> usual(make_context_on(RigKind::kDrum), {switch_on("gas_heat_transfer", {ratio, 0.4})});
-    usual.temperature_K(Node::kRubber) = 318.15;
+    usual.temperature_K(Node::kLiner) = 318.15;
     const double stored_W = usual.stored_heat_rate_W();
     const auto& heat = usual.now.heat;
     CHECK(stored_W == Approx(heat.heat_in_W - heat.to_air_W - heat.to_road_W).margin(1e-3));

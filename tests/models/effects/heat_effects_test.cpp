@@ -40,7 +40,7 @@ TEST_CASE("slip power goes into the rubber, all of it", "[fast]") {
   }
   CHECK(with.now.contact.slip_compliance_per_N == Approx(1e-5));
   CHECK(with.now.heat.heat_in_W - without.now.heat.heat_in_W == Approx(800.0));
-  CHECK(with.rates[with.corner.state_of(Node::kRubber)] > without.rates[without.corner.state_of(Node::kRubber)]);
+  CHECK(with.rates[with.corner.state_of(Node::kLiner)] > without.rates[without.corner.state_of(Node::kLiner)]);
 }
 
 TEST_CASE("without compliance numerical slip heats nothing, and the derivative is that of Fx^2 v/C", "[fast]") {
@@ -83,7 +83,7 @@ TEST_CASE("tread and liner even out with one time constant, whatever the tread's
     const double time_s = context.tire.thermal.heat_capacity_J_per_K / (4.0 * 60.0);
     at.advance(time_s);
     const double tread_K = at.temperature_K(Node::kTread);
-    const double liner_K = at.temperature_K(Node::kRubber);
+    const double liner_K = at.temperature_K(Node::kLiner);
     CHECK(tread_K - liner_K == Approx((320.0 - 298.15) * std::exp(-1.0)).epsilon(1e-6));
     CHECK(share * tread_K + (1.0 - share) * liner_K == Approx(mean_K).epsilon(1e-12));
   }
@@ -97,9 +97,9 @@ TEST_CASE("two halves heated alike and cooled on the tread alone differ by half 
   HandFedCorner<double> at(context, {switch_on("tread_liner_lag", {0.5, 80.0, 1.0, everything})});
   at.advance(6.0 * 3600.0, 10000);
   const double heat_W = at.now.rolling_resistance_N * at.inputs.speed_m_s;
-  CHECK(at.temperature_K(Node::kRubber) - at.temperature_K(Node::kTread) == Approx(0.5 * heat_W / 80.0).epsilon(1e-6));
+  CHECK(at.temperature_K(Node::kLiner) - at.temperature_K(Node::kTread) == Approx(0.5 * heat_W / 80.0).epsilon(1e-6));
   CHECK(at.now.loss.temperature_K ==
-        Approx(0.5 * (at.temperature_K(Node::kRubber) + at.temperature_K(Node::kTread))).epsilon(1e-12));
+        Approx(0.5 * (at.temperature_K(Node::kLiner) + at.temperature_K(Node::kTread))).epsilon(1e-12));
 }
 
 TEST_CASE("splitting the rubber neither makes nor loses capacity, heat or cooling", "[fast]") {
@@ -120,17 +120,17 @@ TEST_CASE("a tread of no share is carried along unfelt, and derivatives by the s
   const auto liner_at = [&](double share) {
     HandFedCorner<double> at(make_context_on(RigKind::kDrum), {effect_at(share)});
     at.advance(300.0);
-    return at.temperature_K(Node::kRubber);
+    return at.temperature_K(Node::kLiner);
   };
   HandFedCorner<double> plain(make_context_on(RigKind::kDrum), {});
   plain.advance(300.0);
-  CHECK(liner_at(0.0) == plain.temperature_K(Node::kRubber));
+  CHECK(liner_at(0.0) == plain.temperature_K(Node::kLiner));
   HandFedCorner<Jet> jet(make_context_on(RigKind::kDrum), {effect_at(0.0)});
   jet.corner.effects()[0].parameters[0] = Jet(0.0, 0);
   jet.advance(300.0);
   const double h = 1e-4;  // one-sided, second order
   const double difference = (4.0 * liner_at(h) - liner_at(2.0 * h) - 3.0 * liner_at(0.0)) / (2.0 * h);
-  CHECK(jet.temperature_K(Node::kRubber).v[0] == Approx(difference).epsilon(1e-4));
+  CHECK(jet.temperature_K(Node::kLiner).v[0] == Approx(difference).epsilon(1e-4));
   CHECK(std::abs(difference) > 0.1);
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("a well conducting tire has one temperature", "[fast]") {
   HandFedCorner<double> plain(make_context_on(RigKind::kDrum), {});
   at.advance(300.0, 20000);
   plain.advance(300.0);
-  CHECK(at.temperature_K(Node::kRubber) == Approx(plain.temperature_K(Node::kRubber)).epsilon(1e-5));
+  CHECK(at.temperature_K(Node::kLiner) == Approx(plain.temperature_K(Node::kLiner)).epsilon(1e-5));
 }
 
 TEST_CASE("of the brake's power the tire gets its share in steady braking, late", "[fast]") {
@@ -149,7 +149,7 @@ TEST_CASE("of the brake's power the tire gets its share in steady braking, late"
     one->inputs.speed_m_s = 20.0;
     one->inputs.brake_force_N = 500.0;  // 10 kW, of which 1 kW is bound for the tire
   }
-  const auto rubber = at.corner.state_of(Node::kRubber);
+  const auto rubber = at.corner.state_of(Node::kLiner);
   const auto gas = at.corner.state_of(Node::kGas);
   const auto arriving_W = [&] {
     const auto& heat_W = at.evaluate().thermal.heat_W;
@@ -187,11 +187,11 @@ TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fa
   const double after_J = at.corner.calc_stored_heat_J(at.x.data());
   at.inputs.speed_m_s = 0.0;         // no loss of its own
   at.inputs.brake_force_N = 2000.0;  // holds, without work
-  const double rubber_K = at.temperature_K(Node::kRubber);
+  const double rubber_K = at.temperature_K(Node::kLiner);
   const double on_its_way_J = at.state("brake_heat.disc_heat_kJ") + at.state("brake_heat.rim_heat_kJ");
   at.advance(4.0 * 3600.0, 4000);
   CHECK(at.corner.calc_stored_heat_J(at.x.data()) == Approx(after_J).epsilon(1e-9));
-  CHECK((at.temperature_K(Node::kRubber) - rubber_K) * at.corner.context().tire.thermal.heat_capacity_J_per_K ==
+  CHECK((at.temperature_K(Node::kLiner) - rubber_K) * at.corner.context().tire.thermal.heat_capacity_J_per_K ==
         Approx(on_its_way_J).epsilon(1e-6));
   CHECK(after_J - before_J > 0.05 * 2000.0 * 250.0);  // and the rolling loss beside it
 }

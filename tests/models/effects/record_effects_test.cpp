@@ -41,7 +41,7 @@ TEST_CASE("a wrong speed record turns the tire faster than it says, and the reco
     CHECK(wrong.now.acting.acceleration_m_s2 == Approx(0.42));
     CHECK(wrong.now.rolling_resistance_N == Approx(right.now.rolling_resistance_N));
     CHECK(wrong.now.parasitic_N == Approx(right.now.parasitic_N));
-    CHECK(wrong.temperature_K(models::Node::kRubber) == Approx(right.temperature_K(models::Node::kRubber)));
+    CHECK(wrong.temperature_K(models::Node::kLiner) == Approx(right.temperature_K(models::Node::kLiner)));
     CHECK(wrong.now.heat.heat_in_W == Approx(wrong.now.rolling_resistance_N * 21.0));
   }
 }

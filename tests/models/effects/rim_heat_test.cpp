@@ -37,7 +37,7 @@ TEST_CASE("tire, gas and rim that lose nothing come to one temperature, and no h
   const double tire_J_per_K = thermal.heat_capacity_J_per_K + thermal.gas_heat_capacity_J_per_K;
   const double mixed_K = (tire_J_per_K * 298.15 + 7000.0 * 330.0) / (tire_J_per_K + 7000.0);
   at.advance(20.0 * 3600.0, 20000);
-  for (const Node node : {Node::kRubber, Node::kGas, Node::kRim}) CHECK(at.temperature_K(node) == Approx(mixed_K));
+  for (const Node node : {Node::kLiner, Node::kGas, Node::kRim}) CHECK(at.temperature_K(node) == Approx(mixed_K));
 }
 
 TEST_CASE("a rim in steady rolling passes on what its conductances in series let through", "[fast]") {
@@ -48,19 +48,19 @@ TEST_CASE("a rim in steady rolling passes on what its conductances in series let
   const double rubber_air_W_per_K = (1.0 - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K +
                                     thermal.speed_conductance_W_s_per_m_K * at.inputs.speed_m_s;
   const double series_W_per_K = 1.0 / (1.0 / 3.0 + 1.0 / (0.4 * rubber_air_W_per_K));
-  const double over_ambient_K = at.temperature_K(Node::kRubber) - at.inputs.ambient_K;
+  const double over_ambient_K = at.temperature_K(Node::kLiner) - at.inputs.ambient_K;
   CHECK(at.now.heat.to_air_W - rubber_air_W_per_K * over_ambient_K ==
         Approx(series_W_per_K * over_ambient_K).epsilon(1e-6));
-  CHECK(at.temperature_K(Node::kGas) == Approx(at.temperature_K(Node::kRubber)));
+  CHECK(at.temperature_K(Node::kGas) == Approx(at.temperature_K(Node::kLiner)));
 }
 
 TEST_CASE("a rim cools tire and gas, the more the better it conducts; the gas lies between rubber and rim", "[fast]") {
   const auto settle = [](double conductance_W_per_K) {
     HandFedCorner<double> at(make_context_on(RigKind::kDrum), {rim_at(conductance_W_per_K)});
     at.advance(4.0 * 3600.0, 10000);
-    CHECK(at.temperature_K(Node::kGas) <= at.temperature_K(Node::kRubber) + 1e-9);
+    CHECK(at.temperature_K(Node::kGas) <= at.temperature_K(Node::kLiner) + 1e-9);
     CHECK(at.temperature_K(Node::kGas) >= at.temperature_K(Node::kRim));
-    return std::pair(at.temperature_K(Node::kRubber), at.temperature_K(Node::kGas));
+    return std::pair(at.temperature_K(Node::kLiner), at.temperature_K(Node::kGas));
   };
   const auto [rubber_0, gas_0] = settle(0.0);
   const auto [rubber_1, gas_1] = settle(1.0);
@@ -87,11 +87,11 @@ TEST_CASE("without conductance the rim is not felt, and derivatives by the condu
   const auto drive = [](double conductance_W_per_K) {
     HandFedCorner<double> at(make_context_on(RigKind::kDrum), {rim_at(conductance_W_per_K)});
     at.advance(1200.0);
-    return std::pair(at.temperature_K(Node::kRubber), at.now.pressure_Pa);
+    return std::pair(at.temperature_K(Node::kLiner), at.now.pressure_Pa);
   };
   HandFedCorner<double> plain(make_context_on(RigKind::kDrum), {});
   plain.advance(1200.0);
-  CHECK(drive(0.0).first == plain.temperature_K(Node::kRubber));
+  CHECK(drive(0.0).first == plain.temperature_K(Node::kLiner));
   CHECK(drive(0.0).second == plain.now.pressure_Pa);
   HandFedCorner<Jet> jet(make_context_on(RigKind::kDrum), {rim_at(0.0)});
   jet.corner.effects()[0].parameters[0] = Jet(0.0, 0);
@@ -100,11 +100,11 @@ TEST_CASE("without conductance the rim is not felt, and derivatives by the condu
   const auto at_0 = drive(0.0);
   const auto at_h = drive(h);
   const auto at_2h = drive(2.0 * h);
-  CHECK(jet.temperature_K(Node::kRubber).v[0] ==
+  CHECK(jet.temperature_K(Node::kLiner).v[0] ==
         Approx((4.0 * at_h.first - at_2h.first - 3.0 * at_0.first) / (2.0 * h)).epsilon(1e-4));
   CHECK(jet.now.pressure_Pa.v[0] ==
         Approx((4.0 * at_h.second - at_2h.second - 3.0 * at_0.second) / (2.0 * h)).epsilon(1e-4));
-  CHECK(jet.temperature_K(Node::kRubber).v[0] < -0.1);
+  CHECK(jet.temperature_K(Node::kLiner).v[0] < -0.1);
 }
 
 TEST_CASE("with a rim the heat balance closes, beside a tread and braking too", "[fast]") {
@@ -168,7 +168,7 @@ TEST_CASE("heat of the brakes reaches the tire through the linked rim, late, and
       at->inputs.brake_force_N = 100.0;
       at->advance(time_s, static_cast<int>(time_s));
     }
-    return braked.temperature_K(Node::kRubber) - free.temperature_K(Node::kRubber);
+    return braked.temperature_K(Node::kLiner) - free.temperature_K(Node::kLiner);
   };
   const auto brake = switch_on("brake_heat", {5.0, 10.0});
   const auto rim = rim_at(1.0, 0.0);

@@ -219,7 +219,7 @@ TEST_CASE("a surface warms to its rise with its time constant, and gives the tir
   CHECK(at.now.boundary.surface_K == Approx(298.15 + 8.0).epsilon(1e-9));
   const auto& thermal = at.corner.context().tire.thermal;
   const double cold_to_road_W = thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K *
-                                (at.temperature_K(Node::kRubber) - 298.15);
+                                (at.temperature_K(Node::kLiner) - 298.15);
   CHECK(cold_to_road_W - at.now.heat.to_road_W ==
         Approx(8.0 * thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K));
 }
@@ -348,7 +348,7 @@ TEST_CASE("a slow leak takes its rate off the pressure at the temperature at whi
 TEST_CASE("gas that goes through the rubber goes faster while it is warm, at its rate at 40 degC", "[fast]") {
   const auto lost_at = [](double liner_K, double growth_per_K) {
     HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0, growth_per_K})});
-    at.temperature_K(Node::kRubber) = liner_K;
+    at.temperature_K(Node::kLiner) = liner_K;
     at.evaluate();
     at.advance(1.0, 1);
     return at.state("slow_leak.gas_lost");
@@ -374,7 +374,7 @@ TEST_CASE("a leaking tire loses more, is full again when filled, and never falls
 
 TEST_CASE("a tire that follows its temperature: the coefficient holds warm at 80 km/h and 25 degC", "[fast]") {
   models::Context<double> context = make_context_on(RigKind::kFlat);
-  context.baseline = models::Baseline::kConstantRrc;
+  context.tire.own = tests::make_own(models::kConstantModel);
   context.tire.constant.rrc = 0.008;
   const double load_N = context.tire.rolling_resistance.reference_load_N;
   const double fall_per_K = 0.015;

@@ -223,7 +223,7 @@ TEST_CASE("the derivative by the shift is that from either side, at no shift and
     port.context = &context;
     port.channels = {{kLiner, std::vector<Jet>(values.begin(), values.end())}};
     const Jet parameter(late_s, 0);
-    models::find_effect("clock_shift").on_jet.trace(models::EffectView<Jet>(&parameter, nullptr), port);
+    models::find_effect("clock_shift").hooks<Jet>().trace(models::EffectView<Jet>(&parameter, nullptr), port);
     const double h = 1e-4;
     const auto here = shift(late_s, time_s, values);
     const auto more = shift(late_s + h, time_s, values);

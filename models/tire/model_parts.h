@@ -1,0 +1,59 @@
+#pragma once
+/// Parts of which tire models are made: the source's law of the loss, and the rubber as one node.
+
+#include "models/tire/rolling_resistance.h"
+#include "models/tire/tire_model.h"
+
+namespace rollrig::models {
+
+/// The law of rolling_resistance.h at the temperature of the loss port.
+struct CombinedLaw {
+  template <class S>
+  static S calc_loss_N(const Instant<S>& now) {
+    using std::abs;
+    return calc_rolling_resistance_N(now.context->tire, S(abs(now.motion.speed_m_s)), now.motion.load_N,
+                                     now.pressure_Pa, now.loss.temperature_K);
+  }
+};
+
+/// All of the rubber has one temperature.
+/// Equation  C dT/dt = Q - (1 - s) z (T - T_amb) - s z (T - T_surface) - f v (T - T_amb) - H (T - T_gas),
+///           C_gas dT_gas/dt = H (T - T_gas)
+/// Symbols   T, T_gas temperatures of rubber and gas [K], Q heat that arises in the tire [W], C, C_gas heat capacities
+///           [J/K], z conductance at rest [W/K], s the road's share of it, f per speed [W s/(m K)], v speed of the air
+///           at the tire [m/s], H between rubber and gas [W/K]
+/// Source    (3.8) to (3.13), (3.17); heat to the rim is left out (§3.3.2.1)
+/// Checked   tests/models/corner_test.cpp
+struct OneNode {
+  template <class S>
+  static S find_loss_temperature_K(const TireParameters<S>&, const ThermalNetwork<S>& network) {
+    return network.temperature_K[index_of(Node::kLiner)];
+  }
+
+  template <class S>
+  static void fill_network(const Instant<S>& now, ThermalNetwork<S>& network) {
+    const std::size_t rubber = index_of(Node::kLiner);
+    network.heat_capacity_J_per_K[rubber] = now.context->tire.thermal.heat_capacity_J_per_K;
+    fill_cooling(now, Node::kLiner, network);
+  }
+
+  template <class S>
+  static void add_heat(const TireParameters<S>&, HeatSource, const S& heat_W, ThermalNetwork<S>& network) {
+    network.heat_W[index_of(Node::kLiner)] += heat_W;
+  }
+
+ protected:
+  /// What every tire has: the gas behind the liner, and the node that faces air and road.
+  template <class S>
+  static void fill_cooling(const Instant<S>& now, Node outside, ThermalNetwork<S>& network) {
+    const TireThermalParameters<S>& thermal = now.context->tire.thermal;
+    const S& to_road = thermal.road_share_of_rest_conductance;
+    network.heat_capacity_J_per_K[index_of(Node::kGas)] = thermal.gas_heat_capacity_J_per_K;
+    network.road_W_per_K[index_of(outside)] = to_road * thermal.rest_conductance_W_per_K;
+    network.air_W_per_K[index_of(outside)] = (S(1.0) - to_road) * thermal.rest_conductance_W_per_K +
+                                             thermal.speed_conductance_W_s_per_m_K * now.boundary.air_speed_m_s;
+    network.link(Node::kLiner, Node::kGas) = thermal.H_gas_W_per_K;
+  }
+};
+
+}  // namespace rollrig::models
