@@ -4,8 +4,10 @@
 #include <map>
 #include <set>
 
+#include "measurements/resimulation.h"
 #include "models/tire/rolling_resistance.h"
 #include "tests/diagnosis/gap_sets.h"
+#include "tests/support/drum_fixture.h"
 
 using namespace rollrig;
 using estimation::FreeParameter;
@@ -17,13 +19,9 @@ constexpr double kSpeed_m_s = 80.0 / 3.6;
 /// A set without runs: base parameters hang on the files alone.
 measurements::MeasurementSet make_set() { return tests::make_gap_set({}, 0); }
 
-models::Context<double> make_context(const measurements::MeasurementSet& set) {
-  return rigs::make_context(set.tire, *set.rig, set.baseline);
-}
-
 std::map<std::string, FreeParameter> find(const measurements::MeasurementSet& set) {
   std::map<std::string, FreeParameter> by_key;
-  for (const FreeParameter& parameter : diagnosis::find_base_parameters(set, make_context(set))) {
+  for (const FreeParameter& parameter : diagnosis::find_base_parameters(set, measurements::make_context(set))) {
     CHECK(by_key.emplace(parameter.key, parameter).second);
     CHECK(parameter.prior_sd_SI > 0.0);
   }
@@ -33,7 +31,7 @@ std::map<std::string, FreeParameter> find(const measurements::MeasurementSet& se
 /// Relative change of the tire's loss at 80 km/h and a temperature when a parameter moves by its uncertainty.
 double find_change_of_loss(const measurements::MeasurementSet& set, const std::string& key, double temperature_K,
                            double load_N = 5400.0) {
-  models::Context<double> context = make_context(set);
+  models::Context<double> context = measurements::make_context(set);
   const FreeParameter parameter = find(set).at(key);
   const auto loss_N = [&] {
     return models::calc_rolling_resistance_N(context.tire, kSpeed_m_s, load_N,
@@ -97,7 +95,7 @@ TEST_CASE("an uncertainty of the file wins over the default", "[fast]") {
 
 TEST_CASE("priors stand around the values of the files", "[fast]") {
   const auto set = make_set();
-  models::Context<double> context = make_context(set);
+  models::Context<double> context = measurements::make_context(set);
   for (const auto& [key, parameter] : find(set)) {
     INFO(key);
     CHECK(parameter.start_SI == estimation::find_parameter(context, key));
@@ -126,6 +124,22 @@ TEST_CASE("further numbers move only where the file gives an uncertainty", "[fas
   CHECK(base.size() == find(make_set()).size() + 2);
   CHECK(base.at("tire.rolling_resistance.pressure_exponent").prior_sd_SI == 0.03);
   CHECK(base.at("tire.thermal.road_share_of_z").prior_sd_SI == 0.1);
+}
+
+TEST_CASE("a tire model's own numbers move by what the file gives, or by the share that the model declares", "[fast]") {
+  auto set = make_set();
+  set.tire.values.own = tests::make_own("two_node");
+  set.tire.standard_uncertainties.own = tests::make_own("two_node");
+  set.tire.standard_uncertainties.own.values = {0.05, 0.0, 0.0, 0.0};
+  const auto base = find(set);
+  CHECK(base.size() == find(make_set()).size() + 4);
+  CHECK(base.at("tire.two_node.tread_share_of_heat_capacity").prior_sd_SI == 0.05);
+  const FreeParameter& conductance = base.at("tire.two_node.conductance_W_per_K");
+  const auto& declared = set.tire.values.model().info.parameters;
+  CHECK(conductance.start_SI == set.tire.values.own[3]);
+  CHECK(conductance.prior_sd_SI == Approx(declared[3].usual_sd * conductance.start_SI));
+  set.baseline = models::Baseline::kConstantRrc;  // does not use them
+  for (const auto& [key, parameter] : find(set)) CHECK(key.rfind("tire.two_node.", 0) != 0);
 }
 
 TEST_CASE("with a map over load its lines move, each by its share, and not the lines that it replaces", "[fast]") {

@@ -105,7 +105,7 @@ TEST_CASE("dimensions are right through every port, with every effect on, on eve
   initial.rest_before_s = Q(3600.0, dimension::kTime);
   const auto kind = GENERATE(models::RigKind::kDrum, models::RigKind::kDyno, models::RigKind::kFlat);
   models::Context<double> context = tests::make_context_on(kind);
-  context.tire.own = tests::make_own(GENERATE("combined", "constant_rrc"));
+  context.tire.own = tests::make_own(GENERATE("combined", "constant_rrc", "two_node"));
   tests::HandFedCorner<Q> at(context, all, initial, 310.0);
   at.inputs.speed_m_s = 36.0;  // where everything acts that acts at some speeds only
   at.inputs.acceleration_m_s2 = 0.1;

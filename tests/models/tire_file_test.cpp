@@ -31,6 +31,27 @@ TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
   CHECK(back.sweep_loads_N == tire.sweep_loads_N);
 }
 
+TEST_CASE("a tire of another model is written and read with that model's own numbers", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  CHECK(tire.values.model().info.id == "combined");
+  CHECK(tire.values.own.values.empty());
+  CHECK_THAT(models::write_tire(tire), !Catch::Contains("model ="));
+  tire.values.own = tests::make_own("two_node");
+  tire.standard_uncertainties.own = tests::make_own("two_node");
+  tire.standard_uncertainties.own.values = {0.0, 0.05, 0.0, 8.0};
+  const std::string text = models::write_tire(tire);
+  const models::TireFile back = models::read_tire(parse_config(text, "written"));
+  CHECK(back.values.model().info.id == "two_node");
+  CHECK(back.values.own.values == tire.values.own.values);
+  CHECK(back.standard_uncertainties.own.values == tire.standard_uncertainties.own.values);
+  CHECK(&back.parameters_on("drum_2m", models::Baseline::kCombined).model() == &tire.values.model());
+  models::TireFile constant = back;
+  constant.has_constant = true;
+  const auto on_rig = constant.parameters_on("drum_2m", models::Baseline::kConstantRrc);
+  CHECK(on_rig.model().info.id == models::kConstantModel);
+  CHECK(on_rig.own.values.empty());
+}
+
 TEST_CASE("a file of format 1 is read under its old keys, each as the key of format 2", "[fast]") {
   const std::string old_keys = R"(
 z_W_per_K = 11.5
