@@ -22,13 +22,21 @@ struct Options {
   int threads = 0;
 };
 
+/// A key without its table in the tire file, so that a row fits a terminal; no two keys of these tables are alike.
+std::string drop_table(const std::string& key) {
+  for (const std::string& table : {std::string("rolling_resistance."), std::string("thermal.")}) {
+    if (key.rfind(table, 0) == 0) return key.substr(table.size());
+  }
+  return key;
+}
+
 scenarios::ResultTable make_table(const estimation::TireFit& fit) {
   scenarios::ResultTable table{"Fitted, with standard uncertainty and 95 % interval (* beside a prior)",
                                {"parameter", "value", "sd", "from", "to"},
                                {}};
   for (const estimation::Estimate& estimate : fit.estimates) {
     const auto number = [](double value) { return fmt::format("{:.4g}", value); };
-    table.rows.push_back({estimation::find_file_key(estimate.key) + (estimate.nuisance ? " *" : ""),
+    table.rows.push_back({drop_table(estimation::find_file_key(estimate.key)) + (estimate.nuisance ? " *" : ""),
                           number(estimate.value), number(estimate.sd), number(estimate.lower_95()),
                           number(estimate.upper_95())});
   }

@@ -138,6 +138,8 @@ TEST_CASE("a tire model's own numbers move by what the file gives, or by the sha
   const auto& declared = set.tire.values.model().info.parameters;
   CHECK(conductance.start_SI == set.tire.values.own[3]);
   CHECK(conductance.prior_sd_SI == Approx(declared[3].usual_sd * conductance.start_SI));
+  set.tire.values.constant.rrc = 0.008;
+  set.tire.has_constant = true;
   set.baseline = models::Baseline::kConstantRrc;  // does not use them
   for (const auto& [key, parameter] : find(set)) CHECK(key.rfind("tire.two_node.", 0) != 0);
 }
