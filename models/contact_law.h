@@ -18,7 +18,7 @@ struct ContactParameters {
 
 /// Normal force of a tire pressed in by `deflection_m`.
 /// Equation  Fz = max(0, k_z delta + c_z d(delta)/dt) for delta > 0, else 0
-/// Source    baseline.md, "Rig": r_l = D/2 - Fz/k_z at rest. Assumed: linear spring and damper
+/// Source    Assumed: linear spring and damper, hence r_l = D/2 - Fz/k_z at rest
 template <class S>
 S calc_normal_force_N(const ContactParameters<S>& p, const S& deflection_m, const S& deflection_rate_m_s) {
   if (value_of(deflection_m) <= 0.0) return quantity<S>(0.0, dimension::kForce);

@@ -24,7 +24,7 @@ struct ParasiticParameters {
 /// Parasitic loss as a force at the surface.
 /// Equation  F_par = c0 + c1 v + c2 v^2
 /// Symbols   v surface speed [m/s], not negative
-/// Source    definition of parasitic loss: §3.2.1 item 5. Assumed: the quadratic form (baseline.md)
+/// Source    definition of parasitic loss: §3.2.1 item 5. Assumed: the quadratic form
 /// Checked   tests/models/small_laws_test.cpp
 template <class S>
 S calc_parasitic_N(const ParasiticParameters<S>& p, const S& speed_m_s) {

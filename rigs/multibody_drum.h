@@ -25,7 +25,7 @@ struct DrumForces {
 
 /// State vector: Simbody's q (drum angle, carriage height, wheel angle), u (their rates) and z (slip
 /// deflection, corner states, integral of the motor's speed error).
-/// Energy    both audits of baseline.md
+/// Energy    both ledgers of sim::EnergyAudit
 /// Checked   tests/rigs/multibody_drum_test.cpp, tests/rigs/fidelities_test.cpp
 class MultibodyDrum : public MultibodyRig {
  public:

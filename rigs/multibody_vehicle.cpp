@@ -218,7 +218,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const models::Instant<double>& now = contact(i).now;
       constexpr double kLeast_m_s = 1.0;  // below, slip power over speed says nothing
-      // What the stiff contact of the baseline dissipates is of the numerics, not of the tire (baseline.md).
+      // What the stiff contact of the baseline dissipates is of the numerics, not of the tire.
       const double slip_W = now.contact.slip_compliance_per_N > 0.0 ? now.motion.slip_power_W : 0.0;
       const double slip_N = slip_W / std::max(std::abs(now.motion.speed_m_s), kLeast_m_s);
       put_wheel_integrands(present_, now, models::calc_loss_force_N(now, slip_N, calc_acceleration_m_s2(at)),

@@ -37,7 +37,7 @@ struct VehicleForces {
 /// Rollers  carry the simulated inertia as their own, R^2 (m + m_rot - sum I_spin/r_l^2) in proportion to the
 ///          loads, as an ideal dynamometer would; on the road, what turns beside the wheels moves with the sled
 /// State    q, u of all joints, then z: slip deflection and corner states of each wheel, the driver's integral
-/// Energy   both audits of baseline.md; work of the rollers counts against the simulated inertia's energy
+/// Energy   both ledgers of sim::EnergyAudit; work of the rollers counts against the simulated inertia's energy
 /// Checked  tests/rigs/multibody_vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
 class MultibodyVehicle : public MultibodyRig {
  public:

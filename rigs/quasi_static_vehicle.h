@@ -20,7 +20,7 @@ namespace rollrig::rigs {
 ///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the flat the sum over both
 ///           axles counts; rollers make up for their own nominal parasitic loss and hold one speed
 /// Energy    kinetic energy jumps where the driver takes over: term "load_changes" of the mechanical audit
-/// Source    baseline.md; (3.20)
+/// Source    momentum of the vehicle and of what turns in it; (3.20)
 /// Checked   tests/rigs/vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
 template <class S>
 class QuasiStaticVehicle : public QuasiStaticRig<S> {

@@ -59,7 +59,7 @@ Scenario scenario_follow_roller() {
        "Run-up to the first row's speed, then speed, load, longitudinal force and air as the file has them; its first "
        "row is 0 s. Quasi-static alone, by the steps with which the diagnosis replays a dyno set, so that the set that "
        "--write-set writes is replayed to what it says. `rollrig diagnose --plan` writes such files for a dyno set.",
-       "formats.md: a run of a measurement set; baseline.md, \"Rig\"", "wheel_program"},
+       "docs/formats.md: a run of a measurement set", "wheel_program"},
       measurements::SetKind::kDyno, &evaluate);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Does energy close? Two ledgers a run, mechanical and thermal (baseline.md, "Audits").
+/// Does energy close? Two ledgers a run, mechanical and thermal.
 
 #include <string>
 #include <vector>
@@ -36,7 +36,7 @@ struct EnergyAudit {
 
 /// The motor's term.
 constexpr const char* kMotorWork = "motor";
-/// Limit of the issue and of baseline.md.
+/// Assumed: what closes to a millionth has no term missing; rounding and the steps of the integrators stay far below.
 constexpr double kAuditLimit = 1e-6;
 
 }  // namespace rollrig::sim

@@ -152,9 +152,9 @@ std::string write_assumed(const std::string& root) {
 std::string make_physics_page(const std::string& root) {
   std::string page =
       "# Physics\n\nGenerated from the program's own comments and declarations (`ninja docs_pages`); a test holds the "
-      "page to them.\n\n\"The source\" is the thesis that rollrig implements ([CITATION.cff](../CITATION.cff)); "
-      "`effects.md` and `baseline.md` are the specification of the catalog and of the baseline that it was written "
-      "to. Neither is part of rollrig: what they say stands here.\n\n[Equations](#equations), [tire "
+      "page to them.\n\n\"The source\" is the thesis that rollrig implements ([CITATION.cff](../CITATION.cff)). What "
+      "follows \"Assumed:\" has no source. [baseline.md](baseline.md) says in one page what is simulated without "
+      "effects.\n\n[Equations](#equations), [tire "
       "models](#tire-models), [effects](#effects), "
       "[what is assumed](#what-is-assumed)\n\n"
       "## Equations\n\n";

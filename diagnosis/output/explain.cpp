@@ -75,19 +75,9 @@ std::string describe_tests(const models::EffectInfo& info) {
   return text;
 }
 
-/// Two of the documents that sources name cannot be looked up in docs/.
-std::string describe_source(const models::EffectInfo& info) {
-  std::string text = info.source;
-  for (const char* document : {"effects.md", "baseline.md"}) {
-    if (text.find(document) == std::string::npos) continue;
-    text += fmt::format(". ({}: the specification to which the catalog was written; not part of rollrig)", document);
-  }
-  return text;
-}
-
 std::string describe(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
-  text += section("Equation", info.equation) + section("Source", describe_source(info));
+  text += section("Equation", info.equation) + section("Source", info.source);
   text += "Own parameters, and where two thirds of the belief lie before any data\n";
   for (const models::EffectParameter& parameter : info.parameters) {
     text += wrap(fmt::format("{}: {}", parameter.key, describe_prior(parameter)), kIndent);

@@ -16,7 +16,7 @@ struct BearingLoadFriction {
     info.equation = "F_par <- F_par + F_b Fz/(5.4 kN)";
     info.source =
         "source §3.2.3.2 takes the parasitic loss at skim load for that under load; a bearing's friction moment goes "
-        "with its load (coefficient of friction, bearing makers' catalogs); 0.3 to 3 N at 5.4 kN: effects.md";
+        "with its load (coefficient of friction, bearing makers' catalogs). Assumed: 0.3 to 3 N at 5.4 kN";
     info.parameters = {
         {"force_N", between(0.0, 50.0), {0.3, 3.0, Prior::Scale::kLog}, "F_b, at the surface, at 5.4 kN", 0.0}};
     info.acts_on = {RigKind::kDrum, RigKind::kDyno};

@@ -16,10 +16,9 @@ struct BrakeDrag {
         "F_par <- F_par + F_d d, dd/dt = (1 - d) F_brake/(I_s + F_brake tau_s) - d (v/v_t)^n/tau, tau_s = 2 s, v_t = "
         "40 km/h, v not below 0.5 m/s; its heat goes into the disc and the air";
     info.source =
-        "residual torque of disc brakes: SAE 2015-01-2670; 2 to 12 N, decays after braking: effects.md. Assumed: "
-        "first order; tau; I_s (one braking of everyday strength and length sets it); tau_s, the least time that it "
-        "takes; n, from 0 (creeps back in time) "
-        "to 1 (pushed back by the turning disc)";
+        "residual torque of disc brakes: SAE 2015-01-2670. Assumed: 2 to 12 N, decays after braking; first order; "
+        "tau; I_s (one braking of everyday strength and length sets it); tau_s, the least time that it takes; n, from "
+        "0 (creeps back in time) to 1 (pushed back by the turning disc)";
     info.parameters = {
         {"force_N",
          between(-50.0, 100.0),

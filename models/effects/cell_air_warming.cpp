@@ -19,9 +19,9 @@ struct CellAirWarming {
         "T_amb <- T_amb + theta, tau d(theta)/dt = D (v/v_ref)^n (1 - s + s Fz/Fz_ref) - theta; v_ref = 80 km/h; at "
         "rest to 0";
     info.source =
-        "1 to 6 K, slowly: effects.md. Assumed: first order, tau 20 to 120 min, n from 0 (whatever the speed, while it "
-        "turns) to 1, s from 0 (motor and drum warm the air) to 1 (the loaded tire does); in the cell of a drum or "
-        "dynamometer, not on a road. Not soaked: warm before the rest";
+        "Assumed: 1 to 6 K, slowly; first order, tau 20 to 120 min, n from 0 (whatever the speed, while it turns) to "
+        "1, s from 0 (motor and drum warm the air) to 1 (the loaded tire does); in the cell of a drum or dynamometer, "
+        "not on a road. Not soaked: warm before the rest";
     info.parameters = {
         {"rise_dK",
          between(-30.0, 60.0),

@@ -17,10 +17,10 @@ struct DrivelineWarming {
         "F_par <- F_par + F_c (g + (1 - g) exp(-k (w + a (T_amb - T_0)/D))), tau dw/dt = (v/v_ref) exp(k (1 - w)) - w; "
         "w rise of the oil, relative to that in steady driving at v_ref = 80 km/h, T_0 = 25 degC, D = 30 K";
     info.source =
-        "viscosity of oil falls exponentially with temperature (Reynolds); 3 to 25 N, 15 to 60 min: effects.md. "
-        "Assumed: k; heating by the friction itself, whose exponent levels off at 3 there; D; a, between 0 (warmed to "
-        "a temperature that the air does not matter to) and 1; g, of seals and gears, up to a quarter. Not soaked: "
-        "warm before the rest";
+        "viscosity of oil falls exponentially with temperature (Reynolds). Assumed: 3 to 25 N, 15 to 60 min; k; "
+        "heating by the friction itself, whose exponent levels off at 3 there; D; a, between 0 (warmed to a "
+        "temperature that the air does not matter to) and 1; g, of seals and gears, up to a quarter. Not soaked: warm "
+        "before the rest";
     info.parameters = {
         {"force_N", between(-100.0, 200.0), {3.0, 25.0, Prior::Scale::kLog}, "F_c, of one wheel, cold at 25 degC", 0.0},
         {"time_constant_min", between(0.5, 600.0), {15.0, 60.0, Prior::Scale::kLog}, "tau, of the oil's warm-up"},

@@ -14,9 +14,9 @@ struct FlatSpot {
     info.summary = "Standing leaves a flat spot: the loss is higher until the distance rolled has rounded it out";
     info.equation = "F_rr <- F_rr (1 + e s), ds/dt = -s |v|/L + (1 - s) (1 - tanh(|v|/v_0))/tau; v_0 = 0.05 m/s";
     info.source =
-        "temporary flat spots of parked tires roll out in the first miles (tire makers' and sellers' advice, such "
-        "as Tire Rack, Flat-Spotted Tires); 1 to 8 %, 4 to 15 km: effects.md. Assumed: both first order, tau: a "
-        "tire sets as it cools, in one to a few hours";
+        "temporary flat spots of parked tires roll out in the first miles (tire makers' and sellers' advice, such as "
+        "Tire Rack, Flat-Spotted Tires). Assumed: 1 to 8 %, 4 to 15 km; both first order, tau: a tire sets as it "
+        "cools, in one to a few hours";
     info.parameters = {{"excess_percent",
                         between(-50.0, 100.0),
                         {1.0, 8.0, Prior::Scale::kLog},

@@ -14,8 +14,8 @@ struct InertiaError {
         "The true inertia of drum or roller and the true effective mass of the vehicle differ from the files'";
     info.equation = "J <- J (1 + s), m <- m (1 + s)";
     info.source =
-        "0.3 to 4 %: effects.md. Assumed: one s for machine and vehicle, either sign; law "
-        "off by 15 % here and there, as where a simulated inertia follows the speed with a lag";
+        "Assumed: 0.3 to 4 %; one s for machine and vehicle, either sign; law off by 15 % here and there, as where a "
+        "simulated inertia follows the speed with a lag";
     info.parameters = {{"error_percent",
                         between(-30.0, 30.0),
                         {0.3, 4.0, Prior::Scale::kLog, true},

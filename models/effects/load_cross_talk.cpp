@@ -16,9 +16,9 @@ struct LoadCrossTalk {
         "torque <- torque + R Fz sin e, loss force <- loss force + Fz sin e, e = d (1 - b + b Fz/Fz_ref); Fz as "
         "recorded";
     info.source =
-        "misaligned load, as ISO 28580 corrects by turning both ways; Fz sin(d), 0 to 0.5 mrad: effects.md. Means over "
-        "the sample, with a row's load held until the next. Assumed: either sign; the recorded load, whose own error "
-        "would change a small force by a small share; b, a frame that bends under the load";
+        "misaligned load, as ISO 28580 corrects by turning both ways. Means over the sample, with a row's load held "
+        "until the next. Assumed: Fz sin(d), d 0 to 0.5 mrad; either sign; the recorded load, whose own error would "
+        "change a small force by a small share; b, a frame that bends under the load";
     info.parameters = {{"angle_mrad",
                         between(-20.0, 20.0),
                         {0.05, 0.5, Prior::Scale::kLog, true},

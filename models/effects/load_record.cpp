@@ -17,10 +17,10 @@ struct LoadRecord {
         "Fz <- Fz + s Fz_ref ((1 - g) (Fz/Fz_ref)^n + g), not below 0, on entry as recorded; a lifted tire stays "
         "lifted";
     info.source =
-        "scale or offset, 1 to 5 %: effects.md. The record is given and the truth follows from it. Assumed: either "
-        "sign; g up to about a half, since an offset of the whole is a large part of the skim load and would be seen "
-        "there; n about 1, other for a load cell that bends. A road set records no load: the weight of a vehicle is an "
-        "error of its file";
+        "the record is given and the truth follows from it. Assumed: scale or offset, 1 to 5 %; either sign; g up to "
+        "about a half, since an offset of the whole is a large part of the skim load and would be seen there; n about "
+        "1, other for a load cell that bends. A road set records no load: the weight of a vehicle is an error of its "
+        "file";
     info.parameters = {{"error_percent",
                         between(-30.0, 30.0),
                         {1.0, 5.0, Prior::Scale::kLog, true},

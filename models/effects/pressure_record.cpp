@@ -16,11 +16,10 @@ struct PressureRecord {
         "pressure itself, set by another gauge, is as it should be, so that loss and temperature know nothing of it";
     info.equation = "p <- p + o (1 - g + g p/p_ref) + d (T - 25 degC)";
     info.source =
-        "constant, 2 to 15 kPa: effects.md, in the port of the measured channels (baseline.md). cold_pressure_kPa is "
-        "read on the setting gauge (formats.md), which stays right: what is off is the reading of the cavity's "
-        "sensor. Assumed: either sign, the same in every run; d, the zero's shift with temperature, as of "
-        "strain-gauge sensors in a tire: 0.02 % of 400 kPa a kelvin; T of the liner; g, of zero and scale one may be "
-        "off as well as the other; p_ref the tire's reference pressure";
+        "cold_pressure_kPa is read on the setting gauge, which stays right: what is off is the reading of the "
+        "cavity's sensor. Assumed: constant, 2 to 15 kPa; either sign, the same in every run; d, the zero's shift "
+        "with temperature, as of strain-gauge sensors in a tire: 0.02 % of 400 kPa a kelvin; T of the liner; g, of "
+        "zero and scale one may be off as well as the other; p_ref the tire's reference pressure";
     info.parameters = {
         {"offset_kPa",
          between(-200.0, 200.0),

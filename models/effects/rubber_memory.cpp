@@ -19,8 +19,8 @@ struct RubberMemory {
         "working, x = Fz/Fz_ref; v_0 = 0.05 m/s, x_0 = 0.2";
     info.source =
         "filled rubber softens under repeated strain and recovers at rest (Payne, J. Appl. Polym. Sci. 6, 1962; "
-        "Mullins, Rubber Chem. Technol. 42, 1969); 1 to 8 %, 3 to 20 min of loaded rolling, after each skim: "
-        "effects.md. Assumed: first order, tau_r some times tau, x_0: skim load lets recover, test loads work";
+        "Mullins, Rubber Chem. Technol. 42, 1969). Assumed: 1 to 8 %, 3 to 20 min of loaded rolling, after each skim; "
+        "first order, tau_r some times tau, x_0: skim load lets recover, test loads work";
     info.parameters = {
         {"excess_percent", between(0.0, 100.0), {1.0, 8.0, Prior::Scale::kLog}, "m, higher loss after long rest", 0.0},
         {"decay_time_min",

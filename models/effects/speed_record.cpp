@@ -18,10 +18,10 @@ struct SpeedRecord {
         "x <- x + s ((1 - g - o) x + g x^2 + o x sqrt((1 + e^2)/(x^2 + e^2))), x = v/v_ref, v_ref = 80 km/h, e = 0.15; "
         "dv/dt by the derivative; neither below a tenth of what is recorded; on entry as recorded";
     info.source =
-        "scale, 1 to 10 %: effects.md. The record is given and the truth follows from it; torque and force are "
-        "measured by themselves, so that their channels have no error of their own from it. A slope is taken as it is "
-        "recorded. Assumed: either sign; g, a diameter or a belt that grows with speed; o, a fixed speed, which is "
-        "gone at rest, within e";
+        "the record is given and the truth follows from it; torque and force are measured by themselves, so that "
+        "their channels have no error of their own from it. A slope is taken as it is recorded. Assumed: scale, 1 to "
+        "10 %; either sign; g, a diameter or a belt that grows with speed; o, a fixed speed, which is gone at rest, "
+        "within e";
     info.parameters = {{"error_percent",
                         between(-50.0, 50.0),
                         {1.0, 10.0, Prior::Scale::kLog, true},

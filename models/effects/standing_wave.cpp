@@ -15,8 +15,8 @@ struct StandingWave {
         "F <- F + F_w (v - v_c)^2/((v_1 - v_c)^2 + v_0^2) (Fz/Fz_ref)^m for v > v_c; v_1 = 120 km/h, v_0 = 1 m/s, "
         "so that a v_c at v_1 stays finite";
     info.source =
-        "v_c 26 to 33 m/s, (v - v_c)^2, 0.5 to 4 N at 120 km/h: effects.md. Assumed: v_0 (it changes what F_w is "
-        "called, not which forces there are), m (the wave starts from the tire's deflection)";
+        "Assumed: v_c 26 to 33 m/s, (v - v_c)^2, 0.5 to 4 N at 120 km/h; v_0 (it changes what F_w is called, not "
+        "which forces there are), m (the wave starts from the tire's deflection)";
     info.parameters = {{"force_N",
                         between(-50.0, 100.0),
                         {0.5, 4.0, Prior::Scale::kLog},

@@ -14,9 +14,9 @@ struct ToeCamberDrag {
         "Toe and camber make a side force whose component against the motion drags; part of it heats the rubber";
     info.equation = "F <- F + F_a (Fz/Fz_ref)^m, F_a = C_a a^2 at the reference load; share h of it heats the rubber";
     info.source =
-        "side force C_a a at a slip angle a, resolved against the motion; 2 to 12 N, part of it heat: effects.md. "
-        "Assumed: h (the rest goes off at the sliding part of the contact), m (cornering stiffness rises with "
-        "load, less than in proportion)";
+        "side force C_a a at a slip angle a, resolved against the motion. Assumed: 2 to 12 N, part of it heat; h (the "
+        "rest goes off at the sliding part of the contact), m (cornering stiffness rises with load, less than in "
+        "proportion)";
     info.parameters = {
         {"force_N", between(-50.0, 50.0), {2.0, 12.0, Prior::Scale::kLog}, "F_a, at the tire's reference load", 0.0},
         {"heat_share", between(0.0, 1.0), {0.3, 0.9}, "h, of the drag that heats the rubber"},

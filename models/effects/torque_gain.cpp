@@ -18,11 +18,11 @@ struct TorqueGain {
         "F <- F (1 + s q), q = (((F/F_ref)^2 + e^2)/(1 + e^2))^(n/2), F_ref = 60 N, e = 0.05; F: torque over the "
         "drum's radius, loss force; traction force of a vehicle on the road: q = 1";
     info.source =
-        "2 %, of all torque: effects.md. On a dynamometer one scale of hub and roller, so that the loss between them "
-        "has it too; Assumed: two scales that differ would leak the drive force into it, which is not in the "
-        "catalog; n about 0, below it for a bridge that reads less at high force, which a rig's sensor is and the "
-        "reckoning of a motor's force is not; F_ref, about the rolling resistance of a car's tire; e, below which the "
-        "share stays, since the force passes through 0";
+        "on a dynamometer one scale of hub and roller, so that the loss between them has it too. Assumed: 2 %, of all "
+        "torque; two scales that differ would leak the drive force into it, which is not in the catalog; n about 0, "
+        "below it for a bridge that reads less at high force, which a rig's sensor is and the reckoning of a motor's "
+        "force is not; F_ref, about the rolling resistance of a car's tire; e, below which the share stays, since the "
+        "force passes through 0";
     info.parameters = {{"gain_percent", between(-50.0, 50.0), {-2.0, 2.0}, "s, shown over true at 60 N, less one", 0.0},
                        {"power", between(-0.9, 1.0), {-0.2, 0.2}, "n, of the force, by which the share grows"}};
     info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N"};

@@ -13,9 +13,9 @@ struct WindAndGrade {
     info.summary = "Wind along the road, a slope beside the recorded one, and air of another density";
     info.equation = "wind <- wind + w, slope <- slope + s, density <- r density";
     info.source =
-        "0 to 5 m/s, 0 to 0.5 %: effects.md. Assumed: one wind and one slope over a whole set, either way, since a "
-        "road set does not record its heading; law off by 30 % here and there, as gusts and turns are a third of a "
-        "mean wind; r: the weather, and some hundred meters of height";
+        "Assumed: 0 to 5 m/s, 0 to 0.5 %; one wind and one slope over a whole set, either way, since a road set does "
+        "not record its heading; law off by 30 % here and there, as gusts and turns are a third of a mean wind; r: "
+        "the weather, and some hundred meters of height";
     info.parameters = {
         {"wind_m_s", between(-30.0, 30.0), {0.5, 5.0, Prior::Scale::kLog, true}, "w, against the vehicle", 0.0},
         {"slope_percent", between(-5.0, 5.0), {-0.25, 0.25}, "s, rise over run"},

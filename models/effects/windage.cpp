@@ -16,8 +16,8 @@ struct Windage {
         "the parasitic loss (on a road the drag of the vehicle) is uncertain, its v^2 term takes it up";
     info.equation = "F <- F + F_v (v/v_ref)^n; v_ref = 80 km/h; none on a tire that is lifted";
     info.source =
-        "c v^n, n 1.8 to 2.2, no heat in the rubber, 0.3 to 3 N at 80 km/h: effects.md. Fading with tanh(v/0.05 m/s), "
-        "as all rolling loss (baseline.md)";
+        "fading with tanh(v/0.05 m/s), as all rolling loss. Assumed: c v^n, n 1.8 to 2.2, no heat in the rubber, 0.3 "
+        "to 3 N at 80 km/h";
     info.parameters = {
         {"force_N", between(-20.0, 50.0), {0.3, 3.0, Prior::Scale::kLog}, "F_v, of one tire at 80 km/h", 0.0},
         {"speed_power", between(0.5, 4.0), {1.8, 2.2}, "n, power of the speed"}};

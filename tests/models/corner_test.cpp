@@ -64,7 +64,7 @@ TEST_CASE("all of the loss heats the rubber", "[fast]") {
 }
 
 TEST_CASE("skim load leaves its share of the loss", "[fast]") {
-  // baseline.md: at 200 N it leaves 200/5400 of the loss
+  // F_rr goes with the load: at 200 N 200/5400 of the loss is left
   const Corner<double> corner = tests::DrumFixture().corner();
   std::vector<double> rates;
   const auto x = states_at(corner, 310.0);

@@ -18,7 +18,7 @@ TEST_CASE("torque method and force method of the standard agree to the last digi
 }
 
 TEST_CASE("the reported loss lacks the tire's share at skim load", "[fast]") {
-  // baseline.md: F_pl comes from the skim phase, so F_r lacks what the tire loses at 200 N: the share of the
+  // F_pl comes from the skim phase, so F_r lacks what the tire loses at 200 N: the share of the
   // load (2.6 to 3.6 %), and a little more since the tire has cooled by then.
   for (const char* tire : {"a40", "a50", "a60"}) {
     const auto outcome = run("iso_28580", tire);

@@ -15,7 +15,7 @@ using namespace rollrig::tests;
 
 namespace {
 
-using Ranges = std::map<std::string, std::pair<double, double>>;  // of effects.md
+using Ranges = std::map<std::string, std::pair<double, double>>;  // as the sources of the effects state them
 
 const Ranges kRanges{{"bearing_warmup", {0.005, 0.04}},
                      {"tire_loss_in_skim", {0.3, 3.0}},

@@ -100,7 +100,7 @@ TEST_CASE("the whole catalog is there, and eight effects outside of it", "[fast]
   std::set<std::string> catalog;
   for (const Expected& expected : kEffects) catalog.insert(expected.effect);
   for (const Expected& expected : kRoadEffects) catalog.insert(expected.effect);
-  CHECK(catalog.size() == 34);  // effects.md
+  CHECK(catalog.size() == 34);
   for (const std::string& effect : catalog)
     CHECK_THAT(listed, Catch::Contains("\n" + effect + "\n") || Catch::StartsWith(effect + "\n"));
   CHECK(kOutside.size() >= 8);
