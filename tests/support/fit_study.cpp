@@ -4,14 +4,15 @@
 
 #include "estimation/parameters.h"
 #include "measurements/sensor_file.h"
-#include "tests/support/drum_fixture.h"
 
 namespace rollrig::tests {
 namespace {
 
-measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity) {
-  const scenarios::RunSpec spec = make_spec(
+measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity,
+                                   const rigs::RigFile& rig) {
+  scenarios::RunSpec spec = make_spec(
       "warm_up", tire, {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
+  spec.rig = rig;
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const scenarios::SetRun& cut = outcome.set_runs.front();
   measurements::MeasuredRun run;
@@ -34,15 +35,15 @@ measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, c
 }  // namespace
 
 measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
-                                              const std::string& fidelity) {
+                                              const std::string& fidelity, const rigs::RigFile& rig) {
   measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
   set.tire = read_asset_tire(tire);
-  set.rig = read_asset_rig();
+  set.rig = rig;
   set.sensors = measurements::read_sensor_asset(sensors);
   for (const double speed_km_h : {80.0, 120.0}) {
-    set.runs.push_back(make_run(tire, speed_km_h, fidelity));
+    set.runs.push_back(make_run(tire, speed_km_h, fidelity, rig));
     if (set.sensors.count("gas_temperature_degC") == 0) set.runs.back().columns.erase("gas_temperature_degC");
   }
   return set;

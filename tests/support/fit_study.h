@@ -4,13 +4,15 @@
 #include <string>
 
 #include "estimation/tire_fit/fit_tire.h"
+#include "tests/support/drum_fixture.h"
 
 namespace rollrig::tests {
 
 /// Warm-ups of a tire at 80 and 120 km/h in one session, free of noise, as a measurement set; sensors by
-/// name of an asset.
+/// name of an asset. On the rig drum_2m of the assets unless said.
 measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
-                                              const std::string& fidelity = "multibody");
+                                              const std::string& fidelity = "multibody",
+                                              const rigs::RigFile& rig = read_asset_rig());
 
 /// The set with the errors of its sensors added.
 measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, std::uint64_t seed);
