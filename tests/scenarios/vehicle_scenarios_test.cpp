@@ -4,6 +4,7 @@
 #include "rigs/vehicle_channels.h"
 #include "scenarios/common/coastdown_evaluation.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/uneven_machines.h"
 
 using namespace rollrig;
 
@@ -96,6 +97,34 @@ TEST_CASE("the tables of a multi-cycle test end with the whole test", "[fast]") 
   const scenarios::ResultTable& vehicle = tables[1];
   for (const std::size_t column : {3U, 4U, 5U}) {
     CHECK(std::stod(vehicle.rows.back()[column]) == Approx(sum_of(vehicle, column)).margin(9 * 0.5));
+  }
+}
+
+TEST_CASE("recuperation saves the battery what the hubs take in, less what the powertrain keeps of it", "[fast]") {
+  const auto drive = [](double efficiency, double regeneration_limit_m_s2) {
+    scenarios::RunSpec spec = tests::make_spec(
+        "sae_j1634", "a50", {"wheels=1", "variant=source", "mid_min=5", "end_min=5"}, "quasi_static");
+    spec.rig = tests::make_uneven_dyno();
+    spec.vehicle = tests::make_uneven_vehicle();
+    spec.vehicle->powertrain.efficiency = efficiency;
+    spec.vehicle->powertrain.regeneration_limit_m_s2 = regeneration_limit_m_s2;
+    return scenarios::run_scenario(spec, {}).result["sections"];
+  };
+  constexpr double kEfficiency = 0.7;
+  const Json without = drive(kEfficiency, 0.0);
+  const Json with = drive(kEfficiency, 1.5);
+  const Json lossless = drive(1.0, 1.5);
+  const auto at = [](const Json& section, const char* key) { return section[key].get<double>(); };
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    INFO(with[i]["name"].get<std::string>());
+    const double hubs_Wh = at(with[i], "wheel_energy_Wh");
+    const double taken_in_Wh = at(with[i], "recuperated_Wh");
+    CHECK(taken_in_Wh > 0.0);
+    CHECK(at(without[i], "recuperated_Wh") == 0.0);
+    CHECK(kEfficiency * at(without[i], "battery_energy_Wh") == Approx(at(without[i], "wheel_energy_Wh")));
+    const double saved_Wh = at(without[i], "battery_energy_Wh") - at(with[i], "battery_energy_Wh");
+    CHECK(saved_Wh == Approx(kEfficiency * taken_in_Wh).margin(1e-4 * hubs_Wh));
+    CHECK(at(lossless[i], "battery_energy_Wh") == Approx(hubs_Wh - taken_in_Wh));
   }
 }
 
