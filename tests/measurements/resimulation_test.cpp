@@ -248,6 +248,17 @@ TEST_CASE("a drive right after another starts as warm as steady driving makes th
   CHECK(std::abs(warm_N - steady_N) < 0.1 * (cold_N - steady_N));
 }
 
+TEST_CASE("where pressure does not matter, a drive right after another starts in the steady state itself", "[fast]") {
+  MeasurementSet set = tests::make_road_set({}, 1, models::Baseline::kCombined);
+  set.tire.values.rolling_resistance.pressure_exponent = 0.0;
+  MeasuredRun run = steady_run(80.0, 0.0, 0.0, 7200);
+  const double cold_N = traction_N(set, run);
+  const double steady_N = traction_N(set, run, {}, 7190);
+  run.started_warm = true;
+  CHECK(cold_N > 1.05 * steady_N);
+  CHECK(std::abs(traction_N(set, run) - steady_N) < 0.01 * (cold_N - steady_N));
+}
+
 TEST_CASE("wind, slope and density act as what they are", "[fast]") {
   const MeasurementSet set = tests::make_road_set({}, 1);
   const auto with = [](double wind_m_s, double slope_percent, double density_ratio) {
