@@ -18,6 +18,9 @@ namespace rollrig::measurements {
 /// Kinds of measurement sets: on a drum, of one wheel on its roller, of a vehicle on the road (formats.md).
 enum class SetKind { kDrum, kDyno, kRoad };
 
+/// Temperatures that a set may hold, in degC. Assumed: wider than any tire or test cell.
+constexpr Range kSetTemperatureRange = between(-80.0, 250.0);
+
 /// Columns of a kind of set.
 struct SetColumns {
   std::vector<Field> given;           // required in every row

@@ -45,8 +45,8 @@ std::vector<double> DrumResiduals::start() const {
 }
 
 template <class S>
-void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, std::size_t first_column,
-                                 std::size_t columns, double* residuals, double* jacobian) const {
+void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, const Columns& columns,
+                                 double* residuals) const {
   models::Context<S> context = models::convert_context<S>(context_);
   for (std::size_t i = 0; i < parameters_.size(); ++i) find_parameter(context, parameters_[i].key) = values[i];
   models::Corner<S> corner(std::move(context), {});
@@ -58,21 +58,22 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, st
     const std::vector<double>& measured = run.columns.at(series.channel);
     const std::size_t n = series.rows.size();
     std::vector<double> difference(n);
-    std::vector<double> derivatives(n * columns);
+    std::vector<double> derivatives(n * columns.count);
     for (std::size_t k = 0; k < n; ++k) {
       const S& at = simulated[series.rows[k]];
       difference[k] = measured[series.rows[k]] - value_of(at);
       if constexpr (std::is_same_v<S, Jet>) {
-        for (std::size_t c = 0; c < columns; ++c) derivatives[k * columns + c] = at.v[static_cast<Eigen::Index>(c)];
+        for (std::size_t c = 0; c < columns.count; ++c)
+          derivatives[k * columns.count + c] = at.v[static_cast<Eigen::Index>(c)];
       }
     }
     series.whitener.apply(difference.data(), 1);
     std::copy(difference.begin(), difference.end(), residuals + series.first_residual);
-    if (columns == 0) continue;
-    series.whitener.apply(derivatives.data(), columns);
+    if (columns.count == 0) continue;
+    series.whitener.apply(derivatives.data(), columns.count);
     for (std::size_t k = 0; k < n; ++k) {
-      double* row = jacobian + (series.first_residual + k) * unknown_count() + first_column;
-      for (std::size_t c = 0; c < columns; ++c) row[c] = -derivatives[k * columns + c];
+      double* row = columns.jacobian + (series.first_residual + k) * unknown_count() + columns.first;
+      for (std::size_t c = 0; c < columns.count; ++c) row[c] = -derivatives[k * columns.count + c];
     }
   }
 }
@@ -105,12 +106,11 @@ void DrumResiduals::add_offsets_and_priors(const double* unknowns, double* resid
 
 void DrumResiduals::evaluate(const double* unknowns, double* residuals, double* jacobian) const {
   const std::size_t p = parameters_.size();
-  const auto evaluate_runs = [&](const auto& values, std::size_t first_column, std::size_t columns) {
-    parallel_for(set_.runs.size(), threads_,
-                 [&](std::size_t r) { evaluate_run(r, values, first_column, columns, residuals, jacobian); });
+  const auto evaluate_runs = [&](const auto& values, const Columns& columns) {
+    parallel_for(set_.runs.size(), threads_, [&](std::size_t r) { evaluate_run(r, values, columns, residuals); });
   };
   if (jacobian == nullptr) {
-    evaluate_runs(std::vector<double>(unknowns, unknowns + p), 0, 0);
+    evaluate_runs(std::vector<double>(unknowns, unknowns + p), {});
   } else {
     std::fill(jacobian, jacobian + residual_count_ * unknown_count(), 0.0);
     for (std::size_t first = 0; first < p; first += kJetWidth) {
@@ -120,7 +120,7 @@ void DrumResiduals::evaluate(const double* unknowns, double* residuals, double* 
         const bool varied = i >= first && i < first + columns;
         values.push_back(varied ? Jet(unknowns[i], static_cast<int>(i - first)) : Jet(unknowns[i]));
       }
-      evaluate_runs(values, first, columns);
+      evaluate_runs(values, {jacobian, first, columns});
     }
   }
   add_offsets_and_priors(unknowns, residuals, jacobian);

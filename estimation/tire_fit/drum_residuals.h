@@ -40,9 +40,14 @@ class DrumResiduals {
   void evaluate(const double* unknowns, double* residuals, double* jacobian) const;
 
  private:
+  /// Columns of the Jacobian that one pass fills.
+  struct Columns {
+    double* jacobian = nullptr;  // row-major, all columns
+    std::size_t first = 0;
+    std::size_t count = 0;
+  };
   template <class S>
-  void evaluate_run(std::size_t run, const std::vector<S>& values, std::size_t first_column, std::size_t columns,
-                    double* residuals, double* jacobian) const;
+  void evaluate_run(std::size_t run, const std::vector<S>& values, const Columns& columns, double* residuals) const;
   void add_offsets_and_priors(const double* unknowns, double* residuals, double* jacobian) const;
   void collect_series();
 

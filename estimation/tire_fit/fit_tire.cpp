@@ -7,15 +7,15 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "estimation/tire_fit/drum_residuals.h"
-#include "measurements/sample_selection.h"
-#include "models/tire/tire_model.h"
+#include "estimation/tire_fit/fit_unknowns.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
 namespace {
+
+using Lines = models::SpeedLines<double>;
 
 /// The residuals as Ceres takes them: one block of unknowns.
 class ResidualFunction : public ceres::CostFunction {
@@ -52,117 +52,21 @@ class FollowIterations : public ceres::IterationCallback {
   std::function<void(int)> progress_;
 };
 
-/// Loads at which the set rolls, each at least a minute; near ones (2 %) are one.
-std::vector<double> find_loads_N(const measurements::MeasurementSet& set) {
-  constexpr double kSameLoad = 0.02;
-  constexpr double kLongEnough_s = 60.0;
-  std::map<double, double> seconds_by_load;
-  for (const measurements::MeasuredRun& run : set.runs) {
-    const std::vector<double>& load_N = run.columns.at("load_N");
-    for (std::size_t row = 0; row + 1 < load_N.size(); ++row) {
-      if (load_N[row] < measurements::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N) continue;
-      seconds_by_load[load_N[row]] += run.time_s[row + 1] - run.time_s[row];
-    }
-  }
-  std::vector<double> loads_N;
-  double group_s = 0.0;
-  for (const auto& [load_N, seconds] : seconds_by_load) {
-    const bool same = !loads_N.empty() && load_N - loads_N.back() <= kSameLoad * load_N;
-    if (!same) {
-      if (!loads_N.empty() && group_s < kLongEnough_s) loads_N.pop_back();
-      loads_N.push_back(load_N);
-      group_s = 0.0;
-    }
-    group_s += seconds;
-  }
-  if (!loads_N.empty() && group_s < kLongEnough_s) loads_N.pop_back();
-  return loads_N;
-}
-
-using Lines = models::SpeedLines<double>;
-
-/// The context from which the fit starts: the files', with the two-step estimate put in.
-models::Context<double> make_start_context(const measurements::MeasurementSet& set, const TwoStepEstimate& start,
-                                           const std::vector<double>& map_loads_N) {
-  models::Context<double> context = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
-  Lines& lines = context.tire.rolling_resistance;
-  lines = start;
-  context.tire.thermal.rest_conductance_W_per_K = std::max(0.0, start.rest_conductance_W_per_K);
-  context.tire.thermal.speed_conductance_W_s_per_m_K = std::max(0.0, start.speed_conductance_W_s_per_m_K);
-  if (start.H_gas_W_per_K.has_value()) context.tire.thermal.H_gas_W_per_K = std::max(0.1, *start.H_gas_W_per_K);
-  context.tire.load_map.clear();
-  for (const double load_N : map_loads_N) {
-    const double share = load_N / context.tire.rolling_resistance.reference_load_N;
-    context.tire.load_map.push_back({lines, load_N});
-    context.tire.load_map.back().A0_N *= share;
-    context.tire.load_map.back().A1_N_s_per_m *= share;
-  }
-  return context;
-}
-
-struct FreeKeys {
-  std::vector<FreeParameter> parameters;
-  std::size_t asked_for = 0;  // the first so many; the others are nuisances
-};
-
-void add_free(FreeKeys& keys, models::Context<double>& context, const std::string& key, double lower_SI, double sd_SI) {
-  keys.parameters.push_back({key, find_parameter(context, key), sd_SI, lower_SI});
-}
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
-
-/// Nuisances: what the files give with an uncertainty and the fit does not ask for.
-void add_nuisances(const measurements::MeasurementSet& set, models::Context<double>& context, FreeKeys& keys) {
-  std::set<std::string> asked_for;
-  for (const Field& line : list_fields<Lines>()) asked_for.insert(line.key);
-  for (const FreeParameter& parameter : keys.parameters) asked_for.insert(last_part(parameter.key));
-  const auto add = [&](const std::string& key, double sd) {
-    if (sd > 0.0 && asked_for.count(last_part(key)) == 0) add_free(keys, context, key, 0.0, sd);
-  };
-  for (const std::string& table :
-       {std::string("thermal"), std::string("rolling_resistance"), context.tire.model().info.id}) {
-    models::TireParameters<double>::visit_all(set.tire.standard_uncertainties,
-                                              [&](const std::string& of, const Field& field, const double& sd) {
-                                                if (of == table) add("tire." + of + "." + field.output_key(), sd);
-                                              });
-  }
-  models::ParasiticParameters<double>::visit(
-      set.rig->parasitic_uncertainties,
-      [&](const Field& field, const double& sd) { add(std::string("parasitic.") + field.key, sd); });
-}
-
-FreeKeys choose_free(const measurements::MeasurementSet& set, bool free_H, models::Context<double>& context) {
-  constexpr double kNoBound = -std::numeric_limits<double>::infinity();
-  FreeKeys keys;
-  std::vector<std::string> tables{"tire.rolling_resistance."};
-  if (!context.tire.load_map.empty()) tables.clear();
-  for (std::size_t i = 0; i < context.tire.load_map.size(); ++i) tables.push_back(fmt::format("tire.load_map.{}.", i));
-  for (const std::string& table : tables) {
-    for (const Field& line : list_fields<Lines>()) add_free(keys, context, table + line.key, kNoBound, 0.0);
-  }
-  add_free(keys, context, "tire.thermal.z_W_per_K", 0.0, 0.0);
-  add_free(keys, context, "tire.thermal.f_W_s_per_m_K", 0.0, 0.0);
-  if (free_H) add_free(keys, context, "tire.thermal.H_gas_W_per_K", 1e-3, 0.0);
-  keys.asked_for = keys.parameters.size();
-  add_nuisances(set, context, keys);
-  return keys;
-}
-
-void put_estimates(const measurements::MeasurementSet& set, const models::Context<double>& start, const FreeKeys& keys,
-                   const std::vector<double>& unknowns, const Eigen::MatrixXd& covariance, TireFit& fit) {
-  models::Context<double> best = start;
+void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& unknowns,
+                   const std::vector<double>& found, const Eigen::MatrixXd& covariance, TireFit& fit) {
+  models::Context<double> best = unknowns.start;
   models::Context<double> uncertainty;
-  uncertainty.tire.load_map.resize(start.tire.load_map.size());
-  uncertainty.tire.own = start.tire.own;
-  for (std::size_t i = 0; i < keys.parameters.size(); ++i) {
-    const std::string& key = keys.parameters[i].key;
+  uncertainty.tire.load_map.resize(best.tire.load_map.size());
+  uncertainty.tire.own = best.tire.own;
+  for (std::size_t i = 0; i < unknowns.parameters.size(); ++i) {
+    const std::string& key = unknowns.parameters[i].key;
     const Unit unit = unit_of_key(last_part(key));
     const double sd = std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
-    find_parameter(best, key) = unknowns[i];
+    find_parameter(best, key) = found[i];
     find_parameter(uncertainty, key) = sd;
-    fit.estimates.push_back({key, unknowns[i] / unit.factor, sd / unit.factor, i >= keys.asked_for});
+    fit.estimates.push_back({key, found[i] / unit.factor, sd / unit.factor, i >= unknowns.asked_for});
   }
-  const auto n = static_cast<Eigen::Index>(keys.parameters.size());
+  const auto n = static_cast<Eigen::Index>(unknowns.parameters.size());
   for (Eigen::Index i = 0; i < n; ++i) {
     fit.correlation.emplace_back();
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -259,17 +163,15 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& opti
     return run.has("gas_temperature_degC");
   });
   const bool free_H = options.free_H.value_or(gas_measured);
-  models::Context<double> start =
-      make_start_context(set, fit.two_step, options.load_map ? find_loads_N(set) : std::vector<double>{});
-  const FreeKeys keys = choose_free(set, free_H, start);
-  const DrumResiduals residuals(set, start, keys.parameters, options.threads);
-  std::vector<double> unknowns = residuals.start();
+  const FitUnknowns unknowns = choose_unknowns(set, fit.two_step, options.load_map, free_H);
+  const DrumResiduals residuals(set, unknowns.start, unknowns.parameters, options.threads);
+  std::vector<double> found = residuals.start();
 
   ceres::Problem problem;
-  problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, unknowns.data());
-  for (std::size_t i = 0; i < keys.parameters.size(); ++i) {
-    if (std::isfinite(keys.parameters[i].lower_SI)) {
-      problem.SetParameterLowerBound(unknowns.data(), static_cast<int>(i), keys.parameters[i].lower_SI);
+  problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, found.data());
+  for (std::size_t i = 0; i < unknowns.parameters.size(); ++i) {
+    if (std::isfinite(unknowns.parameters[i].lower_SI)) {
+      problem.SetParameterLowerBound(found.data(), static_cast<int>(i), unknowns.parameters[i].lower_SI);
     }
   }
   ceres::Solver::Options solver;
@@ -284,9 +186,9 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& opti
   if (summary.termination_type != ceres::CONVERGENCE) throw RunFailure("the fit does not converge: " + summary.message);
 
   std::vector<double> at_best(residuals.residual_count());
-  residuals.evaluate(unknowns.data(), at_best.data(), nullptr);
+  residuals.evaluate(found.data(), at_best.data(), nullptr);
   measure_channels(set, residuals, at_best, fit);
-  put_estimates(set, start, keys, unknowns, find_covariance(residuals, unknowns), fit);
+  put_estimates(set, unknowns, found, find_covariance(residuals, found), fit);
   write_notes(set, fit);
   constexpr double kNoiseDoubled = 2.0;
   if (fit.chi2_per_sample > kNoiseDoubled) {

@@ -83,7 +83,7 @@ Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, c
   Columns columns = columns_of(record);
   for (std::size_t i = 0; i < columns.size() && !noise_free; ++i) {
     const Channel& channel = lab.specimen.machine->channels()[i];
-    apply_sensor(lab.sensors[i], seed, run.session, run.id, channel, record.time_s, columns[i]);
+    apply_sensor(lab.sensors[i], {seed, run.session, run.id}, channel, record.time_s, columns[i]);
     drop_samples(seed, run.id, channel, columns[i]);
   }
   for (std::size_t row = 0; row < record.time_s.size(); ++row) {

@@ -54,11 +54,11 @@ std::string write_sensors(const std::vector<Channel>& channels, const Sensors& s
   return text;
 }
 
-void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& session, const std::string& run,
-                  const Channel& channel, const std::vector<double>& time_s, std::vector<double>& values) {
-  Draws offsets(seed, fmt::format("offset/{}/{}", session, channel.name));
-  Draws drifts(seed, fmt::format("drift/{}/{}", run, channel.name));
-  Draws noises(seed, fmt::format("noise/{}/{}", run, channel.name));
+void apply_sensor(const Sensor& sensor, const SensorStream& stream, const Channel& channel,
+                  const std::vector<double>& time_s, std::vector<double>& values) {
+  Draws offsets(stream.seed, fmt::format("offset/{}/{}", stream.session, channel.name));
+  Draws drifts(stream.seed, fmt::format("drift/{}/{}", stream.run, channel.name));
+  Draws noises(stream.seed, fmt::format("noise/{}/{}", stream.run, channel.name));
   const double offset = sensor.offset_sd * offsets.normal();
   double drift = sensor.drift_sd * drifts.normal();
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -33,10 +33,17 @@ using Sensors = std::vector<Sensor>;  // one a channel
 Sensors draw_sensors(std::uint64_t seed, const std::vector<Channel>& channels);
 std::string write_sensors(const std::vector<Channel>& channels, const Sensors& sensors);
 
+/// Which random numbers a sensor draws: its offset by the session, the rest by the run.
+struct SensorStream {
+  std::uint64_t seed = 0;
+  std::string session;
+  std::string run;
+};
+
 /// Adds what the sensor makes of the true values, then takes samples away (NaN).
 /// Drift starts stationary in every run and channel and goes on through missing samples; rounding comes last.
-void apply_sensor(const Sensor& sensor, std::uint64_t seed, const std::string& session, const std::string& run,
-                  const Channel& channel, const std::vector<double>& time_s, std::vector<double>& values);
+void apply_sensor(const Sensor& sensor, const SensorStream& stream, const Channel& channel,
+                  const std::vector<double>& time_s, std::vector<double>& values);
 
 /// Takes samples away: single ones, and gaps that temperature and pressure share, since one logger takes both.
 void drop_samples(std::uint64_t seed, const std::string& run, const Channel& channel, std::vector<double>& values);
