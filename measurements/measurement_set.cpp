@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "rigs/drum_channels.h"
 #include "sim/core/assets.h"
 #include "sim/core/csv.h"
 #include "sim/core/file_io.h"
@@ -198,54 +197,6 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   assume_sensors(set);
   check_runs(set);
   return set;
-}
-
-namespace {
-
-/// Whether `next` continues every straight line of `before`, so that the two are one segment.
-bool continues(const sim::Segment& before, const sim::Segment& next) {
-  constexpr double kSame = 1e-7;  // files hold nine digits
-  for (std::size_t i = 0; i < before.inputs.size(); ++i) {
-    const sim::Ramp& a = before.inputs[i];
-    const sim::Ramp& b = next.inputs[i];
-    const double scale = kSame * (1.0 + std::abs(b.start));
-    const bool same_line = std::abs(a.at(before.duration_s) - b.start) <= scale &&
-                           std::abs(a.slope_per_s - b.slope_per_s) * next.duration_s <= scale;
-    if (!same_line) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
-sim::Program make_replay(const MeasuredRun& run) {
-  const auto column = [&run](const char* name) -> const std::vector<double>& { return run.columns.at(name); };
-  const bool surface_recorded = run.has("surface_temperature_degC");
-  const std::vector<double>& ambient_K = column("ambient_degC");
-  const std::vector<double>& surface_K = surface_recorded ? column("surface_temperature_degC") : ambient_K;
-  sim::Phase phase;
-  phase.name = run.id;
-  for (std::size_t i = 0; i + 1 < run.time_s.size(); ++i) {
-    const double duration_s = run.time_s[i + 1] - run.time_s[i];
-    const auto line = [&](const std::vector<double>& values) {
-      return sim::Ramp{values[i], (values[i + 1] - values[i]) / duration_s};
-    };
-    sim::Segment segment{duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
-    segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = line(column("speed_km_h"));
-    segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {column("load_N")[i], 0.0};
-    segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = line(ambient_K);
-    segment.inputs[rigs::index_of(rigs::DrumInput::kSurface)] = line(surface_K);
-    if (!phase.segments.empty() && continues(phase.segments.back(), segment)) {
-      phase.segments.back().duration_s += duration_s;
-    } else {
-      phase.segments.push_back(std::move(segment));
-    }
-  }
-  sim::Program program;
-  program.start_time_s = run.time_s.front();
-  program.sample_times_s = run.time_s;
-  program.phases = {std::move(phase)};
-  return program;
 }
 
 }  // namespace rollrig::measurements

@@ -1,6 +1,5 @@
 #pragma once
-/// Measurement sets of formats.md: a folder with set.toml and one CSV a run. Reading, writing, and the
-/// program that replays a run on a rig.
+/// Measurement sets of formats.md: a folder with set.toml and one CSV a run.
 
 #include <map>
 #include <optional>
@@ -11,7 +10,6 @@
 #include "models/sensor.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
-#include "sim/program.h"
 
 namespace rollrig::measurements {
 
@@ -91,10 +89,6 @@ const char* name_of(SetKind kind);
 
 /// The kind of a rig's sets.
 SetKind kind_of(rigs::RigKind kind);
-
-/// A program that follows the recorded inputs of a drum run: speed, ambient and surface linear between
-/// rows, load held from row to row. Rows are its samples.
-sim::Program make_replay(const MeasuredRun& run);
 
 /// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`; returns the
 /// machine's file as it is. Throws InputError.

@@ -38,12 +38,10 @@ class Rows {
 
   /// From `start_s` after a row, for the machine of a kind.
   sim::Segment make_segment(SetKind kind, std::size_t row, double start_s, double duration_s) const {
-    const bool is_road = kind == SetKind::kRoad;
-    sim::Segment segment{duration_s,
-                         std::vector<sim::Ramp>(is_road ? rigs::kVehicleInputCount : rigs::kRollerInputCount)};
+    sim::Segment segment{duration_s, std::vector<sim::Ramp>(count_inputs(kind))};
     std::vector<sim::Ramp>& inputs = segment.inputs;
     const sim::Ramp ambient = line(ambient_K_, row, start_s);
-    if (is_road) {
+    if (kind == SetKind::kRoad) {
       inputs[index_of(VehicleInput::kSpeed)] = line(speed_m_s_, row, start_s);
       inputs[index_of(VehicleInput::kAmbient)] = ambient;
       inputs[index_of(VehicleInput::kSlope)] = {calc_slope(row), 0.0};
@@ -53,12 +51,17 @@ class Rows {
     inputs[index_of(DrumInput::kLoad)] = {(*load_N_)[row], 0.0};
     inputs[index_of(DrumInput::kAmbient)] = ambient;
     inputs[index_of(DrumInput::kSurface)] = surface_K_ != nullptr ? line(*surface_K_, row, start_s) : ambient;
-    if (force_N_ == nullptr) return segment;
+    if (kind == SetKind::kDrum || force_N_ == nullptr) return segment;
     inputs[rigs::kLongitudinalForceInput] = {calc_rms_with_sign(line(*force_N_, row, start_s), duration_s), 0.0};
     return segment;
   }
 
  private:
+  static std::size_t count_inputs(SetKind kind) {
+    if (kind == SetKind::kRoad) return rigs::kVehicleInputCount;
+    return kind == SetKind::kDrum ? rigs::kDrumInputCount : rigs::kRollerInputCount;
+  }
+
   const std::vector<double>* find(const Quantity& quantity) const {
     return run_.has(quantity) ? &run_.column(quantity) : nullptr;
   }
@@ -99,17 +102,38 @@ int count_steps(double between_s) {
   return steps > 1 ? steps + steps % 2 : 1;
 }
 
-/// Straight lines between rows and a load held from row to row, in segments of one step that do not lie across the
-/// middle between two rows. Of the longitudinal force, its root mean square over the segment, with the sign of its
-/// middle; the slope is the rise of the road over the way between two rows. Rows are the samples.
-sim::Program make_wheel_program(const MeasuredRun& run, SetKind kind) {
+/// Whether `next` continues every straight line of `before`, so that the two are one segment.
+bool continues(const sim::Segment& before, const sim::Segment& next) {
+  constexpr double kSame = 1e-7;  // files hold nine digits
+  for (std::size_t i = 0; i < before.inputs.size(); ++i) {
+    const sim::Ramp& a = before.inputs[i];
+    const sim::Ramp& b = next.inputs[i];
+    const double scale = kSame * (1.0 + std::abs(b.start));
+    const bool same_line = std::abs(a.at(before.duration_s) - b.start) <= scale &&
+                           std::abs(a.slope_per_s - b.slope_per_s) * next.duration_s <= scale;
+    if (!same_line) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+sim::Program make_recorded_program(const MeasuredRun& run, SetKind kind) {
   const Rows rows(run);
+  const bool joins = kind == SetKind::kDrum;
   sim::Phase phase;
   phase.name = run.id;
   for (std::size_t row = 0; row + 1 < rows.count(); ++row) {
-    const int steps = count_steps(rows.duration_s(row));
+    const int steps = joins ? 1 : count_steps(rows.duration_s(row));
     const double step_s = rows.duration_s(row) / steps;
-    for (int i = 0; i < steps; ++i) phase.segments.push_back(rows.make_segment(kind, row, i * step_s, step_s));
+    for (int i = 0; i < steps; ++i) {
+      sim::Segment segment = rows.make_segment(kind, row, i * step_s, step_s);
+      if (joins && !phase.segments.empty() && continues(phase.segments.back(), segment)) {
+        phase.segments.back().duration_s += step_s;
+      } else {
+        phase.segments.push_back(std::move(segment));
+      }
+    }
   }
   sim::Program program;
   program.start_time_s = run.time_s.front();
@@ -117,8 +141,6 @@ sim::Program make_wheel_program(const MeasuredRun& run, SetKind kind) {
   program.phases = {std::move(phase)};
   return program;
 }
-
-}  // namespace
 
 double find_tire_load_N(const rigs::VehicleFile& vehicle) {
   return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
@@ -194,10 +216,9 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
 
 }  // namespace
 
-Resimulation::Resimulation(const MeasuredRun& run, SetKind kind)
-    : program_(kind == SetKind::kDrum
-                   ? rigs::refine_near_standstill(make_replay(run), rigs::index_of(DrumInput::kSpeed))
-                   : make_wheel_program(run, kind)) {}
+Resimulation::Resimulation(const MeasuredRun& run, SetKind kind) : program_(make_recorded_program(run, kind)) {
+  if (kind == SetKind::kDrum) program_ = rigs::refine_near_standstill(program_, rigs::index_of(DrumInput::kSpeed));
+}
 
 template <class S>
 sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<S>& corner,

@@ -4,6 +4,7 @@
 #include "measurements/measurement_set.h"
 #include "models/corner.h"
 #include "rigs/rig_system.h"
+#include "sim/program.h"
 #include "sim/recording.h"
 
 namespace rollrig::measurements {
@@ -15,6 +16,15 @@ models::Context<double> make_context(const MeasurementSet& set);
 
 /// Load of one of a vehicle's tires, its share of the weight.
 double find_tire_load_N(const rigs::VehicleFile& vehicle);
+
+/// A program that follows the recorded inputs of a run: straight lines between rows, a load held from row to row. Rows
+/// are its samples.
+///
+/// Drum      rows that go on in a straight line are one segment
+/// Others    a segment is one step of the integrator and does not lie across the middle between two rows. Of the
+///           longitudinal force it has the root mean square, with the sign of its middle; the slope is the rise of the
+///           road over the way between two rows
+sim::Program make_recorded_program(const MeasuredRun& run, SetKind kind);
 
 /// A run made ready to be simulated, as often as wanted.
 ///

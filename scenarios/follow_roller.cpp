@@ -57,9 +57,10 @@ Scenario scenario_follow_roller() {
   return make_wheel_scenario(
       {"follow_roller", "One wheel on its roller, through speed, load and force that a file gives, row by row",
        "Run-up to the first row's speed, then speed, load, longitudinal force and air as the file has them; its first "
-       "row is 0 s. Quasi-static alone, by the steps with which the diagnosis replays a dyno set, so that the set that "
-       "--write-set writes is replayed to what it says. `rollrig diagnose --plan` writes such files for a dyno set.",
-       "docs/formats.md: a run of a measurement set", "wheel_program"},
+       "row is 0 s. Quasi-static only. The steps are those of the diagnosis, which simulates a set that --write-set "
+       "wrote "
+       "to the same values. `rollrig diagnose --plan` writes such files for a dyno set.",
+       "formats.md: a run of a measurement set", "wheel_program"},
       measurements::SetKind::kDyno, &evaluate);
 }
 

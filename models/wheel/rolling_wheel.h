@@ -17,7 +17,7 @@ S calc_rolling_ratio(const S& loaded_radius_m, const S& curvature_per_m) {
 /// Couple by which rolling resistance acts on wheel and surface, equal and opposite.
 /// Equation  M = F_rr r_l / (1 + r_l k),  so that M (w_wheel + w_surface) = F_rr v without slip
 /// Symbols   F_rr [N], r_l loaded radius [m], k curvature of the surface [1/m]
-/// Source    power balance without slip: omega_wheel = v/r_l, omega_drum = v k, and all of F_rr v is heat ((3.8))
+/// Source    power balance without slip: w_wheel = v/r_l, w_surface = v k, and all of F_rr v is heat ((3.8))
 template <class S>
 S calc_resistance_couple_Nm(const S& rolling_resistance_N, const S& loaded_radius_m, const S& curvature_per_m) {
   return rolling_resistance_N * loaded_radius_m / calc_rolling_ratio(loaded_radius_m, curvature_per_m);

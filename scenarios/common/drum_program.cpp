@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "measurements/resimulation.h"
+
 namespace rollrig::scenarios {
 namespace {
 
@@ -83,7 +85,7 @@ void DrumProgram::roll(const std::string& name, double duration_s, std::optional
 }
 
 void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run) {
-  sim::Phase phase = measurements::make_replay(run).phases.front();
+  sim::Phase phase = measurements::make_recorded_program(run, measurements::SetKind::kDrum).phases.front();
   phase.name = name;
   program_.phases.push_back(std::move(phase));
   speed_m_s_ = run.column(quantities::kSpeed).back();

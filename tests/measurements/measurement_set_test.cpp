@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "measurements/resimulation.h"
 #include "scenarios/common/written_set.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"
@@ -32,7 +33,7 @@ struct WrittenSet {
 };
 }  // namespace
 
-TEST_CASE("a run written as a set is read back and replayed to the same channels", "[fast]") {
+TEST_CASE("a run written as a set is read back and resimulated to the same channels", "[fast]") {
   const WrittenSet written("transient_skim", {"repeats=2"});
   const measurements::MeasurementSet set = measurements::read_measurement_set(written.folder.path());
   REQUIRE(set.runs.size() == 1);
@@ -46,26 +47,27 @@ TEST_CASE("a run written as a set is read back and replayed to the same channels
   fixture.rig = *set.rig;
   fixture.initial_K = run.initial_tire_temperature_K;
   fixture.cold_pressure_Pa = run.cold_pressure_Pa;
-  const auto replayed = fixture.run_quasi_static(measurements::make_replay(run));
-  REQUIRE(replayed.time_s == run.time_s);
+  const auto resimulated =
+      fixture.run_quasi_static(measurements::make_recorded_program(run, measurements::SetKind::kDrum));
+  REQUIRE(resimulated.time_s == run.time_s);
   for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
     double worst = 0.0;
     const auto& measured = run.columns.at(channel);
     for (std::size_t i = 0; i < measured.size(); ++i) {
       if (std::isnan(measured[i])) continue;
-      worst = std::max(worst, std::abs(replayed.channel(channel)[i] / measured[i] - 1.0));
+      worst = std::max(worst, std::abs(resimulated.channel(channel)[i] / measured[i] - 1.0));
     }
     INFO(channel);
     CHECK(worst < 2e-5);
   }
 }
 
-TEST_CASE("a replay joins rows that go on in a straight line", "[fast]") {
+TEST_CASE("the program of a drum run joins rows that go on in a straight line", "[fast]") {
   const WrittenSet written("transient_skim", {"repeats=2"});
   const measurements::MeasurementSet set = measurements::read_measurement_set(written.folder.path());
-  const sim::Program replay = measurements::make_replay(set.runs[0]);
-  CHECK(replay.phases[0].segments.size() < 20);  // of about 1000 rows
-  CHECK(replay.duration_s() == Approx(set.runs[0].time_s.back()));
+  const sim::Program program = measurements::make_recorded_program(set.runs[0], set.kind);
+  CHECK(program.phases[0].segments.size() < 20);  // of about 1000 rows
+  CHECK(program.duration_s() == Approx(set.runs[0].time_s.back()));
 }
 
 TEST_CASE("means that reach beyond the cut of a run are left empty", "[fast]") {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "measurements/resimulation.h"
 #include "measurements/sample_selection.h"
 #include "models/corner.h"
 #include "rigs/quasi_static_drum.h"
@@ -68,7 +69,8 @@ sim::Recording<double> replay(const measurements::MeasurementSet& set, const mea
   sim::FixedGridIntegrator<double> integrator(drum);
   return sim::simulate<double>(
       drum, integrator,
-      rigs::refine_near_standstill(measurements::make_replay(run), rigs::index_of(rigs::DrumInput::kSpeed)));
+      rigs::refine_near_standstill(measurements::make_recorded_program(run, measurements::SetKind::kDrum),
+                                   rigs::index_of(rigs::DrumInput::kSpeed)));
 }
 
 }  // namespace
