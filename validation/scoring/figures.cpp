@@ -22,9 +22,18 @@ Cases only(const Cases& cases, const Is& wanted) {
   return some;
 }
 
-Figure make_share(const char* id, const char* label, const Cases& of, const Is& counts, double target,
-                  bool more_is_better = true) {
-  Figure figure{id, label};
+struct Name {
+  const char* id;
+  const char* label;
+};
+
+struct Measured {
+  std::optional<double> value;
+  std::size_t n = 0;
+};
+
+Figure make_share(const Name& name, const Cases& of, const Is& counts, double target, bool more_is_better = true) {
+  Figure figure{name.id, name.label};
   figure.n = of.size();
   figure.k = static_cast<std::size_t>(std::count_if(of.begin(), of.end(), counts));
   figure.target = target;
@@ -38,14 +47,14 @@ Figure make_share(const char* id, const char* label, const Cases& of, const Is& 
   return figure;
 }
 
-Figure make_number(const char* id, const char* label, std::optional<double> value, std::size_t n, Unit unit,
-                   std::optional<double> target, bool more_is_better = false) {
-  Figure figure{id, label, value};
-  figure.n = n;
+Figure make_number(const Name& name, const Measured& measured, Unit unit, std::optional<double> target,
+                   bool more_is_better = false) {
+  Figure figure{name.id, name.label, measured.value};
+  figure.n = measured.n;
   figure.unit = unit;
   figure.target = target;
   figure.more_is_better = more_is_better;
-  if (!value.has_value()) figure.note = "no such case";
+  if (!measured.value.has_value()) figure.note = "no such case";
   return figure;
 }
 
@@ -66,32 +75,32 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   const Cases identifiable =
       only(detectable, [](const Case& one) { return one.identifiable.value_or(!one.d_prime.has_value()); });
   figures.push_back(make_share(
-      "detection", "detection, detectable singles", detectable,
+      {"detection", "detection, detectable singles"}, detectable,
       [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); }, 0.99));
   figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_detection);
   figures.push_back(make_share(
-      "false_alarms", "false alarms, no effect", only(cases, [](const Case& one) { return one.is_clean(); }),
+      {"false_alarms", "false alarms, no effect"}, only(cases, [](const Case& one) { return one.is_clean(); }),
       [](const Case& one) { return !one.is(Verdict::kNoGap); }, 0.01, false));
   figures.back().floor = 0.02;
   figures.push_back(make_share(
-      "top1_set_aware", "top-1 set-aware, detectable", detectable, [](const Case& one) { return one.is_named(); },
+      {"top1_set_aware", "top-1 set-aware, detectable"}, detectable, [](const Case& one) { return one.is_named(); },
       0.97));
   figures.back().floor = 0.92;
   figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_small_set);
   figures.push_back(make_share(
-      "top1_exact", "top-1 exact, identifiable", identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
+      {"top1_exact", "top-1 exact, identifiable"}, identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
   figures.push_back(make_share(
-      "top3", "top-3, all singles", singles,
+      {"top3", "top-3, all singles"}, singles,
       [](const Case& one) { return one.answer.failure.empty() && one.rank_of_truth() < kTop; }, 0.98));
   figures.back().floor = 0.95;
   const Cases pairs = only(cases, [](const Case& one) { return one.is_pair(); });
   figures.push_back(make_share(
-      "pairs", "pairs, both named", pairs, [](const Case& one) { return one.is_named(); }, 0.90));
+      {"pairs", "pairs, both named"}, pairs, [](const Case& one) { return one.is_named(); }, 0.90));
   figures.back().upper_bound =
       find_mean_chance(pairs, [&](const Case& one) { return find_chance_of_pair(one, options.detectable_d_prime); });
   // Only a computed bound tells that the second effect can be seen beside the first.
   figures.push_back(make_share(
-      "pairs_identifiable", "  of those that can be told",
+      {"pairs_identifiable", "  of those that can be told"},
       only(cases,
            [&](const Case& one) {
              return one.is_pair() && one.d_prime.has_value() && is_detectable(one, options) &&
@@ -100,9 +109,9 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
       [](const Case& one) { return one.is_named(); }, 0.90));
 }
 
-/// A part of the row above it, for which section 5 has no target.
-Figure make_part(const char* id, const char* label, const Cases& of, const Is& counts) {
-  Figure figure = make_share(id, label, of, counts, 0.0, false);
+/// A part of the row above it, without a target of its own.
+Figure make_part(const Name& name, const Cases& of, const Is& counts) {
+  Figure figure = make_share(name, of, counts, 0.0, false);
   figure.target.reset();
   return figure;
 }
@@ -124,26 +133,26 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
   const Cases inside = only(cases, [](const Case& one) { return one.is_single() || one.is_pair(); });
   const Cases outside = only(cases, [](const Case& one) { return one.truth.outside; });
   const auto wrong = [](const Case& one) { return one.is_wrong_above(kConfident); };
-  figures.push_back(make_share("wrong_above_inside", "wrong above 0.9, in the catalog", inside, wrong, 0.01, false));
+  figures.push_back(make_share({"wrong_above_inside", "wrong above 0.9, in the catalog"}, inside, wrong, 0.01, false));
   figures.back().floor = 0.02;
-  figures.push_back(make_part("wrong_above_half", "  with one of two named, alone", inside,
+  figures.push_back(make_part({"wrong_above_half", "  with one of two named, alone"}, inside,
                               [&](const Case& one) { return wrong(one) && one.names_one_of_two(); }));
   figures.push_back(make_share(
-      "wrong_above_of_calls", "  of what is stated above 0.9",
+      {"wrong_above_of_calls", "  of what is stated above 0.9"},
       only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); }), wrong, 0.01, false));
-  figures.push_back(make_share("wrong_above_outside", "wrong above 0.9, outside of it", outside, wrong, 0.05, false));
+  figures.push_back(make_share({"wrong_above_outside", "wrong above 0.9, outside of it"}, outside, wrong, 0.05, false));
   figures.back().floor = 0.08;
   figures.push_back(make_share(
-      "abstention", "abstention, outside of it", outside,
+      {"abstention", "abstention, outside of it"}, outside,
       [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kExplained); }, 0.90));
   const std::vector<Stated> stated = list_stated(cases);
   const bool any = !stated.empty();
-  figures.push_back(make_number("ece", "calibration, ECE", calc_ece_of(cases), stated.size(), Unit::kNumber, 0.02));
+  figures.push_back(make_number({"ece", "calibration, ECE"}, {calc_ece_of(cases), stated.size()}, Unit::kNumber, 0.02));
   const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
-  figures.push_back(make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(),
-                                Unit::kNumber, std::nullopt));
-  figures.push_back(make_number("brier", "calibration, Brier score",
-                                any ? std::optional<double>(calc_brier(stated)) : std::nullopt, stated.size(),
+  figures.push_back(make_number({"ece_visible", "  without what cannot be seen"},
+                                {calc_ece_of(visible), visible.size()}, Unit::kNumber, std::nullopt));
+  figures.push_back(make_number({"brier", "calibration, Brier score"},
+                                {any ? std::optional<double>(calc_brier(stated)) : std::nullopt, stated.size()},
                                 Unit::kNumber, 0.08));
 }
 
@@ -156,8 +165,8 @@ void add_sizes(const Cases& cases, std::vector<Figure>& figures) {
     errors.push_back(check->error);
     covered += check->covered ? 1 : 0;
   }
-  figures.push_back(
-      make_number("size_error", "size, median error", quantile(errors, kMedian), errors.size(), Unit::kPercent, 0.05));
+  figures.push_back(make_number({"size_error", "size, median error"}, {quantile(errors, kMedian), errors.size()},
+                                Unit::kPercent, 0.05));
   Figure coverage{"size_coverage", "size, held by its 95 % interval"};
   coverage.k = covered;
   coverage.n = errors.size();
@@ -177,9 +186,9 @@ void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
     if (!one.is_single() && !one.is_pair()) continue;
     ratios.push_back(one.answer.diagnosis.gap.shrink_percent.value_or(0.0) / *one.known_cause_shrink_percent);
   }
-  figures.push_back(make_number("shrinkage_median", "shrinkage/known cause's, median", quantile(ratios, kMedian),
-                                ratios.size(), Unit::kNumber, 0.97, true));
-  figures.push_back(make_number("shrinkage_tenth", "  10th percentile", quantile(ratios, kTenth), ratios.size(),
+  figures.push_back(make_number({"shrinkage_median", "shrinkage/known cause's, median"},
+                                {quantile(ratios, kMedian), ratios.size()}, Unit::kNumber, 0.97, true));
+  figures.push_back(make_number({"shrinkage_tenth", "  10th percentile"}, {quantile(ratios, kTenth), ratios.size()},
                                 Unit::kNumber, 0.8, true));
   if (ratios.empty()) {
     figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig_validation known-cause";
@@ -193,7 +202,7 @@ void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
       return (one.is_single() || one.is_pair()) && (one.*test).has_value() && (one.*test)->answer.has_value();
     });
     figures.push_back(make_share(
-        id, label, done, [test](const Case& one) { return one.is_split_by(*(one.*test)); }, 0.90));
+        {id, label}, done, [test](const Case& one) { return one.is_split_by(*(one.*test)); }, 0.90));
     const bool any =
         std::any_of(cases.begin(), cases.end(), [test](const Case& one) { return (one.*test).has_value(); });
     if (!any) figures.back().note = how;
@@ -204,7 +213,7 @@ void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
            one.next_test->is_promised(one.answer);
   });
   figures.push_back(make_share(
-      "promised_test", "  where it is said to", promised,
+      {"promised_test", "  where it is said to"}, promised,
       [](const Case& one) { return one.is_split_by(*one.next_test); }, 0.90));
   figures.back().target.reset();
   if (promised.empty()) figures.back().note = figures.end()[-2].value ? "no such case" : figures.end()[-2].note;
@@ -221,14 +230,14 @@ void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
   }
   const std::size_t explained = all.named + all.named_wrong;
   add_next_tests(cases, figures);
-  figures.push_back(make_number("named_set", "mean size of the named set",
-                                explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained,
+  figures.push_back(make_number({"named_set", "mean size of the named set"},
+                                {explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained},
                                 Unit::kNumber, 1.3));
   figures.back().floor = 1.5;
-  figures.push_back(make_number("time_median", "CPU time of a case, median", quantile(seconds, kMedian), seconds.size(),
-                                Unit::kSeconds, std::nullopt));
+  figures.push_back(make_number({"time_median", "CPU time of a case, median"},
+                                {quantile(seconds, kMedian), seconds.size()}, Unit::kSeconds, std::nullopt));
   figures.push_back(
-      make_number("time_largest", "  largest", quantile(seconds, 1.0), seconds.size(), Unit::kSeconds, 30.0));
+      make_number({"time_largest", "  largest"}, {quantile(seconds, 1.0), seconds.size()}, Unit::kSeconds, 30.0));
 }
 
 }  // namespace
