@@ -10,6 +10,9 @@
 
 namespace rollrig::tools {
 
+/// The tires of Table 4.3, in its order.
+inline constexpr std::array<const char*, 3> kTires{"a40", "a50", "a60"};
+
 /// An error of rolling power for each of three tires (a40, a50, a60) and kinds of section (city, highway, constant
 /// speed), fractions of the measured power.
 using PowerErrors = std::array<std::array<double, 3>, 3>;
