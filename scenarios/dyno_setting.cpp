@@ -86,7 +86,8 @@ struct Results {
   }
 };
 
-/// What is left between vehicle on the rollers and target is found to a tenth of the criterion.
+/// Corrections end when the difference is below this share of criterion_N.
+// Assumed: a tenth, so that stopping adds little to it.
 constexpr double kShareOfCriterion = 0.1;
 
 Load sum(const Load& a, const Load& b, double factor) {
@@ -111,8 +112,19 @@ void check_target(const RunSpec& spec) {
   }
 }
 
+/// The scenario finds the force of the rollers: none can be given.
+void check_nothing_set(const RunSpec& spec) {
+  for (const char* key : {"set_A_N", "set_B_N_per_km_h", "set_C_N_per_km_h2"}) {
+    if (spec.settings.find(key) == nullptr) continue;
+    throw InputError(setting_problem(spec, key, "this scenario finds the force of the rollers itself",
+                                     "target_A_N, target_B_N_per_km_h, target_C_N_per_km_h2"));
+  }
+}
+
 VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
+  rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);  // refuses a tire without its keys
   check_target(spec);
+  check_nothing_set(spec);
   settings.coastdowns.check(spec);
   VehicleProgram program(settings.conditions, spec.sample_interval_s, 0.0);
   const SpeedTrace highway = read_speed_trace("hwfet");
@@ -123,7 +135,8 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 /// The vehicle's coastdown on the road, from the same tires.
-Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Progress& progress) {
+Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Progress& progress,
+                    std::vector<std::string>& warnings) {
   if (settings.target_A_N.has_value()) {
     return {*settings.target_A_N, *settings.target_B_N_s_per_m, *settings.target_C_N_s2_per_m2};
   }
@@ -134,11 +147,14 @@ Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Pr
   VehicleConditions conditions = settings.conditions;
   conditions.ambient_K = road.rig.environment.ambient_K;
   conditions.initial_tire_K = conditions.ambient_K;
+  conditions.surface_K.reset();  // that of the rollers; a road has the air's
   VehicleProgram program(conditions, spec.sample_interval_s, 0.0);
   settings.coastdowns.append_to(program);
   Outcome outcome;
   simulate_vehicle(road, conditions, program, progress, outcome);
-  return fit_coastdowns(outcome.recording, road, conditions, settings.coastdowns).load;
+  const estimation::RoadLoadFit fit = fit_coastdowns(outcome.recording, road, conditions, settings.coastdowns);
+  for (const std::string& warning : fit.warnings) warnings.push_back("coastdown on the road: " + warning);
+  return fit.load;
 }
 
 /// Energies of rolling resistance of all tires over the highway sections (Table 4.2).
@@ -167,28 +183,29 @@ Results run(const RunSpec& spec, Settings settings, const VehicleProgram& progra
     return [&, share](double part_done) { progress(done + (1.0 - done) * share * part_done); };
   };
   Results results;
-  results.target = find_road_load(spec, settings, part(0.2));
+  results.target = find_road_load(spec, settings, part(0.2), outcome.warnings);
   done = 0.2;
   results.set = results.target;
-  Load found{};
+  estimation::RoadLoadFit fit;
   while (true) {
     settings.conditions.set_A_N = results.set.A_N;
     settings.conditions.set_B_N_s_per_m = results.set.B_N_s_per_m;
     settings.conditions.set_C_N_s2_per_m2 = results.set.C_N_s2_per_m2;
     simulate_vehicle(spec, settings.conditions, program, part(0.4), outcome);
-    found = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns).load;
+    fit = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
     done += 0.4 * (1.0 - done);
-    results.largest_difference_N = find_largest_N(sum(found, results.target, -1.0));
+    results.largest_difference_N = find_largest_N(sum(fit.load, results.target, -1.0));
     if (results.largest_difference_N <= kShareOfCriterion * settings.criterion_N) break;
     if (results.corrections == settings.iterations) break;
-    results.set = sum(results.set, sum(results.target, found, -1.0), 1.0);
+    results.set = sum(results.set, sum(results.target, fit.load, -1.0), 1.0);
     ++results.corrections;
   }
   outcome.settings = settings_to_json(settings);
+  outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   results.within_criterion = results.largest_difference_N <= settings.criterion_N;
   for (const double speed_m_s : road_load_speeds_m_s()) {
     const auto force_N = [speed_m_s](const Load& load) { return models::calc_road_load_N(load, speed_m_s); };
-    results.differences.push_back({speed_m_s, force_N(results.target), force_N(found), force_N(results.set)});
+    results.differences.push_back({speed_m_s, force_N(results.target), force_N(fit.load), force_N(results.set)});
   }
   add_highway(spec, settings, outcome.recording, results);
   if (!results.within_criterion) {

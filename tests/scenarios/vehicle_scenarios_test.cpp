@@ -102,8 +102,8 @@ TEST_CASE("the tables of a multi-cycle test end with the whole test", "[fast]") 
 
 TEST_CASE("recuperation saves the battery what the hubs take in, less what the powertrain keeps of it", "[fast]") {
   const auto drive = [](double efficiency, double regeneration_limit_m_s2) {
-    scenarios::RunSpec spec = tests::make_spec(
-        "sae_j1634", "a50", {"wheels=1", "variant=source", "mid_min=5", "end_min=5"}, "quasi_static");
+    scenarios::RunSpec spec =
+        tests::make_spec("sae_j1634", "a50", {"wheels=1", "variant=source", "mid_min=5", "end_min=5"}, "quasi_static");
     spec.rig = tests::make_uneven_dyno();
     spec.vehicle = tests::make_uneven_vehicle();
     spec.vehicle->powertrain.efficiency = efficiency;
@@ -142,6 +142,17 @@ TEST_CASE("flat spots are rolled out where the tire comes from another run", "[f
   const double after_an_hour = with({"effects.flat_spot.excess_percent=8", "rest_before_min=60"});
   CHECK(after_an_hour > without);
   CHECK(after_an_hour < soaked);
+}
+
+TEST_CASE("warm rollers change the force that is set, not the coastdown on the road that it is to meet", "[fast]") {
+  const auto set_on = [](const char* surface) {
+    return run_on("dyno_1m2", "dyno_setting", {"wheels=1", "warm_up_min=2", "to_km_h=100", "iterations=1", surface})
+        .result;
+  };
+  const Json cool = set_on("surface_temperature_degC=15");
+  const Json warm = set_on("surface_temperature_degC=45");
+  CHECK(warm["target_A_N"] == cool["target_A_N"]);
+  CHECK(warm["set_A_N"] != cool["set_A_N"]);
 }
 
 TEST_CASE("rollers under a vehicle that is given by its road load leave its tires their loss", "[fast]") {
