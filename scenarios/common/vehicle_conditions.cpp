@@ -2,6 +2,7 @@
 
 #include "models/vehicle/vehicle.h"
 #include "models/wheel/rolling_wheel.h"
+#include "scenarios/common/recorded_inputs.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -38,10 +39,6 @@ void check_settings_say_something(const RunSpec& spec, int wheels) {
           setting_problem(spec, key, "a road has no rollers whose force could be set", "a rig of kind \"dyno\""));
     }
   }
-  if (spec.settings.find("rest_before_min") != nullptr && spec.settings.find("tire_state") != nullptr) {
-    throw InputError(setting_problem(spec, "rest_before_min", "a rest and a state of the tire exclude each other",
-                                     "one of rest_before_min and tire_state"));
-  }
   if (wheels == 4 && spec.settings.find("quarter") != nullptr) {
     throw InputError(setting_problem(spec, "quarter", "the whole vehicle is simulated", "wheels = 1 beside it"));
   }
@@ -51,6 +48,7 @@ void check_settings_say_something(const RunSpec& spec, int wheels) {
 
 void VehicleConditions::complete(const RunSpec& spec) {
   check_settings_say_something(spec, wheels);
+  check_rest(spec, tire_state.value == "warm", rest_before_s);
   if (wheels != 1 && wheels != 4) {
     throw InputError(setting_problem(spec, "wheels", "a vehicle is simulated whole or as a quarter", "4 or 1"));
   }
