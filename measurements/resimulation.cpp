@@ -172,9 +172,7 @@ rigs::RigStart<S> make_start(const MeasuredRun& run, double ambient_pressure_Pa)
   start.tire_temperature_K = S(run.initial_tire_temperature_K);
   start.cold_pressure_Pa = S(run.cold_pressure_Pa);
   start.ambient_pressure_Pa = S(ambient_pressure_Pa);
-  start.history.soaked = !run.rest_before_s.has_value() && !run.started_warm;
-  start.history.rest_before_s = S(run.rest_before_s.value_or(0.0));
-  start.history.started_warm = run.started_warm;
+  start.set_history(run.started_warm, run.rest_before_s);
   return start;
 }
 

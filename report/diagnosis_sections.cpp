@@ -152,9 +152,8 @@ Section make_verdict(const Diagnosis& diagnosis) {
     const Cause& cause = diagnosis.causes.front();
     std::string meaning = summary_of(cause.effects.front());
     if (!cause.parameters.empty()) {
-      meaning += fmt::format(
-          "; {} {}", plain_name(cause.parameters.front().name.substr(cause.parameters.front().name.rfind('.') + 1)),
-          show_estimate(cause.parameters.front()));
+      meaning += fmt::format("; {} {}", plain_name(last_part(cause.parameters.front().name)),
+                             show_estimate(cause.parameters.front()));
     }
     more = meaning + "." + describe_shrinkage(diagnosis.gap);
     const std::string open = diagnosis::describe_unconfirmed(diagnosis);

@@ -6,6 +6,7 @@
 #include "report/blocks.h"
 #include "report/fit_pages.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace rollrig::report {
 namespace {
@@ -15,8 +16,6 @@ using estimation::DrumCoastdownFit;
 using estimation::Interval;
 using estimation::PressureLevel;
 using estimation::SpeedPoint;
-
-constexpr double kKmhPerMs = 3.6;
 
 /// A growing series of points with their intervals.
 struct Points {

@@ -66,7 +66,7 @@ Block make_gaps(const Fleet& fleet) {
   Json names = Json::array(), before = Json::array(), after = Json::array();
   for (const FleetMember& member : fleet.members) {
     if (!member.diagnosis.has_value()) continue;
-    names.push_back(member.folder.substr(member.folder.rfind('/') + 1));
+    names.push_back(last_part(member.folder, '/'));
     before.push_back(rounded(member.diagnosis->gap.recalibrated.before));
     const bool has_cause = member.diagnosis->verdict == diagnosis::Verdict::kExplained;
     after.push_back(has_cause ? rounded(member.diagnosis->gap.recalibrated.after) : Json(nullptr));
@@ -77,7 +77,7 @@ Block make_gaps(const Fleet& fleet) {
 
 /// The verdict on a set in a sentence, or why there is none, and what is warned of.
 Section make_member(const FleetMember& member) {
-  Section section{member.folder.substr(member.folder.rfind('/') + 1)};
+  Section section{last_part(member.folder, '/')};
   if (!member.diagnosis.has_value()) {
     section.blocks.push_back(
         make_lead("bad", "Not diagnosed: " + (member.problem ? member.problem->what : member.failure)));

@@ -47,7 +47,7 @@ Block make_sweep_chart(const Json& sweep, const std::vector<std::string>& axes, 
     (*at)["x"].push_back(*parse_number(point["set"][axes.front()].get<std::string>()));
     (*at)["y"].push_back(value.is_number() ? rounded(value.get<double>()) : Json(nullptr));
   }
-  const std::string axis = axes.front().substr(axes.front().rfind('.') + 1);
+  const std::string axis = last_part(axes.front());
   return make_curves({plain_name(axis), shown_unit(axis)}, {plain_name(result), shown_unit(result)}, series);
 }
 

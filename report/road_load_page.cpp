@@ -12,8 +12,6 @@ namespace {
 using estimation::RoadLoadFit;
 using estimation::RoadLoadPoint;
 
-constexpr double kKmhPerMs = 3.6;
-
 std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s²" : "N"; }
 
 /// The fitted curve with its interval over the speeds that the data cover.

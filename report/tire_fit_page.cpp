@@ -16,8 +16,6 @@ namespace {
 using estimation::Estimate;
 using estimation::TireFit;
 
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
-
 /// What the two-step regression says of a parameter, in the unit of its key.
 std::optional<double> find_two_step(const Json& two_step, const std::string& key) {
   const std::string last = last_part(key);

@@ -1,6 +1,7 @@
 #pragma once
 /// What every rig is towards the simulator: its lists, the commands and watches of its program, how a run starts.
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -34,6 +35,13 @@ struct RigStart {
   S cold_pressure_Pa{};            // gauge, at that temperature
   S ambient_pressure_Pa{};         // absolute
   models::InitialPort<S> history;  // its load is that of the first instant, which the rig knows
+
+  /// What came before the run: it follows another one, or a standstill of a known length, or (neither) a long soak.
+  void set_history(bool started_warm, const std::optional<double>& rest_before_s) {
+    history.started_warm = started_warm;
+    history.rest_before_s = S(rest_before_s.value_or(0.0));
+    history.soaked = !started_warm && !rest_before_s.has_value();
+  }
 
   models::InitialPort<S> history_under(const S& load_N) const {
     models::InitialPort<S> under = history;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "models/ambient_correction.h"
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
 
@@ -38,7 +39,7 @@ struct Results {
     cycle.visit(visit);
     visit(Result{"rrc_25degC_2m_N_per_kN", "", ".3f", "RRc corrected to 25 degC and the 2 m drum"}, corrected_rrc);
     visit(Result{"rrc_uncertainty_N_per_kN", "", ".3f", "expanded (k = 2), from the torque sensor, offset canceled"},
-          uncertainty.offset_cancelled);
+          uncertainty.offset_canceled);
     visit(Result{"rrc_uncertainty_offset_kept_N_per_kN", "", ".3f", "the same from the offset alone, not canceled"},
           uncertainty.offset_kept);
     visit(Result{"pressure_set_kPa", "", ".1f", "as set after the soak, gauge"}, pressure_set_Pa);
@@ -112,7 +113,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     results.tire_file_says = fmt::format("{}, difference {:+.2f} %", show_number("rrc_N_per_kN", ".3f", reference),
                                          100.0 * (results.corrected_rrc / reference - 1.0));
   }
-  if (!is_correction_valid(ambient_K)) {
+  if (!models::is_ambient_correction_valid(ambient_K)) {
     outcome.warnings.push_back("the correction to 25 degC holds from 20 to 30 degC only");
   }
   return results;

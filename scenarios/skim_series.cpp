@@ -61,7 +61,7 @@ struct Results {
 };
 
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
-  constexpr double kDistinct = 0.02;  // twice what the range finder takes for a change of load
+  constexpr double kDistinct = 0.02;  // Assumed: twice what the range finder takes for a change of load
   for (std::size_t i = 0; i < settings.skim_loads_N.size(); ++i) {
     const double former_N = i > 0 ? settings.skim_loads_N[i - 1] : *settings.conditions.load_N;
     if (std::abs(settings.skim_loads_N[i] - former_N) >= kDistinct * former_N) continue;
@@ -118,8 +118,9 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   const models::SensorParameters sensor = find_torque_sensor(spec);
   const int samples = results.points.front().reading.samples;
+  constexpr double kFarApart_s = 1e9;  // so that drift of the sensor counts in full
   const double mean_sd_Nm =
-      std::sqrt(0.5 * models::calc_difference_variance(sensor, samples, spec.sample_interval_s, 1e9));
+      std::sqrt(0.5 * models::calc_difference_variance(sensor, samples, spec.sample_interval_s, kFarApart_s));
   results.zero_load = extrapolate(results.points, mean_sd_Nm / radius_m);
   return results;
 }

@@ -1,6 +1,7 @@
 /// Skim tests spread over the warm-up (§3.2.7): does the parasitic loss change as the tire warms?
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
+#include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -24,8 +25,8 @@ struct Settings {
   }
 
   Settings() {
-    conditions.load_N = 5400.0;      // §4.1.7: the load of all these tests
-    conditions.pressure_Pa = 280e3;  // §3.3.1.2: the pressure that goes with it
+    conditions.load_N = kVehicleLoad_N;  // §4.1.7: the load of all these tests
+    conditions.pressure_Pa = kVehiclePressure_Pa;
   }
 };
 
@@ -61,7 +62,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   const Cycle& first = cycles.front();
   const Cycle& last = cycles.back();
   return {cycles, first.parasitic_N - last.parasitic_N, first.rolling_resistance_N - last.rolling_resistance_N,
-          last.parasitic_N, calc_rrc_uncertainty(last, spec).offset_cancelled * last.loaded.load_N};
+          last.parasitic_N, calc_rrc_uncertainty(last, spec).offset_canceled * last.loaded.load_N};
 }
 
 }  // namespace

@@ -83,8 +83,8 @@ struct Results {
 };
 
 WarmUpCurve read_curve(const Settings& settings, const RunSpec& spec, const Cycle& cycle, const Outcome& outcome) {
-  constexpr double kSettled_s = 5.0;       // speed controller and load cylinder have settled
-  constexpr std::size_t kEnoughRows = 10;  // for a straight line through noise
+  constexpr double kSettled_s = 5.0;       // Assumed: speed controller and load cylinder have settled
+  constexpr std::size_t kEnoughRows = 10;  // Assumed: for a straight line through noise
   const sim::PhaseSpan& phase = outcome.recording.phase_named("warm-up");
   const std::vector<double>& torque_Nm = outcome.recording.channel(quantities::kDrumTorque);
   const std::vector<double>& liner_temperature_K = outcome.recording.channel(quantities::kLinerTemperature);

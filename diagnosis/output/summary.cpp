@@ -45,7 +45,7 @@ std::string short_name(const std::string& channel) {
   if (channel == "liner_temperature_degC") return "liner";
   if (channel == "gas_temperature_degC") return "gas";
   const std::string name = plain_name(channel);
-  return name.substr(name.rfind(' ') + 1);
+  return last_part(name, ' ');
 }
 
 std::string with_unit(const std::string& number, const std::string& unit) {
@@ -89,7 +89,7 @@ std::vector<ParameterEstimate> find_sizes(const Cause& cause) {
 
 /// "fall 0.0192 1/K"
 std::string describe_size(const ParameterEstimate& size) {
-  const std::string key = size.name.substr(size.name.rfind('.') + 1);
+  const std::string key = last_part(size.name);
   return fmt::format("{} {}", plain_name(key), with_unit(fmt::format("{:.3g}", size.value), size.unit));
 }
 

@@ -10,8 +10,6 @@
 namespace rollrig::estimation {
 namespace {
 
-constexpr double kToKmh = 3.6;
-
 const char* force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m_s2" : "N"; }
 
 std::string heading_text(int heading) { return heading == 0 ? "" : heading > 0 ? "+" : "-"; }
@@ -57,13 +55,13 @@ Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
   Json json = {{"reference_temperature_degC", options.reference_temperature_K - kZeroCelsius_K},
                {"reference_pressure_kPa", 1e-3 * options.reference_pressure_Pa},
                {"rolling_fall_per_K", options.rolling_fall_per_K},
-               {"speed_from_km_h", kToKmh * options.speed_from_m_s},
-               {"bin_width_km_h", kToKmh * options.bin_width_m_s},
+               {"speed_from_km_h", kKmhPerMs * options.speed_from_m_s},
+               {"bin_width_km_h", kKmhPerMs * options.bin_width_m_s},
                {"drag_area_m2", number_or_null(options.drag_area_m2)},
                {"mass_kg", number_or_null(options.mass_kg)}};
   json["effective_mass_kg"] = fit.per_mass ? Json(nullptr) : Json(fit.effective_mass_kg);
   json["rotating_mass_assumed"] = !fit.per_mass && !options.rotating_mass_kg.has_value();
-  if (options.speed_to_m_s < 1e8) json["speed_to_km_h"] = kToKmh * options.speed_to_m_s;
+  if (options.speed_to_m_s < 1e8) json["speed_to_km_h"] = kKmhPerMs * options.speed_to_m_s;
   if (!options.bounds.has_value()) return json;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -83,7 +81,7 @@ Json points_json(const CoastdownFile& file, const RoadLoadFit& fit) {
     points.push_back({{"run", run.id},
                       {"session", run.session},
                       {"heading", heading_text(run.heading)},
-                      {"speed_km_h", kToKmh * point.speed_m_s},
+                      {"speed_km_h", kKmhPerMs * point.speed_m_s},
                       {"force_" + unit, point.force_N},
                       {"fit_" + unit, point.fit_N},
                       {"residual_" + unit, point.residual_N},
@@ -111,7 +109,7 @@ void put_checks(const RoadLoadChecks& checks, Json& json) {
   }
   json["pair_precision"] = Json::array();
   for (const PairPrecision& precision : checks.precisions) {
-    json["pair_precision"].push_back({{"speed_km_h", kToKmh * precision.speed_m_s},
+    json["pair_precision"].push_back({{"speed_km_h", kKmhPerMs * precision.speed_m_s},
                                       {"pairs", precision.pairs},
                                       {"mean_time_s", precision.mean_time_s},
                                       {"precision_percent", 100.0 * precision.precision}});
@@ -196,8 +194,8 @@ std::string write_road_load_residuals(const CoastdownFile& file, const RoadLoadF
     csv.add(run.session);
     csv.add(heading_text(run.heading));
     for (const double value :
-         {kToKmh * point.high_m_s, kToKmh * point.low_m_s, point.duration_s, kToKmh * point.speed_m_s, point.force_N,
-          point.fit_N, point.residual_N, point.sd_N, 1.0 / (point.sd_N * point.sd_N)}) {
+         {kKmhPerMs * point.high_m_s, kKmhPerMs * point.low_m_s, point.duration_s, kKmhPerMs * point.speed_m_s,
+          point.force_N, point.fit_N, point.residual_N, point.sd_N, 1.0 / (point.sd_N * point.sd_N)}) {
       csv.add(value);
     }
     csv.end_row();

@@ -11,6 +11,7 @@
 #include "estimation/tire_fit/drum_residuals.h"
 #include "estimation/tire_fit/fit_unknowns.h"
 #include "sim/core/error.h"
+#include "sim/core/text.h"
 
 namespace rollrig::estimation {
 namespace {

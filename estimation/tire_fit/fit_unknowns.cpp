@@ -9,14 +9,15 @@
 
 #include "measurements/sample_selection.h"
 #include "models/tire/tire_model.h"
+#include "sim/core/text.h"
 
 namespace rollrig::estimation {
 namespace {
 
 /// Loads at which the set rolls, each at least a minute; near ones (2 %) are one.
 std::vector<double> find_loads_N(const measurements::MeasurementSet& set) {
-  constexpr double kSameLoad = 0.02;
-  constexpr double kLongEnough_s = 60.0;
+  constexpr double kSameLoad = 0.02;      // Assumed
+  constexpr double kLongEnough_s = 60.0;  // Assumed
   std::map<double, double> seconds_by_load;
   for (const measurements::MeasuredRun& run : set.runs) {
     const std::vector<double>& load_N = run.columns.at("load_N");
@@ -86,8 +87,6 @@ void add_nuisances(const measurements::MeasurementSet& set, FitUnknowns& unknown
 }
 
 }  // namespace
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const TwoStepEstimate& start, bool load_map,
                             bool free_H) {

@@ -22,7 +22,4 @@ struct FitUnknowns {
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const TwoStepEstimate& start, bool load_map,
                             bool free_H);
 
-/// "A0_N" of "tire.rolling_resistance.A0_N".
-std::string last_part(const std::string& key);
-
 }  // namespace rollrig::estimation

@@ -8,10 +8,9 @@ namespace rollrig::scenarios {
 namespace {
 
 constexpr double kRunUp_m_s2 = 1.5;       // Assumed: brisk, so that tires do not change on the way
-constexpr double kLongest_s = 3600.0;     // of one coastdown
-constexpr double kStandstill_m_s = 0.05;  // below, rolling forces fade and the vehicle creeps to rest
+constexpr double kLongest_s = 3600.0;     // of one coastdown. Assumed: one from 130 km/h takes some minutes
+constexpr double kStandstill_m_s = 0.05;  // Assumed: below, rolling forces fade and the vehicle creeps to rest
 constexpr const char* kPrefix = "coastdown ";
-constexpr double kKmh = 1e3 / 3600.0;  // in m/s
 
 /// +1 for the first direction of a pair, -1 for the second, from the phase's name.
 int heading_of(const std::string& phase) { return phase.back() == '+' ? 1 : -1; }
@@ -94,6 +93,7 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
   options.rotating_mass_kg = spec.vehicle->body.rotating_mass_kg;
   options.drag_area_m2 = spec.vehicle->body.drag_area_m2;
   // Where a tail wind is faster than the vehicle, drag drives it, and (v + w)^2 is not its law.
+  // Assumed: a margin of 10 %.
   options.speed_from_m_s = std::max(options.speed_from_m_s, 1.1 * std::abs(coastdowns.wind_m_s));
   if (spec.rig.kind != rigs::RigKind::kFlat) {
     options.reference_temperature_K = *conditions.ambient_K;
@@ -103,8 +103,8 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
 }
 
 const std::vector<double>& road_load_speeds_m_s() {
-  static const std::vector<double> speeds{20.0 * kKmh,  40.0 * kKmh,  60.0 * kKmh, 80.0 * kKmh,
-                                          100.0 * kKmh, 120.0 * kKmh, 130.0 * kKmh};
+  static const std::vector<double> speeds{20.0 / 3.6,  40.0 / 3.6,  60.0 / 3.6, 80.0 / 3.6,
+                                          100.0 / 3.6, 120.0 / 3.6, 130.0 / 3.6};
   return speeds;
 }
 

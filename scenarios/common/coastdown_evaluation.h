@@ -31,7 +31,7 @@ struct Coastdowns {
     visit(Field{"wind_m_s", between(-20.0, 20.0), "Along the road, against the first direction", 0.0}, p.wind_m_s);
   }
 
-  /// Throws InputError where the coastdowns would not fall, or slope and wind stand on a dynamometer.
+  /// Throws InputError where to_km_h is not well below from_km_h, or where slope or wind is given on a dynamometer.
   void check(const RunSpec& spec) const;
   /// Warm-up and coastdowns.
   void append_to(VehicleProgram& program) const;

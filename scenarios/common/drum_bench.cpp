@@ -14,9 +14,7 @@ rigs::RigStart<double> make_start(const RunSpec& spec, const DrumConditions& con
   start.tire_temperature_K = *conditions.initial_tire_K;
   start.cold_pressure_Pa = *conditions.pressure_Pa;
   start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
-  start.history.soaked = !conditions.started_warm && !conditions.rest_before_s.has_value();
-  start.history.started_warm = conditions.started_warm;
-  start.history.rest_before_s = conditions.rest_before_s.value_or(0.0);
+  start.set_history(conditions.started_warm, conditions.rest_before_s);
   return start;
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "measurements/resimulation.h"
+#include "scenarios/run/fidelity.h"
 
 namespace rollrig::scenarios {
 namespace {
 
-constexpr double kRowEveryAtRest_s = 60.0;
-constexpr double kMaxStepAtRest_s = 20.0;  // under the gas's time constant of 24 s
+constexpr double kRowEveryAtRest_s = 60.0;  // Assumed: a soak changes within hours
 
 }  // namespace
 

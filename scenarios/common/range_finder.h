@@ -19,8 +19,6 @@ struct LoadRange {
 struct Window {
   double start_s = 0.0;
   double end_s = 0.0;
-
-  double middle_s() const { return 0.5 * (start_s + end_s); }
 };
 
 /// Splits a load signal at each change by more than 1 % or across the skim limit, and where the speed

@@ -83,8 +83,6 @@ double correct_rrc(double rrc, double ambient_K, const RunSpec& spec) {
   return rrc * to_2m * models::calc_ambient_correction(ambient_K);
 }
 
-bool is_correction_valid(double ambient_K) { return models::is_ambient_correction_valid(ambient_K); }
-
 models::SensorParameters find_torque_sensor(const RunSpec& spec) {
   const std::string torque = quantities::kDrumTorque.header();
   if (spec.sensors.has_value() && spec.sensors->count(torque) > 0) return spec.sensors->at(torque);
@@ -97,7 +95,7 @@ RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec) {
   const double variance = models::calc_difference_variance(sensor, cycle.loaded.samples, spec.sample_interval_s,
                                                            cycle.skim.window.start_s - cycle.loaded.window.start_s);
   RrcUncertainty uncertainty;
-  uncertainty.offset_cancelled = kCoverageFactor * std::sqrt(variance) * to_rrc;
+  uncertainty.offset_canceled = kCoverageFactor * std::sqrt(variance) * to_rrc;
   uncertainty.offset_kept = kCoverageFactor * sensor.offset_sd * to_rrc;
   return uncertainty;
 }

@@ -82,12 +82,11 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
 /// Validity  car tires, 20 to 30 degC; warned of outside
 /// Source    ISO 28580 as in §3.2.3.3, K_t from the standard
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec);
-bool is_correction_valid(double ambient_K);
 
 /// Expanded uncertainty (k = 2) of a cycle's RRc, corrected as correct_rrc does, from the torque sensor.
 struct RrcUncertainty {
-  double offset_cancelled = 0.0;  // load minus skim in one session: the offset drops out
-  double offset_kept = 0.0;       // as if each torque stood alone: +-0.9 N m, as the source judges (§4.1.1)
+  double offset_canceled = 0.0;  // load minus skim in one session: the offset drops out
+  double offset_kept = 0.0;      // as if each torque stood alone: +-0.9 N m, as the source judges (§4.1.1)
 };
 RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec);
 

@@ -8,7 +8,7 @@
 
 namespace rollrig::scenarios {
 
-/// Settings of scenarios that follow a file as a run of a measurement set is simulated again.
+/// Settings of the scenarios that follow a file. They simulate it as a run of a measurement set is simulated again.
 struct RecordedInputs {
   FilePath program;
   std::optional<double> pressure_Pa;

@@ -13,9 +13,7 @@ rigs::RigStart<double> make_start(const RunSpec& spec, const VehicleConditions& 
   start.tire_temperature_K = *conditions.initial_tire_K;
   start.cold_pressure_Pa = conditions.pressure_Pa;
   start.ambient_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
-  start.history.started_warm = conditions.tire_state.value == "warm";
-  start.history.soaked = !start.history.started_warm && !conditions.rest_before_s.has_value();
-  start.history.rest_before_s = conditions.rest_before_s.value_or(0.0);
+  start.set_history(conditions.tire_state.value == "warm", conditions.rest_before_s);
   return start;
 }
 

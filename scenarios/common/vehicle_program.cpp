@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
+#include "scenarios/run/fidelity.h"
+
 namespace rollrig::scenarios {
 namespace {
 
-constexpr double kMaxStepAtRest_s = 20.0;  // under the gas's time constant of 24 s
 constexpr double kMaxStepCoasting_s = 1.0;
 constexpr double kMaxStepOnRamp_s = 1.0;  // recuperation has a knee in it
 

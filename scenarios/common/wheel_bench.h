@@ -1,5 +1,6 @@
 #pragma once
-/// Runs a file's rows as a set's run is simulated again: one wheel on its roller, or a vehicle on the road.
+/// Simulates the rows of a file as a run of a measurement set is simulated again: one wheel on its roller, or a vehicle
+/// on the road.
 
 #include "scenarios/common/recorded_inputs.h"
 #include "scenarios/run/rig_scenario.h"

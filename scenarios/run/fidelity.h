@@ -6,6 +6,10 @@
 
 namespace rollrig::scenarios {
 
+/// Longest step of the fixed grid at rest: less than the time constant of the gas, 24 s, beyond which it would not be
+/// stable.
+constexpr double kMaxStepAtRest_s = 20.0;
+
 /// CVODES on a multibody rig; what it counted goes into `statistics`.
 sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Program& program, const RunSpec& spec,
                                      const sim::Progress& progress, Json& statistics);

@@ -49,6 +49,8 @@ std::string format_count(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+std::string last_part(const std::string& name, char separator) { return name.substr(name.rfind(separator) + 1); }
+
 std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);  // which from_chars does not take
   double value = 0.0;

@@ -21,6 +21,9 @@ std::string clip(const std::string& text, std::size_t width);
 /// "1 run", "2 runs": a number and what it counts, with an s unless it is one.
 std::string format_count(std::size_t count, const std::string& what);
 
+/// What follows the last separator of a name, all of it where there is none: the key of "model.A", the folder of a path.
+std::string last_part(const std::string& name, char separator = '.');
+
 /// A finite number in decimal or scientific notation, with a sign or without, that is the whole of the text.
 /// Checked  tests/core/text_test.cpp
 std::optional<double> parse_number(std::string_view text);

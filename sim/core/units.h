@@ -11,6 +11,7 @@ namespace rollrig {
 constexpr double kZeroCelsius_K = 273.15;          // 0 degC, by definition of the Celsius scale
 constexpr double kStandardGravity_m_s2 = 9.80665;  // CGPM 1901
 constexpr double kStandardAtmosphere_Pa = 101325;  // formats.md: ambient unless the rig says otherwise
+constexpr double kKmhPerMs = 3.6;                  // km/h in a m/s
 
 /// A unit of a file: value in SI = value in file * factor + offset.
 struct Unit {
