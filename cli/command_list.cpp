@@ -63,11 +63,6 @@ std::string join_or_none(const std::vector<std::string>& words) {
 }
 
 void describe_effect(const models::EffectInfo& info) {
-  const auto list_kinds = [](const std::vector<models::RigKind>& kinds) {
-    std::vector<std::string> names;
-    for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
-    return join_or_none(names);
-  };
   std::cout << info.id << ": effect\n" << wrap(info.summary, 2) << '\n';
   std::cout << "Equation\n" << wrap(info.equation, 2) << "Source\n" << wrap(info.source, 2);
   std::cout << fmt::format("Parameters ([effects.{}])\n", info.id);
@@ -78,11 +73,12 @@ void describe_effect(const models::EffectInfo& info) {
                              parameter.prior.either_sign ? ", either sign" : "", parameter.range.to_string(), off)
               << wrap(parameter.doc, 6);
   }
-  std::cout << "Acts on\n" << wrap(list_kinds(info.acts_on), 2);
+  std::cout << "Acts on\n" << wrap(join_or_none(rigs::list_machines(info.acts_on)), 2);
   if (info.only_against != nullptr) std::cout << "Acts only against\n  the baseline constant_rrc\n";
-  if (!info.faint_on.empty()) std::cout << "Too faint to be seen on\n" << wrap(list_kinds(info.faint_on), 2);
-  std::cout << "Shows in\n" << wrap(join_or_none(info.visible_in), 2);
-  std::cout << "Leaves clean\n" << wrap(join_or_none(info.clean_in), 2);
+  const std::vector<std::string> faint = rigs::list_machines(info.faint_on);
+  if (!faint.empty()) std::cout << "Too faint to be seen on\n" << wrap(join_or_none(faint), 2);
+  std::cout << "Shows in\n" << wrap(join_or_none(rigs::list_visible(info)), 2);
+  std::cout << "Leaves clean\n" << wrap(join_or_none(rigs::list_clean(info)), 2);
   std::cout << "Confused with\n" << wrap(join_or_none(info.confused_with), 2);
   std::cout << "Tests that split\n" << wrap(fmt::format("{}", fmt::join(info.splitting_tests, "; ")), 2);
 }

@@ -24,7 +24,7 @@ struct Options {
 int run_command(const Options& options) {
   const scenarios::RunSpec spec = scenarios::read_run_spec(options.run.make_document(), options.run.base_folder());
   const scenarios::PreparedRun run = scenarios::prepare_run(spec);
-  if (!options.set_folder.empty() && !spec.scenario->set_kind.has_value()) {
+  if (!options.set_folder.empty() && !spec.scenario->writes_sets) {
     throw InputError({fmt::format("scenario '{}' writes no measurement set", spec.scenario->text.name), "command line",
                       0, "--write-set", options.set_folder,
                       "--out for result and recording; sets come from drum tests, follow_roller and follow_road", ""});

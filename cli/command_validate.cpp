@@ -28,7 +28,7 @@ struct Finding {
 };
 
 bool has_measured(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
-  const std::vector<std::string> channels = measurements::measured_channels(set.kind);
+  const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
   return std::any_of(channels.begin(), channels.end(),
                      [&run](const std::string& channel) { return run.has_samples(channel); });
 }

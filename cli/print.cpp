@@ -56,9 +56,9 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
     for (const models::ActiveEffect& active : spec.effects) {
       const models::EffectInfo& info = active.effect->info;
       names += " " + info.id;
-      if (!models::acts_on(info, spec.rig.kind)) {
-        names += fmt::format(" (does not act on {})", name_of(spec.rig.kind));
-      } else if (!models::acts_in(info, spec.rig.kind, spec.tire.model(spec.baseline))) {
+      if (!info.acts_on(spec.rig.kind->traits)) {
+        names += fmt::format(" (does not act on {})", spec.rig.kind->word);
+      } else if (!models::acts_in(info, spec.rig.kind->traits, spec.tire.model(spec.baseline))) {
         names += " (this baseline has it)";
       }
     }

@@ -23,7 +23,7 @@ namespace {
 std::vector<const Term*> find_terms(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
   require_known_effects(options);
   std::vector<const Term*> terms =
-      choose_terms(kind_of(set).rig_kind(), set.tire.model(set.baseline), options.only, options.without);
+      choose_terms(set.kind->traits, set.tire.model(set.baseline), options.only, options.without);
   if (terms.empty() && !options.only.empty()) {
     throw InputError({"none of the effects that are to be compared can be seen on such a set", set.path, 0, "--only",
                       fmt::format("{}", fmt::join(options.only, ",")),

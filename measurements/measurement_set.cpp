@@ -23,7 +23,7 @@ std::string set_file_of(const std::string& folder) {
 
 std::string folder_of(const std::string& file) { return fs::path(file).parent_path().string(); }
 
-MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, SetKind kind) {
+MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, const MachineKind& kind) {
   TableReader reader(table, "[[run]]");
   MeasuredRun run;
   run.id = reader.text("id");
@@ -38,27 +38,26 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, 
     throw InputError(missing);
   }
   run.session = reader.text("session");
-  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", kSetTemperatureRange, ""});
+  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", rigs::kSetTemperatureRange, ""});
   run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
   run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
   run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
   run.force_at_standstill = reader.flag_or("force_at_standstill", false);
   if (reader.flag_or("reversed", false)) {
-    if (kind != SetKind::kDrum) throw reader.problem("reversed", "only a drum is turned the other way round", "false");
+    if (is_of_vehicle(kind.traits))
+      throw reader.problem("reversed", "only a drum is turned the other way round", "false");
     run.reversed = true;
   }
   reader.finish();
   return run;
 }
 
-void read_run_columns(const SetColumns& columns, MeasuredRun& run) {
+void read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) {
   CsvForm form;
   form.hint = "rollrig import reads logs of other forms, names and units, and writes such files";
   const CsvTable csv = CsvTable::read(run.file, form);
   std::vector<std::string> known{"time_s"};
-  for (const auto* list : {&columns.given, &columns.optional_given, &columns.measured}) {
-    for (const Field& field : *list) known.push_back(field.key);
-  }
+  for (const Field& field : columns.all()) known.push_back(field.key);
   csv.require_known(known);
   run.time_s = csv.increasing_times("time_s");
   if (run.time_s.size() < 2) {
@@ -86,7 +85,7 @@ void check_runs(const MeasurementSet& set) {
       throw InputError({fmt::format("two runs have the id '{}'", run.id), set.path, 0, "[[run]] id", run.id,
                         "a different id for every run", ""});
     }
-    for (const std::string& channel : measured_channels(set.kind)) {
+    for (const std::string& channel : measured_channels(*set.kind)) {
       if (!run.has(channel) || set.sensors.count(channel) > 0) continue;
       InputProblem problem;
       problem.what = fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, channel);
@@ -107,19 +106,19 @@ bool MeasuredRun::has_samples(const std::string& column) const {
          std::any_of(at->second.begin(), at->second.end(), [](double value) { return !std::isnan(value); });
 }
 
-MeasuredRun read_run_inputs(const std::string& file, SetKind kind) {
+MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind) {
   MeasuredRun run;
   run.id = fs::path(file).stem().string();
   run.file = file;
-  read_run_columns(columns_of(kind), run);
+  read_run_columns(kind.columns, run);
   for (const std::string& channel : measured_channels(kind)) run.columns.erase(channel);
   return run;
 }
 
 std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
-  const std::string kind = reader.text_or("kind", "", {"drum", "dyno", "road"});
-  if (kind == "road" || (kind.empty() && reader.has("vehicle"))) {
-    set.kind = SetKind::kRoad;
+  const std::string word = reader.text_or("kind", "", rigs::machine_words());
+  set.kind = &rigs::find_machine_kind(!word.empty() ? word : reader.has("vehicle") ? "road" : "drum");
+  if (is_on_road(set.kind->traits)) {
     const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
     set.vehicle = rigs::read_vehicle(read_config(path));
     set.vehicle->content = read_text_file(path);
@@ -128,32 +127,23 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
   const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));
   set.rig = rigs::read_rig(read_config(path));
   set.rig->content = read_text_file(path);
-  if (set.rig->kind == rigs::RigKind::kFlat) {
+  if (is_on_road(set.rig->kind->traits)) {
     throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
-                         "a rig of kind \"drum\" or \"dyno\", or vehicle = ... with kind = \"road\"");
+                         "a rig of another kind, or vehicle = ... with kind = \"road\"");
   }
-  set.kind = kind_of(set.rig->kind);
-  if (!kind.empty() && kind != name_of(set.kind)) {
-    throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", kind, set.rig->name),
+  if (!word.empty() && set.kind != set.rig->kind) {
+    throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", word, set.rig->name),
                          "the rig's kind");
   }
+  set.kind = set.rig->kind;
   return set.rig->content;
-}
-
-models::SensorSet default_sensors(SetKind kind) {
-  if (kind == SetKind::kRoad) return {{"traction_force_N", {10.0, 215.0, 13.0, 140.0, 0.0}}};
-  if (kind == SetKind::kDrum) return {};
-  return {{"loss_force_N", {2.0, 1.0, 60.0, 2.0, 0.0}},
-          {"liner_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
-          {"gas_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
-          {"cavity_pressure_kPa", {250.0, 100.0, 120.0, 50.0, 100.0}}};
 }
 
 namespace {
 
 /// Sensors that runs use and the set does not describe.
 void assume_sensors(MeasurementSet& set) {
-  for (const auto& [channel, sensor] : default_sensors(set.kind)) {
+  for (const auto& [channel, sensor] : set.kind->default_sensors) {
     const std::string& name = channel;
     const bool used =
         std::any_of(set.runs.begin(), set.runs.end(), [&](const MeasuredRun& run) { return run.has(name); });
@@ -188,12 +178,12 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   set.tire.content = read_text_file(tire_path);
   read_machine(reader, base, set);
   if (const ConfigTable* sensors = reader.table("sensors")) {
-    set.sensors = models::read_sensors(*sensors, measured_channels(set.kind));
+    set.sensors = models::read_sensors(*sensors, measured_channels(*set.kind));
   }
-  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base, set.kind));
+  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base, *set.kind));
   reader.finish();
   if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
-  for (MeasuredRun& run : set.runs) read_run_columns(columns_of(set.kind), run);
+  for (MeasuredRun& run : set.runs) read_run_columns(set.kind->columns, run);
   assume_sensors(set);
   check_runs(set);
   return set;

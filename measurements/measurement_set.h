@@ -13,23 +13,8 @@
 
 namespace rollrig::measurements {
 
-/// Kinds of measurement sets: on a drum, of one wheel on its roller, of a vehicle on the road (formats.md).
-enum class SetKind { kDrum, kDyno, kRoad };
-
-/// Temperatures that a set may hold, in degC. Assumed: wider than any tire or test cell.
-constexpr Range kSetTemperatureRange = between(-80.0, 250.0);
-
-/// Columns of a kind of set.
-struct SetColumns {
-  std::vector<Field> given;           // required in every row
-  std::vector<Field> optional_given;  // required in every row where the column is there
-  std::vector<Field> measured;        // may be absent, and empty in a row
-};
-const SetColumns& columns_of(SetKind kind);
-/// Names of the measured columns of a kind.
-std::vector<std::string> measured_channels(SetKind kind);
-/// Those of all kinds.
-std::vector<std::string> all_measured_channels();
+using rigs::MachineKind;
+using rigs::measured_channels;
 
 /// Column of a drum run in which more was done than is told by speed and load.
 constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
@@ -60,35 +45,22 @@ struct MeasuredRun {
 struct MeasurementSet {
   std::string path;  // of set.toml
   std::string name;
-  SetKind kind = SetKind::kDrum;
+  const MachineKind* kind = &rigs::find_machine_kind("drum");
   models::Baseline baseline = models::Baseline::kCombined;
   models::TireFile tire;
   std::optional<rigs::RigFile> rig;          // drum and dyno
   std::optional<rigs::VehicleFile> vehicle;  // road
   models::SensorSet sensors;
-  std::vector<std::string> assumed_sensors;  // channels of which the set says nothing: those of default_sensors
+  std::vector<std::string> assumed_sensors;  // channels of which the set says nothing: those of its kind
   std::vector<MeasuredRun> runs;
 };
-
-/// Sensors of a dynamometer or of a vehicle on the road, where a set gives none; empty for a drum, whose set has to.
-/// Loss force: 2 N offset over a session, 1 N drift in 60 s, 2 N noise of a sample at 1 Hz, Assumed: 0.1 % of a force
-/// cell of 5 kN and what compensating inertia leaves. Liner and cavity: as assets/sensors/source.toml. Traction force:
-/// 10 N offset, 215 N drift in 13 s (wind, surface and slope), 140 N noise, Assumed: as one car's trips leave over a
-/// fit of the road load (259 N rms, correlated over 13 s).
-models::SensorSet default_sensors(SetKind kind);
 
 /// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
 MeasurementSet read_measurement_set(const std::string& folder);
 
 /// The inputs of a run from a run file of a set, or from one with the given columns alone; measured columns are not
 /// kept. Throws InputError.
-MeasuredRun read_run_inputs(const std::string& file, SetKind kind);
-
-/// The word for a kind in files.
-const char* name_of(SetKind kind);
-
-/// The kind of a rig's sets.
-SetKind kind_of(rigs::RigKind kind);
+MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind);
 
 /// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`; returns the
 /// machine's file as it is. Throws InputError.

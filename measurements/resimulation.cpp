@@ -37,11 +37,11 @@ class Rows {
   double duration_s(std::size_t row) const { return run_.time_s[row + 1] - run_.time_s[row]; }
 
   /// From `start_s` after a row, for the machine of a kind.
-  sim::Segment make_segment(SetKind kind, std::size_t row, double start_s, double duration_s) const {
+  sim::Segment make_segment(const MachineKind& kind, std::size_t row, double start_s, double duration_s) const {
     sim::Segment segment{duration_s, std::vector<sim::Ramp>(count_inputs(kind))};
     std::vector<sim::Ramp>& inputs = segment.inputs;
     const sim::Ramp ambient = line(ambient_K_, row, start_s);
-    if (kind == SetKind::kRoad) {
+    if (is_on_road(kind.traits)) {
       inputs[index_of(VehicleInput::kSpeed)] = line(speed_m_s_, row, start_s);
       inputs[index_of(VehicleInput::kAmbient)] = ambient;
       inputs[index_of(VehicleInput::kSlope)] = {calc_slope(row), 0.0};
@@ -51,15 +51,15 @@ class Rows {
     inputs[index_of(DrumInput::kLoad)] = {(*load_N_)[row], 0.0};
     inputs[index_of(DrumInput::kAmbient)] = ambient;
     inputs[index_of(DrumInput::kSurface)] = surface_K_ != nullptr ? line(*surface_K_, row, start_s) : ambient;
-    if (kind == SetKind::kDrum || force_N_ == nullptr) return segment;
+    if (!is_of_vehicle(kind.traits) || force_N_ == nullptr) return segment;
     inputs[rigs::kLongitudinalForceInput] = {calc_rms_with_sign(line(*force_N_, row, start_s), duration_s), 0.0};
     return segment;
   }
 
  private:
-  static std::size_t count_inputs(SetKind kind) {
-    if (kind == SetKind::kRoad) return rigs::kVehicleInputCount;
-    return kind == SetKind::kDrum ? rigs::kDrumInputCount : rigs::kRollerInputCount;
+  static std::size_t count_inputs(const MachineKind& kind) {
+    if (is_on_road(kind.traits)) return rigs::kVehicleInputCount;
+    return is_of_vehicle(kind.traits) ? rigs::kRollerInputCount : rigs::kDrumInputCount;
   }
 
   const std::vector<double>* find(const Quantity& quantity) const {
@@ -118,9 +118,9 @@ bool continues(const sim::Segment& before, const sim::Segment& next) {
 
 }  // namespace
 
-sim::Program make_recorded_program(const MeasuredRun& run, SetKind kind) {
+sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& kind) {
   const Rows rows(run);
-  const bool joins = kind == SetKind::kDrum;
+  const bool joins = !is_of_vehicle(kind.traits);
   sim::Phase phase;
   phase.name = run.id;
   for (std::size_t row = 0; row + 1 < rows.count(); ++row) {
@@ -147,14 +147,14 @@ double find_tire_load_N(const rigs::VehicleFile& vehicle) {
 }
 
 models::Context<double> make_context(const MeasurementSet& set) {
-  if (set.kind != SetKind::kRoad) return rigs::make_context(set.tire, *set.rig, set.baseline);
+  if (is_indoors(set.kind->traits)) return rigs::make_context(set.tire, *set.rig, set.baseline);
   const rigs::VehicleFile& vehicle = *set.vehicle;
   if (vehicle.road_load.has_value()) {
     throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
                       "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
   }
   models::Context<double> context;
-  context.rig_kind = models::RigKind::kFlat;
+  context.machine = set.kind->traits;
   context.vehicle = vehicle.body;
   context.tire =
       set.baseline == models::Baseline::kConstantRrc
@@ -193,6 +193,14 @@ S calc_warm_temperature_K(const models::Corner<S>& corner, double tires, const r
   return warm_K;
 }
 
+/// Of a vehicle's tires when the run begins.
+template <class S>
+S calc_start_temperature_K(const MeasurementSet& set, const MeasuredRun& run, const models::Corner<S>& corner,
+                           const rigs::RigStart<S>& start) {
+  const bool begins_warm = run.started_warm && corner.context().tire.model().info.loss_follows_heat;
+  return begins_warm ? calc_warm_temperature_K(corner, set.vehicle->tires, start) : start.tire_temperature_K;
+}
+
 /// Effects of the port "trace", beside the recorded inputs that they may read.
 template <class S>
 void apply_trace_beside_given(const MeasuredRun& run, const models::Corner<S>& corner, sim::Recording<S>& recording) {
@@ -214,30 +222,34 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
 
 }  // namespace
 
-Resimulation::Resimulation(const MeasuredRun& run, SetKind kind) : program_(make_recorded_program(run, kind)) {
-  if (kind == SetKind::kDrum) program_ = rigs::refine_near_standstill(program_, rigs::index_of(DrumInput::kSpeed));
+Resimulation::Resimulation(const MeasuredRun& run, const MachineKind& kind)
+    : program_(make_recorded_program(run, kind)) {
+  if (!is_of_vehicle(kind.traits)) {
+    program_ = rigs::refine_near_standstill(program_, rigs::index_of(DrumInput::kSpeed));
+  }
 }
 
 template <class S>
 sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const MeasuredRun& run, models::Corner<S>& corner,
                                          rigs::Detail detail) const {
-  const bool is_road = set.kind == SetKind::kRoad;
-  const bool surface_recorded = !is_road && run.has(quantities::kSurfaceTemperature);
+  const bool surface_recorded = run.has(quantities::kSurfaceTemperature);
   const rigs::RigStart<S> start =
-      make_start<S>(run, is_road ? kStandardAtmosphere_Pa : set.rig->environment.ambient_pressure_Pa);
+      make_start<S>(run, set.rig.has_value() ? set.rig->environment.ambient_pressure_Pa : kStandardAtmosphere_Pa);
   sim::Recording<S> recording;
-  if (is_road) {
-    const bool begins_warm = run.started_warm && corner.context().tire.model().info.loss_follows_heat;
-    const S temperature_K =
-        begins_warm ? calc_warm_temperature_K(corner, set.vehicle->tires, start) : start.tire_temperature_K;
-    recording = run_on<S, sim::LaggedMidpointIntegrator>(
-        rigs::RecordedRoad<S>(corner, *set.vehicle, start, temperature_K, detail), program_);
-  } else if (set.kind == SetKind::kDyno) {
-    recording = run_on<S, sim::LaggedMidpointIntegrator>(
-        rigs::RecordedRoller<S>(corner, start, surface_recorded, detail), program_);
-  } else {
-    recording = run_on<S, sim::FixedGridIntegrator>(rigs::QuasiStaticDrum<S>(corner, start, surface_recorded, detail),
-                                                    program_);
+  switch (set.kind->traits.specimen) {
+    case models::Specimen::kTire:
+      recording = run_on<S, sim::FixedGridIntegrator>(rigs::QuasiStaticDrum<S>(corner, start, surface_recorded, detail),
+                                                      program_);
+      break;
+    case models::Specimen::kWheel:
+      recording = run_on<S, sim::LaggedMidpointIntegrator>(
+          rigs::RecordedRoller<S>(corner, start, surface_recorded, detail), program_);
+      break;
+    case models::Specimen::kVehicle:
+      recording = run_on<S, sim::LaggedMidpointIntegrator>(
+          rigs::RecordedRoad<S>(corner, *set.vehicle, start, calc_start_temperature_K(set, run, corner, start), detail),
+          program_);
+      break;
   }
   apply_trace_beside_given(run, corner, recording);
   return recording;

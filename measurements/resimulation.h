@@ -24,7 +24,7 @@ double find_tire_load_N(const rigs::VehicleFile& vehicle);
 /// Others    a segment is one step of the integrator and does not lie across the middle between two rows. Of the
 ///           longitudinal force it has the root mean square, with the sign of its middle; the slope is the rise of the
 ///           road over the way between two rows
-sim::Program make_recorded_program(const MeasuredRun& run, SetKind kind);
+sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& kind);
 
 /// A run made ready to be simulated, as often as wanted.
 ///
@@ -34,7 +34,7 @@ sim::Program make_recorded_program(const MeasuredRun& run, SetKind kind);
 /// Checked   tests/measurements/resimulation_test.cpp
 class Resimulation {
  public:
-  Resimulation(const MeasuredRun& run, SetKind kind);
+  Resimulation(const MeasuredRun& run, const MachineKind& kind);
 
   /// What the sensors would have shown, rows at the run's own times, trace effects applied; in full detail also what
   /// only a simulation knows. `set` and `run` are those that it was made for. Throws RunFailure.

@@ -18,7 +18,7 @@ models::SensorSet read_sensor_file(const ConfigTable& config, const std::vector<
 }
 
 models::SensorSet read_sensor_file(const ConfigTable& config) {
-  return read_sensor_file(config, all_measured_channels());
+  return read_sensor_file(config, rigs::all_measured_channels());
 }
 
 models::SensorSet read_sensor_asset(const std::string& name_or_path) {

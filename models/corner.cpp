@@ -25,7 +25,7 @@ std::vector<S> convert_parameters(const ActiveEffect& active) {
 template <class S>
 const EffectHooks<S>* find_hooks(const Effect& effect, const Context<S>& context) {
   static const EffectHooks<S> none;
-  return acts_in(effect.info, context.rig_kind, context.tire.model()) ? &effect.hooks<S>() : &none;
+  return acts_in(effect.info, context.machine, context.tire.model()) ? &effect.hooks<S>() : &none;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects)
     names_[index_of(node)] = name;
   }
   for (const ActiveEffect& active : effects) {
-    if (!acts_in(active.effect->info, context_.rig_kind, context_.tire.model())) continue;
+    if (!acts_in(active.effect->info, context_.machine, context_.tire.model())) continue;
     for (std::size_t i = 0; i < kNodeCount; ++i) nodes_[i] = nodes_[i] || active.effect->info.nodes[i];
   }
   for (std::size_t i = 0; i < kNodeCount; ++i) {

@@ -95,7 +95,7 @@ Context<S> convert_context(const Context<double>& from) {
   to.tire = convert_tire<S>(from.tire);
   to.parasitic = convert<S>(from.parasitic);
   to.vehicle = convert<S>(from.vehicle);
-  to.rig_kind = from.rig_kind;
+  to.machine = from.machine;
   to.surface_curvature_per_m = quantity<S>(from.surface_curvature_per_m, Dimension{} / dimension::kLength);
   to.machine_radius_m = quantity<S>(from.machine_radius_m, dimension::kLength);
   to.machine_mass_kg = quantity<S>(from.machine_mass_kg, dimension::kMass);

@@ -11,27 +11,15 @@ namespace rollrig::models {
 
 double Prior::center() const { return scale == Scale::kLog ? std::sqrt(low * high) : 0.5 * (low + high); }
 
-const char* name_of(RigKind kind) {
-  switch (kind) {
-    case RigKind::kDrum:
-      return "drum";
-    case RigKind::kDyno:
-      return "dyno";
-    case RigKind::kFlat:
-      return "flat";
-  }
-  return "";
+bool is_seen_on(const EffectInfo& info, const MachineTraits& machine) {
+  return info.acts_on(machine) && !info.faint_on(machine);
 }
 
-bool acts_on(const EffectInfo& info, RigKind kind) {
-  return std::find(info.acts_on.begin(), info.acts_on.end(), kind) != info.acts_on.end();
-}
-
-bool acts_in(const EffectInfo& info, RigKind kind, const TireModel& model) {
+bool acts_in(const EffectInfo& info, const MachineTraits& machine, const TireModel& model) {
   for (const auto& [node, name] : model.info.nodes) {
     if (info.nodes[index_of(node)]) return false;
   }
-  return acts_on(info, kind) && (info.only_against == nullptr || model.info.id == info.only_against);
+  return info.acts_on(machine) && (info.only_against == nullptr || model.info.id == info.only_against);
 }
 
 std::vector<std::string> effect_ids() { return list_ids(all_effects()); }

@@ -46,6 +46,9 @@ struct LawError {
   double whole_share = 0.0;  // of all that it changes, base parameters held
 };
 
+/// What is measured, whatever a machine calls it.
+enum class Reading { kForce, kLinerTemperature, kCavityPressure };
+
 /// Everything about an effect that is not an equation in code.
 struct EffectInfo {
   std::string id;
@@ -54,24 +57,21 @@ struct EffectInfo {
   std::string source;
   std::vector<EffectParameter> parameters;  // the size first
   std::vector<EffectState> states;
-  std::vector<RigKind> acts_on{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};  // elsewhere a corner leaves it out
-  const char* only_against = nullptr;      // id of the tire model that lacks it; others have it
-  std::vector<RigKind> faint_on{};         // of these, where it changes too little to be seen
+  bool (*acts_on)(const MachineTraits&) = &is_any;    // elsewhere a corner leaves it out
+  const char* only_against = nullptr;                 // id of the tire model that lacks it; others have it
+  bool (*faint_on)(const MachineTraits&) = &is_none;  // of these, where it changes too little to be seen
   NodeSet nodes{};                         // thermal nodes that it adds; it does not act on a tire model that has them
-  std::vector<std::string> visible_in;     // measured channels, of any rig kind, that a finite size changes
-  std::vector<std::string> clean_in;       // measured channels, of any rig kind, that it leaves bit-identical
+  std::vector<Reading> visible_in;         // as far as the machine has them: those that a finite size changes
+  std::vector<Reading> clean_in;           // likewise: those that it leaves bit-identical
   std::vector<std::string> confused_with;  // ids
   std::vector<std::string> splitting_tests;  // tests that tell it from those
   LawError law_error{};                      // where it exceeds the diagnosis' usual shares
 };
 
-/// The word for a rig kind in files and on pages.
-const char* name_of(RigKind kind);
-
-/// Whether the effect changes anything on such a rig.
-bool acts_on(const EffectInfo& info, RigKind kind);
-/// The same for a tire of that model.
-bool acts_in(const EffectInfo& info, RigKind kind, const TireModel& model);
+/// Whether the effect changes anything on such a machine with a tire of that model.
+bool acts_in(const EffectInfo& info, const MachineTraits& machine, const TireModel& model);
+/// Whether it changes enough on such a machine to be seen.
+bool is_seen_on(const EffectInfo& info, const MachineTraits& machine);
 
 /// An effect's own numbers at one instant.
 template <class S>

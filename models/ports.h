@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "models/machine_traits.h"
 #include "models/parasitic_loss.h"
 #include "models/tire/inflation_gas.h"
 #include "models/tire/thermal_network.h"
@@ -17,16 +18,13 @@
 
 namespace rollrig::models {
 
-/// What a tire rolls on: a test drum, a roller of a dynamometer under a vehicle, or the road.
-enum class RigKind { kDrum, kDyno, kFlat };
-
 /// What does not change in a run: the tire with its model, and the machine under it.
 template <class S>
 struct Context {
   TireParameters<S> tire;
   ParasiticParameters<S> parasitic;
   VehicleBody<S> vehicle;  // of a measured vehicle on the road; elsewhere a rig's layout has it
-  RigKind rig_kind = RigKind::kDrum;
+  MachineTraits machine{Surface::kDrum, Specimen::kTire, Restraint::kCarriage, quantities::kDrumTorque};
   S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
   S machine_radius_m{};         // torque at the machine's axis over force at its surface; 0 on the flat
   S machine_mass_kg{};          // inertia of drum or roller as mass at its surface, J/R^2; 0 on the flat

@@ -155,7 +155,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     return wheel;
   }
 
-  bool is_flat() const { return layout_.rig_kind == RigKind::kFlat; }
+  bool is_flat() const { return is_on_road(layout_.machine); }
 
   void set_drive(bool on, double* y) override {
     SimbodySystem::set_drive(on, y);

@@ -49,7 +49,7 @@ class QuasiStaticVehicle : public QuasiStaticRig<S> {
     S loss_N{};      // of its own bearings and brake pads, on the flat
   };
 
-  bool is_flat() const { return layout_.rig_kind == RigKind::kFlat; }
+  bool is_flat() const { return is_on_road(layout_.machine); }
   void find_motion(double time_s, const S* state);
   void find_resistance();
   void find_balance();

@@ -3,13 +3,11 @@
 
 #include <string>
 
-#include "models/parasitic_loss.h"
 #include "models/ports.h"
 #include "models/tire/tire_file.h"
+#include "rigs/machine.h"
 
 namespace rollrig::rigs {
-
-using models::RigKind;
 
 /// A drum, or a roller of a dynamometer.
 struct DrumParameters {
@@ -97,7 +95,7 @@ struct RigFile {
   std::string path;
   std::string content;  // as read, for the manifest's hash
   std::string name;
-  RigKind kind = RigKind::kDrum;
+  const MachineKind* kind = &find_machine_kind("drum");
   DrumParameters drum;              // of each roller on a dyno
   bool driven_wheels_only = false;  // of a dyno: the other axle stands still, its tires lose nothing
   models::ParasiticParameters<double> parasitic;
@@ -107,6 +105,23 @@ struct RigFile {
   CarriageParameters carriage;
   DriveParameters drive;
   TieDownParameters tie_down;
+
+  /// Whether a table must stand in the file, may be left out since its keys have defaults, or need not apply.
+  enum class Presence { kRequired, kDefaults, kOptional };
+
+  /// Calls visit(name, table, Presence) for each table that the file of such a machine has.
+  template <class Self, class Visit>
+  static void visit_tables(Self& rig, const Visit& visit) {
+    const models::MachineTraits& machine = rig.kind->traits;
+    if (machine.surface == models::Surface::kDrum) visit("drum", rig.drum, Presence::kRequired);
+    if (machine.surface == models::Surface::kRoller) visit("roller", rig.drum, Presence::kRequired);
+    if (is_indoors(machine)) visit("parasitic", rig.parasitic, Presence::kRequired);
+    visit("environment", rig.environment, Presence::kRequired);
+    visit("skim", rig.skim, has_skim(machine) ? Presence::kRequired : Presence::kOptional);
+    if (has_skim(machine)) visit("carriage", rig.carriage, Presence::kDefaults);
+    if (is_tied_down(machine)) visit("tie_down", rig.tie_down, Presence::kDefaults);
+    if (is_indoors(machine)) visit("drive", rig.drive, Presence::kDefaults);
+  }
 };
 
 /// Reads a rig from parsed TOML. Throws InputError.

@@ -43,7 +43,7 @@ double calc_other_mass_kg(const VehicleLayout& layout, const VehicleBodies& bodi
     spin_kg += models::calc_spin_mass_kg(*tires[i], bodies.wheels[i].loaded_radius_m);
   }
   const double total_kg = mass_factor * (layout.mass_kg + layout.rotating_mass_kg) - spin_kg;
-  return layout.rig_kind == RigKind::kFlat ? total_kg - layout.mass_kg : total_kg;
+  return is_on_road(layout.machine) ? total_kg - layout.mass_kg : total_kg;
 }
 
 void add_wheel(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout,
@@ -54,7 +54,7 @@ void add_wheel(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layou
   wheel.upright =
       MobilizedBody::Slider(bodies.body, upwards(hub_m), make_block(layout.suspension.unsprung_mass_kg), kUpwards);
   wheel.wheel = MobilizedBody::Pin(wheel.upright, kReversed, make_wheel(tire), kReversed);
-  if (layout.rig_kind == RigKind::kFlat) return;
+  if (is_on_road(layout.machine)) return;
   const double radius_m = layout.roller_radius_m;
   wheel.roller =
       MobilizedBody::Pin(matter.Ground(), Transform(Vec3(axle_x_m, -radius_m, 0)),
@@ -65,7 +65,7 @@ void add_wheel(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layou
 
 VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout, const Tires& tires,
                                  double mass_factor) {
-  const bool flat = layout.rig_kind == RigKind::kFlat;
+  const bool flat = is_on_road(layout.machine);
   const bool whole = layout.wheels.size() > 1;
   VehicleBodies bodies;
   bodies.wheels.resize(layout.wheels.size());

@@ -28,7 +28,7 @@ std::vector<sim::Integral> make_vehicle_integrals(const VehicleLayout& layout) {
       {"drive_energy", Role::kChannel, kYardstick_J},
       {"recuperated_energy", Role::kChannel, kYardstick_J},
       {sim::kMotorWork, Role::kWorkIn, kEnergy_J},
-      {layout.rig_kind == RigKind::kDyno ? "rollers" : "rest_of_vehicle", Role::kWorkIn, kEnergy_J},
+      {is_tied_down(layout.machine) ? "rollers" : "rest_of_vehicle", Role::kWorkIn, kEnergy_J},
       {"throughput", Role::kThroughput, kYardstick_J},
       {"load_changes", Role::kWorkIn, kEnergy_J},
       {"tire_loss", Role::kDissipated, kEnergy_J},

@@ -74,7 +74,7 @@ class VehicleDrive : public RigForces {
   void put_own_rates(const SimTK::State& state, const Contacts& contacts, double* z_rates) const override;
   void allocate_own_caches(SimTK::State& state) const override;
 
-  bool is_flat() const { return layout_.rig_kind == RigKind::kFlat; }
+  bool is_flat() const { return is_on_road(layout_.machine); }
   /// What the vehicle's program gives for a wheel, without forces.
   models::InputPort<double> read_program(const SimTK::State& state, std::size_t wheel) const;
   void evaluate(const SimTK::State& state, DriveEvaluation& at) const;

@@ -51,7 +51,7 @@ models::RoadLoad<double> scale(const models::RoadLoad<double>& load, double fact
 VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
                         const models::RoadLoad<double>& set_load, double share) {
   VehicleLayout layout;
-  layout.rig_kind = rig.kind;
+  layout.machine = rig.kind->traits;
   layout.share = share;
   layout.mass_kg = share * vehicle.body.mass_kg;
   layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;
@@ -59,12 +59,12 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
   layout.air_density_kg_per_m3 = models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, ambient_K);
   layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
   layout.regeneration_fade_m_s = vehicle.powertrain.regeneration_fade_m_s;
-  layout.driver_bandwidth_rad_s = rig.kind == RigKind::kFlat ? kDriverBandwidth_rad_s : rig.drive.bandwidth_rad_s;
+  layout.driver_bandwidth_rad_s = is_on_road(layout.machine) ? kDriverBandwidth_rad_s : rig.drive.bandwidth_rad_s;
   layout.roller_radius_m = rig.drum.diameter_m / 2.0;
   layout.body_height_m = vehicle.geometry.centre_of_gravity_height_m;
   layout.suspension = vehicle.suspension;
   layout.tie_down = rig.tie_down;
-  if (rig.kind == RigKind::kDyno) {
+  if (is_tied_down(layout.machine)) {
     layout.resistance = scale(set_load, share);
   } else if (vehicle.road_load.has_value()) {
     layout.resistance = scale(*vehicle.road_load, share);
@@ -77,7 +77,7 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
 }  // namespace
 
 bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front) {
-  return !(rig.kind == RigKind::kDyno && rig.driven_wheels_only) || is_driven(vehicle, front);
+  return !rig.driven_wheels_only || is_driven(vehicle, front);
 }
 
 VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
@@ -105,7 +105,7 @@ VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, doubl
 models::Context<double> make_vehicle_context(const models::TireFile& tire, const RigFile& rig,
                                              const VehicleFile& vehicle, models::Baseline baseline) {
   models::Context<double> context = make_context(tire, rig, baseline);
-  if (rig.kind == RigKind::kFlat && vehicle.road_load.has_value()) {
+  if (is_on_road(context.machine) && vehicle.road_load.has_value()) {
     context.tire.own = {&models::find_tire_model(models::kConstantModel), {}};
     context.tire.constant.rrc = 0.0;
   }

@@ -27,7 +27,7 @@ struct WheelPlace {
 /// own wheel does not drive or brake reaches it through the roller or the body, as the force of the other
 /// wheels would.
 struct VehicleLayout {
-  RigKind rig_kind = RigKind::kDyno;
+  models::MachineTraits machine = find_machine_kind("dyno").traits;
   double share = 1.0;  // of the vehicle that is simulated
   double mass_kg = 0.0;
   double rotating_mass_kg = 0.0;

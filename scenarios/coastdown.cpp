@@ -76,7 +76,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   for (const sim::PhaseSpan& phase : outcome.recording.phases) {
     if (is_coastdown(phase.name)) results.coastdowns.push_back({phase.name, phase.end_s - phase.start_s});
   }
-  results.on_road = spec.rig.kind == rigs::RigKind::kFlat;
+  results.on_road = is_on_road(spec.rig.kind->traits);
   outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   return results;
 }
@@ -90,7 +90,7 @@ Scenario scenario_coastdown() {
        "Slope and wind of the road, where given, turn round with the direction. A, B, C by generalized least squares "
        "on force against speed, at reference conditions (20 degC, 98.21 kPa, still air).",
        "source §3.4.1, §3.4.3, (3.20); SAE J2263"},
-      {rigs::RigKind::kFlat, rigs::RigKind::kDyno}, "flat", &plan, &evaluate);
+      "road", &plan, &evaluate);
 }
 
 }  // namespace rollrig::scenarios

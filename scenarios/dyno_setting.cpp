@@ -28,7 +28,7 @@ struct Settings {
     VehicleConditions::visit(p.conditions, visit);
     Coastdowns::visit(p.coastdowns, visit);
     visit(Field{"target_A_N", any_number(),
-                "Road load to be met; default: the vehicle's [road_load], else its coastdown on rig flat"},
+                "Road load to be met; default: the vehicle's [road_load], else its coastdown on rig road"},
           p.target_A_N);
     visit(Field{"target_B_N_per_km_h", any_number(), "Likewise, all three or none"}, p.target_B_N_s_per_m);
     visit(Field{"target_C_N_per_km_h2", any_number(), "Likewise"}, p.target_C_N_s2_per_m2);
@@ -143,7 +143,7 @@ Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Pr
   if (spec.vehicle->road_load.has_value()) return *spec.vehicle->road_load;
   RunSpec road = spec;
   road.scenario = &find_scenario("coastdown");
-  road.rig = rigs::read_rig(read_config(find_asset("rigs", "flat")));
+  road.rig = rigs::read_rig(read_config(find_asset("rigs", "road")));
   VehicleConditions conditions = settings.conditions;
   conditions.ambient_K = road.rig.environment.ambient_K;
   conditions.initial_tire_K = conditions.ambient_K;
@@ -222,10 +222,10 @@ Scenario scenario_dyno_setting() {
       {"dyno_setting", "Dynamometer setting: the rollers' force with which the vehicle coasts down as on the road",
        "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is corrected by "
        "what the road load and the force found differ, and the whole is done again, until they agree. The road load "
-       "is given, the vehicle's own, or found by coastdowns on rig flat.",
+       "is given, the vehicle's own, or found by coastdowns on rig road.",
        "source §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N"},
       &plan, &run);
-  made.rig_kinds = {rigs::RigKind::kDyno};
+  made.runs_on = &models::is_tied_down;
   made.default_rig = "dyno_1m2";
   made.has_vehicle = true;
   return made;

@@ -40,7 +40,7 @@ struct ProgramConditions : DrumConditions {
   }
 
   void complete(const RunSpec& spec) {
-    run = measurements::read_run_inputs(program.path, measurements::SetKind::kDrum);
+    run = measurements::read_run_inputs(program.path, *spec.rig.kind);
     load_N = *std::max_element(run.column(quantities::kLoad).begin(), run.column(quantities::kLoad).end());
     check_tire_carries(spec, "program", *load_N);
     if (!pressure_Pa.has_value()) pressure_Pa = find_default_pressure_Pa(spec);
@@ -90,7 +90,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   const measurements::MeasuredRun& run = settings.conditions.run;
   DrumProgram program(settings.conditions, spec);
   program.begin_test(run.id, {{}, {}, std::min(spec.rig.skim.load_N, run.column(quantities::kLoad).front())});
-  program.follow("program", run);
+  program.follow("program", run, *spec.rig.kind);
   return program;
 }
 

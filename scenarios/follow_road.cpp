@@ -71,7 +71,7 @@ Scenario scenario_follow_road() {
        "the diagnosis, which simulates a set that --write-set wrote to the same values. `rollrig diagnose --plan` "
        "writes such files for a road set.",
        "formats.md: a run of a measurement set; (3.20)", "drive"},
-      measurements::SetKind::kRoad, &evaluate);
+      "", &evaluate);
 }
 
 }  // namespace rollrig::scenarios

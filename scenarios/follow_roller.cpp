@@ -58,10 +58,9 @@ Scenario scenario_follow_roller() {
       {"follow_roller", "One wheel on its roller, through speed, load and force that a file gives, row by row",
        "Run-up to the first row's speed, then speed, load, longitudinal force and air as the file has them; its first "
        "row is 0 s. Quasi-static only. The steps are those of the diagnosis, which simulates a set that --write-set "
-       "wrote "
-       "to the same values. `rollrig diagnose --plan` writes such files for a dyno set.",
+       "wrote to the same values. `rollrig diagnose --plan` writes such files for a dyno set.",
        "formats.md: a run of a measurement set", "wheel_program"},
-      measurements::SetKind::kDyno, &evaluate);
+      "dyno_1m2", &evaluate);
 }
 
 }  // namespace rollrig::scenarios

@@ -151,7 +151,7 @@ Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
   section.name = span.name;
   section.distance_m = reader.common(VehicleIntegral::kDistance);
   section.rr_J = reader.wheel(WheelIntegral::kCountedRollingEnergy, 0);
-  const bool tires_lose = spec.rig.kind == rigs::RigKind::kDyno || !spec.vehicle->road_load.has_value();
+  const bool tires_lose = is_indoors(spec.rig.kind->traits) || !spec.vehicle->road_load.has_value();
   if (spec.tire.iso_28580.has_value() && tires_lose) {
     section.rr_iso_J = spec.tire.iso_28580->rrc * layout.wheels.front().static_load_N *
                        reader.common(VehicleIntegral::kCountedDistance);
@@ -217,9 +217,9 @@ Scenario scenario_sae_j1634() {
        "UDDS 4, constant speed. Source: the same without pauses, soaks of 10 min after the highway sections, "
        "constant speeds 105 and 80 km/h. Of each section, for one tire: energy of rolling resistance by the model "
        "and by the constant ISO coefficient, temperatures, mean coefficient; for the vehicle: energy at the wheels. On "
-       "rig flat a vehicle with [road_load] needs exactly that at the wheels, and its tires nothing of their own.",
+       "rig road a vehicle with [road_load] needs exactly that at the wheels, and its tires nothing of their own.",
        "SAE J1634 as fixed by 40 CFR 600.116-12(a); source §3.4.4, §3.4.5, Tables 4.4 and 4.5"},
-      {rigs::RigKind::kDyno, rigs::RigKind::kFlat}, "dyno_1m2", &plan, &evaluate);
+      "dyno_1m2", &plan, &evaluate);
 }
 
 }  // namespace rollrig::scenarios

@@ -115,7 +115,7 @@ std::string make_ex30_page(const std::string& certificate_path) {
       "gives.\n"
       "The certificate and its source: `tests/published/ex30_multi_cycle/`. Vehicle: "
       "`assets/vehicles/volvo_ex30.toml`.\n"
-      "Scenario `sae_j1634`, standard order, 65 mph over the certificate's miles; quasi-static. On rig `flat` the "
+      "Scenario `sae_j1634`, standard order, 65 mph over the certificate's miles; quasi-static. On rig `road` the "
       "wheels "
       "need\nthe record's A, B, C and the inertia of 4250 lb and 3 % (Assumed) and no more, as on rollers set to them. "
       "Battery\nenergy: drive over efficiency, less recuperation times efficiency. Nothing stands for accessories.\n";

@@ -60,7 +60,7 @@ Procedures make_procedures(const FleetAssumptions& assumptions) {
       fmt::format("effects.driveline_warming.time_constant_min={}", assumptions.driveline_time_min),
       fmt::format("effects.driveline_warming.fall={}", assumptions.driveline_fall)};
   // On the road the car is given by its coefficients alone: no warm-up changes it.
-  Procedures made{make_virtual_test("coastdown", "flat", {"warm_up_min=0"}),
+  Procedures made{make_virtual_test("coastdown", "road", {"warm_up_min=0"}),
                   make_virtual_test("dyno_setting", "dyno_48in", rollers),
                   make_virtual_test("dyno_setting", "dyno_48in_2wd", rollers),
                   make_virtual_test("dyno_setting", "dyno_48in", with_driveline),

@@ -87,7 +87,7 @@ std::string make_refit(const std::vector<TestCar>& cars, const std::vector<Fleet
     if (results[i].refit_error > results[worst].refit_error) worst = i;
   }
   std::string text = fmt::format(
-      "\n## Road load given back\n\nEach car's target coefficients on the road (rig `flat`), two coastdowns from 130 "
+      "\n## Road load given back\n\nEach car's target coefficients on the road (rig `road`), two coastdowns from 130 "
       "km/h, refitted: the force is\nwithin 0.5 % over 20 to 130 km/h for {} of {} cars; median of the largest "
       "deviations {:.4f} %, the worst\n{:.4f} %, at {:.0f} km/h ({} {}).\n",
       within, cars.size(), find_quantile(errors, 0.5), 100.0 * results[worst].refit_error,

@@ -77,7 +77,7 @@ std::vector<SimulatedSection> simulate_multi_cycle(const MultiCycleTest& test,
     const std::vector<std::string> rollers = find_roller_settings(test, vehicle, tires, loss_factor);
     settings.insert(settings.end(), rollers.begin(), rollers.end());
   }
-  scenarios::RunSpec spec = make_virtual_test("sae_j1634", tires_act ? "dyno_48in" : "flat", settings);
+  scenarios::RunSpec spec = make_virtual_test("sae_j1634", tires_act ? "dyno_48in" : "road", settings);
   scale_loss(spec.tire, loss_factor);
   spec.vehicle = vehicle;
   std::vector<SimulatedSection> sections;

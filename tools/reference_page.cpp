@@ -49,12 +49,6 @@ std::string describe(const scenarios::Scenario& scenario) {
   return text;
 }
 
-std::string list_kinds(const std::vector<models::RigKind>& kinds) {
-  std::vector<std::string> names;
-  for (const models::RigKind kind : kinds) names.emplace_back(models::name_of(kind));
-  return boost::algorithm::join(names, ", ");
-}
-
 std::string describe(const models::EffectInfo& effect) {
   std::string text = fmt::format("\n### {}\n\n{}\n\n*Equation.* {}\n\n*Source.* {}\n", effect.id, effect.summary,
                                  effect.equation, effect.source);
@@ -65,11 +59,12 @@ std::string describe(const models::EffectInfo& effect) {
                     parameter.prior.low, parameter.prior.high, parameter.prior.either_sign ? ", either sign" : "",
                     parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
   }
-  text += fmt::format("\n*Acts on* {}", list_kinds(effect.acts_on));
+  text += fmt::format("\n*Acts on* {}", list_or_none(rigs::list_machines(effect.acts_on)));
   if (effect.only_against != nullptr) text += ", only against the baseline `constant_rrc`";
-  if (!effect.faint_on.empty()) text += fmt::format(", too little to be seen on {}", list_kinds(effect.faint_on));
+  const std::vector<std::string> faint = rigs::list_machines(effect.faint_on);
+  if (!faint.empty()) text += fmt::format(", too little to be seen on {}", list_or_none(faint));
   text += fmt::format(". *Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
-                      list_or_none(effect.visible_in), list_or_none(effect.clean_in),
+                      list_or_none(rigs::list_visible(effect)), list_or_none(rigs::list_clean(effect)),
                       list_or_none(effect.confused_with), boost::algorithm::join(effect.splitting_tests, "; "));
   return text;
 }
@@ -134,7 +129,7 @@ std::string describe_tire_file() {
 
 std::string describe_rig_file() {
   std::string text =
-      "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `flat`), and the "
+      "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `road`), and the "
       "tables below. A dyno has `[roller]` in place of\n`[drum]`, `[tie_down]`, and `rollers_under` (`all_wheels`, the "
       "default, or `driven_wheels`: the other axle stands still); `[skim]` and `[carriage]` belong to a\ndrum, "
       "`[parasitic]` and `[drive]` to a drum or a dyno.\n";
@@ -173,7 +168,7 @@ std::string make_reference_page() {
   text += "\n## Effects\n\n" + anchor_list(effects);
   for (const models::Effect* effect : models::all_effects()) text += describe(effect->info);
   text += describe_tire_file() + describe_rig_file() + describe_vehicle_file();
-  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(measurements::all_measured_channels()) +
+  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(rigs::all_measured_channels()) +
           "\n(`[sensors.<channel>]` of a set or of a file `rollrig-sensors/1`, which has a `name` beside it: "
           "`offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
           "channel's unit).\n";

@@ -229,7 +229,7 @@ PowerErrors read_table_4_3(const std::string& folder) {
 std::vector<GapCurve> simulate_gap_curves(const std::vector<const models::Effect*>& effects) {
   std::vector<GapCurve> curves;
   for (const models::Effect* effect : effects) {
-    if (!models::acts_on(effect->info, models::RigKind::kDyno)) continue;
+    if (!effect->info.acts_on(rigs::find_machine_kind("dyno").traits)) continue;
     for (const int sign : diagnosis::possible_signs(effect->info.parameters.front())) {
       GapCurve curve{effect, sign, {}, {}};
       for (double u = kFirst_u; u <= kLast_u + 1e-9; u += kStep_u) {

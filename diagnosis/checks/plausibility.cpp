@@ -74,7 +74,7 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
 
 sim::Recording<double> resimulate_baseline(const MeasurementSet& set, const MeasuredRun& run) {
   models::Corner<double> corner(measurements::make_context(set), {});
-  sim::Recording<double> recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+  sim::Recording<double> recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
   for (std::size_t c = 0; c < recording.channels.size(); ++c) {
     const std::vector<double>& values = recording.values[c];
     if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
@@ -105,7 +105,7 @@ double RunMisfit::sum_of_squares() const {
 
 RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated) {
   RunMisfit misfit;
-  for (const std::string& channel : measurements::measured_channels(set.kind)) {
+  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
     if (!run.has(channel)) continue;
     misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel)));
   }

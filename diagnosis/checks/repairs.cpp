@@ -24,17 +24,8 @@ struct Mistake {
   Undo undo;
 };
 
-/// Columns of a set, given and measured, in the order of the format.
-std::vector<Field> list_columns(const MeasurementSet& set) {
-  const measurements::SetColumns& all = measurements::columns_of(set.kind);
-  std::vector<Field> fields = all.given;
-  fields.insert(fields.end(), all.optional_given.begin(), all.optional_given.end());
-  fields.insert(fields.end(), all.measured.begin(), all.measured.end());
-  return fields;
-}
-
 bool is_given(const MeasurementSet& set, const std::string& column) {
-  for (const Field& field : measurements::columns_of(set.kind).measured) {
+  for (const Field& field : set.kind->columns.measured) {
     if (field.key == column) return false;
   }
   return true;
@@ -89,7 +80,7 @@ std::vector<Mistake> list_mistakes(const MeasurementSet& set, Mistakes which) {
   if (which == Mistakes::kAll) {
     for (const WrongUnit& wrong : kind_of(set).list_wrong_units()) mistakes.push_back(wrong_unit(wrong));
   }
-  const std::vector<Field> columns = list_columns(set);
+  const std::vector<Field> columns = set.kind->columns.all();
   for (std::size_t a = 0; a < columns.size(); ++a) {
     for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
   }

@@ -81,7 +81,7 @@ void check_spikes(const MeasurementSet& set, SetChecks& checks) {
     const MeasuredRun& run = set.runs[r];
     const std::vector<bool> steady = measurements::find_steady_rows(run.columns, run.time_s.size());
     const std::vector<bool> all(run.time_s.size(), true);
-    for (const std::string& channel : measurements::measured_channels(set.kind)) {
+    for (const std::string& channel : measurements::measured_channels(*set.kind)) {
       const auto sensor = set.sensors.find(channel);
       if (!run.has(channel) || sensor == set.sensors.end()) continue;
       const std::vector<double>& values = run.columns.at(channel);
@@ -102,7 +102,7 @@ void check_spikes(const MeasurementSet& set, SetChecks& checks) {
 
 /// A run of next to no samples shows no gap, whatever acts.
 void check_amount(const MeasurementSet& set, SetChecks& checks) {
-  const std::vector<std::string> channels = measurements::measured_channels(set.kind);
+  const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
   std::vector<std::size_t> few;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     std::size_t most = 0;
@@ -142,7 +142,7 @@ void check_runs(const MeasurementSet& set, SetChecks& checks) {
         return set.runs[a].has(channel) && set.runs[b].has(channel) &&
                are_same(set.runs[a].columns.at(channel), set.runs[b].columns.at(channel));
       };
-      const std::vector<std::string> channels = measurements::measured_channels(set.kind);
+      const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
       if (std::none_of(channels.begin(), channels.end(), same_samples)) continue;
       checks.warnings.push_back(
           fmt::format("{} hold the same samples: they are no test of each other", name_runs(set, {a, b})));
@@ -162,7 +162,7 @@ void check_samples(const MeasurementSet& set, SetChecks& checks) {
 }
 
 std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
-  const std::vector<std::string> channels = measurements::measured_channels(set.kind);
+  const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
   std::vector<std::string> sentences;
   std::vector<std::size_t> empty;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {

@@ -48,7 +48,7 @@ void check_assumed(const MeasurementSet& set, SetChecks& checks) {
 std::string describe_misfit(const MeasurementSet& set, const std::vector<std::size_t>& runs,
                             const std::vector<RunMisfit>& misfits) {
   std::vector<std::string> parts;
-  for (const std::string& channel : measurements::measured_channels(set.kind)) {
+  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
     std::vector<std::size_t> outside;
     double ratio = 1.0;
     for (const std::size_t r : runs) {
@@ -110,7 +110,7 @@ void check_stuck(const MeasurementSet& set, const BaselineRuns& baseline, int th
 
 /// Where all sensors stand still nothing is left to diagnose.
 void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
-  const std::vector<std::string> channels = measurements::measured_channels(kept.kind);
+  const std::vector<std::string> channels = measurements::measured_channels(*kept.kind);
   for (const MeasuredRun& run : kept.runs) {
     const auto is_left = [&](const std::string& channel) { return !find_compared_rows(kept, run, channel).empty(); };
     if (checks.left_out.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
@@ -124,7 +124,7 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
 /// the road the force need not be a loss.
 bool lacks_loss(const MeasurementSet& set, const RunMisfit& misfit) {
   constexpr double kLeast = 0.15;  // Assumed: no effect takes so much of a loss
-  if (set.kind == measurements::SetKind::kRoad) return false;
+  if (is_on_road(set.kind->traits)) return false;
   const std::string force = kind_of(set).force_channel(set).name;
   return std::any_of(misfit.channels.begin(), misfit.channels.end(),
                      [&force](const ChannelMisfit& at) { return at.channel == force && at.ratio < kLeast; });

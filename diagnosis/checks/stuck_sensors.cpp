@@ -51,7 +51,7 @@ Stuck find_stuck(const MeasurementSet& set, const BaselineRuns& baseline) {
   Stuck stuck;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     if (!baseline.misfits[r].failure.empty()) continue;
-    for (const std::string& channel : measurements::measured_channels(set.kind)) {
+    for (const std::string& channel : measurements::measured_channels(*set.kind)) {
       if (set.runs[r].has(channel)) {
         find_stuck_rows(set, r, channel, baseline.recordings[r].channel(channel), stuck);
       }

@@ -82,7 +82,7 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   for (measurements::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
   context_ = measurements::make_context(set_);
-  std::vector<std::string> readable = measurements::measured_channels(set_.kind);
+  std::vector<std::string> readable = measurements::measured_channels(*set_.kind);
   for (const std::string& channel : extra_.sensors) {
     if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
   }
@@ -94,7 +94,7 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   }
   std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
   for (const measurements::MeasuredRun& run : set_.runs) {
-    runs_.push_back({run, measurements::Resimulation(run, set_.kind), kind_->find_phases(set_, run)});
+    runs_.push_back({run, measurements::Resimulation(run, *set_.kind), kind_->find_phases(set_, run)});
     for (std::size_t channel = 0; channel < channels_.size(); ++channel) {
       if (!run.has(channels_[channel])) continue;
       const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offsets.size());

@@ -15,8 +15,6 @@ using measurements::MeasurementSet;
 
 class DrumKind : public KindWithRig {
  public:
-  models::RigKind rig_kind() const override { return models::RigKind::kDrum; }
-
   ForceChannel force_channel(const MeasurementSet& set) const override {
     return {"drum_torque_Nm", "torque", 2.0 / set.rig->drum.diameter_m};
   }

@@ -18,8 +18,6 @@ constexpr const char* kLoss = "loss_force_N";
 
 class DynoKind : public KindWithRig {
  public:
-  models::RigKind rig_kind() const override { return models::RigKind::kDyno; }
-
   ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }
 
   /// The loss is compensated for inertia, so that speed changes count; below 20 km/h and within 30 s of a load change

@@ -5,9 +5,9 @@
 
 namespace rollrig::diagnosis {
 
-const MeasurementKind& drum_kind();
-const MeasurementKind& dyno_kind();
-const MeasurementKind& road_kind();
+#define ROLLRIG_MACHINE(word) const MeasurementKind& word##_kind();
+#include "rigs/machines.def"
+#undef ROLLRIG_MACHINE
 
 std::vector<PlannedTest> make_drum_tests(const PreparedSet& set);
 PlannedTest make_drum_sensor_test(const PreparedSet& set);

@@ -1,21 +1,18 @@
 #include "diagnosis/kinds/measurement_kind.h"
 
-#include <stdexcept>
+#include <map>
 
 #include "diagnosis/kinds/kinds.h"
 
 namespace rollrig::diagnosis {
 
 const MeasurementKind& kind_of(const measurements::MeasurementSet& set) {
-  switch (set.kind) {
-    case measurements::SetKind::kDrum:
-      return drum_kind();
-    case measurements::SetKind::kDyno:
-      return dyno_kind();
-    case measurements::SetKind::kRoad:
-      return road_kind();
-  }
-  throw std::invalid_argument("a kind of set without an entry here");
+  static const std::map<std::string, const MeasurementKind*> kinds{
+#define ROLLRIG_MACHINE(word) {#word, &word##_kind()},
+#include "rigs/machines.def"
+#undef ROLLRIG_MACHINE
+  };
+  return *kinds.at(set.kind->word);
 }
 
 }  // namespace rollrig::diagnosis

@@ -1,6 +1,6 @@
 #pragma once
-/// What differs between the kinds of measurement sets: drum.cpp, dyno.cpp and road.cpp beside this file, one a kind.
-/// All other files of the diagnosis ask here and know no kind.
+/// What the diagnosis asks of a kind of machine, of the sets measured on it: <word>.cpp beside this file, one for each
+/// in rigs/machines.def. All other files of the diagnosis ask here and know no kind.
 
 #include <memory>
 #include <optional>
@@ -27,8 +27,6 @@ struct ForceChannel {
 class MeasurementKind {
  public:
   virtual ~MeasurementKind() = default;
-
-  virtual models::RigKind rig_kind() const = 0;
 
   /// Adds the columns that every method reads and that this kind does not record.
   virtual void complete(const measurements::MeasurementSet& /*set*/, measurements::MeasuredRun& /*run*/) const {}

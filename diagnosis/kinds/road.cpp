@@ -18,8 +18,6 @@ constexpr const char* kTraction = "traction_force_N";
 
 class RoadKind : public MeasurementKind {
  public:
-  models::RigKind rig_kind() const override { return models::RigKind::kFlat; }
-
   /// Every tire carries its share of the weight.
   void complete(const MeasurementSet& set, MeasuredRun& run) const override {
     run.columns["load_N"].assign(run.time_s.size(), measurements::find_tire_load_N(*set.vehicle));

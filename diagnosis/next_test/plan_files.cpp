@@ -15,36 +15,25 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-using measurements::SetKind;
+using rigs::MachineKind;
 
-/// What a plan names, by the kind of its set.
+/// What a plan names, by whether it is made on a rig or on the road.
 struct PlanWords {
-  const char* scenario;  // that follows a file
-  const char* machine;   // of the run, as key and file
+  const char* machine;  // of the run, as key and file
   const char* occupied;
   const char* place;
 };
 
-PlanWords find_words(SetKind kind) {
-  switch (kind) {
-    case SetKind::kDrum:
-      return {"follow_drum", "rig", "the rig", "At the rig"};
-    case SetKind::kDyno:
-      return {"follow_roller", "rig", "the rig", "At the rig"};
-    case SetKind::kRoad:
-      break;
-  }
-  return {"follow_road", "vehicle", "the vehicle", "On the road"};
+PlanWords find_words(const MachineKind& kind) {
+  if (is_on_road(kind.traits)) return {"vehicle", "the vehicle", "On the road"};
+  return {"rig", "the rig", "At the rig"};
 }
 
 /// Given columns of a run of the kind, as far as it has them.
-std::vector<std::string> find_given_columns(const MeasuredRun& run, SetKind kind) {
-  const measurements::SetColumns& all = measurements::columns_of(kind);
+std::vector<std::string> find_given_columns(const MeasuredRun& run, const MachineKind& kind) {
   std::vector<std::string> columns;
-  for (const auto* fields : {&all.given, &all.optional_given}) {
-    for (const Field& field : *fields) {
-      if (run.has(field.key)) columns.emplace_back(field.key);
-    }
+  for (const Field& field : kind.columns.all_given()) {
+    if (run.has(field.key)) columns.emplace_back(field.key);
   }
   return columns;
 }
@@ -61,7 +50,7 @@ bool is_between(const MeasuredRun& run, const std::vector<std::string>& columns,
   });
 }
 
-std::string write_inputs(const MeasuredRun& run, SetKind kind) {
+std::string write_inputs(const MeasuredRun& run, const MachineKind& kind) {
   const std::vector<std::string> columns = find_given_columns(run, kind);
   std::vector<std::string> header{"time_s"};
   header.insert(header.end(), columns.begin(), columns.end());
@@ -86,18 +75,18 @@ double find_sample_interval_s(const MeasurementSet& set) {
 
 std::string write_run_file(const MeasurementSet& set, const NextTest& test, std::size_t index) {
   const MeasuredRun& run = test.runs[index];
-  const PlanWords words = find_words(set.kind);
+  const PlanWords words = find_words(*set.kind);
   const bool is_combined = set.baseline == models::Baseline::kCombined;
   std::string text = fmt::format(
       "# Run {0} of {1}: {2}\nformat = \"rollrig-run/1\"\nscenario = \"{3}\"\ntire = \"tire.toml\"\n{4} = "
       "\"{4}.toml\"\nbaseline = \"{5}\"\nseed = {0}\nsample_interval_s = {6:.10g}\n",
-      index + 1, test.runs.size(), test.test, words.scenario, words.machine, is_combined ? "combined" : "constant_rrc",
-      find_sample_interval_s(set));
+      index + 1, test.runs.size(), test.test, set.kind->follow_scenario, words.machine,
+      is_combined ? "combined" : "constant_rrc", find_sample_interval_s(set));
   text += fmt::format(
       "\n[settings]\nprogram = \"{}.csv\"\npressure_kPa = {:.10g}\ninitial_tire_temperature_degC = {:.10g}\n", run.id,
       run.cold_pressure_Pa / 1e3, run.initial_tire_temperature_K - kZeroCelsius_K);
   // A run of the other kinds begins where a soak ends.
-  if (set.kind == SetKind::kDrum) text += fmt::format("soak_h = {:.10g}\n", test.soaked ? kSoak_h : 0.0);
+  if (!is_of_vehicle(set.kind->traits)) text += fmt::format("soak_h = {:.10g}\n", test.soaked ? kSoak_h : 0.0);
   if (test.force_at_standstill) text += "force_at_standstill = \"yes\"\n";
   return text + measurements::write_sensors(set.sensors);
 }
@@ -137,20 +126,20 @@ std::vector<Stage> find_stages(const MeasuredRun& run) {
 }
 
 /// What a stage asks of the wheel beside its speed; nothing on the road.
-std::string describe_force(const Stage& stage, SetKind kind) {
-  if (kind == SetKind::kRoad) return "";
+std::string describe_force(const Stage& stage, const MachineKind& kind) {
+  if (is_on_road(kind.traits)) return "";
   const std::string load = stage.load_N > 0.0 ? fmt::format("  {:.0f} N", stage.load_N) : "  tire lifted";
   if (stage.pull_N == 0.0) return load;
   return load + fmt::format(", {} with {:.0f} N", stage.pull_N > 0.0 ? "driving" : "braking", std::abs(stage.pull_N));
 }
 
-std::string describe_stage(const Stage& stage, SetKind kind) {
+std::string describe_stage(const Stage& stage, const MachineKind& kind) {
   const std::string speed = stage.speed_m_s > 0.0 ? fmt::format("{:.0f} km/h", 3.6 * stage.speed_m_s) : "standstill";
   const std::string force = describe_force(stage, kind);
   return fmt::format("     {:6.1f} min   {:<{}}{}\n", stage.duration_s / 60.0, speed, force.empty() ? 0 : 11, force);
 }
 
-std::string describe_run(const NextTest& test, std::size_t index, SetKind kind) {
+std::string describe_run(const NextTest& test, std::size_t index, const MachineKind& kind) {
   const MeasuredRun& run = test.runs[index];
   const double ambient_degC = run.columns.at("ambient_degC").front() - kZeroCelsius_K;
   std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
@@ -165,14 +154,14 @@ std::string describe_run(const NextTest& test, std::size_t index, SetKind kind) 
 }
 
 std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
-  const PlanWords words = find_words(set.kind);
+  const PlanWords words = find_words(*set.kind);
   std::string text = fmt::format("Next test for the set '{}'\n\n{}\n", set.name, wrap(test.test, 2));
   text += test.splits.empty() ? "  Splits: it narrows down what is open\n"
                               : wrap(fmt::format("Splits: {}", fmt::join(test.splits, ", ")), 2);
   text += fmt::format("  Takes {:.1f} h of {}, set-up included; expected {:.2g} bits an hour\n\n", test.hours,
                       words.occupied, test.expected_bits_per_hour);
   text += fmt::format("{}, in this order\n\n", words.place);
-  for (std::size_t i = 0; i < test.runs.size(); ++i) text += describe_run(test, i, set.kind) + "\n";
+  for (std::size_t i = 0; i < test.runs.size(); ++i) text += describe_run(test, i, *set.kind) + "\n";
   for (const std::string& step : test.by_hand) text += wrap(step, 2);
   if (!test.by_hand.empty()) text += "\n";
   text += "On paper first: what the simulation without any effect expects, as a set\n\n";
@@ -202,10 +191,10 @@ std::map<std::string, std::string> write_plan(const MeasurementSet& set, const D
   const NextTest& test = diagnosis.next_test.front();
   for (std::size_t i = 0; i < test.runs.size(); ++i) {
     files[fmt::format("run-{}.toml", i + 1)] = write_run_file(set, test, i);
-    files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], set.kind);
+    files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], *set.kind);
   }
   files["tire.toml"] = set.tire.content.empty() ? models::write_tire(set.tire) : set.tire.content;
-  if (set.kind == SetKind::kRoad) {
+  if (is_on_road(set.kind->traits)) {
     files["vehicle.toml"] = set.vehicle->content.empty() ? rigs::write_vehicle(*set.vehicle) : set.vehicle->content;
   } else {
     files["rig.toml"] = set.rig->content.empty() ? rigs::write_rig(*set.rig) : set.rig->content;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "diagnosis/terms/term.h"
+#include "rigs/machine.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -32,15 +33,6 @@ constexpr const char* kUnknownNext =
 
 std::string join_or(const std::vector<std::string>& words, const char* none) {
   return words.empty() ? none : fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::string list_kinds(const std::vector<models::RigKind>& kinds) {
-  std::vector<std::string> names;
-  // As sets call their kinds: what rigs call flat is the road.
-  for (const models::RigKind kind : kinds) {
-    names.emplace_back(kind == models::RigKind::kFlat ? "road" : models::name_of(kind));
-  }
-  return join_or(names, "none");
 }
 
 std::string section(const std::string& title, const std::string& text) { return title + "\n" + wrap(text, kIndent); }
@@ -83,12 +75,13 @@ std::string describe(const models::EffectInfo& info) {
     text += wrap(fmt::format("{}: {}", parameter.key, describe_prior(parameter)), kIndent);
     text += wrap(parameter.doc, 3 * kIndent);
   }
-  text += section("Acts on", list_kinds(info.acts_on));
+  text += section("Acts on", join_or(rigs::list_machines(info.acts_on), "none"));
   if (info.only_against != nullptr)
     text += section("Acts only against", "the baseline constant_rrc: the combined one has it");
-  if (!info.faint_on.empty()) text += section("Too faint to be seen on", list_kinds(info.faint_on));
-  text += section("Revealed by", join_or(info.visible_in, "no measured channel"));
-  text += section("Leaves exactly as they are", join_or(info.clean_in, "no measured channel"));
+  const std::vector<std::string> faint = rigs::list_machines(info.faint_on);
+  if (!faint.empty()) text += section("Too faint to be seen on", join_or(faint, ""));
+  text += section("Revealed by", join_or(rigs::list_visible(info), "no measured channel"));
+  text += section("Leaves exactly as they are", join_or(rigs::list_clean(info), "no measured channel"));
   text += "Confused with\n" + describe_confusions(info);
   return text + "Told from those by\n" + describe_tests(info);
 }

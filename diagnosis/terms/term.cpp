@@ -20,14 +20,14 @@ const std::vector<const Term*>& all_terms() {
   return all;
 }
 
-std::vector<const Term*> choose_terms(models::RigKind machine, const models::TireModel& tire,
+std::vector<const Term*> choose_terms(const models::MachineTraits& machine, const models::TireModel& tire,
                                       const std::vector<std::string>& only, const std::vector<std::string>& without) {
   const auto holds = [](const auto& list, const auto& one) {
     return std::find(list.begin(), list.end(), one) != list.end();
   };
   std::vector<const Term*> terms;
   for (const Term* term : all_terms()) {
-    const bool is_seen = models::acts_in(term->info(), machine, tire) && !holds(term->info().faint_on, machine);
+    const bool is_seen = models::acts_in(term->info(), machine, tire) && models::is_seen_on(term->info(), machine);
     const bool is_wanted = (only.empty() || holds(only, term->name())) && !holds(without, term->name());
     if (is_seen && is_wanted) terms.push_back(term);
   }

@@ -35,7 +35,7 @@ const std::vector<const Term*>& all_terms();
 
 /// Those that act on such a machine with such a tire and can be seen there: of these the ones in `only` (all
 /// where it is empty), less those in `without`.
-std::vector<const Term*> choose_terms(models::RigKind machine, const models::TireModel& tire,
+std::vector<const Term*> choose_terms(const models::MachineTraits& machine, const models::TireModel& tire,
                                       const std::vector<std::string>& only, const std::vector<std::string>& without);
 
 /// The term of that name, or nullptr.

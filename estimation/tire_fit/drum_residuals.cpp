@@ -10,7 +10,7 @@ namespace rollrig::estimation {
 DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
-  for (const measurements::MeasuredRun& run : set_.runs) runs_.emplace_back(run, set_.kind);
+  for (const measurements::MeasuredRun& run : set_.runs) runs_.emplace_back(run, *set_.kind);
   collect_series();
   std::size_t priors = 0;
   for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;
@@ -21,7 +21,7 @@ void DrumResiduals::collect_series() {
   std::map<std::pair<std::string, std::string>, std::size_t> offsets;  // by session and channel
   for (std::size_t r = 0; r < set_.runs.size(); ++r) {
     const measurements::MeasuredRun& run = set_.runs[r];
-    for (const std::string& channel : measurements::measured_channels(set_.kind)) {
+    for (const std::string& channel : measurements::measured_channels(*set_.kind)) {
       if (!run.has(channel)) continue;
       const models::SensorParameters& sensor = set_.sensors.at(channel);
       std::vector<std::size_t> rows = measurements::find_compared_rows(run, channel);

@@ -107,7 +107,7 @@ void measure_channels(const measurements::MeasurementSet& set, const DrumResidua
                       const std::vector<double>& at_best, TireFit& fit) {
   std::size_t samples = 0;
   double chi2 = 0.0;
-  for (const std::string& channel : measurements::measured_channels(set.kind)) {
+  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
     ChannelFit of_channel{channel, 0, 0.0};
     for (const ComparedSeries& series : residuals.series()) {
       if (series.channel != channel) continue;
@@ -150,7 +150,7 @@ Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vecto
 }
 
 void require_drum_set(const measurements::MeasurementSet& set) {
-  if (set.kind == measurements::SetKind::kDrum) return;
+  if (!is_of_vehicle(set.kind->traits)) return;
   throw InputError({"a tire is fitted to a drum set", set.path, 0, "rig", "", "a rig with kind = \"drum\"", ""});
 }
 

@@ -16,14 +16,6 @@ namespace fs = std::filesystem;
 namespace rollrig::measurements {
 namespace {
 
-std::vector<Field> all_columns(measurements::SetKind kind) {
-  const SetColumns& columns = columns_of(kind);
-  std::vector<Field> fields = columns.given;
-  fields.insert(fields.end(), columns.optional_given.begin(), columns.optional_given.end());
-  fields.insert(fields.end(), columns.measured.begin(), columns.measured.end());
-  return fields;
-}
-
 /// The unit that a text such as "km_h" or "bar" names; it must be one of the target's dimension.
 Unit read_unit(TableReader& reader, const std::string& target) {
   const Unit wanted = unit_of_key(target);
@@ -72,12 +64,12 @@ LogColumn read_column(const ConfigTable& columns, const Field& field, const std:
   return column;
 }
 
-void read_columns(TableReader& log, measurements::SetKind kind, LogForm& form) {
+void read_columns(TableReader& log, const MachineKind& kind, LogForm& form) {
   const ConfigTable* table = log.table("columns");
   const std::string name = fmt::format("[{}.columns]", form.name);
   if (table == nullptr)
     throw log.problem("columns", "the log has no columns", name + " with <column of the set> = ...");
-  const std::vector<Field> fields = all_columns(kind);
+  const std::vector<Field> fields = kind.columns.all();
   TableReader reader(*table, name);
   for (const Field& field : fields) reader.accept(field.key);
   reader.finish();
@@ -113,7 +105,7 @@ void read_time(TableReader& log, LogForm& form) {
   reader.finish();
 }
 
-LogForm read_log_form(const ConfigTable& table, const std::string& name, measurements::SetKind kind) {
+LogForm read_log_form(const ConfigTable& table, const std::string& name, const MachineKind& kind) {
   LogForm form;
   form.name = name;
   TableReader reader(table, fmt::format("[{}]", name));
@@ -211,7 +203,7 @@ void read_sensor_tables(TableReader& reader, const std::string& folder, Measurem
     throw reader.problem("sensors", "the mapping says nothing of the sensors",
                          "sensors = a name under assets/sensors or a path, or [sensors.<channel>] tables");
   }
-  set.sensors = models::read_sensors(*table, measured_channels(set.kind));
+  set.sensors = models::read_sensors(*table, measured_channels(*set.kind));
 }
 
 bool maps(const LogForm& form, const std::string& target) {
@@ -221,7 +213,7 @@ bool maps(const LogForm& form, const std::string& target) {
 
 /// Each given column must come from somewhere, each measured one from one log only and with a sensor.
 void check_columns(const TableReader& reader, const Mapping& mapping) {
-  const SetColumns& columns = columns_of(mapping.set.kind);
+  const rigs::RunColumns& columns = mapping.set.kind->columns;
   for (const Field& field : columns.given) {
     if (maps(mapping.torque_log, field.key) || (mapping.tire_log.has_value() && maps(*mapping.tire_log, field.key))) {
       continue;
@@ -261,9 +253,9 @@ Mapping read_mapping(const std::string& path, const std::string& data_folder) {
   read_sensor_tables(reader, base, mapping.set);
   const ConfigTable* torque_log = reader.table("torque_log");
   if (torque_log == nullptr) throw reader.problem("torque_log", "the mapping has no [torque_log]", "[torque_log]");
-  mapping.torque_log = read_log_form(*torque_log, "torque_log", mapping.set.kind);
+  mapping.torque_log = read_log_form(*torque_log, "torque_log", *mapping.set.kind);
   if (const ConfigTable* tire_log = reader.table("tire_log")) {
-    mapping.tire_log = read_log_form(*tire_log, "tire_log", mapping.set.kind);
+    mapping.tire_log = read_log_form(*tire_log, "tire_log", *mapping.set.kind);
   }
   read_clock(reader, mapping.clock);
   mapping.interval_s = reader.number_or_none({"interval_s", between(0.01, 3600.0), ""});

@@ -183,13 +183,10 @@ InputError missing_input(const Log& log, const std::string& column, double from_
 /// Given columns on a grid; rows that lack one are left out.
 std::vector<double> add_given(const Mapping& mapping, const RunSources& sources, const std::vector<double>& grid,
                               double interval_s, ResampledRun& run) {
-  const SetColumns& all = columns_of(mapping.set.kind);
   std::vector<std::pair<std::string, Source>> given;
-  for (const auto* list : {&all.given, &all.optional_given}) {
-    for (const Field& field : *list) {
-      const Source source = find_source(mapping, sources, field.key);
-      if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(field.key, source);
-    }
+  for (const Field& field : mapping.set.kind->columns.all_given()) {
+    const Source source = find_source(mapping, sources, field.key);
+    if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(field.key, source);
   }
   std::vector<double> kept;
   for (const double time_s : grid) {
@@ -241,7 +238,7 @@ ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, dou
   require_rows(times.size() >= 3);
   for (const double time_s : times) run.time_s.push_back(time_s - from_s);
   const RowGrid rows{times, find_row_cells(times), interval_s};
-  for (const std::string& column : measured_channels(mapping.set.kind)) {
+  for (const std::string& column : measured_channels(*mapping.set.kind)) {
     const Source source = find_source(mapping, sources, column);
     if (source.log != nullptr) add_measured(*source.log, column, rows, run);
   }

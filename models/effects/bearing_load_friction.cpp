@@ -19,9 +19,9 @@ struct BearingLoadFriction {
         "with its load (coefficient of friction, bearing makers' catalogs). Assumed: 0.3 to 3 N at 5.4 kN";
     info.parameters = {
         {"force_N", between(0.0, 50.0), {0.3, 3.0, Prior::Scale::kLog}, "F_b, at the surface, at 5.4 kN", 0.0}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"load_cross_talk", "tire_loss_in_skim", "load_exponent"};
     info.splitting_tests = {"the same run with reversed rotation", "load sweep hot and cold",
                             "skim at 50, 100, 200 and 400 N, extrapolated to zero"};

@@ -41,9 +41,9 @@ struct BearingWarmup {
          "r: c0, c1, c2 hold at the rise r D over T_0; 1 = on a warm rig, 0 = cold"},
         {"quadratic_share", between(-0.5, 2.0), {0.2, 1.0}, "h, of the quadratic term, that falls as well"}};
     info.states = {{"bearing_rise_dK", 10.0, "theta, bearing temperature over ambient"}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"torque_zero_drift", "tire_loss_in_skim"};
     info.splitting_tests = {"drum alone for 30 min, then a cold tire on the hot drum",
                             "torque at standstill before and after"};

@@ -32,9 +32,9 @@ struct BrakeDrag {
          "I_s, brake force of one wheel times the time until it is set"},
         {"wear_power", between(-0.5, 1.5), {0.0, 1.0}, "n, of the speed in the pace of its decay"}};
     info.states = {{"dragging", 1.0, "d, share of the full drag"}};
-    info.acts_on = {RigKind::kDyno, RigKind::kFlat};
-    info.visible_in = {"loss_force_N", "traction_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_of_vehicle;
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"toe_camber_drag"};
     info.splitting_tests = {"coastdown with and without braking before it", "steady speed after braking"};
     return info;

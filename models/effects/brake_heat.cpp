@@ -31,9 +31,9 @@ struct BrakeHeat {
         {"disc_share", between(0.0, 1.0), {0.3, 1.0}, "d, of the heat, that goes through the disc"}};
     info.states = {{"disc_heat_kJ", 1e4, "D, heat in the disc on its way to the tire"},
                    {"rim_heat_kJ", 1e4, "E, heat in the rim on its way to the tire"}};
-    info.acts_on = {RigKind::kDyno, RigKind::kFlat};
-    info.faint_on = {RigKind::kFlat};  // a few K move the loss by less than a thousandth of what accelerating takes
-    info.visible_in = {"loss_force_N", "traction_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_of_vehicle;
+    info.faint_on = &is_on_road;  // a few K move the loss by less than a thousandth of what accelerating takes
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"rim_heat"};
     info.splitting_tests = {"the same cycle with and without friction brakes", "rim thermocouple"};
     return info;

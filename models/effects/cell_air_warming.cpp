@@ -32,8 +32,8 @@ struct CellAirWarming {
         {"power", between(0.0, 3.0), {0.0, 1.0}, "n, of the speed"},
         {"tire_share", between(-1.0, 2.0), {0.2, 0.9}, "s, of the heat, given off by the loaded tire"}};
     info.states = {{"air_rise_dK", 10.0, "theta, air at the tire over the recorded ambient"}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"rim_heat", "slow_leak", "surface_warming"};
     info.splitting_tests = {"air temperature read beside the tire", "soak with temperature and pressure logged",
                             "setting gauge before and after, at one temperature"};

@@ -137,9 +137,9 @@ struct ClockShift {
                         {0.5, 10.0, Prior::Scale::kLog, true},
                         "d, by which temperature and pressure are late in the record",
                         0.0}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
-    info.clean_in = {"drum_torque_Nm", "loss_force_N"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.clean_in = {Reading::kForce};
     info.confused_with = {"tread_liner_lag"};
     info.splitting_tests = {"speed step with a common electrical pulse on both loggers",
                             "steps up and down: a clock shifts both alike"};

@@ -26,8 +26,8 @@ struct ConvectionLaw {
         {"reference_speed_m_s", between(2.0, 60.0), {14.0, 30.0, Prior::Scale::kLog}, "v_0, at which f v holds"},
         {"other_air_m_s", between(0.05, 20.0), {0.3, 3.0, Prior::Scale::kLog}, "u, air that moves at standstill"},
         {"fan_share", between(0.0, 1.0), {0.0, 1.0}, "s, of the deficit, by a fan"}};
-    info.faint_on = {RigKind::kFlat};  // some K cooler costs a few parts in a thousand of what accelerating takes
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.faint_on = &is_on_road;  // some K cooler costs a few parts in a thousand of what accelerating takes
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"standing_wave"};
     info.splitting_tests = {"fan on and off at 120 km/h", "speed steps 80, 120, 40 km/h on the warm tire",
                             "soak with temperature and pressure logged"};

@@ -28,9 +28,9 @@ struct DrivelineWarming {
         {"ambient_share", between(-1.0, 3.0), {0.0, 0.2}, "a, of the air's temperature that the oil takes on"},
         {"dry_share", between(-0.5, 0.9), {0.0, 0.2}, "g, of the cold force, that does not feel the oil"}};
     info.states = {{"oil_rise", 1.0, "w, rise of the oil's temperature over ambient, relative"}};
-    info.acts_on = {RigKind::kDyno, RigKind::kFlat};
-    info.visible_in = {"loss_force_N", "traction_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_of_vehicle;
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"bearing_warmup"};
     info.splitting_tests = {"rollers alone, warm, then the cold vehicle on them",
                             "vehicle with warm oil on cold tires"};

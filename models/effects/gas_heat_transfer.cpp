@@ -25,8 +25,8 @@ struct GasHeatTransfer {
                         "h, coefficient over the tire file's, at 80 km/h",
                         1.0},
                        {"stirred_share", between(-1.0, 2.0), {0.0, 0.7}, "s, of the exponent, in proportion to speed"}};
-    info.faint_on = {RigKind::kFlat};  // no pressure channel
-    info.visible_in = {"cavity_pressure_kPa"};
+    info.faint_on = &is_on_road;  // no pressure channel
+    info.visible_in = {Reading::kCavityPressure};
     info.confused_with = {"rim_heat"};
     info.splitting_tests = {"speed steps with the pressure logged every second", "gas thermocouple at the valve"};
     return info;

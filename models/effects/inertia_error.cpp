@@ -21,8 +21,8 @@ struct InertiaError {
                         {0.3, 4.0, Prior::Scale::kLog, true},
                         "s, true over reckoned, less one",
                         0.0}};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"slip_loss", "speed_record"};
     info.splitting_tests = {"ramps of several accelerations with the tire lifted",
                             "ramps up and down: slip has one sign"};

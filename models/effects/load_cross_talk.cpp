@@ -25,9 +25,9 @@ struct LoadCrossTalk {
                         "d, between the load and the normal to the direction of the force, at the reference load",
                         0.0},
                        {"bending_share", between(-1.0, 1.0), {0.0, 0.3}, "b, of the angle, in proportion to load"}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"bearing_load_friction"};
     info.splitting_tests = {"the same run with reversed rotation", "torque at standstill at several loads"};
     return info;

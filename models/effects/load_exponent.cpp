@@ -14,8 +14,8 @@ struct LoadExponent {
     info.equation = "F_rr <- F_rr (Fz/Fz_ref)^(b - 1), so that F_rr goes with Fz^b";
     info.source = "source (3.7) and §3.3.1.3. Assumed: b 0.85 to 1.15";
     info.parameters = {{"exponent", between(0.3, 2.0), {0.85, 1.15}, "b, exponent of the load", 1.0}};
-    info.faint_on = {RigKind::kFlat};  // one load
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.faint_on = &is_on_road;  // one load
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"tire_loss_in_skim", "bearing_load_friction"};
     info.splitting_tests = {"skim at 50, 100, 200 and 400 N, extrapolated to zero", "load sweep hot and cold"};
     return info;

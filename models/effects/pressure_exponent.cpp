@@ -18,8 +18,8 @@ struct PressureExponent {
         "source §2.2.2.3: 0.3 to 0.5 in the tests that it quotes. As a difference, since each tire file has its own "
         "a, at which the effect does nothing. Assumed: a + d from 0.25 to 0.55 about the usual 0.4";
     info.parameters = {{"exponent_shift", between(-1.0, 1.0), {-0.15, 0.15}, "d, exponent less the tire file's", 0.0}};
-    info.faint_on = {RigKind::kFlat};  // one pressure
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.faint_on = &is_on_road;  // one pressure
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.splitting_tests = {"pressure sweep at one load", "pressure set anew on a warm tire, at one temperature"};
     return info;
   }

@@ -20,8 +20,8 @@ struct SlipLoss {
                         {1.0 / 250.0, 1.0 / 60.0, Prior::Scale::kLog},
                         "1/C, C = dFx/ds",
                         0.0}};
-    info.faint_on = {RigKind::kDrum, RigKind::kFlat};  // Fx of a towed wheel; no slip in a force read off torque
-    info.visible_in = {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.faint_on = &hides_slip;  // Fx of a towed wheel; no slip in a force read off torque
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"inertia_error"};
     info.splitting_tests = {"constant speed at several drive and brake forces", "the same speed steps at two masses"};
     return info;

@@ -29,8 +29,7 @@ struct SpeedRecord {
                         0.0},
                        {"growing_share", between(-1.0, 1.0), {-0.3, 0.3}, "g, of the error, in proportion to speed"},
                        {"fixed_share", between(-1.0, 1.0), {-0.2, 0.2}, "o, of the error, that is a fixed speed"}};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "traction_force_N", "liner_temperature_degC",
-                       "cavity_pressure_kPa"};
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"inertia_error"};
     info.splitting_tests = {"hand tachometer on drum or roller", "revolutions counted over a minute",
                             "ramps of several accelerations with the tire lifted"};

@@ -33,8 +33,8 @@ struct SurfaceWarming {
         {"skin_share", between(0.0, 1.0), {0.0, 0.3}, "a, of the rise, that the skin has for itself"}};
     info.states = {{"surface_rise_dK", 10.0, "theta, rise of the body over ambient"},
                    {"skin_rise_dK", 10.0, "theta_s, rise of the skin over ambient"}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"cell_air_warming"};
     info.splitting_tests = {"thermometer on the drum's surface", "cold tire on the hot drum",
                             "air temperature read beside the tire"};

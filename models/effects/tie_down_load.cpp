@@ -23,8 +23,8 @@ struct TieDownLoad {
         {"added_load_N", between(-1000.0, 3000.0), {50.0, 400.0, Prior::Scale::kLog}, "dF, of one wheel", 0.0},
         {"relaxing_share", between(-0.5, 0.8), {0.0, 0.2}, "r, of it, that straps lose as they creep"}};
     info.states = {{"relaxed_share", 1.0, "w, of what the straps will lose, that they have lost"}};
-    info.acts_on = {RigKind::kDyno};
-    info.visible_in = {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_tied_down;
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"curvature_exponent", "load_record"};
     info.splitting_tests = {"tie-downs slack and tight", "wheel load cells under the rollers"};
     return info;

@@ -29,8 +29,8 @@ struct TireLossInSkim {
          {0.007, 0.03, Prior::Scale::kLog},
          "b, relative fall with the tire's temperature"},
         {"load_power", between(-1.0, 1.0), {-0.2, 0.2}, "m, how it goes on with load; 0 = the same at every load"}};
-    info.acts_on = {RigKind::kDrum};  // that has a skim
-    info.visible_in = {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &has_skim;  // that has a skim
+    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"load_exponent", "bearing_warmup"};
     info.splitting_tests = {"skim at 50, 100, 200 and 400 N, extrapolated to zero",
                             "drum alone for 30 min, then a cold tire on the hot drum"};

@@ -32,9 +32,9 @@ struct TorqueZeroDrift {
                         between(-1000.0, 1000.0),
                         {-6.0, 6.0},
                         "k, minutes of drift at the rate r that one kelvin of ambient makes"}};
-    info.acts_on = {RigKind::kDrum, RigKind::kDyno};
-    info.visible_in = {"drum_torque_Nm", "loss_force_N"};
-    info.clean_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.acts_on = &is_indoors;
+    info.visible_in = {Reading::kForce};
+    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"bearing_warmup"};
     info.splitting_tests = {"torque at standstill before and after",
                             "drum alone for 30 min, then a cold tire on the hot drum"};

@@ -34,8 +34,8 @@ struct TreadLinerLag {
          {1.0, 4.0, Prior::Scale::kLog},
          "k, of the tread's share of the cooling"}};
     info.nodes[index_of(Node::kTread)] = true;
-    info.faint_on = {RigKind::kFlat};  // the loss follows the mean of both, which hardly changes
-    info.visible_in = {"liner_temperature_degC", "cavity_pressure_kPa"};
+    info.faint_on = &is_on_road;  // the loss follows the mean of both, which hardly changes
+    info.visible_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
     info.confused_with = {"clock_shift"};
     info.splitting_tests = {"load and speed steps with an infrared sensor on the tread",
                             "steps up and down: a clock shifts both alike"};

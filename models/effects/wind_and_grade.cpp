@@ -20,8 +20,8 @@ struct WindAndGrade {
         {"wind_m_s", between(-30.0, 30.0), {0.5, 5.0, Prior::Scale::kLog, true}, "w, against the vehicle", 0.0},
         {"slope_percent", between(-5.0, 5.0), {-0.25, 0.25}, "s, rise over run"},
         {"density_ratio", between(0.5, 1.5), {0.96, 1.04}, "r, to dry air of the recorded temperature at 1013 hPa"}};
-    info.acts_on = {RigKind::kFlat};
-    info.visible_in = {"traction_force_N"};
+    info.acts_on = &is_on_road;
+    info.visible_in = {Reading::kForce};
     info.confused_with = {"toe_camber_drag", "tire_temperature"};
     info.splitting_tests = {"the same stretch in both directions", "an anemometer on the vehicle",
                             "the same drive at two speeds: drag goes with the square"};

@@ -45,10 +45,10 @@ void Coastdowns::check(const RunSpec& spec) const {
     throw InputError(setting_problem(spec, "to_km_h", "the coastdown would fall through less than 10 km/h",
                                      fmt::format("less than {:.1f} km/h", 3.6 * from_m_s - 10.0)));
   }
-  if (spec.rig.kind == rigs::RigKind::kFlat) return;
+  if (is_on_road(spec.rig.kind->traits)) return;
   for (const char* key : {"slope_percent", "wind_m_s"}) {
     if (spec.settings.find(key) != nullptr) {
-      throw InputError(setting_problem(spec, key, "rollers have neither slope nor wind", "a rig of kind \"flat\""));
+      throw InputError(setting_problem(spec, key, "rollers have neither slope nor wind", "a rig of kind \"road\""));
     }
   }
 }
@@ -95,7 +95,7 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
   // Where a tail wind is faster than the vehicle, drag drives it, and (v + w)^2 is not its law.
   // Assumed: a margin of 10 %.
   options.speed_from_m_s = std::max(options.speed_from_m_s, 1.1 * std::abs(coastdowns.wind_m_s));
-  if (spec.rig.kind != rigs::RigKind::kFlat) {
+  if (is_indoors(spec.rig.kind->traits)) {
     options.reference_temperature_K = *conditions.ambient_K;
     options.reference_pressure_Pa = spec.rig.environment.ambient_pressure_Pa;
   }

@@ -18,7 +18,7 @@ Scenario make_drum_scenario(ScenarioText text, DrumProgram (*plan)(const Setting
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_on_drum, [](const RunSpec& spec) {
     rigs::make_context(spec.tire, spec.rig, spec.baseline);
   });
-  scenario.set_kind = measurements::SetKind::kDrum;
+  scenario.writes_sets = true;
   return scenario;
 }
 

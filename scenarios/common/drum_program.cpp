@@ -84,8 +84,8 @@ void DrumProgram::roll(const std::string& name, double duration_s, std::optional
   append(name, duration_s, speed_m_s_);
 }
 
-void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run) {
-  sim::Phase phase = measurements::make_recorded_program(run, measurements::SetKind::kDrum).phases.front();
+void DrumProgram::follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind) {
+  sim::Phase phase = measurements::make_recorded_program(run, kind).phases.front();
   phase.name = name;
   program_.phases.push_back(std::move(phase));
   speed_m_s_ = run.column(quantities::kSpeed).back();

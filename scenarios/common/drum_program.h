@@ -34,7 +34,7 @@ class DrumProgram {
   /// The same under skim load.
   void skim(const std::string& name, double duration_s) { roll(name, duration_s, skim_load_N_); }
   /// Follows given inputs, `run`'s first row being now: load held from row to row, all else linear (formats.md).
-  void follow(const std::string& name, const measurements::MeasuredRun& run);
+  void follow(const std::string& name, const measurements::MeasuredRun& run, const rigs::MachineKind& kind);
   /// Ends the phase appended last when the tire reaches a temperature from below.
   void end_at_tire_temperature(double temperature_K);
 

@@ -14,7 +14,7 @@ void check_rest(const RunSpec& spec, bool started_warm, const std::optional<doub
 }
 
 void RecordedInputs::complete(const RunSpec& spec) {
-  run = measurements::read_run_inputs(program.path, *spec.scenario->set_kind);
+  run = measurements::read_run_inputs(program.path, *spec.rig.kind);
   if (run.has(quantities::kLoad)) {
     const std::vector<double>& load_N = run.column(quantities::kLoad);
     check_tire_carries(spec, "program", *std::max_element(load_N.begin(), load_N.end()));

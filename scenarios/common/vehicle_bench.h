@@ -33,15 +33,15 @@ class SectionReader {
   const rigs::VehicleLayout& layout_;
 };
 
-/// A scenario with a vehicle, on the kinds of rig named; see rig_scenario.h.
+/// A scenario with a vehicle, on rollers or on the road; see rig_scenario.h.
 template <class Settings, class Results>
-Scenario make_vehicle_scenario(ScenarioText text, std::vector<rigs::RigKind> rig_kinds, std::string default_rig,
+Scenario make_vehicle_scenario(ScenarioText text, std::string default_rig,
                                VehicleProgram (*plan)(const Settings&, const RunSpec&),
                                Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_vehicle, [](const RunSpec& spec) {
     rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
   });
-  scenario.rig_kinds = std::move(rig_kinds);
+  scenario.runs_on = &models::is_of_vehicle;
   scenario.default_rig = std::move(default_rig);
   scenario.has_vehicle = true;
   return scenario;

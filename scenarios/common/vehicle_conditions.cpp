@@ -32,7 +32,7 @@ void check_tires(const RunSpec& spec) {
 
 /// A setting that changes nothing here is a mistake.
 void check_settings_say_something(const RunSpec& spec, int wheels) {
-  if (spec.rig.kind == rigs::RigKind::kFlat) {
+  if (is_on_road(spec.rig.kind->traits)) {
     for (const char* key : {"set_A_N", "set_B_N_per_km_h", "set_C_N_per_km_h2"}) {
       if (spec.settings.find(key) == nullptr) continue;
       throw InputError(

@@ -11,10 +11,10 @@ namespace {
 /// The measurement set that the run would be of.
 measurements::MeasurementSet make_set(const RunSpec& spec, const measurements::MeasuredRun& rows) {
   measurements::MeasurementSet set;
-  set.kind = *spec.scenario->set_kind;
+  set.kind = spec.rig.kind;
   set.baseline = spec.baseline;
   set.tire = spec.tire;
-  if (set.kind == measurements::SetKind::kRoad) {
+  if (is_on_road(set.kind->traits)) {
     set.vehicle = spec.vehicle;
   } else {
     set.rig = spec.rig;
@@ -24,7 +24,7 @@ measurements::MeasurementSet make_set(const RunSpec& spec, const measurements::M
 }
 
 /// Puts given columns before what was simulated, of which each channel stays once.
-void put_given_first(const measurements::MeasuredRun& rows, measurements::SetKind kind,
+void put_given_first(const measurements::MeasuredRun& rows, const rigs::MachineKind& kind,
                      sim::Recording<double>& recording) {
   std::vector<sim::Channel> channels;
   std::vector<std::vector<double>> values;
@@ -34,11 +34,8 @@ void put_given_first(const measurements::MeasuredRun& rows, measurements::SetKin
     channels.push_back({name});
     values.push_back(column);
   };
-  const measurements::SetColumns& columns = measurements::columns_of(kind);
-  for (const auto* fields : {&columns.given, &columns.optional_given}) {
-    for (const Field& field : *fields) {
-      if (rows.has(field.key)) add(field.key, rows.columns.at(field.key));
-    }
+  for (const Field& field : kind.columns.all_given()) {
+    if (rows.has(field.key)) add(field.key, rows.columns.at(field.key));
   }
   for (std::size_t i = 0; i < recording.channels.size(); ++i) add(recording.channels[i].name, recording.values[i]);
   recording.channels = std::move(channels);
@@ -67,9 +64,9 @@ void simulate_rows(const RunSpec& spec, const RecordedInputs&, const measurement
                    const sim::Progress& progress, Outcome& outcome) {
   const measurements::MeasurementSet set = make_set(spec, rows);
   models::Corner<double> corner(measurements::make_context(set), spec.effects);
-  outcome.recording = measurements::Resimulation(rows, set.kind).simulate(set, rows, corner, rigs::Detail::kFull);
+  outcome.recording = measurements::Resimulation(rows, *set.kind).simulate(set, rows, corner, rigs::Detail::kFull);
   outcome.recording.audit.require_closed(sim::kAuditLimit);
-  put_given_first(rows, set.kind, outcome.recording);
+  put_given_first(rows, *set.kind, outcome.recording);
   name_phases(outcome.recording);
   SetRun run;
   run.id = rows.id;

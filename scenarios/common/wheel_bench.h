@@ -15,20 +15,19 @@ models::Context<double> make_wheel_context(const RunSpec& spec, const measuremen
 void simulate_rows(const RunSpec& spec, const RecordedInputs& given, const measurements::MeasuredRun& rows,
                    const sim::Progress& progress, Outcome& outcome);
 
-/// A scenario whose settings have a RecordedInputs as `conditions`, for sets of a kind; see rig_scenario.h.
-/// Quasi-static alone: the rows say what moves, so that there are no mechanics to simulate.
+/// A scenario whose settings have a RecordedInputs as `conditions`, on a rig or, without one, on the road; see
+/// rig_scenario.h. Quasi-static alone: the rows say what moves, so that there are no mechanics to simulate.
 template <class Settings, class Results>
-Scenario make_wheel_scenario(ScenarioText text, measurements::SetKind kind,
+Scenario make_wheel_scenario(ScenarioText text, std::string default_rig,
                              Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
   const auto plan = +[](const Settings& settings, const RunSpec& spec) { return settings.conditions.make_rows(spec); };
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_rows,
                                         [](const RunSpec& spec) { make_wheel_context(spec, {}); });
-  const bool is_road = kind == measurements::SetKind::kRoad;
-  scenario.rig_kinds = {is_road ? rigs::RigKind::kFlat : rigs::RigKind::kDyno};
-  scenario.default_rig = is_road ? "" : "dyno_1m2";
-  scenario.has_vehicle = is_road;
+  scenario.runs_on = &models::is_tied_down;
+  scenario.default_rig = std::move(default_rig);
+  scenario.has_vehicle = !scenario.has_rig();
   scenario.fidelities = {Fidelity::kQuasiStatic};
-  scenario.set_kind = kind;
+  scenario.writes_sets = true;
   return scenario;
 }
 

@@ -19,21 +19,18 @@ bool holds(const std::vector<Field>& fields, const std::string& name) {
   return std::any_of(fields.begin(), fields.end(), [&](const Field& field) { return field.key == name; });
 }
 
-/// Whether a set of the kind has no sample where the recording has one.
+/// Whether a set has no sample where the recording has one.
 /// Source    formats.md: the loss force is empty below 20 km/h, the traction force where friction brakes act
-bool is_left_empty(measurements::SetKind kind, const sim::Recording<double>& recording, const std::string& column,
-                   std::size_t row) {
+bool is_left_empty(const sim::Recording<double>& recording, const std::string& column, std::size_t row) {
   constexpr double kSlowest_m_s = 20.0 / 3.6;
-  if (kind == measurements::SetKind::kDyno && column == quantities::kLossForce.header())
-    return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
-  if (kind == measurements::SetKind::kRoad && column == quantities::kTractionForce.header())
-    return recording.channel(quantities::kFrictionBrake)[row] > 0.0;
+  if (column == quantities::kLossForce.header()) return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
+  if (column == quantities::kTractionForce.header()) return recording.channel(quantities::kFrictionBrake)[row] > 0.0;
   return false;
 }
 
 /// Rows of one run as CSV, times from its start. Where the run is cut out of a longer recording, a mean at
 /// its first or last row reaches beyond the cut: that field is left empty.
-std::string write_run_csv(measurements::SetKind kind, const sim::Recording<double>& recording, const SetRun& run,
+std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<double>& recording, const SetRun& run,
                           const std::vector<std::string>& columns) {
   std::vector<std::string> header{"time_s"};
   header.insert(header.end(), columns.begin(), columns.end());
@@ -47,8 +44,8 @@ std::string write_run_csv(measurements::SetKind kind, const sim::Recording<doubl
     csv.begin_row();
     csv.add(time_s - run.start_s);
     for (const std::string& column : columns) {
-      const bool beyond = (cut_before || cut_after) && holds(measurements::columns_of(kind).measured, column);
-      const bool is_empty = beyond || is_left_empty(kind, recording, column, row);
+      const bool beyond = (cut_before || cut_after) && holds(kind.columns.measured, column);
+      const bool is_empty = beyond || is_left_empty(recording, column, row);
       csv.add(is_empty ? std::nan("") : unit_of_key(column).from_si(recording.channel(column)[row]));
     }
     csv.end_row();
@@ -57,13 +54,13 @@ std::string write_run_csv(measurements::SetKind kind, const sim::Recording<doubl
 }
 
 /// Given columns that were recorded, and measured ones that have a sensor.
-std::vector<std::string> find_columns(measurements::SetKind kind, const sim::Recording<double>& recording,
+std::vector<std::string> find_columns(const rigs::MachineKind& kind, const sim::Recording<double>& recording,
                                       const models::SensorSet& sensors) {
-  const measurements::SetColumns& all = measurements::columns_of(kind);
+  const std::vector<Field> given = kind.columns.all_given();
   std::vector<std::string> columns;
   for (const sim::Channel& channel : recording.channels) {
-    const bool is_input = holds(all.given, channel.name) || holds(all.optional_given, channel.name);
-    const bool is_read = holds(all.measured, channel.name) && sensors.count(channel.name) > 0;
+    const bool is_input = holds(given, channel.name);
+    const bool is_read = holds(kind.columns.measured, channel.name) && sensors.count(channel.name) > 0;
     if (is_input || is_read) columns.push_back(channel.name);
   }
   return columns;
@@ -84,11 +81,11 @@ std::string write_run_table(const SetRun& run) {
 
 std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
                                                          const std::string& name) {
-  if (!spec.scenario->set_kind.has_value()) throw std::invalid_argument("a scenario that writes no set");
-  const measurements::SetKind kind = *spec.scenario->set_kind;
+  if (!spec.scenario->writes_sets) throw std::invalid_argument("a scenario that writes no set");
+  const rigs::MachineKind& kind = *spec.rig.kind;
   const models::SensorSet sensors = spec.sensors.value_or(models::SensorSet{});
   const std::vector<std::string> columns = find_columns(kind, outcome.recording, sensors);
-  const bool is_road = kind == measurements::SetKind::kRoad;
+  const bool is_road = is_on_road(kind.traits);
   std::map<std::string, std::string> files;
   std::string set = fmt::format(
       "format = \"rollrig-measurements/1\"\nname = \"{}\"\n{}tire = \"tire.toml\"\n{}\nbaseline = \"{}\"\n", name,

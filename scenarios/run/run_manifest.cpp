@@ -29,22 +29,11 @@ Json tire_to_json(const models::TireFile& tire, const models::TireParameters<dou
 }
 
 Json rig_to_json(const rigs::RigFile& rig) {
-  using rigs::RigKind;
   Json json = {{"name", rig.name}, {"file", rig.path}, {"sha256", calc_sha256(rig.content)}};
-  if (rig.kind != RigKind::kFlat) {
-    json[rig.kind == RigKind::kDrum ? "drum" : "roller"] = parameters_to_json(rig.drum);
-    json["parasitic"] = parameters_to_json(rig.parasitic);
-    json["drive"] = parameters_to_json(rig.drive);
-  }
-  json["environment"] = parameters_to_json(rig.environment);
-  if (rig.kind == RigKind::kDrum) {
-    json["skim"] = parameters_to_json(rig.skim);
-    json["carriage"] = parameters_to_json(rig.carriage);
-  }
-  if (rig.kind == RigKind::kDyno) {
-    json["rollers_under"] = rigs::name_of_rolling_wheels(rig);
-    json["tie_down"] = parameters_to_json(rig.tie_down);
-  }
+  rigs::RigFile::visit_tables(rig, [&json](const char* name, const auto& table, rigs::RigFile::Presence presence) {
+    if (presence != rigs::RigFile::Presence::kOptional) json[name] = parameters_to_json(table);
+  });
+  if (is_tied_down(rig.kind->traits)) json["rollers_under"] = rigs::name_of_rolling_wheels(rig);
   return json;
 }
 

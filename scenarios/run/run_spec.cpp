@@ -56,7 +56,7 @@ struct RunDocument {
 };
 
 std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std::string& base_folder,
-                                                  const Scenario& scenario) {
+                                                  const RunSpec& spec) {
   if (!reader.has("sensors")) {
     reader.accept("sensors");
     return std::nullopt;
@@ -64,33 +64,30 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
   const ConfigTable* table = reader.source().find("sensors")->as_table();
   const std::string name = table != nullptr ? "" : reader.text("sensors");
   if (name == "none") return std::nullopt;
-  if (!scenario.set_kind.has_value()) {
-    throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", scenario.text.name),
+  if (!spec.scenario->writes_sets) {
+    throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", spec.scenario->text.name),
                          "no sensors, or none");
   }
-  const std::vector<std::string> channels = measurements::measured_channels(*scenario.set_kind);
+  const std::vector<std::string> channels = rigs::measured_channels(*spec.rig.kind);
   if (table != nullptr) return models::read_sensors(*reader.table("sensors"), channels);
   return measurements::read_sensor_file(read_config(find_asset_of(reader, "sensors", base_folder, "sensors", name)),
                                         channels);
 }
 
 void check_rig_kind(const RunSpec& spec) {
-  if (!spec.scenario->has_rig()) return;
-  std::vector<std::string> kinds;
-  for (const rigs::RigKind kind : spec.scenario->rig_kinds) {
-    if (spec.rig.kind == kind) return;
-    kinds.push_back(fmt::format("\"{}\"", name_of(kind)));
-  }
-  throw InputError({fmt::format("scenario '{}' cannot be carried out on rig '{}', which is of kind \"{}\"",
-                                spec.scenario->text.name, spec.rig.name, name_of(spec.rig.kind)),
-                    spec.rig.path, 0, "kind", "", fmt::format("a rig of kind {}", fmt::join(kinds, " or ")), ""});
+  if (!spec.scenario->has_rig() || spec.scenario->runs_on(spec.rig.kind->traits)) return;
+  throw InputError(
+      {fmt::format("scenario '{}' cannot be carried out on rig '{}', which is of kind \"{}\"", spec.scenario->text.name,
+                   spec.rig.name, spec.rig.kind->word),
+       spec.rig.path, 0, "kind", "",
+       fmt::format("a rig of kind \"{}\"", fmt::join(rigs::list_machines(spec.scenario->runs_on), "\" or \"")), ""});
 }
 
 /// The road: standard air over the plane (formats.md names no rig for a vehicle on the road).
 rigs::RigFile make_road() {
   rigs::RigFile road;
   road.name = "road";
-  road.kind = rigs::RigKind::kFlat;
+  road.kind = &rigs::find_machine_kind("road");
   road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
   return road;
 }
@@ -178,7 +175,7 @@ RunSpec read_run_spec(const ConfigTable& table, const std::string& base_folder) 
   spec.seed = static_cast<std::uint64_t>(reader.count({"seed", between(0.0, 2147483647.0), "random seed", 1.0}));
   spec.sample_interval_s = reader.number({"sample_interval_s", between(0.01, 60.0), "between rows", 1.0});
   spec.tolerance_factor = reader.number({"tolerance_factor", between(1e-3, 1e3), "on all tolerances", 1.0});
-  spec.sensors = read_run_sensors(reader, base_folder, *spec.scenario);
+  spec.sensors = read_run_sensors(reader, base_folder, spec);
   if (const ConfigTable* effects = reader.table("effects")) spec.effects = models::read_effects(*effects);
   if (const ConfigTable* settings = reader.table("settings")) spec.settings = *settings;
   reader.finish();

@@ -84,12 +84,11 @@ using PreparedRun = std::function<Outcome(const sim::Progress&)>;
 
 struct Scenario {
   ScenarioText text;
-  std::vector<rigs::RigKind> rig_kinds{rigs::RigKind::kDrum};  // on which it can be carried out
-  std::string default_rig = "drum_2m";                         // empty: the road, which has no rig
+  bool (*runs_on)(const models::MachineTraits&) = &models::has_skim;  // machines on which it can be carried out
+  std::string default_rig = "drum_2m";                                // empty: the road, which has no rig
   bool has_vehicle = false;
   std::vector<Fidelity> fidelities{Fidelity::kMultibody, Fidelity::kQuasiStatic};  // the first unless asked otherwise
-  std::optional<measurements::SetKind>
-      set_kind;  // of the measurement sets that it writes; none: it records without sensors
+  bool writes_sets = false;                                                        // with sensors, of the rig's kind
   std::vector<SettingInfo> settings;
   std::vector<ResultInfo> results;
   /// Reads spec.settings and plans: what prepare_run() calls. Throws InputError.

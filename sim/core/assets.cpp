@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -73,7 +74,11 @@ std::vector<std::string> list_assets(const std::string& folder) {
 std::string find_asset_from(const std::string& base_folder, const std::string& folder,
                             const std::string& name_or_path) {
   if (is_path(folder, name_or_path)) return (fs::path(base_folder) / name_or_path).lexically_normal().string();
-  const fs::path file = fs::path(find_assets_folder()) / folder / (name_or_path + extension_of(folder));
+  // Names that are still accepted.
+  static const std::map<std::string, std::string> former{{"rigs/flat", "road"}};
+  const auto renamed = former.find(folder + "/" + name_or_path);
+  const std::string name = renamed != former.end() ? renamed->second : name_or_path;
+  const fs::path file = fs::path(find_assets_folder()) / folder / (name + extension_of(folder));
   if (fs::exists(file)) return file.string();
   InputProblem problem = unknown_name(folder.substr(0, folder.size() - 1), name_or_path, list_assets(folder));
   problem.allowed += fmt::format("; or a path to a {} file", extension_of(folder));

@@ -58,7 +58,7 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
   set.sensors = measurements::read_sensor_asset("source");
   for (measurements::MeasuredRun& run : runs) {
     models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), effects);
-    const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+    const auto recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
     set.runs.push_back(std::move(run));
   }

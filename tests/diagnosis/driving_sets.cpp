@@ -6,6 +6,7 @@
 #include "diagnosis/kinds/measurement_kind.h"
 #include "scenarios/common/speed_trace.h"
 #include "sim/core/assets.h"
+#include "tests/support/machines.h"
 
 namespace rollrig::tests {
 namespace {
@@ -69,7 +70,7 @@ std::vector<double> find_wheel_force_N(const std::vector<double>& speed_m_s) {
   return force_N;
 }
 
-measurements::MeasurementSet begin_set(measurements::SetKind kind, models::Baseline baseline) {
+measurements::MeasurementSet begin_set(tests::Machine kind, models::Baseline baseline) {
   measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
@@ -78,7 +79,7 @@ measurements::MeasurementSet begin_set(measurements::SetKind kind, models::Basel
   set.tire = models::read_tire(read_config(find_asset("tires", "a50")));
   set.tire.has_constant = true;
   set.tire.values.constant.rrc = 0.0075;
-  set.sensors = measurements::default_sensors(kind);
+  set.sensors = kind->default_sensors;
   return set;
 }
 
@@ -90,14 +91,14 @@ void measure_again(measurements::MeasurementSet& set, const std::vector<models::
   if (change) change(context);
   for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, effects);
-    const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+    const auto recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
   }
 }
 
 measurements::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
                                            models::Baseline baseline, double minutes) {
-  measurements::MeasurementSet set = begin_set(measurements::SetKind::kDyno, baseline);
+  measurements::MeasurementSet set = begin_set(tests::kDyno, baseline);
   set.rig = rigs::read_rig(read_config(find_asset("rigs", "dyno_1m2")));
   set.sensors.erase("gas_temperature_degC");
   for (std::size_t i = 0; i < runs; ++i) {
@@ -116,7 +117,7 @@ measurements::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffec
 
 measurements::MeasurementSet make_road_set(const std::vector<models::ActiveEffect>& effects, std::size_t runs,
                                            models::Baseline baseline) {
-  measurements::MeasurementSet set = begin_set(measurements::SetKind::kRoad, baseline);
+  measurements::MeasurementSet set = begin_set(tests::kRoad, baseline);
   set.vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "source_car")));
   if (baseline == models::Baseline::kConstantRrc) {
     set.tire.has_stiffness = set.tire.has_rolling_resistance = set.tire.has_thermal = false;

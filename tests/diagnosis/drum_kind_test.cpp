@@ -41,7 +41,7 @@ measurements::MeasurementSet measure_constant(const rigs::RigFile& rig) {
     run.columns["ambient_degC"].push_back(298.15);
   }
   models::Corner<double> corner(measurements::make_context(set), {});
-  const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+  const auto recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
   for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
   set.runs.push_back(std::move(run));
   return set;

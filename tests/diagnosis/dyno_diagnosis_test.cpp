@@ -16,6 +16,7 @@
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
+#include "tests/support/machines.h"
 
 using namespace rollrig;
 using diagnosis::Diagnosis;
@@ -140,9 +141,9 @@ TEST_CASE("each effect that a dynamometer shows is named at a middling size", "[
   int shown = 0;
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;
-    const auto dyno = models::RigKind::kDyno;
-    const bool faint = std::find(info.faint_on.begin(), info.faint_on.end(), dyno) != info.faint_on.end();
-    if (!models::acts_in(info, dyno, models::default_tire_model()) || faint) continue;
+    const auto dyno = tests::kDyno;
+    const bool faint = info.faint_on(dyno->traits);
+    if (!models::acts_in(info, dyno->traits, models::default_tire_model()) || faint) continue;
     measurements::MeasurementSet set = campaign;
     tests::measure_again(set, {tests::make_effect_at(info.id, 0.7)});
     const Diagnosis found = diagnosis::diagnose(tests::add_noise(set, 7), {});

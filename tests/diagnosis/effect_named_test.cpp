@@ -6,6 +6,7 @@
 #include "measurements/resimulation.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
+#include "tests/support/machines.h"
 
 using namespace rollrig;
 
@@ -16,9 +17,8 @@ bool contains(const std::vector<std::string>& ids, const std::string& id) {
 }
 
 bool is_seen_on_drum(const models::EffectInfo& info) {
-  const auto& faint = info.faint_on;
-  return models::acts_in(info, models::RigKind::kDrum, models::default_tire_model()) &&
-         std::find(faint.begin(), faint.end(), models::RigKind::kDrum) == faint.end();
+  return models::acts_in(info, tests::kDrum->traits, models::default_tire_model()) &&
+         models::is_seen_on(info, tests::kDrum->traits);
 }
 
 /// The campaign measured again with an effect on: what its runs would have shown, and the sensors' noise.
@@ -28,7 +28,7 @@ measurements::MeasurementSet measure_with(const measurements::MeasurementSet& ca
   const models::Context<double> context = rigs::make_context(set.tire, *set.rig, set.baseline);
   for (measurements::MeasuredRun& run : set.runs) {
     models::Corner<double> corner(context, {effect});
-    const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+    const auto recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns.at(channel) = recording.channel(channel);
   }
   return tests::add_noise(set, 7);

@@ -45,7 +45,7 @@ measurements::MeasuredRun plan_run(const Plan& plan, double skim_load_N) {
 void fill_measured(const measurements::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
                    measurements::MeasuredRun& run) {
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), effects);
-  const auto recording = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+  const auto recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
   for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
 }
 

@@ -5,6 +5,7 @@
 #include "diagnosis/kinds/kinds.h"
 #include "tests/diagnosis/compared_set.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/machines.h"
 
 using namespace rollrig;
 using namespace rollrig::diagnosis;
@@ -71,7 +72,7 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
   measurements::MeasuredRun run;
   run.time_s = {0.0, 1.0, 2.0};
   run.columns = {{"load_N", {0.0, 0.0, 0.0}}, {"ambient_degC", {298.15, 298.15, 298.15}}};
-  run.columns[measurements::kHungTorque] = {0.0, 60.0, 600.0};
+  run.columns["hung_torque_Nm"] = {0.0, 60.0, 600.0};
   sim::Recording<double> recording;
   recording.channels.push_back({"drum_torque_Nm"});
   recording.values = {{0.0, 0.0, 0.0}};

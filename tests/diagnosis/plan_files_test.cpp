@@ -14,6 +14,7 @@
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/diagnosis/hand_made.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/machines.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
@@ -88,7 +89,7 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
       CHECK(spec.sensors->size() == set.sensors.size());
       CHECK(spec.tire.name == set.tire.name);
       const measurements::MeasuredRun written =
-          measurements::read_run_inputs(folder.file(wanted.id + ".csv"), set.kind);
+          measurements::read_run_inputs(folder.file(wanted.id + ".csv"), *set.kind);
       CHECK(written.time_s.size() < 60);  // for a person
       CHECK(written.has("surface_temperature_degC") == wanted.has("surface_temperature_degC"));
       double worst = 0.0;
@@ -150,7 +151,8 @@ void visit_rehearsals(const measurements::MeasurementSet& set, const PlannedTest
     CHECK(spec.sensors->size() == set.sensors.size());
     for (auto& [channel, sensor] : *spec.sensors) sensor = {};  // without error
     const tests::TemporaryFolder written;
-    for (const auto& [name, content] : scenarios::write_measurement_set(spec, scenarios::run_scenario(spec, {}), "paper")) {
+    for (const auto& [name, content] :
+         scenarios::write_measurement_set(spec, scenarios::run_scenario(spec, {}), "paper")) {
       tests::write_file(written.file(name), content);
     }
     visit(measurements::read_measurement_set(written.path()), spec);
@@ -181,7 +183,7 @@ TEST_CASE("plans of wheel and vehicle are run as a set whose resimulation is wha
   const measurements::MeasurementSet sets[] = {tests::make_dyno_set({}, 1), tests::make_road_set({}, 1),
                                                tests::make_road_set({}, 1, models::Baseline::kCombined)};
   for (const measurements::MeasurementSet& set : sets) {
-    const bool is_road = set.kind == measurements::SetKind::kRoad;
+    const bool is_road = set.kind == tests::kRoad;
     for (const PlannedTest& test : (is_road ? make_road_tests : make_dyno_tests)(PreparedSet(set))) {
       for (const char* effect : {"", "effects.toe_camber_drag.force_N=20"}) {
         INFO(test.id << " " << effect);

@@ -10,6 +10,7 @@
 #include "sim/core/units.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/drum_sets.h"
+#include "tests/support/machines.h"
 
 using Catch::Contains;
 using namespace rollrig;
@@ -121,7 +122,7 @@ TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") 
   int sets = 0;
   int stopped = 0;
   for (const models::Effect* effect : models::all_effects()) {
-    if (!models::acts_in(effect->info, models::RigKind::kDrum, models::default_tire_model())) continue;
+    if (!models::acts_in(effect->info, tests::kDrum->traits, models::default_tire_model())) continue;
     std::seed_seq seed(effect->info.id.begin(), effect->info.id.end());  // whatever effects there are beside it
     std::mt19937_64 random(seed);
     for (int i = 0; i < kDraws; ++i) {
@@ -379,7 +380,7 @@ TEST_CASE("a drum set with noise is asked for", "[fast]") {
   set.sensors.at("drum_torque_Nm") = {};
   CHECK_THROWS_WITH(check_set(set), Contains("no noise at all") && Contains("[sensors.drum_torque_Nm]"));
   set = short_set();
-  set.kind = measurements::SetKind::kRoad;
+  set.kind = tests::kRoad;
   CHECK_THROWS_AS(check_set(set), InputError);
 }
 

@@ -7,6 +7,7 @@
 #include "measurements/resimulation.h"
 #include "scenarios/common/written_set.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/machines.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -37,7 +38,7 @@ TEST_CASE("a run written as a set is read back and resimulated to the same chann
   const WrittenSet written("transient_skim", {"repeats=2"});
   const measurements::MeasurementSet set = measurements::read_measurement_set(written.folder.path());
   REQUIRE(set.runs.size() == 1);
-  CHECK(set.kind == measurements::SetKind::kDrum);
+  CHECK(set.kind == tests::kDrum);
   const measurements::MeasuredRun& run = set.runs[0];
   CHECK(run.time_s.front() == 0.0);
   CHECK(run.initial_tire_temperature_K == Approx(298.15).margin(1e-4));
@@ -47,8 +48,7 @@ TEST_CASE("a run written as a set is read back and resimulated to the same chann
   fixture.rig = *set.rig;
   fixture.initial_K = run.initial_tire_temperature_K;
   fixture.cold_pressure_Pa = run.cold_pressure_Pa;
-  const auto resimulated =
-      fixture.run_quasi_static(measurements::make_recorded_program(run, measurements::SetKind::kDrum));
+  const auto resimulated = fixture.run_quasi_static(measurements::make_recorded_program(run, *tests::kDrum));
   REQUIRE(resimulated.time_s == run.time_s);
   for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
     double worst = 0.0;
@@ -65,7 +65,7 @@ TEST_CASE("a run written as a set is read back and resimulated to the same chann
 TEST_CASE("the program of a drum run joins rows that go on in a straight line", "[fast]") {
   const WrittenSet written("transient_skim", {"repeats=2"});
   const measurements::MeasurementSet set = measurements::read_measurement_set(written.folder.path());
-  const sim::Program program = measurements::make_recorded_program(set.runs[0], set.kind);
+  const sim::Program program = measurements::make_recorded_program(set.runs[0], *set.kind);
   CHECK(program.phases[0].segments.size() < 20);  // of about 1000 rows
   CHECK(program.duration_s() == Approx(set.runs[0].time_s.back()));
 }
@@ -89,7 +89,7 @@ TEST_CASE("the real road set of the shared data is read where it is present", "[
     return;
   }
   const measurements::MeasurementSet set = measurements::read_measurement_set(set_folder.string());
-  CHECK(set.kind == measurements::SetKind::kRoad);
+  CHECK(set.kind == tests::kRoad);
   CHECK(set.runs.size() == 20);
   CHECK(set.vehicle->tires == 4);
   CHECK(set.baseline == models::Baseline::kConstantRrc);
@@ -145,7 +145,7 @@ reversed = true
   };
   const measurements::MeasurementSet set = read("drum_2m", ",hung_torque_Nm");
   CHECK(set.runs[0].reversed);
-  CHECK(set.runs[0].columns.at(measurements::kHungTorque) == std::vector<double>{0.0, 50.0});
+  CHECK(set.runs[0].columns.at("hung_torque_Nm") == std::vector<double>{0.0, 50.0});
   CHECK_THROWS_WITH(read("dyno_1m2", ",longitudinal_force_N"), Catch::Contains("reversed"));
 }
 

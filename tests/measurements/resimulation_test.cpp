@@ -11,6 +11,7 @@
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/drum_sets.h"
+#include "tests/support/machines.h"
 #include "tests/support/vehicle_fixture.h"
 
 using namespace rollrig;
@@ -23,7 +24,7 @@ namespace {
 sim::Recording<double> resimulate(const MeasurementSet& set, const MeasuredRun& run,
                                   const std::vector<ActiveEffect>& effects) {
   models::Corner<double> corner(measurements::make_context(set), effects);
-  return measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+  return measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
 }
 
 /// The quarter vehicle of the simulator on its roller or on the road, and what it recorded as a run.
@@ -79,7 +80,7 @@ TEST_CASE("a dynamometer run is what the simulator's vehicle shows on its roller
     const sim::Recording<double> simulated = fixture.run_quasi_static(driving_program());
     const MeasuredRun run = record(fixture, simulated);
     MeasurementSet set;
-    set.kind = measurements::SetKind::kDyno;
+    set.kind = tests::kDyno;
     set.tire = fixture.tire;
     set.rig = fixture.rig;
     const sim::Recording<double> resimulated = resimulate(set, run, fixture.effects);
@@ -123,7 +124,7 @@ TEST_CASE("no effect makes a resimulation unstable, wherever a fit usually looks
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> within(-2.0, 2.0);  // prior units
   for (const models::Effect* effect : models::all_effects()) {
-    if (!models::acts_in(effect->info, models::RigKind::kDyno, models::default_tire_model())) continue;
+    if (!models::acts_in(effect->info, tests::kDyno->traits, models::default_tire_model())) continue;
     for (int draw = 0; draw < 25; ++draw) {
       std::vector<double> values;
       for (const models::EffectParameter& parameter : effect->info.parameters) {
@@ -176,7 +177,7 @@ TEST_CASE("derivatives of a run agree with differences", "[fast]") {
   models::Context<Jet> moved = models::convert_context<Jet>(context);
   moved.tire.thermal.rest_conductance_W_per_K = Jet(context.tire.thermal.rest_conductance_W_per_K, 0);
   models::Corner<Jet> corner(moved, {});
-  const measurements::Resimulation resimulation(run, set.kind);
+  const measurements::Resimulation resimulation(run, *set.kind);
   const auto derived = resimulation.simulate(set, run, corner);
   const auto at = [&](double z_W_per_K) {
     models::Context<double> other = context;
@@ -214,12 +215,12 @@ MeasuredRun steady_run(double km_h, double slope, double acceleration_m_s2 = 0.0
 double traction_N(const MeasurementSet& set, const MeasuredRun& run, const std::vector<ActiveEffect>& effects = {},
                   std::size_t row = 30) {
   models::Context<double> context;
-  context.rig_kind = models::RigKind::kFlat;
+  context.machine = tests::kRoad->traits;
   context.vehicle = set.vehicle->body;
   context.tire = set.tire.parameters_with_class_values(5000.0, 250e3);
   if (set.baseline == models::Baseline::kCombined) context.tire.own = set.tire.values.own;
   models::Corner<double> corner(context, effects);
-  return measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("traction_force_N")[row];
+  return measurements::Resimulation(run, *set.kind).simulate(set, run, corner).channel("traction_force_N")[row];
 }
 
 }  // namespace
@@ -278,18 +279,18 @@ TEST_CASE("wind, slope and density act as what they are", "[fast]") {
 }
 
 TEST_CASE("on the road the simulator's vehicle pulls as much", "[fast]") {
-  const tests::VehicleFixture fixture("flat");
+  const tests::VehicleFixture fixture("road");
   const sim::Recording<double> simulated = fixture.run_quasi_static(driving_program());
   MeasuredRun run = record(fixture, simulated);
   run.columns["elevation_m"].assign(run.time_s.size(), 0.0);
   MeasurementSet set;
-  set.kind = measurements::SetKind::kRoad;
+  set.kind = tests::kRoad;
   set.vehicle = fixture.vehicle;
   models::Context<double> context = fixture.context();
   context.vehicle = fixture.vehicle.body;
   models::Corner<double> corner(context, {});
   const auto resimulated =
-      measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("traction_force_N");
+      measurements::Resimulation(run, *set.kind).simulate(set, run, corner).channel("traction_force_N");
   const std::vector<double>& quarter = simulated.channel("traction_force_N");
   const double density_ratio = 98.21e3 / kStandardAtmosphere_Pa;  // of the rig's air, at the same temperature
   for (const std::size_t row : {300, 600, 900}) {
@@ -310,7 +311,7 @@ TEST_CASE("a resimulated run shows trace effects the recorded load and ambient",
     models::ActiveEffect drift = tests::make_effect_at("torque_zero_drift", 0.5);
     drift.parameters[2] = ambient_min_per_K * 60.0;
     models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {drift});
-    return measurements::Resimulation(run, set.kind).simulate(set, run, corner).channel("drum_torque_Nm");
+    return measurements::Resimulation(run, *set.kind).simulate(set, run, corner).channel("drum_torque_Nm");
   };
   REQUIRE(std::string(effect.info.parameters[2].key) == "ambient_min_per_K");
   const std::vector<double> without = torque_with(0.0);

@@ -8,7 +8,6 @@
 
 using namespace rollrig;
 using models::Node;
-using models::RigKind;
 namespace quantities = models::quantities;
 using tests::HandFedCorner;
 using tests::make_context_on;
@@ -17,7 +16,7 @@ namespace {
 
 /// A two-node tire on a roller of 1.2 m; its own numbers by key, the others as of the other tests.
 models::Context<double> make_two_node(const std::vector<std::pair<std::string, double>>& own = {}) {
-  models::Context<double> context = make_context_on(RigKind::kDyno);
+  models::Context<double> context = make_context_on(tests::kDyno);
   context.tire.own = tests::make_own("two_node");
   for (const auto& [key, value] : own) estimation::find_parameter(context, "tire.two_node." + key) = value;
   return context;
@@ -42,7 +41,7 @@ constexpr double kLong_s = 40000.0;  // some fifty time constants
 
 TEST_CASE("two nodes that nothing parts are one node of both capacities, at every time", "[fast]") {
   for (const double duration_s : {60.0, 400.0, 2000.0}) {
-    auto one = roll<double>(make_context_on(RigKind::kDyno), duration_s, 400);
+    auto one = roll<double>(make_context_on(tests::kDyno), duration_s, 400);
     const auto distance_K = [&](double conductance_W_per_K) {
       const auto steps =
           static_cast<int>(duration_s * conductance_W_per_K / 3000.0) + 400;  // an eighth of the fastest time
@@ -57,7 +56,7 @@ TEST_CASE("two nodes that nothing parts are one node of both capacities, at ever
 }
 
 TEST_CASE("a tire that heats in the tread alone is steady as one node is, whatever parts tread and carcass", "[fast]") {
-  auto one = roll<double>(make_context_on(RigKind::kDyno), kLong_s, 8000);
+  auto one = roll<double>(make_context_on(tests::kDyno), kLong_s, 8000);
   for (const double conductance_W_per_K : {15.0, 150.0}) {
     for (const double loss_share : {0.0, 0.4, 1.0}) {
       auto two = roll<double>(make_two_node({{"tread_share_of_heat", 1.0},
@@ -73,7 +72,7 @@ TEST_CASE("a tire that heats in the tread alone is steady as one node is, whatev
 }
 
 TEST_CASE("a tire whose loss follows the tread loses as one node does when steady, over a warmer carcass", "[fast]") {
-  models::Context<double> one_node = make_context_on(RigKind::kDyno);
+  models::Context<double> one_node = make_context_on(tests::kDyno);
   one_node.tire.rolling_resistance.pressure_exponent = 0.0;  // the warmer carcass makes the pressure another
   auto one = roll<double>(one_node, kLong_s, 8000);
   const double heat_share = 0.3;
@@ -155,7 +154,7 @@ TEST_CASE("the rim gives off in proportion to what all of a two-node tire does",
     at.evaluate();
     return at.rates[at.corner.state_of(Node::kRim)];
   };
-  CHECK(rate_of_rim(make_two_node()) == Approx(rate_of_rim(make_context_on(RigKind::kDyno))));
+  CHECK(rate_of_rim(make_two_node()) == Approx(rate_of_rim(make_context_on(tests::kDyno))));
   CHECK(rate_of_rim(make_two_node()) < -1e-3);
 }
 

@@ -98,7 +98,7 @@ sim::Program dyno_program() {
 
 /// A driven quarter at the front that hardly recuperates, so that moderate braking heats its brake.
 VehicleFixture road_with(const Effects& effects, const std::string& model) {
-  VehicleFixture fixture("flat", false, rigs::QuarterWheel::kFront);
+  VehicleFixture fixture("road", false, rigs::QuarterWheel::kFront);
   choose_model(model, fixture);
   fixture.vehicle.driven_axle = rigs::DrivenAxle::kFront;
   fixture.vehicle.geometry.front_load_share = kLoadShare;
@@ -145,17 +145,17 @@ sim::Recording<Jet> run_vehicle_with_derivatives(const VehicleFixture& fixture, 
 
 }  // namespace
 
-const std::set<std::string>& measured_on(models::RigKind kind) {
-  static const std::map<models::RigKind, std::set<std::string>> channels{
-      {models::RigKind::kDrum, {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}},
-      {models::RigKind::kDyno, {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"}},
-      {models::RigKind::kFlat, {"traction_force_N"}}};
+const std::set<std::string>& measured_on(tests::Machine kind) {
+  static const std::map<tests::Machine, std::set<std::string>> channels{
+      {tests::kDrum, {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}},
+      {tests::kDyno, {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"}},
+      {tests::kRoad, {"traction_force_N"}}};
   return channels.at(kind);
 }
 
 const std::vector<Campaign>& campaigns() {
   static const std::vector<Campaign> all{
-      {models::RigKind::kDrum,
+      {tests::kDrum,
        "drum_torque_Nm",
        {"load", "skim", "fast"},
        sim::kAuditLimit,
@@ -166,7 +166,7 @@ const std::vector<Campaign>& campaigns() {
          return drum_with(effects, model).run_multibody(drum_program());
        },
        run_drum_with_derivatives},
-      {models::RigKind::kDyno,
+      {tests::kDyno,
        "loss_force_N",
        {"fast", "slow", "fastest", "slow again"},
        scenarios::kDriveAuditLimit,
@@ -179,7 +179,7 @@ const std::vector<Campaign>& campaigns() {
        [](const Effects& effects, const std::string& model) {
          return run_vehicle_with_derivatives(dyno_with(effects, model), dyno_program());
        }},
-      {models::RigKind::kFlat,
+      {tests::kRoad,
        "traction_force_N",
        {"fast", "fast again", "slow"},
        scenarios::kDriveAuditLimit,

@@ -9,6 +9,7 @@
 
 #include "models/effect.h"
 #include "sim/recording.h"
+#include "tests/support/machines.h"
 
 namespace rollrig::tests {
 
@@ -16,7 +17,7 @@ using Effects = std::vector<models::ActiveEffect>;
 
 /// Runs on one kind of rig that show every effect that can be seen there.
 struct Campaign {
-  models::RigKind kind;
+  tests::Machine kind;
   std::string force_channel;                // the fidelities are compared in it, and in temperature
   std::vector<std::string> settled_phases;  // at whose end force and temperature hold still
   double audit_limit;
@@ -27,7 +28,7 @@ struct Campaign {
 };
 
 /// Measured channels of a rig kind (formats.md).
-const std::set<std::string>& measured_on(models::RigKind kind);
+const std::set<std::string>& measured_on(tests::Machine kind);
 
 /// One campaign for each kind of rig that has a fast and a multibody fidelity.
 const std::vector<Campaign>& campaigns();

@@ -22,10 +22,13 @@ using tests::measured_on;
 
 namespace {
 
-/// Of the channels named, those that the kind measures.
-std::vector<std::string> select_measured(const std::vector<std::string>& named, models::RigKind kind) {
+/// Of the readings, the channels of those that the kind measures.
+std::vector<std::string> select_measured(const std::vector<models::Reading>& readings, tests::Machine kind) {
   std::vector<std::string> selected;
-  for (const std::string& channel : named) {
+  for (const models::Reading reading : readings) {
+    const std::string channel = reading == models::Reading::kForce              ? kind->traits.force.header()
+                                : reading == models::Reading::kLinerTemperature ? "liner_temperature_degC"
+                                                                                : "cavity_pressure_kPa";
     if (measured_on(kind).count(channel) == 1) selected.push_back(channel);
   }
   return selected;
@@ -62,12 +65,6 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-constexpr models::RigKind kKinds[]{models::RigKind::kDrum, models::RigKind::kDyno, models::RigKind::kFlat};
-
-bool is_faint(const EffectInfo& info, models::RigKind kind) {
-  return std::find(info.faint_on.begin(), info.faint_on.end(), kind) != info.faint_on.end();
-}
-
 void check_declaration(const EffectInfo& info) {
   CHECK_FALSE(info.summary.empty());
   CHECK_FALSE(info.equation.empty());
@@ -83,18 +80,14 @@ void check_declaration(const EffectInfo& info) {
     CHECK_FALSE(std::string(parameter.doc).empty());
     if (parameter.off.has_value()) CHECK(parameter.range.contains(*parameter.off));
   }
-  for (const auto& channels : {info.visible_in, info.clean_in}) {
-    for (const auto& channel : channels) {
-      INFO(channel);
-      CHECK(std::any_of(std::begin(kKinds), std::end(kKinds),
-                        [&](models::RigKind kind) { return measured_on(kind).count(channel) == 1; }));
+  CHECK_FALSE(rigs::list_machines(info.acts_on).empty());
+  for (const tests::Machine kind : rigs::machine_kinds()) {
+    INFO(kind->word);
+    if (info.faint_on(kind->traits)) {
+      CHECK(info.acts_on(kind->traits));
+    } else if (info.acts_on(kind->traits)) {
+      CHECK_FALSE(select_measured(info.visible_in, kind).empty());
     }
-  }
-  CHECK_FALSE(info.acts_on.empty());
-  for (const models::RigKind kind : info.faint_on) CHECK(models::acts_on(info, kind));
-  for (const models::RigKind kind : info.acts_on) {
-    INFO(models::name_of(kind));
-    CHECK((is_faint(info, kind) || !select_measured(info.visible_in, kind).empty()));
   }
   for (const auto& id : info.confused_with) CHECK_NOTHROW(models::find_effect(id));
   CHECK_FALSE(info.splitting_tests.empty());
@@ -126,7 +119,7 @@ void poison(models::Instant<double>& now) {
   now.thermal.air_W_per_K.fill(nan);
 }
 
-void check_reads_only_what_stands_before(const Effect& effect, models::RigKind kind, const std::string& model) {
+void check_reads_only_what_stands_before(const Effect& effect, tests::Machine kind, const std::string& model) {
   models::Context<double> context = tests::make_context_on(kind);
   context.tire.own = tests::make_own(model);
   context.tire.constant.rrc = 0.0075;
@@ -139,7 +132,7 @@ void check_reads_only_what_stands_before(const Effect& effect, models::RigKind k
   rigs::PresentProgram present;
   present.take(tests::drum_segment(10.0, 20.0, 22.0, 5400.0), 0.0);
   now.recorded = rigs::read_drum_inputs<double>(present, 5.0);
-  now.recorded.brake_force_N = kind == models::RigKind::kDrum ? 0.0 : 500.0;
+  now.recorded.brake_force_N = kind == tests::kDrum ? 0.0 : 500.0;
   corner.apply_inputs(x.data(), now);
   now.motion = {now.acting.speed_m_s, now.acting.acceleration_m_s2, now.acting.load_N, 30.0, 1.0, now.acting.speed_m_s};
   corner.calc_losses(x.data(), now);
@@ -194,7 +187,7 @@ constexpr double kFaint = 1e-2;
 void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, const std::string& model,
                                const sim::Recording<double>& baseline) {
   const auto on = campaign.run_quasi_static(at_size(effect, effect.info.parameters[0].prior.high), model);
-  const bool faint = is_faint(effect.info, campaign.kind);
+  const bool faint = effect.info.faint_on(campaign.kind->traits);
   for (const std::string& channel : measured_on(campaign.kind)) {
     if (!faint) break;
     INFO(channel);
@@ -264,9 +257,9 @@ void check_derivative(const Campaign& campaign, const Effect& effect, const std:
 void check_on_campaign(const Campaign& campaign, const Effect& effect, const std::string& model,
                        const sim::Recording<double>& baseline) {
   const EffectInfo& info = effect.info;
-  std::string name = info.id + " on " + models::name_of(campaign.kind);
+  std::string name = info.id + " on " + campaign.kind->word;
   if (model != "combined") name += ", " + model;
-  if (!models::acts_in(info, campaign.kind, models::find_tire_model(model))) {
+  if (!models::acts_in(info, campaign.kind->traits, models::find_tire_model(model))) {
     DYNAMIC_SECTION(name << ": it does not act there, which is the baseline to the bit") {
       check_is_baseline(campaign, at_size(effect, info.parameters[0].prior.high), model, baseline);
     }
@@ -281,7 +274,7 @@ void check_on_campaign(const Campaign& campaign, const Effect& effect, const std
   DYNAMIC_SECTION(name << ": both audits close with it on, and the fidelities agree") {
     check_audits_and_fidelities(campaign, {tests::make_active(effect, usual_values(info))}, model);
   }
-  if (is_faint(info, campaign.kind)) return;  // a derivative as small as rounding
+  if (info.faint_on(campaign.kind->traits)) return;  // a derivative as small as rounding
   DYNAMIC_SECTION(name << ": its derivative by size agrees with differences") {
     check_derivative(campaign, effect, model);
   }
@@ -292,8 +285,8 @@ void check_on_campaign(const Campaign& campaign, const Effect& effect, const std
 TEST_CASE("every effect declares itself, and reads only what stands before its port", "[fast][contract]") {
   for (const Effect* effect : models::all_effects()) {
     DYNAMIC_SECTION(effect->info.id << ": declaration") { check_declared_file(effect->info); }
-    for (const models::RigKind kind : kKinds) {
-      DYNAMIC_SECTION(effect->info.id << " on " << models::name_of(kind) << ": what it reads") {
+    for (const tests::Machine kind : rigs::machine_kinds()) {
+      DYNAMIC_SECTION(effect->info.id << " on " << kind->word << ": what it reads") {
         for (const std::string& model : models_for(*effect)) check_reads_only_what_stands_before(*effect, kind, model);
       }
     }
@@ -322,7 +315,7 @@ TEST_CASE("both audits close on every tire model with no effect and with every o
       all.push_back(tests::make_active(*effect, usual_values(effect->info)));
     }
     for (const models::TireModel* model : models::all_tire_models()) {
-      INFO(model->info.id << " on " << models::name_of(campaign.kind));
+      INFO(model->info.id << " on " << campaign.kind->word);
       check_audits_and_fidelities(campaign, {}, model->info.id);
       check_audits_and_fidelities(campaign, all, model->info.id);
     }

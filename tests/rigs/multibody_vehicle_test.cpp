@@ -107,7 +107,7 @@ TEST_CASE("each wheel rolls with its own loaded radius, each roller at the speed
 }
 
 TEST_CASE("without loss no torque, no slip, no force: at any tolerance", "[fast]") {
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     for (const double factor : {100.0, 1.0, 1e-2}) {
       VehicleFixture fixture(rig, true);
       fixture.take_losses_away();
@@ -126,7 +126,7 @@ TEST_CASE("without loss no torque, no slip, no force: at any tolerance", "[fast]
 
 TEST_CASE("on the road the spindles push the body, which the road pushes through the wheels", "[fast]") {
   // Coasting: the body's own deceleration times its mass is drag and what the spindles hold back.
-  VehicleFixture fixture("flat", true);
+  VehicleFixture fixture("road", true);
   Ran ran(fixture, make_program({coasting(35.0, 30.0)}));
   const rigs::VehicleForces at = ran.forces();
   double contact_N = 0.0, loss_N = 0.0, rolling_N = 0.0;
@@ -150,7 +150,7 @@ TEST_CASE("on the road the spindles push the body, which the road pushes through
 TEST_CASE("accelerating on the road shifts load from the front to the rear by the moment of all inertia", "[fast]") {
   // About a point of the road: sum over masses of m h a, and the wheels' spin I a/r, over the wheelbase.
   // Stiff suspension, so that the axles do not swing forwards under a squatting body.
-  VehicleFixture fixture("flat", true);
+  VehicleFixture fixture("road", true);
   fixture.vehicle.suspension.stiffness_N_per_m = 3e5;
   fixture.vehicle.suspension.damping_N_s_per_m = 2e4;
   constexpr double kAcceleration_m_s2 = 1.0;
@@ -193,7 +193,7 @@ TEST_CASE("sections' energies hold at tighter tolerances", "[fast]") {
                                      driving("hold", 30.0, 18.0, 18.0), driving("slow down", 9.0, 18.0, 0.0),
                                      driving("stand", 10.0, 0.0, 0.0), driving("speed up", 8.0, 0.0, 12.0),
                                      driving("brake", 4.0, 12.0, 0.0), driving("stand", 10.0, 0.0, 0.0)});
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     VehicleFixture fixture(rig);
     const auto usual = fixture.run_multibody(program);
     fixture.cvodes.tolerance_factor = 0.1;
@@ -209,7 +209,7 @@ TEST_CASE("sections' energies hold at tighter tolerances", "[fast]") {
 
 TEST_CASE("two vehicles at once do not disturb each other", "[fast]") {
   const VehicleFixture on_rollers("dyno_1m2", true);
-  const VehicleFixture on_road("flat", true);
+  const VehicleFixture on_road("road", true);
   const double alone_N = on_rollers.run_multibody(hold(10.0)).channel("loss_force_front_left_N").back();
   Ran first(on_rollers, hold(10.0));
   Ran second(on_road, hold(10.0));

@@ -113,7 +113,7 @@ TEST_CASE("a vehicle whose speed record is 5 % low takes what it takes 5 % faste
                          driving("fast", 200.0, 28.0 * factor, 28.0 * factor),
                          driving("down", 30.0, 28.0 * factor, 15.0 * factor)});
   };
-  for (const char* rig : {"flat", "dyno_1m2"}) {
+  for (const char* rig : {"road", "dyno_1m2"}) {
     for (const bool multibody : {false, true}) {
       INFO(rig << ", multibody " << multibody);
       VehicleFixture fixture(rig);
@@ -129,7 +129,7 @@ TEST_CASE("a vehicle whose speed record is 5 % low takes what it takes 5 % faste
 }
 
 TEST_CASE("a coasting vehicle's record shows its speed by the same error, and its end", "[fast]") {
-  for (const char* rig : {"flat", "dyno_1m2"}) {
+  for (const char* rig : {"road", "dyno_1m2"}) {
     for (const bool multibody : {false, true}) {
       INFO(rig << ", multibody " << multibody);
       VehicleFixture fixture(rig);

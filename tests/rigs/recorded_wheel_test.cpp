@@ -145,7 +145,7 @@ TEST_CASE("what only sensors show is the same when nothing else is integrated, o
   rigs::RecordedRoller<double> measured(on_roller, fixture.start(), false, rigs::Detail::kMeasured);
   CHECK(measured.integrals().size() == 5);  // with the rim
   compare(run(measured, make_roller_program(kDrive)), fixture.run(make_roller_program(kDrive)));
-  models::Context<double> context = tests::VehicleFixture("flat").context();
+  models::Context<double> context = tests::VehicleFixture("road").context();
   context.vehicle = fixture.vehicle.body;
   models::Corner<double> on_road(context, {});
   const double start_K = fixture.start().tire_temperature_K;

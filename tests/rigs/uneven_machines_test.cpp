@@ -1,6 +1,7 @@
 // A drum that is not of 2 m and a vehicle whose axles differ: radius, inertia and shares have to be the right ones.
 #include <catch2/catch.hpp>
 
+#include "tests/support/machines.h"
 #include "tests/support/uneven_machines.h"
 #include "tests/support/vehicle_fixture.h"
 
@@ -29,7 +30,7 @@ DrumFixture make_uneven_fixture() {
 
 VehicleFixture make_uneven_fixture(const char* rig, bool whole, QuarterWheel quarter = QuarterWheel::kRear) {
   VehicleFixture fixture(rig, whole, quarter);
-  if (fixture.rig.kind == rigs::RigKind::kDyno) fixture.rig = tests::make_uneven_dyno();
+  if (fixture.rig.kind == tests::kDyno) fixture.rig = tests::make_uneven_dyno();
   fixture.vehicle = tests::make_uneven_vehicle();
   fixture.set_load = {110.0, 1.3, 0.41};
   return fixture;
@@ -71,7 +72,7 @@ TEST_CASE("a drum that starts rolling is in equilibrium at its first instant", "
 
 TEST_CASE("a vehicle that starts rolling is in equilibrium at its first instant, on rollers and on the road",
           "[fast]") {
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     const VehicleFixture fixture = make_uneven_fixture(rig, true);
     const auto layout = fixture.layout();
     const rigs::VehicleForces at = find_first_forces(fixture, tests::driving("hold", 60.0, kSpeed_m_s, kSpeed_m_s));
@@ -79,7 +80,7 @@ TEST_CASE("a vehicle that starts rolling is in equilibrium at its first instant,
       INFO(rig << ", " << layout.wheels[i].position);
       CHECK(at.wheels[i].contact_load_N == Approx(layout.wheels[i].static_load_N).epsilon(1e-9));
       CHECK(at.wheels[i].wheel_speed_rad_s * at.wheels[i].loaded_radius_m == Approx(kSpeed_m_s).epsilon(1e-9));
-      if (fixture.rig.kind == rigs::RigKind::kFlat) continue;
+      if (fixture.rig.kind == tests::kRoad) continue;
       CHECK(at.wheels[i].roller_speed_rad_s * 0.5 * fixture.rig.drum.diameter_m == Approx(kSpeed_m_s).epsilon(1e-9));
     }
     CHECK(at.speed_m_s == Approx(kSpeed_m_s).epsilon(1e-9));
@@ -109,7 +110,7 @@ TEST_CASE("the drum follows a ramp from its first moment: the motor gives the to
 }
 
 TEST_CASE("the weight of an uneven vehicle acts in its center of gravity", "[fast]") {
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     const VehicleFixture fixture = make_uneven_fixture(rig, true);
     double weight_N = 0.0, moment_Nm = 0.0, front_N = 0.0, motor = 0.0, front_brakes = 0.0, rear_brakes = 0.0;
     double front_x_m = 0.0, rear_x_m = 0.0;

@@ -48,18 +48,18 @@ void check_city(const VehicleFixture& fixture, bool multibody) {
 TEST_CASE("on the city cycle a quarter's energy closes to 1e-5", "[fast]") {
   for (const bool multibody : {false, true}) {
     check_city(VehicleFixture("dyno_1m2", false, rigs::QuarterWheel::kFront), multibody);
-    check_city(VehicleFixture("flat", false, rigs::QuarterWheel::kRear), multibody);
+    check_city(VehicleFixture("road", false, rigs::QuarterWheel::kRear), multibody);
   }
 }
 
 TEST_CASE("and a whole vehicle's", "[slow]") {
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     for (const bool multibody : {false, true}) check_city(VehicleFixture(rig, true), multibody);
   }
 }
 
 TEST_CASE("the city cycle's energies hold at ten times tighter tolerances, and at half the steps", "[slow]") {
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     VehicleFixture fixture(rig);
     const auto usual = fixture.run_multibody(city());
     fixture.cvodes.tolerance_factor = 0.1;

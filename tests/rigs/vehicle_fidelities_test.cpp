@@ -14,6 +14,7 @@
 
 #include "scenarios/common/vehicle_bench.h"
 #include "scenarios/run/scenario.h"
+#include "tests/support/machines.h"
 #include "tests/support/vehicle_fixture.h"
 
 using namespace rollrig;
@@ -151,7 +152,7 @@ void compare_coastdown(const std::vector<std::string>& settings, const std::stri
     const auto spec = scenarios::read_run_spec(document, "");
     (multibody ? pair.multibody : pair.quasi_static) = scenarios::run_scenario(spec, {});
   }
-  const bool pitches = rig == "flat" && channels_of(pair.multibody.recording, "loss_force").size() > 1;
+  const bool pitches = rig == "road" && channels_of(pair.multibody.recording, "loss_force").size() > 1;
   compare_liners(pair, !pitches);
   compare_loss_forces(pair, !pitches);
   compare_road_loads(pair);
@@ -177,9 +178,9 @@ TEST_CASE("they agree on coastdowns, on the road and on rollers", "[fast]") {
   for (const char* wheels : {"wheels=1", "wheels=4"}) {
     INFO(wheels);
     compare_coastdown({wheels, "warm_up_min=10"}, "dyno_1m2");
-    compare_coastdown({wheels, "warm_up_min=10"}, "flat");
+    compare_coastdown({wheels, "warm_up_min=10"}, "road");
   }
-  compare_coastdown({"warm_up_min=10", "slope_percent=0.2", "wind_m_s=3"}, "flat");
+  compare_coastdown({"warm_up_min=10", "slope_percent=0.2", "wind_m_s=3"}, "road");
 }
 
 TEST_CASE("with every effect on at once the multi-cycle test runs, its audits close, and the fidelities agree",
@@ -187,7 +188,7 @@ TEST_CASE("with every effect on at once the multi-cycle test runs, its audits cl
   for (const char* quarter : {"front", "rear"}) {
     std::vector<std::string> settings{"wheels=1", "variant=source", std::string("quarter=") + quarter};
     for (const models::Effect* effect : models::all_effects()) {
-      if (!models::acts_on(effect->info, models::RigKind::kDyno)) continue;
+      if (!effect->info.acts_on(tests::kDyno->traits)) continue;
       const auto& size = effect->info.parameters[0];
       settings.push_back(fmt::format("effects.{}.{}={}", effect->info.id, size.key, size.prior.center()));
     }

@@ -42,7 +42,7 @@ double mean_of_row(const sim::Recording<double>& recording, const char* channel,
 }  // namespace
 
 TEST_CASE("under a constant force the speed falls in a straight line", "[fast]") {
-  for (VehicleFixture fixture : all_on("flat")) {
+  for (VehicleFixture fixture : all_on("road")) {
     fixture.vehicle.road_load = models::RoadLoad<double>{500.0, 0.0, 0.0};
     const double deceleration_m_s2 = 500.0 / fixture.total_mass_kg();
     for (const bool multibody : {false, true}) {
@@ -58,9 +58,9 @@ TEST_CASE("under a constant force the speed falls in a straight line", "[fast]")
 }
 
 TEST_CASE("a coastdown with A, B and C takes the time of the closed form, on the road and on rollers", "[fast]") {
-  for (const std::string rig : {"flat", "dyno_1m2"}) {
+  for (const std::string rig : {"road", "dyno_1m2"}) {
     for (VehicleFixture fixture : all_on(rig)) {
-      if (rig == "flat") {
+      if (rig == "road") {
         fixture.vehicle.road_load = kRoadLoad;
       } else {
         const auto parasitic = fixture.rig.parasitic;
@@ -91,7 +91,7 @@ TEST_CASE("nothing that resists: the speed stays", "[fast]") {
 }
 
 TEST_CASE("on the road the same holds where the wind goes along with the vehicle", "[fast]") {
-  for (VehicleFixture fixture : all_on("flat")) {
+  for (VehicleFixture fixture : all_on("road")) {
     fixture.take_losses_away();
     for (const bool multibody : {false, true}) {
       const auto recording = fixture.run(multibody, make_program({coasting(kFast_m_s, 1.0, 600.0, 0.0, -kFast_m_s)}));
@@ -102,7 +102,7 @@ TEST_CASE("on the road the same holds where the wind goes along with the vehicle
 }
 
 TEST_CASE("down a hill in a vacuum the vehicle falls, slowed by what it has to turn", "[fast]") {
-  for (VehicleFixture fixture : all_on("flat")) {
+  for (VehicleFixture fixture : all_on("road")) {
     fixture.take_losses_away();
     fixture.vehicle.body.drag_area_m2 = 0.0;
     constexpr double kSlope = -0.03;
@@ -133,7 +133,7 @@ TEST_CASE("tie-downs that press add their force to every contact", "[fast]") {
 }
 
 TEST_CASE("loads of the wheels are the weight, shared by the axles as the file says", "[fast]") {
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     VehicleFixture fixture(rig, true);
     fixture.vehicle.geometry.front_load_share = 0.6;
     const double weight_N = fixture.vehicle.body.mass_kg * kStandardGravity_m_s2;
@@ -152,8 +152,8 @@ TEST_CASE("loads of the wheels are the weight, shared by the axles as the file s
 
 TEST_CASE("standing with the driver's foot on the brake is standing, on a hill as well", "[fast]") {
   for (const double slope : {0.0, 0.06, -0.06}) {
-    for (const std::string rig : {"flat", "dyno_1m2"}) {
-      if (slope != 0.0 && rig != "flat") continue;
+    for (const std::string rig : {"road", "dyno_1m2"}) {
+      if (slope != 0.0 && rig != "road") continue;
       for (const VehicleFixture& fixture : all_on(rig)) {
         for (const bool multibody : {false, true}) {
           const auto recording = fixture.run(multibody, make_program({driving("stand", 600.0, 0.0, 0.0, slope)}));
@@ -171,8 +171,8 @@ TEST_CASE("standing with the driver's foot on the brake is standing, on a hill a
 
 TEST_CASE("start, a short drive and a stop, again and again, on a hill as well", "[fast]") {
   for (const double slope : {0.0, 0.06, -0.06}) {
-    for (const std::string rig : {"flat", "dyno_1m2"}) {
-      if (slope != 0.0 && rig != "flat") continue;
+    for (const std::string rig : {"road", "dyno_1m2"}) {
+      if (slope != 0.0 && rig != "road") continue;
       for (const VehicleFixture& fixture : all_on(rig)) {
         std::vector<sim::Phase> phases;
         for (int stop = 0; stop < 3; ++stop) {
@@ -243,7 +243,7 @@ TEST_CASE("the brakes' work is shared by the axles as the file says", "[fast]") 
 TEST_CASE("in the baseline a driven and an undriven wheel lose the same", "[fast]") {
   const auto program = make_program({driving("speed up", 20.0, 0.0, 25.0), driving("hold", 300.0, 25.0, 25.0),
                                      driving("slow down", 15.0, 25.0, 5.0), driving("stop", 3.0, 5.0, 0.0)});
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     for (const bool multibody : {false, true}) {
       const auto front = VehicleFixture(rig, false, QuarterWheel::kFront).run(multibody, program);
       const auto rear = VehicleFixture(rig, false, QuarterWheel::kRear).run(multibody, program);
@@ -259,7 +259,7 @@ TEST_CASE("in the baseline a driven and an undriven wheel lose the same", "[fast
 TEST_CASE("a quarter stands for the whole: each wheel of an evenly loaded vehicle loses what it loses", "[fast]") {
   const auto program = make_program({driving("speed up", 20.0, 0.0, 25.0), driving("hold", 120.0, 25.0, 25.0),
                                      driving("slow down", 15.0, 25.0, 5.0), driving("stop", 3.0, 5.0, 0.0)});
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     for (const bool multibody : {false, true}) {
       const auto four = VehicleFixture(rig, true).run(multibody, program);
       double whole_J = 0.0, quarters_J = 0.0;
@@ -270,7 +270,7 @@ TEST_CASE("a quarter stands for the whole: each wheel of an evenly loaded vehicl
         const double of_four_J = four.final_integrals[rigs::index_of(rigs::WheelIntegral::kRollingEnergy, place)];
         const double of_one_J = quarter.final_integrals[rigs::index_of(rigs::WheelIntegral::kRollingEnergy, 0)];
         // On the road a whole vehicle is pressed on its rear wheels by its drag, where a quarter has one wheel.
-        const bool pitches = multibody && std::string(rig) == "flat";
+        const bool pitches = multibody && std::string(rig) == "road";
         CHECK(of_four_J == Approx(of_one_J).epsilon(pitches ? 0.01 : 1e-4));
         whole_J += of_four_J;
         quarters_J += of_one_J;
@@ -307,14 +307,14 @@ TEST_CASE("at equal temperature the roller costs a50 8.45 % over the 2 m drum, t
   for (const bool multibody : {false, true}) {
     INFO(name_of(multibody));
     CHECK(find_loss_N("dyno_1m2", multibody) / drum_N == Approx(1.0845).margin(1e-4));
-    CHECK(find_loss_N("flat", multibody) / drum_N == Approx(1.0 / std::sqrt(1.0 + 0.3588)).epsilon(1e-4));
+    CHECK(find_loss_N("road", multibody) / drum_N == Approx(1.0 / std::sqrt(1.0 + 0.3588)).epsilon(1e-4));
   }
 }
 
 TEST_CASE("the same run twice is the same to the bit", "[fast]") {
   const auto program = make_program({driving("stand", 10.0, 0.0, 0.0), driving("speed up", 10.0, 0.0, 20.0),
                                      coasting(20.0, 10.0), driving("stop", 5.0, 10.0, 0.0)});
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     const VehicleFixture fixture(rig, true);
     for (const bool multibody : {false, true}) {
       const auto first = fixture.run(multibody, program);

@@ -159,7 +159,7 @@ TEST_CASE("a program written as a set is resimulated to the same channels, memor
   const measurements::MeasuredRun& run = set.runs[0];
   CHECK(run.rest_before_s.has_value());
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), spec.effects);
-  const auto resimulated = measurements::Resimulation(run, set.kind).simulate(set, run, corner);
+  const auto resimulated = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
   for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC"}) {
     const std::vector<double>& measured = run.columns.at(channel);
     double worst = 0.0;

@@ -7,6 +7,7 @@
 #include "scenarios/common/written_set.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/machines.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
@@ -70,10 +71,10 @@ TEST_CASE("energy closes on the roller and on the road, with any effect on", "[f
     const models::EffectParameter& size = effect->info.parameters.front();
     INFO(id);
     const std::string on = "effects." + id + "." + size.key + "=" + std::to_string(size.prior.center());
-    if (models::acts_in(effect->info, models::RigKind::kDyno, models::default_tire_model())) {
+    if (models::acts_in(effect->info, tests::kDyno->traits, models::default_tire_model())) {
       check_closed(on_roller({on}).run());
     }
-    if (models::acts_in(effect->info, models::RigKind::kFlat, models::default_tire_model())) {
+    if (models::acts_in(effect->info, tests::kRoad->traits, models::default_tire_model())) {
       check_closed(on_road({on}).run());
     }
   }
@@ -118,7 +119,7 @@ TEST_CASE("a set holds no loss force below 20 km/h and no traction where frictio
     const auto outcome = follow.run();
     const measurements::MeasurementSet set = write_and_read(follow.spec, outcome);
     REQUIRE(set.runs.size() == 1);
-    CHECK(set.kind == (is_road ? measurements::SetKind::kRoad : measurements::SetKind::kDyno));
+    CHECK(set.kind == (is_road ? tests::kRoad : tests::kDyno));
     const measurements::MeasuredRun& run = set.runs.front();
     CHECK(run.columns.size() == (is_road ? 4 : 5));
     int empty = 0;
@@ -158,7 +159,7 @@ TEST_CASE("the vehicle that a set of the road names is that of the run", "[fast]
 TEST_CASE("sensors of a wheel err by the seed", "[fast]") {
   Follow follow = on_roller();
   const std::vector<double> truth = follow.run().recording.channel("loss_force_N");
-  follow.spec.sensors = measurements::default_sensors(measurements::SetKind::kDyno);
+  follow.spec.sensors = tests::kDyno->default_sensors;
   const std::vector<double> one = follow.run().recording.channel("loss_force_N");
   CHECK(follow.run().recording.channel("loss_force_N") == one);
   follow.spec.seed = 2;

@@ -31,28 +31,28 @@ double first_time_s(const scenarios::Outcome& outcome) {
 
 TEST_CASE("the air of the road has the temperature of the run, said by rig or by setting", "[fast]") {
   const Settings cold{"ambient_degC=-20", "warm_up_min=10"};
-  const auto by_setting = run_on("flat", "coastdown", cold);
-  const auto by_rig = run_on("flat", "coastdown", {"rig.environment.ambient_degC=-20", "warm_up_min=10"});
+  const auto by_setting = run_on("road", "coastdown", cold);
+  const auto by_rig = run_on("road", "coastdown", {"rig.environment.ambient_degC=-20", "warm_up_min=10"});
   CHECK(by_setting.result == by_rig.result);
   // C at reference conditions is that of the drag area, 1.1672 kg/m3 / 2 x 0.72 m2 = 0.4202 N s2/m2, whatever the
   // weather of the test; what tires add to it is a few percent.
   const double drag_N_per_km_h2 = 0.5 * 98.21e3 / (287.05 * 293.15) * 0.72 / (3.6 * 3.6);
   CHECK(tests::number(by_setting, "C_N_per_km_h2") == Approx(drag_N_per_km_h2).epsilon(0.06));
-  CHECK(first_time_s(by_setting) < 0.95 * first_time_s(run_on("flat", "coastdown", {"warm_up_min=10"})));
+  CHECK(first_time_s(by_setting) < 0.95 * first_time_s(run_on("road", "coastdown", {"warm_up_min=10"})));
 }
 
 TEST_CASE("a coast that does not end is a failed run that says why", "[fast]") {
-  CHECK_THROWS_WITH(run_on("flat", "coastdown", {"slope_percent=-1", "warm_up_min=0"}),
+  CHECK_THROWS_WITH(run_on("road", "coastdown", {"slope_percent=-1", "warm_up_min=0"}),
                     Catch::Contains("slope_percent"));
 }
 
 TEST_CASE("an effective mass below that of the bodies themselves", "[fast]") {
   const Settings light{"effects.inertia_error.error_percent=-4", "warm_up_min=0"};
-  const auto multibody = run_on("flat", "coastdown", light, "multibody");
-  const auto quasi_static = run_on("flat", "coastdown", light);
+  const auto multibody = run_on("road", "coastdown", light, "multibody");
+  const auto quasi_static = run_on("road", "coastdown", light);
   CHECK(first_time_s(multibody) == Approx(first_time_s(quasi_static)).margin(0.1));
   // Less to slow down by the same forces: 4 % less time, nearly.
-  const double usual_s = first_time_s(run_on("flat", "coastdown", {"warm_up_min=0"}));
+  const double usual_s = first_time_s(run_on("road", "coastdown", {"warm_up_min=0"}));
   CHECK(first_time_s(multibody) == Approx(0.96 * usual_s).epsilon(0.005));
 }
 
@@ -70,7 +70,7 @@ TEST_CASE("keeping pace costs the rollers no energy, however the axles are loade
 }
 
 TEST_CASE("the work of a driver who takes over at another speed is in the audit", "[fast]") {
-  const auto outcome = run_on("flat", "coastdown", {"warm_up_min=0", "to_km_h=60"});
+  const auto outcome = run_on("road", "coastdown", {"warm_up_min=0", "to_km_h=60"});
   CHECK_NOTHROW(outcome.recording.audit.require_closed(1e-9));
 }
 

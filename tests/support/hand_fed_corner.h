@@ -9,15 +9,16 @@
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 
 #include "tests/support/drum_fixture.h"
+#include "tests/support/machines.h"
 
 namespace rollrig::tests {
 
 /// The context of tire a50 on the 2 m drum, on a 1.2 m roller, or on the flat.
-inline models::Context<double> make_context_on(models::RigKind kind) {
+inline models::Context<double> make_context_on(tests::Machine kind) {
   models::Context<double> context = DrumFixture().context();
-  context.rig_kind = kind;
-  if (kind == models::RigKind::kDyno) context.surface_curvature_per_m = 1.0 / 0.6;
-  if (kind == models::RigKind::kFlat) context.surface_curvature_per_m = 0.0;
+  context.machine = kind->traits;
+  if (kind == tests::kDyno) context.surface_curvature_per_m = 1.0 / 0.6;
+  if (kind == tests::kRoad) context.surface_curvature_per_m = 0.0;
   return context;
 }
 

@@ -25,7 +25,7 @@ using NamedChannel = std::pair<std::string, std::vector<double>>;
 
 /// One channel after the effect; others beside it for the effect to read.
 inline std::vector<double> apply_trace(const models::ActiveEffect& active, const std::vector<double>& time_s,
-                                       const NamedChannel& channel, models::RigKind kind = models::RigKind::kDrum,
+                                       const NamedChannel& channel, tests::Machine kind = tests::kDrum,
                                        const std::vector<NamedChannel>& others = {}) {
   const auto context = make_context_on(kind);
   models::TracePort<double> port;

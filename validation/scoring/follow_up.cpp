@@ -37,7 +37,7 @@ std::string find_obstacle(const PlannedTest& test) {
 }
 
 /// Spans in which nothing is to be read.
-Json list_unread_s(const MeasuredRun& run, measurements::SetKind kind) {
+Json list_unread_s(const MeasuredRun& run, const measurements::MachineKind& kind) {
   std::vector<std::string> channels = measurements::measured_channels(kind);
   const auto is_read = [&](std::size_t row) {
     return std::any_of(channels.begin(), channels.end(), [&](const std::string& channel) {
@@ -67,12 +67,12 @@ Json make_plan_json(const FollowUpPlan& plan, const MeasurementSet& set, const P
                     {"initial_tire_temperature_degC", run.initial_tire_temperature_K - kZeroCelsius_K},
                     {"force_at_standstill", test.extra.force_at_standstill},
                     {"reversed", run.reversed},
-                    {"not_read_s", list_unread_s(run, set.kind)}});
+                    {"not_read_s", list_unread_s(run, *set.kind)}});
   }
   return {{"format", kPlanFormat},
           {"set", plan.number},
           {"set_sha256", plan.set_sha256},
-          {"kind", measurements::name_of(set.kind)},
+          {"kind", set.kind->word},
           {"test", test.description},
           {"soaked", test.soaked},
           {"soak_h", test.soaked ? diagnosis::kSoak_h : 0.0},

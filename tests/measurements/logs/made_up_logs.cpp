@@ -5,6 +5,7 @@
 
 #include "measurements/sensor_file.h"
 #include "sim/core/random.h"
+#include "tests/support/machines.h"
 
 namespace rollrig::tests {
 namespace {
@@ -108,7 +109,7 @@ MadeUpLogs make_up_logs(const LogsPlan& plan, std::uint64_t seed) {
   add_noise(made.tire.columns["liner_temperature_degC"], 0.1 * k, 0.05 * k, plan.tire_interval_s, random);
   add_noise(made.tire.columns["cavity_pressure_kPa"], 50.0 * k, 25.0 * k, plan.tire_interval_s, random);
   if (plan.tire_has_speed) add_noise(made.tire.columns["speed_km_h"], 0.08 * k, 0.04 * k, plan.tire_interval_s, random);
-  made.mapping.set.kind = measurements::SetKind::kDrum;
+  made.mapping.set.kind = tests::kDrum;
   made.mapping.set.sensors = measurements::read_sensor_asset("source");
   made.mapping.clock.largest_shift_s = 60.0;
   return made;

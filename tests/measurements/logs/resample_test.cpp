@@ -1,4 +1,5 @@
 #include "measurements/logs/resample.h"
+#include "tests/support/machines.h"
 
 #include <catch2/catch.hpp>
 
@@ -27,7 +28,7 @@ struct Pair {
   measurements::Mapping mapping;
 
   Pair(double start_s, double interval_s, std::size_t rows) : tire(make_log("tire_log", start_s, interval_s, rows)) {
-    mapping.set.kind = measurements::SetKind::kDrum;
+    mapping.set.kind = tests::kDrum;
     for (const double t : torque.time_s) {
       torque.columns["speed_km_h"].push_back(20.0 + 0.01 * t);
       torque.columns["load_N"].push_back(t < 50.0 ? 5000.0 : 200.0);

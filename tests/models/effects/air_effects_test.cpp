@@ -7,7 +7,6 @@
 using namespace rollrig;
 using models::ActiveEffect;
 using models::Node;
-using models::RigKind;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
@@ -15,7 +14,7 @@ using tests::switch_on;
 namespace {
 
 HandFedCorner<double> corner_with(const ActiveEffect& effect, double speed_m_s, double load_N = 5400.0,
-                                  RigKind kind = RigKind::kDrum) {
+                                  tests::Machine kind = tests::kDrum) {
   HandFedCorner<double> at(make_context_on(kind), {effect});
   at.inputs.speed_m_s = speed_m_s;
   at.inputs.load_N = load_N;
@@ -25,7 +24,7 @@ HandFedCorner<double> corner_with(const ActiveEffect& effect, double speed_m_s, 
 
 /// What windage adds to the loss.
 double find_windage_N(double speed_m_s, double load_N, double power = 2.0) {
-  HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> without(make_context_on(tests::kDrum), {});
   without.inputs.speed_m_s = speed_m_s;
   without.inputs.load_N = load_N;
   const auto with = corner_with(switch_on("windage", {1.5, power}), speed_m_s, load_N);
@@ -40,7 +39,7 @@ double find_air_speed_m_s(double deficit, double speed_m_s, double other_m_s = 1
 HandFedCorner<double> start_under(const ActiveEffect& effect, double load_N) {
   models::InitialPort<double> initial;
   initial.load_N = load_N;
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {effect}, initial);
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {effect}, initial);
   at.inputs.load_N = load_N;
   at.inputs.speed_m_s = 0.0;
   at.evaluate();
@@ -68,7 +67,7 @@ TEST_CASE("windage goes with the power of the speed and not with the load, and a
 
 TEST_CASE("of windage nothing heats the rubber", "[fast]") {
   auto with = corner_with(switch_on("windage", {3.0}), 30.0);
-  HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> without(make_context_on(tests::kDrum), {});
   without.inputs.speed_m_s = 30.0;
   CHECK(with.now.heat.heat_in_W == without.evaluate().heat.heat_in_W);
   with.advance(1800.0);
@@ -84,7 +83,7 @@ TEST_CASE("the air in the cell warms by its rise with its time constant, and the
   at.advance(12.0 * 3600.0, 20000);
   CHECK(at.now.acting.ambient_K - 298.15 == Approx(4.0));
   // in the end it is a tire in a warmer cell
-  HandFedCorner<double> warm(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> warm(make_context_on(tests::kDrum), {});
   warm.inputs.ambient_K = 302.15;
   warm.inputs.speed_m_s = 80.0 / 3.6;
   warm.advance(12.0 * 3600.0, 20000);
@@ -125,9 +124,9 @@ TEST_CASE("after a rest the cell's air is as warm as it left off, less what the 
   models::InitialPort<double> initial;
   initial.soaked = false;
   initial.rest_before_s = 3600.0;
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {effect}, initial);
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {effect}, initial);
   CHECK(at.evaluate().acting.ambient_K - 298.15 == Approx(4.0 * std::exp(-2.0)));
-  HandFedCorner<double> road(make_context_on(RigKind::kFlat), {effect}, initial);
+  HandFedCorner<double> road(make_context_on(tests::kRoad), {effect}, initial);
   CHECK(road.evaluate().acting.ambient_K == 298.15);
 }
 
@@ -149,7 +148,7 @@ TEST_CASE("without any power it is a fan, which blows at standstill too", "[fast
   }
   CHECK(find_air_speed_m_s(1.0, 0.0) == Approx(20.0).epsilon(1e-2));
   auto fan = corner_with(switch_on("convection_law", {1.0, 20.0, 0.1, 0.0}), 0.0);
-  HandFedCorner<double> still(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> still(make_context_on(tests::kDrum), {});
   still.inputs.speed_m_s = 0.0;
   for (auto* at : {&fan, &still}) {
     at->temperature_K(Node::kLiner) = 330.0;
@@ -183,7 +182,7 @@ TEST_CASE("the air never takes heat the wrong way, and its law has a finite deri
       }
     }
   }
-  HandFedCorner<Jet> at(make_context_on(RigKind::kDrum), {switch_on("convection_law", {0.0, 20.0, 1.0, 0.0})});
+  HandFedCorner<Jet> at(make_context_on(tests::kDrum), {switch_on("convection_law", {0.0, 20.0, 1.0, 0.0})});
   at.corner.effects()[0].parameters[0] = Jet(0.0, 0);
   at.inputs.speed_m_s = 0.0;
   const Jet air_m_s = at.evaluate().boundary.air_speed_m_s;
@@ -216,7 +215,7 @@ TEST_CASE("absolute pressure times volume stays, and the loss follows the pressu
   at.evaluate();
   constexpr double kAmbient_Pa = 101325.0;
   CHECK((at.now.pressure_Pa + kAmbient_Pa) * at.now.gas.volume_ratio == Approx(280e3 + kAmbient_Pa));
-  HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> without(make_context_on(tests::kDrum), {});
   without.inputs.speed_m_s = 20.0;
   CHECK(at.now.rolling_resistance_N / without.evaluate().rolling_resistance_N ==
         Approx(std::pow(at.now.pressure_Pa / 280e3, -0.4)));
@@ -242,7 +241,7 @@ TEST_CASE("a sudden load presses the gas without heat, which it gives up with it
 TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H), stirred by speed where a part is",
           "[fast]") {
   for (const double ratio : {0.25, 1.0, 2.0}) {
-    models::Context<double> context = make_context_on(RigKind::kDrum);
+    models::Context<double> context = make_context_on(tests::kDrum);
     context.tire.thermal.heat_capacity_J_per_K = 1e9;  // a tire that keeps its temperature
     HandFedCorner<double> at(context, {switch_on("gas_heat_transfer", {ratio, 0.0})});
     at.inputs.speed_m_s = 0.0;
@@ -259,7 +258,7 @@ TEST_CASE("the gas follows the tire with its own time constant, C_gas/(h H), sti
       stirred.advance(thermal.gas_heat_capacity_J_per_K / (factor * thermal.H_gas_W_per_K));
       CHECK(318.15 - stirred.temperature_K(Node::kGas) == Approx(20.0 * std::exp(-1.0)).epsilon(1e-4));
     }
-    HandFedCorner<double> usual(make_context_on(RigKind::kDrum), {switch_on("gas_heat_transfer", {ratio, 0.4})});
+    HandFedCorner<double> usual(make_context_on(tests::kDrum), {switch_on("gas_heat_transfer", {ratio, 0.4})});
     usual.temperature_K(Node::kLiner) = 318.15;
     const double stored_W = usual.stored_heat_rate_W();
     const auto& heat = usual.now.heat;

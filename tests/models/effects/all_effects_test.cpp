@@ -7,7 +7,6 @@
 using namespace rollrig;
 using models::Effect;
 using models::Node;
-using models::RigKind;
 using tests::HandFedCorner;
 
 namespace {
@@ -18,15 +17,16 @@ std::string model_for(const Effect& effect) {
 }
 
 /// Everything that an effect may change, after ten minutes of fast driving and some braking.
-std::vector<double> drive(RigKind kind, const std::vector<models::ActiveEffect>& effects, const std::string& model) {
+std::vector<double> drive(tests::Machine kind, const std::vector<models::ActiveEffect>& effects,
+                          const std::string& model) {
   models::Context<double> context = tests::make_context_on(kind);
   context.tire.own = tests::make_own(model);
   context.tire.constant.rrc = 0.0075;
   HandFedCorner<double> at(context, effects);
   at.inputs.speed_m_s = 36.0;
   at.inputs.load_N = 5000.0;
-  at.inputs.drive_force_N = kind == RigKind::kDrum ? 0.0 : -400.0;
-  at.inputs.brake_force_N = kind == RigKind::kDrum ? 0.0 : 400.0;
+  at.inputs.drive_force_N = kind == tests::kDrum ? 0.0 : -400.0;
+  at.inputs.brake_force_N = kind == tests::kDrum ? 0.0 : 400.0;
   at.inputs.slip_power_W = 20.0;
   at.advance(600.0, 200);
   return {at.now.rolling_resistance_N,
@@ -39,12 +39,12 @@ std::vector<double> drive(RigKind kind, const std::vector<models::ActiveEffect>&
           at.temperature_K(Node::kGas)};
 }
 
-std::vector<double> drive_at_size(RigKind kind, const Effect& effect, double size) {
+std::vector<double> drive_at_size(tests::Machine kind, const Effect& effect, double size) {
   return drive(kind, {tests::switch_on(effect.info.id, {size})}, model_for(effect));
 }
 
 /// Whether some quantity moves further and further off as the size grows.
-bool something_grows(RigKind kind, const Effect& effect) {
+bool something_grows(tests::Machine kind, const Effect& effect) {
   const models::EffectParameter& size = effect.info.parameters[0];
   const double reach = size.prior.high - *size.off;
   const auto baseline = drive(kind, {}, model_for(effect));
@@ -63,10 +63,10 @@ bool something_grows(RigKind kind, const Effect& effect) {
 
 TEST_CASE("every effect is the baseline to the bit at its off value, and where it does not act", "[fast]") {
   for (const Effect* effect : models::all_effects()) {
-    for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
-      INFO(effect->info.id << " on " << models::name_of(kind));
+    for (const tests::Machine kind : rigs::machine_kinds()) {
+      INFO(effect->info.id << " on " << kind->word);
       const models::EffectParameter& size = effect->info.parameters[0];
-      const bool acts = models::acts_on(effect->info, kind);
+      const bool acts = effect->info.acts_on(kind->traits);
       CHECK(drive_at_size(kind, *effect, acts ? *size.off : size.prior.high) == drive(kind, {}, model_for(*effect)));
     }
   }
@@ -76,9 +76,10 @@ TEST_CASE("every effect grows with its size", "[fast]") {
   for (const Effect* effect : models::all_effects()) {
     if (effect->hooks<double>().trace != nullptr) continue;  // not at the corner
     if (effect->info.id == "wind_and_grade") continue;  // acts on the vehicle: tests/measurements/resimulation_test.cpp
-    for (const RigKind kind : effect->info.acts_on) {
-      if (effect->info.id == "curvature_exponent" && kind == RigKind::kDrum) continue;  // the reference drum
-      INFO(effect->info.id << " on " << models::name_of(kind));
+    for (const tests::Machine kind : rigs::machine_kinds()) {
+      if (!effect->info.acts_on(kind->traits)) continue;
+      if (effect->info.id == "curvature_exponent" && kind == tests::kDrum) continue;  // the reference drum
+      INFO(effect->info.id << " on " << kind->word);
       CHECK(something_grows(kind, *effect));
     }
   }
@@ -89,6 +90,6 @@ TEST_CASE("an effect that a tire model has already does nothing on such a tire",
     if (effect->info.only_against == nullptr) continue;
     INFO(effect->info.id);
     const models::ActiveEffect large = tests::switch_on(effect->info.id, {effect->info.parameters[0].prior.high});
-    CHECK(drive(RigKind::kDyno, {large}, "combined") == drive(RigKind::kDyno, {}, "combined"));
+    CHECK(drive(tests::kDyno, {large}, "combined") == drive(tests::kDyno, {}, "combined"));
   }
 }

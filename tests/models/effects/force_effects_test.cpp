@@ -6,17 +6,16 @@
 
 using namespace rollrig;
 using models::ActiveEffect;
-using models::RigKind;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
 
 namespace {
 
-const std::vector<RigKind> kKinds{RigKind::kDrum, RigKind::kDyno, RigKind::kFlat};
+const std::vector<tests::Machine> kKinds{tests::kDrum, tests::kDyno, tests::kRoad};
 
 /// Loss at a speed and a load, at 25 degC.
-double find_loss_N(RigKind kind, const std::vector<ActiveEffect>& effects, double speed_m_s, double load_N) {
+double find_loss_N(tests::Machine kind, const std::vector<ActiveEffect>& effects, double speed_m_s, double load_N) {
   HandFedCorner<double> at(make_context_on(kind), effects);
   at.inputs.speed_m_s = speed_m_s;
   at.inputs.load_N = load_N;
@@ -24,7 +23,7 @@ double find_loss_N(RigKind kind, const std::vector<ActiveEffect>& effects, doubl
 }
 
 /// What the effect adds to the loss.
-double find_added_N(const ActiveEffect& effect, double speed_m_s, double load_N, RigKind kind = RigKind::kDrum) {
+double find_added_N(const ActiveEffect& effect, double speed_m_s, double load_N, tests::Machine kind = tests::kDrum) {
   return find_loss_N(kind, {effect}, speed_m_s, load_N) - find_loss_N(kind, {}, speed_m_s, load_N);
 }
 
@@ -38,13 +37,13 @@ TEST_CASE("toe and camber drag by the given force at the reference load, more wi
   CHECK(find_added_N(drag, 20.0, 200.0) > 0.0);
   CHECK(find_added_N(drag, 20.0, 0.0) == 0.0);
   CHECK(find_added_N(switch_on("toe_camber_drag", {6.0, 0.5, 1.0}), 20.0, 2700.0) == Approx(3.0));
-  CHECK(find_added_N(drag, 20.0, 5400.0, RigKind::kDyno) == Approx(6.0));
+  CHECK(find_added_N(drag, 20.0, 5400.0, tests::kDyno) == Approx(6.0));
 }
 
 TEST_CASE("of toe and camber drag the rubber gets its share, and no more", "[fast]") {
   for (const double share : {0.0, 0.3, 1.0}) {
-    HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("toe_camber_drag", {6.0, share})});
-    HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+    HandFedCorner<double> with(make_context_on(tests::kDrum), {switch_on("toe_camber_drag", {6.0, share})});
+    HandFedCorner<double> without(make_context_on(tests::kDrum), {});
     CHECK(with.evaluate().heat.heat_in_W - without.evaluate().heat.heat_in_W ==
           Approx(share * 6.0 * 80.0 / 3.6).margin(1e-9));
   }
@@ -62,7 +61,7 @@ TEST_CASE("the standing wave starts at its critical speed, grows with the square
   CHECK(find_added_N(wave, 33.0, 200.0) < 0.2 * find_added_N(wave, 33.0, 5400.0));
   CHECK(find_added_N(wave, 33.0, 0.0) == 0.0);
   CHECK(find_added_N(switch_on("standing_wave", {2.0, 120.0 / 3.6}), 120.0 / 3.6, 5400.0) == 0.0);  // no 0/0
-  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {wave});
+  HandFedCorner<double> with(make_context_on(tests::kDrum), {wave});
   with.inputs.speed_m_s = 33.0;
   const auto& now = with.evaluate();
   CHECK(now.heat.heat_in_W == Approx(now.rolling_resistance_N * 33.0));
@@ -70,39 +69,39 @@ TEST_CASE("the standing wave starts at its critical speed, grows with the square
 
 TEST_CASE("loss goes with a power of the correction factor from one surface to another", "[fast]") {
   const double v = 20.0;
-  const double roller_N = find_loss_N(RigKind::kDyno, {}, v, 5400.0);
-  const double road_N = find_loss_N(RigKind::kFlat, {}, v, 5400.0);
+  const double roller_N = find_loss_N(tests::kDyno, {}, v, 5400.0);
+  const double road_N = find_loss_N(tests::kRoad, {}, v, 5400.0);
   for (const double exponent : {0.6, 1.4}) {
     const std::vector<ActiveEffect> with{switch_on("curvature_exponent", {exponent})};
-    const double ratio = find_loss_N(RigKind::kDyno, with, v, 5400.0) / find_loss_N(RigKind::kFlat, with, v, 5400.0);
+    const double ratio = find_loss_N(tests::kDyno, with, v, 5400.0) / find_loss_N(tests::kRoad, with, v, 5400.0);
     CHECK(ratio == Approx(std::pow(roller_N / road_N, exponent)));
-    CHECK(find_loss_N(RigKind::kDrum, with, v, 5400.0) == find_loss_N(RigKind::kDrum, {}, v, 5400.0));
+    CHECK(find_loss_N(tests::kDrum, with, v, 5400.0) == find_loss_N(tests::kDrum, {}, v, 5400.0));
   }
   // to the power 0 there is no correction: the roller is like the drum
-  CHECK(find_loss_N(RigKind::kDyno, {switch_on("curvature_exponent", {0.0})}, v, 5400.0) ==
-        Approx(find_loss_N(RigKind::kDrum, {}, v, 5400.0)));
+  CHECK(find_loss_N(tests::kDyno, {switch_on("curvature_exponent", {0.0})}, v, 5400.0) ==
+        Approx(find_loss_N(tests::kDrum, {}, v, 5400.0)));
 }
 
 TEST_CASE("tie-downs press the wheel onto its roller, and only there", "[fast]") {
-  for (const RigKind kind : kKinds) {
+  for (const tests::Machine kind : kKinds) {
     HandFedCorner<double> at(make_context_on(kind), {switch_on("tie_down_load", {300.0})});
-    CHECK(at.evaluate().acting.load_N == (kind == RigKind::kDyno ? 5700.0 : 5400.0));
+    CHECK(at.evaluate().acting.load_N == (kind == tests::kDyno ? 5700.0 : 5400.0));
     CHECK(at.now.recorded.load_N == 5400.0);
   }
   // the loss goes with the load
-  CHECK(find_loss_N(RigKind::kDyno, {switch_on("tie_down_load", {300.0})}, 20.0, 5400.0) ==
-        Approx(find_loss_N(RigKind::kDyno, {}, 20.0, 5700.0)));
+  CHECK(find_loss_N(tests::kDyno, {switch_on("tie_down_load", {300.0})}, 20.0, 5400.0) ==
+        Approx(find_loss_N(tests::kDyno, {}, 20.0, 5700.0)));
 }
 
 TEST_CASE("a restraint that lifts more than there is leaves no load", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("tie_down_load", {-900.0, 0.0})});
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("tie_down_load", {-900.0, 0.0})});
   at.inputs.load_N = 500.0;
   CHECK(at.evaluate().acting.load_N == 0.0);
 }
 
 TEST_CASE("straps creep from what they were tied down with, and have crept right after a run", "[fast]") {
   const auto effect = switch_on("tie_down_load", {300.0, 0.2});
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {effect});
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {effect});
   CHECK(at.evaluate().acting.load_N == 5700.0);
   at.advance(900.0);
   CHECK(at.now.acting.load_N < 5700.0);
@@ -110,15 +109,15 @@ TEST_CASE("straps creep from what they were tied down with, and have crept right
   CHECK(at.now.acting.load_N == Approx(5400.0 + 0.8 * 300.0));
   models::InitialPort<double> warm;
   warm.started_warm = true;
-  CHECK(HandFedCorner<double>(make_context_on(RigKind::kDyno), {effect}, warm).evaluate().acting.load_N ==
+  CHECK(HandFedCorner<double>(make_context_on(tests::kDyno), {effect}, warm).evaluate().acting.load_N ==
         Approx(5400.0 + 0.8 * 300.0));
 }
 
 TEST_CASE("an error of inertia is on the machine and on the vehicle alike", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("inertia_error", {-2.5})});
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("inertia_error", {-2.5})});
   CHECK(at.evaluate().contact.machine_inertia_factor == Approx(0.975));
   CHECK(at.now.contact.vehicle_mass_factor == Approx(0.975));
-  HandFedCorner<double> off(make_context_on(RigKind::kDyno), {switch_on("inertia_error", {0.0})});
+  HandFedCorner<double> off(make_context_on(tests::kDyno), {switch_on("inertia_error", {0.0})});
   CHECK(off.evaluate().contact.machine_inertia_factor == 1.0);
   CHECK(off.now.contact.vehicle_mass_factor == 1.0);
 }
@@ -141,7 +140,7 @@ TEST_CASE("more drum inertia asks for torque by its share of J a/R, and none at 
 TEST_CASE("friction of loaded bearings goes with the load, not with temperature or speed, and heats no tire",
           "[fast]") {
   const ActiveEffect friction = switch_on("bearing_load_friction", {2.0});
-  for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno}) {
+  for (const tests::Machine kind : {tests::kDrum, tests::kDyno}) {
     for (const double temperature_K : {280.0, 330.0}) {
       HandFedCorner<double> with(make_context_on(kind), {friction}, {}, temperature_K);
       HandFedCorner<double> without(make_context_on(kind), {}, {}, temperature_K);
@@ -179,11 +178,11 @@ TEST_CASE("friction of loaded bearings is reported as the tire's, but for its sh
 
 TEST_CASE("loss goes with the pressure by the tire's exponent and the shift together", "[fast]") {
   const auto loss_N = [](const std::vector<ActiveEffect>& effects, double pressure_Pa) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), effects);
+    HandFedCorner<double> at(make_context_on(tests::kDrum), effects);
     at.now.inflation.cold_pressure_Pa = pressure_Pa;
     return at.evaluate().rolling_resistance_N;
   };
-  const auto context = make_context_on(RigKind::kDrum);
+  const auto context = make_context_on(tests::kDrum);
   const double own = context.tire.rolling_resistance.pressure_exponent;
   const double reference_Pa = context.tire.rolling_resistance.reference_pressure_Pa;
   for (const double shift : {-0.15, 0.1}) {

@@ -6,7 +6,6 @@
 
 using namespace rollrig;
 using models::Node;
-using models::RigKind;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
@@ -14,7 +13,7 @@ using tests::switch_on;
 namespace {
 
 /// The context with no heat leaving the rubber by other ways than an effect's.
-models::Context<double> insulated(RigKind kind) {
+models::Context<double> insulated(tests::Machine kind) {
   models::Context<double> context = make_context_on(kind);
   context.tire.thermal.rest_conductance_W_per_K = 0.0;
   context.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
@@ -31,8 +30,8 @@ void check_heat_balance(HandFedCorner<double>& at) {
 }  // namespace
 
 TEST_CASE("slip power goes into the rubber, all of it", "[fast]") {
-  HandFedCorner<double> with(make_context_on(RigKind::kDyno), {switch_on("slip_loss", {1.0 / 100.0})});
-  HandFedCorner<double> without(make_context_on(RigKind::kDyno), {});
+  HandFedCorner<double> with(make_context_on(tests::kDyno), {switch_on("slip_loss", {1.0 / 100.0})});
+  HandFedCorner<double> without(make_context_on(tests::kDyno), {});
   for (auto* at : {&with, &without}) {
     at->inputs.drive_force_N = -2000.0;
     at->inputs.slip_power_W = 2000.0 * 2000.0 / 100e3 * 20.0;  // 800 W: Fx^2 v/C
@@ -44,9 +43,9 @@ TEST_CASE("slip power goes into the rubber, all of it", "[fast]") {
 }
 
 TEST_CASE("without compliance numerical slip heats nothing, and the derivative is that of Fx^2 v/C", "[fast]") {
-  HandFedCorner<Jet> at(make_context_on(RigKind::kDyno), {switch_on("slip_loss", {0.0})});
+  HandFedCorner<Jet> at(make_context_on(tests::kDyno), {switch_on("slip_loss", {0.0})});
   at.corner.effects()[0].parameters[0] = Jet(0.0, 0);
-  HandFedCorner<Jet> without(make_context_on(RigKind::kDyno), {});
+  HandFedCorner<Jet> without(make_context_on(tests::kDyno), {});
   for (auto* one : {&at, &without}) {
     one->inputs.speed_m_s = 20.0;
     one->inputs.drive_force_N = 1500.0;
@@ -75,7 +74,7 @@ TEST_CASE("on the drum what slips heats the rubber, in both fidelities", "[fast]
 
 TEST_CASE("tread and liner even out with one time constant, whatever the tread's share", "[fast]") {
   for (const double share : {0.1, 0.5, 0.9}) {
-    const auto context = insulated(RigKind::kDrum);
+    const auto context = insulated(tests::kDrum);
     HandFedCorner<double> at(context, {switch_on("tread_liner_lag", {share, 60.0})});
     at.inputs.speed_m_s = 0.0;
     at.temperature_K(Node::kTread) = 320.0;
@@ -93,7 +92,7 @@ TEST_CASE("two halves heated alike and cooled on the tread alone differ by half 
           "[fast]") {
   // Liner: no cooling, half the heat Q; in steady state all of Q/2 passes the conductance G.
   const double everything = 60.0;  // power at which the tread has all of the cooling
-  auto context = make_context_on(RigKind::kDrum);
+  auto context = make_context_on(tests::kDrum);
   HandFedCorner<double> at(context, {switch_on("tread_liner_lag", {0.5, 80.0, 1.0, everything})});
   at.advance(6.0 * 3600.0, 10000);
   const double heat_W = at.now.rolling_resistance_N * at.inputs.speed_m_s;
@@ -103,8 +102,8 @@ TEST_CASE("two halves heated alike and cooled on the tread alone differ by half 
 }
 
 TEST_CASE("splitting the rubber neither makes nor loses capacity, heat or cooling", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("tread_liner_lag")}, {}, 315.0);
-  HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {}, {}, 315.0);
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("tread_liner_lag")}, {}, 315.0);
+  HandFedCorner<double> plain(make_context_on(tests::kDyno), {}, {}, 315.0);
   at.evaluate();
   plain.evaluate();
   CHECK(at.corner.calc_stored_heat_J(at.x.data()) == Approx(plain.corner.calc_stored_heat_J(plain.x.data())));
@@ -118,14 +117,14 @@ TEST_CASE("splitting the rubber neither makes nor loses capacity, heat or coolin
 TEST_CASE("a tread of no share is carried along unfelt, and derivatives by the share are right there", "[fast]") {
   const auto effect_at = [](double share) { return switch_on("tread_liner_lag", {share, 60.0, 0.8, 2.0}); };
   const auto liner_at = [&](double share) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {effect_at(share)});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {effect_at(share)});
     at.advance(300.0);
     return at.temperature_K(Node::kLiner);
   };
-  HandFedCorner<double> plain(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> plain(make_context_on(tests::kDrum), {});
   plain.advance(300.0);
   CHECK(liner_at(0.0) == plain.temperature_K(Node::kLiner));
-  HandFedCorner<Jet> jet(make_context_on(RigKind::kDrum), {effect_at(0.0)});
+  HandFedCorner<Jet> jet(make_context_on(tests::kDrum), {effect_at(0.0)});
   jet.corner.effects()[0].parameters[0] = Jet(0.0, 0);
   jet.advance(300.0);
   const double h = 1e-4;  // one-sided, second order
@@ -135,16 +134,16 @@ TEST_CASE("a tread of no share is carried along unfelt, and derivatives by the s
 }
 
 TEST_CASE("a well conducting tire has one temperature", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("tread_liner_lag", {0.5, 2e5})});
-  HandFedCorner<double> plain(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("tread_liner_lag", {0.5, 2e5})});
+  HandFedCorner<double> plain(make_context_on(tests::kDrum), {});
   at.advance(300.0, 20000);
   plain.advance(300.0);
   CHECK(at.temperature_K(Node::kLiner) == Approx(plain.temperature_K(Node::kLiner)).epsilon(1e-5));
 }
 
 TEST_CASE("of the brake's power the tire gets its share in steady braking, late", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25, 1.0})});
-  HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25, 1.0})});
+  HandFedCorner<double> plain(make_context_on(tests::kDyno), {});
   for (auto* one : {&at, &plain}) {
     one->inputs.speed_m_s = 20.0;
     one->inputs.brake_force_N = 500.0;  // 10 kW, of which 1 kW is bound for the tire
@@ -169,7 +168,7 @@ TEST_CASE("of the brake's power the tire gets its share in steady braking, late"
 }
 
 TEST_CASE("brake heat that passes the disc by comes by the rim's lag alone", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25, 0.0})});
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("brake_heat", {10.0, 10.0, 2.0, 0.25, 0.0})});
   at.inputs.speed_m_s = 20.0;
   at.inputs.brake_force_N = 500.0;  // 10 kW, of which 1 kW is bound for the tire
   at.advance(600.0);
@@ -179,7 +178,7 @@ TEST_CASE("brake heat that passes the disc by comes by the rim's lag alone", "[f
 }
 
 TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fast]") {
-  HandFedCorner<double> at(insulated(RigKind::kFlat), {switch_on("brake_heat", {5.0, 8.0, 3.0, 0.0})});
+  HandFedCorner<double> at(insulated(tests::kRoad), {switch_on("brake_heat", {5.0, 8.0, 3.0, 0.0})});
   at.inputs.speed_m_s = 25.0;
   at.inputs.brake_force_N = 2000.0;
   const double before_J = at.corner.calc_stored_heat_J(at.x.data());
@@ -199,8 +198,8 @@ TEST_CASE("all heat that was bound for the tire arrives after the braking", "[fa
 TEST_CASE("effects of a vehicle leave a drum rig alone to the bit", "[fast]") {
   for (const char* id : {"brake_heat", "brake_drag", "driveline_warming", "tie_down_load"}) {
     INFO(id);
-    HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on(id)}, {}, 310.0);
-    HandFedCorner<double> without(make_context_on(RigKind::kDrum), {}, {}, 310.0);
+    HandFedCorner<double> with(make_context_on(tests::kDrum), {switch_on(id)}, {}, 310.0);
+    HandFedCorner<double> without(make_context_on(tests::kDrum), {}, {}, 310.0);
     for (auto* one : {&with, &without}) {
       one->inputs.brake_force_N = 1000.0;
       one->evaluate();

@@ -7,7 +7,6 @@
 #include "tests/support/trace_port.h"
 
 using namespace rollrig;
-using models::RigKind;
 using tests::apply_trace;
 using tests::HandFedCorner;
 using tests::make_context_on;
@@ -20,7 +19,7 @@ namespace {
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// The load that acts on a tire of 5400 N reference load.
-double find_acting_N(const models::ActiveEffect& effect, double recorded_N, RigKind kind = RigKind::kDrum) {
+double find_acting_N(const models::ActiveEffect& effect, double recorded_N, tests::Machine kind = tests::kDrum) {
   HandFedCorner<double> at(make_context_on(kind), {effect});
   at.inputs.load_N = recorded_N;
   return at.evaluate().acting.load_N;
@@ -29,7 +28,7 @@ double find_acting_N(const models::ActiveEffect& effect, double recorded_N, RigK
 }  // namespace
 
 TEST_CASE("a wrong speed record turns the tire faster than it says, and the record stays", "[fast]") {
-  for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
+  for (const tests::Machine kind : {tests::kDrum, tests::kDyno, tests::kRoad}) {
     HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0, 0.0, 0.0})});
     HandFedCorner<double> right(make_context_on(kind), {});
     wrong.inputs.speed_m_s = 20.0;
@@ -51,7 +50,7 @@ TEST_CASE("an error of the speed is its size at 80 km/h, grows or falls with spe
   const double v_m_s = 80.0 / 3.6;
   for (const auto& [growing, fixed, rises] : {std::tuple{0.4, 0.0, 1.0}, std::tuple{0.0, 0.4, -1.0}}) {
     const auto at_speed = [growing = growing, fixed = fixed](double speed_m_s) {
-      HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, growing, fixed})});
+      HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("speed_record", {5.0, growing, fixed})});
       at.inputs.speed_m_s = speed_m_s;
       at.inputs.acceleration_m_s2 = 0.5;
       at.evaluate();
@@ -71,7 +70,7 @@ TEST_CASE("an error of the speed is its size at 80 km/h, grows or falls with spe
 }
 
 TEST_CASE("no error of the speed turns the surface the other way round", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kFlat), {switch_on("speed_record", {-50.0, 0.0, 1.0})});
+  HandFedCorner<double> at(make_context_on(tests::kRoad), {switch_on("speed_record", {-50.0, 0.0, 1.0})});
   for (const double speed_m_s : {0.01, 0.3, 3.0, 30.0}) {
     at.inputs.speed_m_s = speed_m_s;
     CHECK(at.evaluate().acting.speed_m_s > 0.0);
@@ -80,7 +79,7 @@ TEST_CASE("no error of the speed turns the surface the other way round", "[fast]
 
 TEST_CASE("a fixed speed beside the scale is as many km/h at every speed but at rest", "[fast]") {
   const auto off_m_s = [](double speed_m_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("speed_record", {5.0, 0.0, 1.0})});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("speed_record", {5.0, 0.0, 1.0})});
     at.inputs.speed_m_s = speed_m_s;
     return at.evaluate().acting.speed_m_s - speed_m_s;
   };
@@ -118,11 +117,11 @@ TEST_CASE("a load cell that bends is off by its size at the reference load, and 
 TEST_CASE("an error of the load record neither pulls at a tire nor puts down one that is lifted", "[fast]") {
   CHECK(find_acting_N(switch_on("load_record", {-5.0, 1.0}), 200.0) == 0.0);
   CHECK(find_acting_N(switch_on("load_record", {5.0, 1.0}), 0.0) == 0.0);
-  CHECK(find_acting_N(switch_on("load_record", {5.0, 0.0}), 5000.0, RigKind::kFlat) == 5000.0);  // no record there
+  CHECK(find_acting_N(switch_on("load_record", {5.0, 0.0}), 5000.0, tests::kRoad) == 5000.0);  // no record there
 }
 
 TEST_CASE("tie-downs add to the true load, not to the record", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+  HandFedCorner<double> at(make_context_on(tests::kDyno),
                            {switch_on("load_record", {2.0, 0.0}), switch_on("tie_down_load", {100.0})});
   at.inputs.load_N = 5000.0;
   CHECK(at.evaluate().acting.load_N == Approx(5200.0));
@@ -142,7 +141,7 @@ TEST_CASE("the pressure sensor's error is in its channel alone, the same at ever
 
 TEST_CASE("the pressure sensor's zero shifts with the liner's temperature, from 25 degC", "[fast]") {
   const auto effect = switch_on("pressure_record", {-8.0, 0.05, 0.0});
-  const auto context = make_context_on(RigKind::kDrum);
+  const auto context = make_context_on(tests::kDrum);
   models::TracePort<double> port;
   port.time_s = {0.0, 1.0};
   port.channels = {{"cavity_pressure_kPa", {250e3, 250e3}}, {"liner_temperature_degC", {298.15, 318.15}}};
@@ -154,7 +153,7 @@ TEST_CASE("the pressure sensor's zero shifts with the liner's temperature, from 
 
 TEST_CASE("a pressure sensor of a wrong scale is off by a share, its size at the reference pressure", "[fast]") {
   const auto effect = switch_on("pressure_record", {14.0, 0.0, 1.0});
-  const double reference_Pa = make_context_on(RigKind::kDrum).tire.rolling_resistance.reference_pressure_Pa;
+  const double reference_Pa = make_context_on(tests::kDrum).tire.rolling_resistance.reference_pressure_Pa;
   const auto shown =
       apply_trace(effect, {0.0, 1.0, 2.0}, {"cavity_pressure_kPa", {reference_Pa, 1.2 * reference_Pa, 0.0}});
   CHECK(shown[0] - reference_Pa == Approx(14e3));
@@ -163,8 +162,8 @@ TEST_CASE("a pressure sensor of a wrong scale is off by a share, its size at the
 }
 
 TEST_CASE("a wrong pressure sensor does not change the pressure that the tire rolls on", "[fast]") {
-  HandFedCorner<double> with(make_context_on(RigKind::kDrum), {switch_on("pressure_record", {15.0, 0.02, 0.5})});
-  HandFedCorner<double> without(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> with(make_context_on(tests::kDrum), {switch_on("pressure_record", {15.0, 0.02, 0.5})});
+  HandFedCorner<double> without(make_context_on(tests::kDrum), {});
   CHECK(with.evaluate().pressure_Pa == without.evaluate().pressure_Pa);
   CHECK(with.now.pressure_Pa == Approx(280e3));  // as the setting gauge said
   CHECK(with.now.rolling_resistance_N == without.now.rolling_resistance_N);
@@ -174,9 +173,8 @@ TEST_CASE("a scale of torque is on torque, loss force and traction force, in bot
   const auto effect = switch_on("torque_gain", {2.5, 0.0});
   const std::vector<double> values{40.0, -20.0, 0.0};
   const std::vector<double> time_s{0.0, 1.0, 2.0};
-  for (const auto& [name, kind] : std::vector<std::pair<std::string, RigKind>>{{"drum_torque_Nm", RigKind::kDrum},
-                                                                               {"loss_force_N", RigKind::kDyno},
-                                                                               {"traction_force_N", RigKind::kFlat}}) {
+  for (const auto& [name, kind] : std::vector<std::pair<std::string, tests::Machine>>{
+           {"drum_torque_Nm", tests::kDrum}, {"loss_force_N", tests::kDyno}, {"traction_force_N", tests::kRoad}}) {
     const auto shown = apply_trace(effect, time_s, {name, values}, kind);
     CHECK(shown[0] == Approx(41.0));
     CHECK(shown[1] == Approx(-20.5));
@@ -188,15 +186,15 @@ TEST_CASE("a scale of torque is on torque, loss force and traction force, in bot
 TEST_CASE("a torque meter that bends is off by its size at a force of 60 N, either way, and less at high force",
           "[fast]") {
   const auto effect = switch_on("torque_gain", {2.5, -0.3});
-  const auto share = [&](const std::string& channel, double value, RigKind kind) {
+  const auto share = [&](const std::string& channel, double value, tests::Machine kind) {
     return apply_trace(effect, {0.0, 1.0}, {channel, {value, -value}}, kind)[1] / -value - 1.0;
   };
-  const double radius_m = 1.0 / make_context_on(RigKind::kDrum).surface_curvature_per_m;
-  CHECK(share("drum_torque_Nm", 60.0 * radius_m, RigKind::kDrum) == Approx(0.025));
-  CHECK(share("loss_force_N", 60.0, RigKind::kDyno) == Approx(0.025));
-  CHECK(share("traction_force_N", -600.0, RigKind::kFlat) == Approx(0.025));  // a motor's force, not a bridge's
-  CHECK(share("loss_force_N", 600.0, RigKind::kDyno) < 0.015);
-  CHECK(share("loss_force_N", 6.0, RigKind::kDyno) > 0.04);
+  const double radius_m = 1.0 / make_context_on(tests::kDrum).surface_curvature_per_m;
+  CHECK(share("drum_torque_Nm", 60.0 * radius_m, tests::kDrum) == Approx(0.025));
+  CHECK(share("loss_force_N", 60.0, tests::kDyno) == Approx(0.025));
+  CHECK(share("traction_force_N", -600.0, tests::kRoad) == Approx(0.025));  // a motor's force, not a bridge's
+  CHECK(share("loss_force_N", 600.0, tests::kDyno) < 0.015);
+  CHECK(share("loss_force_N", 6.0, tests::kDyno) > 0.04);
 }
 
 TEST_CASE("load leaks into the torque by its angle, by the drum's radius, whatever the torque is", "[fast]") {
@@ -205,21 +203,21 @@ TEST_CASE("load leaks into the torque by its angle, by the drum's radius, whatev
   const NamedChannel load{"load_N", {5000.0, 5000.0, 5000.0}};
   for (const double torque_Nm : {0.0, 60.0}) {
     const auto shown =
-        apply_trace(effect, time_s, {"drum_torque_Nm", {torque_Nm, torque_Nm, torque_Nm}}, RigKind::kDrum, {load});
+        apply_trace(effect, time_s, {"drum_torque_Nm", {torque_Nm, torque_Nm, torque_Nm}}, tests::kDrum, {load});
     CHECK(shown[1] - torque_Nm == Approx(2.0));  // 5 kN, 0.4 mrad, R = 1 m
   }
   const std::vector<double> zeros(3, 0.0);
-  CHECK(apply_trace(effect, time_s, {"loss_force_N", zeros}, RigKind::kDyno, {load})[1] == Approx(2.0));
-  CHECK(apply_trace(switch_on("load_cross_talk", {-0.4, 0.0}), time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum,
+  CHECK(apply_trace(effect, time_s, {"loss_force_N", zeros}, tests::kDyno, {load})[1] == Approx(2.0));
+  CHECK(apply_trace(switch_on("load_cross_talk", {-0.4, 0.0}), time_s, {"drum_torque_Nm", zeros}, tests::kDrum,
                     {load})[1] == Approx(-2.0));
-  CHECK(apply_trace(effect, time_s, {"drum_torque_Nm", zeros}, RigKind::kDrum) == zeros);  // no load, no leak
+  CHECK(apply_trace(effect, time_s, {"drum_torque_Nm", zeros}, tests::kDrum) == zeros);  // no load, no leak
 }
 
 TEST_CASE("an angle that grows as the frame bends is its size at the reference load, and less below it", "[fast]") {
   const auto share = [](double load_N) {
     const NamedChannel load{"load_N", {load_N, load_N}};
-    return apply_trace(switch_on("load_cross_talk", {0.4, 0.5}), {0.0, 1.0}, {"loss_force_N", {0.0, 0.0}},
-                       RigKind::kDyno, {load})[1] /
+    return apply_trace(switch_on("load_cross_talk", {0.4, 0.5}), {0.0, 1.0}, {"loss_force_N", {0.0, 0.0}}, tests::kDyno,
+                       {load})[1] /
            load_N;
   };
   CHECK(share(5400.0) == Approx(0.4e-3));
@@ -231,8 +229,7 @@ TEST_CASE("beside a step of the load a sample has the mean of what held before a
   const auto effect = switch_on("load_cross_talk", {1.0, 0.0});
   const std::vector<double> time_s{0.0, 1.0, 4.0, 5.0};
   const NamedChannel load{"load_N", {1000.0, 1000.0, 3000.0, 3000.0}};  // steps at 4 s
-  const auto shown =
-      apply_trace(effect, time_s, {"drum_torque_Nm", std::vector<double>(4, 0.0)}, RigKind::kDrum, {load});
+  const auto shown = apply_trace(effect, time_s, {"drum_torque_Nm", std::vector<double>(4, 0.0)}, tests::kDrum, {load});
   const double sine = std::sin(1e-3);
   CHECK(shown[0] == Approx(1000.0 * sine));
   CHECK(shown[1] == Approx(1000.0 * sine));

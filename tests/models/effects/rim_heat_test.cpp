@@ -7,7 +7,6 @@
 using namespace rollrig;
 using models::index_of;
 using models::Node;
-using models::RigKind;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
@@ -27,7 +26,7 @@ void check_heat_balance(HandFedCorner<double>& at) {
 }  // namespace
 
 TEST_CASE("tire, gas and rim that lose nothing come to one temperature, and no heat is lost", "[fast]") {
-  auto context = make_context_on(RigKind::kDrum);
+  auto context = make_context_on(tests::kDrum);
   context.tire.thermal.rest_conductance_W_per_K = 0.0;
   context.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
   HandFedCorner<double> at(context, {rim_at(2.0)});
@@ -42,7 +41,7 @@ TEST_CASE("tire, gas and rim that lose nothing come to one temperature, and no h
 
 TEST_CASE("a rim in steady rolling passes on what its conductances in series let through", "[fast]") {
   // all from the rubber: (T - T_rim) U = (T_rim - T_amb) a_rim
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {rim_at(3.0, 0.0)});
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {rim_at(3.0, 0.0)});
   at.advance(8.0 * 3600.0, 20000);
   const auto& thermal = at.corner.context().tire.thermal;
   const double rubber_air_W_per_K = (1.0 - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K +
@@ -56,7 +55,7 @@ TEST_CASE("a rim in steady rolling passes on what its conductances in series let
 
 TEST_CASE("a rim cools tire and gas, the more the better it conducts; the gas lies between rubber and rim", "[fast]") {
   const auto settle = [](double conductance_W_per_K) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {rim_at(conductance_W_per_K)});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {rim_at(conductance_W_per_K)});
     at.advance(4.0 * 3600.0, 10000);
     CHECK(at.temperature_K(Node::kGas) <= at.temperature_K(Node::kLiner) + 1e-9);
     CHECK(at.temperature_K(Node::kGas) >= at.temperature_K(Node::kRim));
@@ -72,7 +71,7 @@ TEST_CASE("a rim cools tire and gas, the more the better it conducts; the gas li
 
 TEST_CASE("a rim cools faster in motion than at rest", "[fast]") {
   const auto rim_after = [](double speed_m_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {rim_at(0.0)});
+    HandFedCorner<double> at(make_context_on(tests::kDyno), {rim_at(0.0)});
     at.inputs.speed_m_s = speed_m_s;
     at.temperature_K(Node::kRim) = 340.0;
     at.advance(600.0);
@@ -85,15 +84,15 @@ TEST_CASE("a rim cools faster in motion than at rest", "[fast]") {
 
 TEST_CASE("without conductance the rim is not felt, and derivatives by the conductance are right there", "[fast]") {
   const auto drive = [](double conductance_W_per_K) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {rim_at(conductance_W_per_K)});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {rim_at(conductance_W_per_K)});
     at.advance(1200.0);
     return std::pair(at.temperature_K(Node::kLiner), at.now.pressure_Pa);
   };
-  HandFedCorner<double> plain(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> plain(make_context_on(tests::kDrum), {});
   plain.advance(1200.0);
   CHECK(drive(0.0).first == plain.temperature_K(Node::kLiner));
   CHECK(drive(0.0).second == plain.now.pressure_Pa);
-  HandFedCorner<Jet> jet(make_context_on(RigKind::kDrum), {rim_at(0.0)});
+  HandFedCorner<Jet> jet(make_context_on(tests::kDrum), {rim_at(0.0)});
   jet.corner.effects()[0].parameters[0] = Jet(0.0, 0);
   jet.advance(1200.0);
   const double h = 1e-3;  // one-sided, second order
@@ -108,10 +107,10 @@ TEST_CASE("without conductance the rim is not felt, and derivatives by the condu
 }
 
 TEST_CASE("with a rim the heat balance closes, beside a tread and braking too", "[fast]") {
-  for (const RigKind kind : {RigKind::kDrum, RigKind::kDyno, RigKind::kFlat}) {
+  for (const tests::Machine kind : {tests::kDrum, tests::kDyno, tests::kRoad}) {
     HandFedCorner<double> at(make_context_on(kind),
                              {rim_at(2.0), switch_on("tread_liner_lag"), switch_on("brake_heat")}, {}, 315.0);
-    at.inputs.brake_force_N = kind == RigKind::kDrum ? 0.0 : 800.0;
+    at.inputs.brake_force_N = kind == tests::kDrum ? 0.0 : 800.0;
     at.temperature_K(Node::kRim) = 305.0;
     check_heat_balance(at);
     at.advance(300.0);
@@ -121,7 +120,7 @@ TEST_CASE("with a rim the heat balance closes, beside a tread and braking too", 
 
 TEST_CASE("splitting off a tread leaves the rim its conductance to the air", "[fast]") {
   const auto air_W_per_K = [](const std::vector<models::ActiveEffect>& effects) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), effects);
+    HandFedCorner<double> at(make_context_on(tests::kDrum), effects);
     return at.evaluate().thermal.air_W_per_K[index_of(Node::kRim)];
   };
   std::vector<models::ActiveEffect> in_order;  // of the registry
@@ -135,7 +134,7 @@ TEST_CASE("splitting off a tread leaves the rim its conductance to the air", "[f
 TEST_CASE("into a linked rim the brake puts what makes the same share arrive", "[fast]") {
   for (const double link_W_per_K : {0.0, 2.0}) {
     for (const double gas_share : {0.0, 0.5, 1.0}) {
-      HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+      HandFedCorner<double> at(make_context_on(tests::kDyno),
                                {rim_at(link_W_per_K, gas_share), switch_on("brake_heat", {10.0, 10.0, 2.0, 0.3, 1.0})});
       at.inputs.brake_force_N = 450.0;
       at.inputs.speed_m_s = 20.0;                           // 900 W bound for the tire
@@ -161,8 +160,8 @@ TEST_CASE("heat of the brakes reaches the tire through the linked rim, late, and
   // steady braking: what arrives is that of the brake's own delay, so the rubber rises alike (all from the rubber)
   const auto rise_K = [](const std::vector<models::ActiveEffect>& with_brake,
                          const std::vector<models::ActiveEffect>& without, double time_s) {
-    HandFedCorner<double> braked(make_context_on(RigKind::kDyno), with_brake);
-    HandFedCorner<double> free(make_context_on(RigKind::kDyno), without);
+    HandFedCorner<double> braked(make_context_on(tests::kDyno), with_brake);
+    HandFedCorner<double> free(make_context_on(tests::kDyno), without);
     for (auto* at : {&braked, &free}) {
       at->inputs.speed_m_s = 20.0;
       at->inputs.brake_force_N = 100.0;

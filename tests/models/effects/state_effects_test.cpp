@@ -6,7 +6,6 @@
 
 using namespace rollrig;
 using models::Node;
-using models::RigKind;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
@@ -33,7 +32,7 @@ models::InitialPort<double> warm() {
 
 TEST_CASE("a flat spot rolls out over distance, whatever the speed", "[fast]") {
   for (const double speed_m_s : {5.0, 20.0, 36.0}) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("flat_spot", {5.0, 8.0})});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("flat_spot", {5.0, 8.0})});
     CHECK(at.state("flat_spot.flatness") == 1.0);
     at.inputs.speed_m_s = speed_m_s;
     CHECK(at.evaluate().loss.factor == Approx(1.05));
@@ -45,7 +44,7 @@ TEST_CASE("a flat spot rolls out over distance, whatever the speed", "[fast]") {
 
 TEST_CASE("a flat spot comes back at rest, and starts from the rest before the run", "[fast]") {
   const auto effect = switch_on("flat_spot", {5.0, 8.0, 2.0});
-  const auto context = make_context_on(RigKind::kFlat);
+  const auto context = make_context_on(tests::kRoad);
   CHECK(HandFedCorner<double>(context, {effect}, warm()).state("flat_spot.flatness") == 0.0);
   CHECK(HandFedCorner<double>(context, {effect}, rested(0.0)).state("flat_spot.flatness") == 0.0);
   CHECK(HandFedCorner<double>(context, {effect}, rested(100.0)).state("flat_spot.flatness") == Approx(1.0));
@@ -58,8 +57,8 @@ TEST_CASE("a flat spot comes back at rest, and starts from the rest before the r
 }
 
 TEST_CASE("brake drag is set by braking, never above its size, and decays with its time constant", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 0.0})});
-  HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+  HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 0.0})});
+  HandFedCorner<double> plain(make_context_on(tests::kDyno), {});
   CHECK(at.evaluate().parasitic_N == plain.evaluate().parasitic_N);  // nothing before the first braking
   for (auto* one : {&at, &plain}) {
     one->inputs.brake_force_N = 3000.0;
@@ -77,7 +76,7 @@ TEST_CASE("brake drag is set by braking, never above its size, and decays with i
 
 TEST_CASE("drag that the disc perturbations back is worn off by distance, and stays at standstill", "[fast]") {
   const auto left_after = [](double speed_m_s, double duration_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 1.0})});
+    HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 1.0})});
     at.inputs.brake_force_N = 3000.0;
     at.advance(30.0);
     const double set = at.state("brake_drag.dragging");
@@ -93,7 +92,7 @@ TEST_CASE("drag that the disc perturbations back is worn off by distance, and st
 
 TEST_CASE("light and short braking sets less drag than strong and long", "[fast]") {
   const auto set_by = [](double brake_N, double duration_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("brake_drag")});
+    HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("brake_drag")});
     at.inputs.brake_force_N = brake_N;
     at.advance(duration_s);
     return at.state("brake_drag.dragging");
@@ -106,16 +105,16 @@ TEST_CASE("light and short braking sets less drag than strong and long", "[fast]
 TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, and the thicker it is the faster it warms",
           "[fast]") {
   const auto rise_after_30_min = [](double fall) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("driveline_warming", {12.0, 30.0, fall})});
+    HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("driveline_warming", {12.0, 30.0, fall})});
     at.advance(1800.0);
     return at.state("driveline_warming.oil_rise");
   };
   CHECK(rise_after_30_min(0.0) == Approx(1.0 - std::exp(-1.0)).epsilon(1e-6));  // first order
   CHECK(rise_after_30_min(1.5) > rise_after_30_min(0.7));
   CHECK(rise_after_30_min(0.7) > rise_after_30_min(0.0));
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+  HandFedCorner<double> at(make_context_on(tests::kDyno),
                            {switch_on("driveline_warming", {12.0, 30.0, 1.5, 0.1, 0.0})});
-  HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+  HandFedCorner<double> plain(make_context_on(tests::kDyno), {});
   const double baseline_N = plain.evaluate().parasitic_N;
   CHECK(at.evaluate().parasitic_N - baseline_N == Approx(12.0));
   CHECK(at.now.heating_force_N == plain.now.heating_force_N);
@@ -127,9 +126,9 @@ TEST_CASE("cold oil costs its whole force, warm oil exp(-k) of it, and the thick
 }
 
 TEST_CASE("of cold oil's force seals and gears keep their share", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDyno),
+  HandFedCorner<double> at(make_context_on(tests::kDyno),
                            {switch_on("driveline_warming", {12.0, 30.0, 8.0, 0.1, 0.25})});
-  HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+  HandFedCorner<double> plain(make_context_on(tests::kDyno), {});
   CHECK(at.evaluate().parasitic_N - plain.evaluate().parasitic_N == Approx(12.0));
   at.advance(30.0 * 3600.0, 4000);
   CHECK(at.now.parasitic_N - plain.now.parasitic_N == Approx(3.0).epsilon(0.01));
@@ -138,7 +137,7 @@ TEST_CASE("of cold oil's force seals and gears keep their share", "[fast]") {
 TEST_CASE("bearings in steady running at 80 km/h come to their rise, the sooner the harder they turn, and cool at rest",
           "[fast]") {
   const auto run_for = [](double fall_per_K, double duration_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("bearing_warmup", {fall_per_K, 30.0, 15.0})});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("bearing_warmup", {fall_per_K, 30.0, 15.0})});
     at.advance(duration_s, 4000);
     return at;
   };
@@ -157,7 +156,7 @@ TEST_CASE("bearings in steady running at 80 km/h come to their rise, the sooner 
 
 TEST_CASE("grease that is thin leaves the drum its air drag, or a share of it", "[fast]") {
   for (const double quadratic_share : {0.0, 0.5, 1.0}) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum),
+    HandFedCorner<double> at(make_context_on(tests::kDrum),
                              {switch_on("bearing_warmup", {0.2, 30.0, 0.1, 1.0, quadratic_share})});
     at.inputs.ambient_K = 298.15 + 200.0;
     const double air_drag_N = 0.004 * k80_m_s * k80_m_s;  // assets/rigs/drum_2m.toml
@@ -168,7 +167,7 @@ TEST_CASE("grease that is thin leaves the drum its air drag, or a share of it", 
 TEST_CASE("bearings are cold after a soak, warm right after a run, and between them after a rest", "[fast]") {
   const auto effect = switch_on("bearing_warmup", {0.02, 30.0, 15.0});
   const auto rise_dK = [&](const models::InitialPort<double>& initial) {
-    return HandFedCorner<double>(make_context_on(RigKind::kDrum), {effect}, initial)
+    return HandFedCorner<double>(make_context_on(tests::kDrum), {effect}, initial)
         .state("bearing_warmup.bearing_rise_dK");
   };
   CHECK(rise_dK({}) == 0.0);
@@ -179,8 +178,8 @@ TEST_CASE("bearings are cold after a soak, warm right after a run, and between t
 TEST_CASE("bearings in the cold turn as hard as by as many degrees less of their own warmth, oil by its share of them",
           "[fast]") {
   const auto find_N = [](const models::ActiveEffect& effect, double ambient_K) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {effect});
-    HandFedCorner<double> plain(make_context_on(RigKind::kDyno), {});
+    HandFedCorner<double> at(make_context_on(tests::kDyno), {effect});
+    HandFedCorner<double> plain(make_context_on(tests::kDyno), {});
     at.inputs.ambient_K = plain.inputs.ambient_K = ambient_K;
     return std::pair{at.evaluate().parasitic_N, plain.evaluate().parasitic_N};
   };
@@ -201,8 +200,7 @@ TEST_CASE("bearings in the cold turn as hard as by as many degrees less of their
 TEST_CASE("oil is cold after a soak, warm right after a run, and between them after a rest", "[fast]") {
   const auto effect = switch_on("driveline_warming", {12.0, 60.0});
   const auto rise = [&](const models::InitialPort<double>& initial) {
-    return HandFedCorner<double>(make_context_on(RigKind::kFlat), {effect}, initial)
-        .state("driveline_warming.oil_rise");
+    return HandFedCorner<double>(make_context_on(tests::kRoad), {effect}, initial).state("driveline_warming.oil_rise");
   };
   CHECK(rise({}) == 0.0);
   CHECK(rise(warm()) == 1.0);
@@ -211,7 +209,7 @@ TEST_CASE("oil is cold after a soak, warm right after a run, and between them af
 
 TEST_CASE("a surface warms to its rise with its time constant, and gives the tire that heat", "[fast]") {
   tests::DrumFixture fixture;
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("surface_warming", {8.0, 20.0})});
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("surface_warming", {8.0, 20.0})});
   CHECK(at.evaluate().boundary.surface_K == 298.15);
   at.advance(1200.0);
   CHECK(at.state("surface_warming.surface_rise_dK") == Approx(8.0 * (1.0 - std::exp(-1.0))).epsilon(1e-6));
@@ -226,7 +224,7 @@ TEST_CASE("a surface warms to its rise with its time constant, and gives the tir
 
 TEST_CASE("a surface warms more under more load and speed, and cools at rest", "[fast]") {
   const auto settled = [](double speed_m_s, double load_N) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDyno), {switch_on("surface_warming", {8.0})}, warm());
+    HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("surface_warming", {8.0})}, warm());
     at.inputs.speed_m_s = speed_m_s;
     at.inputs.load_N = load_N;
     at.advance(20.0 * 3600.0, 4000);
@@ -239,7 +237,7 @@ TEST_CASE("a surface warms more under more load and speed, and cools at rest", "
 }
 
 TEST_CASE("bearings never drive the rig, however thin their grease is said to be", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("bearing_warmup", {0.2, 30.0, 0.1, 1.0, 2.0})});
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("bearing_warmup", {0.2, 30.0, 0.1, 1.0, 2.0})});
   at.inputs.ambient_K = 298.15 + 100.0;
   at.inputs.speed_m_s = 40.0;
   CHECK(at.evaluate().parasitic_N >= 0.0);
@@ -247,7 +245,7 @@ TEST_CASE("bearings never drive the rig, however thin their grease is said to be
 
 TEST_CASE("the skin of a surface warms before its body, to the same rise", "[fast]") {
   const auto warmed_dK = [](double skin_share, double duration_s) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum),
+    HandFedCorner<double> at(make_context_on(tests::kDrum),
                              {switch_on("surface_warming", {8.0, 20.0, 0.7, skin_share})});
     at.advance(duration_s, 4000);
     return at.now.boundary.surface_K - 298.15;
@@ -258,17 +256,17 @@ TEST_CASE("the skin of a surface warms before its body, to the same rise", "[fas
 }
 
 TEST_CASE("a recorded surface and the road do not warm", "[fast]") {
-  HandFedCorner<double> recorded(make_context_on(RigKind::kDrum), {switch_on("surface_warming")}, warm());
+  HandFedCorner<double> recorded(make_context_on(tests::kDrum), {switch_on("surface_warming")}, warm());
   recorded.inputs.surface_recorded = true;
   recorded.inputs.surface_K = 301.0;
   CHECK(recorded.evaluate().boundary.surface_K == 301.0);
-  HandFedCorner<double> road(make_context_on(RigKind::kFlat), {switch_on("surface_warming")}, warm());
+  HandFedCorner<double> road(make_context_on(tests::kRoad), {switch_on("surface_warming")}, warm());
   CHECK(road.evaluate().boundary.surface_K == 298.15);
 }
 
 TEST_CASE("rubber's memory fades in minutes of loaded rolling, whatever the speed", "[fast]") {
   for (const double speed_m_s : {5.0, 20.0, 36.0}) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("rubber_memory", {5.0, 8.0, 1e9})});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("rubber_memory", {5.0, 8.0, 1e9})});
     CHECK(at.state("rubber_memory.memory") == 1.0);
     at.inputs.speed_m_s = speed_m_s;
     at.inputs.load_N = 1e6;  // far above where a load works the rubber
@@ -282,7 +280,7 @@ TEST_CASE("rubber's memory fades in minutes of loaded rolling, whatever the spee
 TEST_CASE("rubber's memory comes back at rest under any load, and unloaded at any speed", "[fast]") {
   const auto effect = switch_on("rubber_memory", {5.0, 8.0, 20.0});
   const auto after_20_min = [&](double speed_m_s, double load_N) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {effect}, warm());
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {effect}, warm());
     CHECK(at.evaluate().loss.factor == 1.0);
     at.inputs.speed_m_s = speed_m_s;
     at.inputs.load_N = load_N;
@@ -319,7 +317,7 @@ TEST_CASE("after each skim the tire loses more for a while", "[fast]") {
 TEST_CASE("rubber's memory starts from the rest before the run", "[fast]") {
   const auto effect = switch_on("rubber_memory", {5.0, 8.0, 30.0});
   const auto starts_at = [&](const models::InitialPort<double>& initial) {
-    return HandFedCorner<double>(make_context_on(RigKind::kFlat), {effect}, initial).state("rubber_memory.memory");
+    return HandFedCorner<double>(make_context_on(tests::kRoad), {effect}, initial).state("rubber_memory.memory");
   };
   CHECK(starts_at({}) == 1.0);
   CHECK(starts_at(warm()) == 0.0);
@@ -329,7 +327,7 @@ TEST_CASE("rubber's memory starts from the rest before the run", "[fast]") {
 }
 
 TEST_CASE("a slow leak takes its rate off the pressure at the temperature at which it was set", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0, 0.0})});
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("slow_leak", {3.0, 0.0})});
   at.inputs.speed_m_s = 0.0;  // at ambient temperature
   CHECK(at.evaluate().pressure_Pa == Approx(280e3).epsilon(1e-14));
   at.advance(2.0 * 3600.0);
@@ -338,7 +336,7 @@ TEST_CASE("a slow leak takes its rate off the pressure at the temperature at whi
   CHECK(280e3 - at.now.pressure_Pa == Approx(12e3).epsilon(1e-9));
   // what is left, heated, is at the same share less of the absolute pressure
   const double warm_K = 320.0;
-  HandFedCorner<double> tight(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> tight(make_context_on(tests::kDrum), {});
   at.temperature_K(Node::kGas) = tight.temperature_K(Node::kGas) = warm_K;
   const double p_amb_Pa = 101325.0;
   CHECK((at.evaluate().pressure_Pa + p_amb_Pa) / (tight.evaluate().pressure_Pa + p_amb_Pa) ==
@@ -347,7 +345,7 @@ TEST_CASE("a slow leak takes its rate off the pressure at the temperature at whi
 
 TEST_CASE("gas that goes through the rubber goes faster while it is warm, at its rate at 40 degC", "[fast]") {
   const auto lost_at = [](double liner_K, double growth_per_K) {
-    HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {3.0, growth_per_K})});
+    HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("slow_leak", {3.0, growth_per_K})});
     at.temperature_K(Node::kLiner) = liner_K;
     at.evaluate();
     at.advance(1.0, 1);
@@ -359,8 +357,8 @@ TEST_CASE("gas that goes through the rubber goes faster while it is warm, at its
 }
 
 TEST_CASE("a leaking tire loses more, is full again when filled, and never falls below the ambient", "[fast]") {
-  HandFedCorner<double> at(make_context_on(RigKind::kDrum), {switch_on("slow_leak", {20.0, 0.0})});
-  HandFedCorner<double> tight(make_context_on(RigKind::kDrum), {});
+  HandFedCorner<double> at(make_context_on(tests::kDrum), {switch_on("slow_leak", {20.0, 0.0})});
+  HandFedCorner<double> tight(make_context_on(tests::kDrum), {});
   for (auto* one : {&at, &tight}) one->advance(4.0 * 3600.0, 2000);
   CHECK(at.now.rolling_resistance_N > 1.02 * tight.now.rolling_resistance_N);
   at.corner.inflate(280e3, at.x.data(), at.now.inflation);
@@ -373,7 +371,7 @@ TEST_CASE("a leaking tire loses more, is full again when filled, and never falls
 }
 
 TEST_CASE("a tire that follows its temperature: the coefficient holds warm at 80 km/h and 25 degC", "[fast]") {
-  models::Context<double> context = make_context_on(RigKind::kFlat);
+  models::Context<double> context = make_context_on(tests::kRoad);
   context.tire.own = tests::make_own(models::kConstantModel);
   context.tire.constant.rrc = 0.008;
   const double load_N = context.tire.rolling_resistance.reference_load_N;

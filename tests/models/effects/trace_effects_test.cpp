@@ -7,7 +7,6 @@
 #include "tests/support/trace_port.h"
 
 using namespace rollrig;
-using models::RigKind;
 using models::TracePort;
 using tests::run_trace;
 using tests::switch_on;
@@ -42,7 +41,7 @@ std::vector<double> means_of(const std::function<double(double)>& integral, cons
 /// One channel after the effect.
 std::vector<double> apply(const models::ActiveEffect& active, const std::vector<double>& time_s,
                           const std::vector<double>& values, const std::string& name = kLiner,
-                          RigKind kind = RigKind::kDrum, const std::vector<double>& ambient_K = {}) {
+                          tests::Machine kind = tests::kDrum, const std::vector<double>& ambient_K = {}) {
   return tests::apply_trace(active, time_s, {name, values}, kind, {{kAmbient, ambient_K}});
 }
 
@@ -80,13 +79,13 @@ TEST_CASE("the zero's drift is one force, on the drum's torque by its radius, on
   const std::vector<double> time_s{1000.0, 1600.0, 2200.0};  // counted from the run's start
   const std::vector<double> values{30.0, kNan, 32.0};
   const auto drift = switch_on("torque_zero_drift", {3.0, 1000.0, 0.0});
-  auto context = tests::make_context_on(RigKind::kDrum);
+  auto context = tests::make_context_on(tests::kDrum);
   context.surface_curvature_per_m = 1.0 / 0.85;
   TracePort<double> port;
   port.time_s = time_s;
   port.channels = {{kTorque, values}, {kLiner, values}, {kPressure, values}};
   run_trace(drift, context, port);
-  const auto on_dyno = apply(drift, time_s, values, kLoss, RigKind::kDyno);
+  const auto on_dyno = apply(drift, time_s, values, kLoss, tests::kDyno);
   CHECK(on_dyno[0] == 30.0);
   CHECK(on_dyno[2] - 32.0 == Approx(1.0).epsilon(0.02));  // 20 min of 3 N/h, long before it comes to rest
   CHECK(port.channels[0].values[2] - 32.0 == Approx(0.85 * (on_dyno[2] - 32.0)));
@@ -101,7 +100,7 @@ TEST_CASE("a kelvin of ambient moves the zero like its minutes of drift, and non
   const std::vector<double> zeros(3, 0.0);
   const auto drift = [&](double rate_N_per_h, double ambient_min_per_K) {
     return apply(switch_on("torque_zero_drift", {rate_N_per_h, 60.0, ambient_min_per_K}), time_s, zeros, kTorque,
-                 RigKind::kDrum, ambient_K);
+                 tests::kDrum, ambient_K);
   };
   const auto in_time = drift(1.2, 0.0);
   const auto both = drift(1.2, 5.0);
@@ -208,7 +207,7 @@ TEST_CASE("only temperature and pressure are shifted", "[fast]") {
   const auto values = means_of(integral_of_warm_up, time_s);
   const auto late = switch_on("clock_shift", {2.0});
   CHECK(apply(late, time_s, values, kTorque) == values);
-  CHECK(apply(late, time_s, values, kLoss, RigKind::kDyno) == values);
+  CHECK(apply(late, time_s, values, kLoss, tests::kDyno) == values);
   CHECK(apply(late, time_s, values, kPressure) == apply(late, time_s, values, kLiner));
   CHECK(apply(late, time_s, values, kPressure) != values);
 }
@@ -216,7 +215,7 @@ TEST_CASE("only temperature and pressure are shifted", "[fast]") {
 TEST_CASE("the derivative by the shift is that from either side, at no shift and at whole rows too", "[fast]") {
   const std::vector<double> time_s = rows_every(1.0, 120.0);
   const auto values = means_of(integral_of_warm_up, time_s);
-  const auto context = models::convert_context<Jet>(tests::make_context_on(RigKind::kDrum));
+  const auto context = models::convert_context<Jet>(tests::make_context_on(tests::kDrum));
   for (const double late_s : {0.0, 1.0, 2.3, -4.5}) {
     TracePort<Jet> port;
     port.time_s = time_s;
@@ -238,7 +237,7 @@ TEST_CASE("the derivative by the shift is that from either side, at no shift and
 
 TEST_CASE("trace effects keep the dimensions of the channels", "[fast]") {
   using Q = DimensionedScalar;
-  const auto context = models::convert_context<Q>(tests::make_context_on(RigKind::kDrum));
+  const auto context = models::convert_context<Q>(tests::make_context_on(tests::kDrum));
   const Dimension torque = dimension::kForce * dimension::kLength;
   for (const double size : {0.0, 3.0, -3.0}) {
     for (const char* id : {"torque_zero_drift", "clock_shift", "torque_gain", "load_cross_talk", "pressure_record"}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "tests/support/machines.h"
 #include "tests/support/run_program.h"
 #include "tests/validation/generator/generated_set.h"
 
@@ -87,8 +88,6 @@ const std::vector<Expected> kOutside{
     {"road", "drafting", "0", "30", true, false, false},
 };
 
-constexpr const char* kForce[]{"drum_torque_Nm", "loss_force_N", "traction_force_N"};
-
 GeneratedSet make(const Expected& expected, const std::string& form, const std::string& size) {
   return make_effect_set(with_form(expected.kind, form), expected.effect, size);
 }
@@ -133,8 +132,8 @@ Floors check_form(const Expected& expected, const std::string& form) {
                        << " floors");
     CHECK((moved ? floors.at(channel) > 0.4 : floors.at(channel) < 0.2));
   };
-  check(kForce[static_cast<std::size_t>(made.set.kind)], expected.force);
-  if (made.set.kind == measurements::SetKind::kRoad) return floors;
+  check(made.set.kind->traits.force.header(), expected.force);
+  if (made.set.kind == tests::kRoad) return floors;
   check("liner_temperature_degC", expected.liner);
   check("cavity_pressure_kPa", expected.pressure);
   return floors;

@@ -108,8 +108,8 @@ TEST_CASE("weights on the lever are read with the gain of the sensor", "[fast]")
   const measurements::MeasuredRun& run = set.runs[1];
   CHECK(run.columns.at("drum_torque_Nm")[50] == 0.0);
   CHECK(run.columns.at("drum_torque_Nm")[100] == Approx(52.0).margin(0.05));
-  CHECK(run.columns.at(measurements::kHungTorque)[100] == 50.0);
-  CHECK_FALSE(set.runs[0].has(measurements::kHungTorque));
+  CHECK(run.columns.at("hung_torque_Nm")[100] == 50.0);
+  CHECK_FALSE(set.runs[0].has("hung_torque_Nm"));
   for (const std::string& warning : diagnosis::check_set(set, 1).warnings) {
     CHECK_THAT(warning, !Contains("test-1 is compared"));  // the zero at standstill is, without ever 20 km/h
   }

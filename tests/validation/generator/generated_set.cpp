@@ -13,6 +13,7 @@
 #include "rigs/standstill_grid.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
+#include "tests/support/machines.h"
 #include "tests/support/run_program.h"
 #include "tests/validation/generator/vehicle_replay.h"
 
@@ -22,7 +23,7 @@ namespace {
 /// Channels that the runs of a set have, the force first.
 std::vector<std::string> find_channels(const measurements::MeasurementSet& set) {
   std::vector<std::string> channels;
-  for (const std::string& channel : measurements::measured_channels(set.kind)) {
+  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
     if (set.runs.front().has(channel)) channels.push_back(channel);
   }
   return channels;
@@ -67,10 +68,9 @@ sim::Recording<double> replay(const measurements::MeasurementSet& set, const mea
   start.history.rest_before_s = run.rest_before_s.value_or(0.0);
   rigs::QuasiStaticDrum<double> drum(corner, start, false, rigs::Detail::kMeasured);
   sim::FixedGridIntegrator<double> integrator(drum);
-  return sim::simulate<double>(
-      drum, integrator,
-      rigs::refine_near_standstill(measurements::make_recorded_program(run, measurements::SetKind::kDrum),
-                                   rigs::index_of(rigs::DrumInput::kSpeed)));
+  return sim::simulate<double>(drum, integrator,
+                               rigs::refine_near_standstill(measurements::make_recorded_program(run, *tests::kDrum),
+                                                            rigs::index_of(rigs::DrumInput::kSpeed)));
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ double calc_floor(const measurements::MeasurementSet& set, const std::string& ch
 Floors compare_with_baseline(const measurements::MeasurementSet& set) {
   FloorSum sum(set);
   for (const measurements::MeasuredRun& run : set.runs) {
-    if (set.kind != measurements::SetKind::kDrum) {
+    if (set.kind != tests::kDrum) {
       const auto baseline = replay_vehicle(set, run);
       for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.at(channel));
       continue;

@@ -114,9 +114,7 @@ TEST_CASE("a validation set of each kind has what its kind shows, and effects ou
     for (const auto& [number, set] : truth.at("sets").items()) {
       for (const Json& effect : set.at("effects")) effects.insert(effect.at("id").get<std::string>());
       const auto read = measurements::read_measurement_set(folder.file("set/sets/" + number));
-      CHECK(std::string(kind) == (read.kind == measurements::SetKind::kDrum
-                                      ? "drum"
-                                      : (read.kind == measurements::SetKind::kDyno ? "dyno" : "road")));
+      CHECK(kind == read.kind->word);
     }
     CHECK(effects.count("speed_record") == 1);
     CHECK(effects.count("speed_interference") == 1);

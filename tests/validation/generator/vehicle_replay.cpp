@@ -7,6 +7,7 @@
 #include "models/corner.h"
 #include "models/vehicle/vehicle.h"
 #include "sim/core/units.h"
+#include "tests/support/machines.h"
 
 namespace rollrig::tests {
 namespace {
@@ -23,7 +24,7 @@ models::Context<double> make_vehicle_context(const measurements::MeasurementSet&
   const bool is_constant = set.baseline == models::Baseline::kConstantRrc;
   context.tire = is_constant ? set.tire.values : set.tire.parameters_on("", set.baseline);
   if (is_constant) context.tire.own = {&models::find_tire_model(models::kConstantModel), {}};
-  context.rig_kind = models::RigKind::kFlat;
+  context.machine = tests::kRoad->traits;
   return context;
 }
 
@@ -43,7 +44,7 @@ class Replay {
     for (std::size_t row = 0; row < last; ++row) march(row);
     visit(last - 1, kSubsteps);
     std::map<std::string, std::vector<double>> channels;
-    channels[set_.kind == measurements::SetKind::kRoad ? "traction_force_N" : "loss_force_N"] = find_means(force_N_);
+    channels[set_.kind == tests::kRoad ? "traction_force_N" : "loss_force_N"] = find_means(force_N_);
     channels["liner_temperature_degC"] = find_means(liner_K_);
     channels["cavity_pressure_kPa"] = find_means(pressure_Pa_);
     return channels;
@@ -61,7 +62,7 @@ class Replay {
     now_.recorded.speed_m_s = between("speed_km_h", row, part);
     now_.recorded.acceleration_m_s2 = (speed_m_s[row + 1] - speed_m_s[row]) / dt_s;
     now_.recorded.ambient_K = now_.recorded.surface_K = between("ambient_degC", row, part);
-    now_.recorded.load_N = set_.kind == measurements::SetKind::kRoad
+    now_.recorded.load_N = set_.kind == tests::kRoad
                                ? set_.vehicle->body.mass_kg * kStandardGravity_m_s2 / set_.vehicle->tires
                                : run_.columns.at("load_N")[row];
     corner_.apply_inputs(state.data(), now_);
@@ -81,7 +82,7 @@ class Replay {
   }
 
   double find_force_N(std::size_t row) const {
-    if (set_.kind != measurements::SetKind::kRoad) return now_.rolling_resistance_N + now_.parasitic_N;
+    if (set_.kind != tests::kRoad) return now_.rolling_resistance_N + now_.parasitic_N;
     const rigs::VehicleBody& body = set_.vehicle->body;
     const double way_m = 0.5 * (between("speed_km_h", row, 0.0) + between("speed_km_h", row, 1.0)) *
                          (run_.time_s[row + 1] - run_.time_s[row]);

@@ -19,8 +19,8 @@ namespace {
 
 diagnosis::StudySettings make_settings(const measurements::MeasurementSet& set, const Settings& settings) {
   diagnosis::StudySettings of_study;
-  of_study.terms = diagnosis::choose_terms(diagnosis::kind_of(set).rig_kind(), set.tire.model(set.baseline),
-                                           settings.only, settings.without);
+  of_study.terms =
+      diagnosis::choose_terms(set.kind->traits, set.tire.model(set.baseline), settings.only, settings.without);
   of_study.threads = 1;
   return of_study;
 }

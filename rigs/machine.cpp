@@ -1,0 +1,110 @@
+#include "rigs/machine.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace rollrig::rigs {
+
+// Named one by one, since the linker drops objects of a static library that nothing refers to.
+#define ROLLRIG_MACHINE(word) const MachineKind& machine_##word();
+#include "rigs/machines.def"
+#undef ROLLRIG_MACHINE
+
+namespace {
+
+void add_once(const std::string& name, std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+Quantity find_quantity(models::Reading reading, const models::MachineTraits& machine) {
+  switch (reading) {
+    case models::Reading::kForce:
+      return machine.force;
+    case models::Reading::kLinerTemperature:
+      return models::quantities::kLinerTemperature;
+    case models::Reading::kCavityPressure:
+      return models::quantities::kCavityPressure;
+  }
+  throw std::invalid_argument("a reading without a quantity");
+}
+
+template <class Shows>
+std::vector<std::string> list_headings(const std::vector<models::Reading>& readings, const Shows& shows) {
+  std::vector<std::string> headings;
+  for (const models::Reading reading : readings) {
+    for (const MachineKind* kind : machine_kinds()) {
+      if (shows(kind->traits)) add_once(find_quantity(reading, kind->traits).header(), headings);
+    }
+  }
+  return headings;
+}
+
+}  // namespace
+
+std::vector<Field> RunColumns::all_given() const {
+  std::vector<Field> fields = given;
+  fields.insert(fields.end(), optional_given.begin(), optional_given.end());
+  return fields;
+}
+
+std::vector<Field> RunColumns::all() const {
+  std::vector<Field> fields = all_given();
+  fields.insert(fields.end(), measured.begin(), measured.end());
+  return fields;
+}
+
+const std::vector<const MachineKind*>& machine_kinds() {
+  static const std::vector<const MachineKind*> all{
+#define ROLLRIG_MACHINE(word) &machine_##word(),
+#include "rigs/machines.def"
+#undef ROLLRIG_MACHINE
+  };
+  return all;
+}
+
+std::vector<std::string> machine_words() { return list_machines(&models::is_any); }
+
+const MachineKind* find_machine_kind_if_any(const std::string& word) {
+  for (const MachineKind* kind : machine_kinds()) {
+    if (word == kind->word || word == kind->former_word) return kind;
+  }
+  return nullptr;
+}
+
+const MachineKind& find_machine_kind(const std::string& word) {
+  if (const MachineKind* kind = find_machine_kind_if_any(word)) return *kind;
+  throw std::invalid_argument("no kind of machine '" + word + "'");
+}
+
+std::vector<std::string> measured_channels(const MachineKind& kind) {
+  std::vector<std::string> names;
+  for (const Field& field : kind.columns.measured) names.emplace_back(field.key);
+  return names;
+}
+
+std::vector<std::string> all_measured_channels() {
+  std::vector<std::string> names;
+  for (const MachineKind* kind : machine_kinds()) {
+    for (const std::string& name : measured_channels(*kind)) add_once(name, names);
+  }
+  return names;
+}
+
+std::vector<std::string> list_machines(bool (*has_trait)(const models::MachineTraits&)) {
+  std::vector<std::string> words;
+  for (const MachineKind* kind : machine_kinds()) {
+    if (has_trait(kind->traits)) words.emplace_back(kind->word);
+  }
+  return words;
+}
+
+std::vector<std::string> list_visible(const models::EffectInfo& effect) {
+  return list_headings(effect.visible_in,
+                       [&](const models::MachineTraits& machine) { return is_seen_on(effect, machine); });
+}
+
+std::vector<std::string> list_clean(const models::EffectInfo& effect) {
+  return list_headings(effect.clean_in, effect.acts_on);
+}
+
+}  // namespace rollrig::rigs

@@ -1,0 +1,23 @@
+/// A vehicle on the road. The traction force is known from its motor, and nothing of its tires.
+#include "rigs/machine.h"
+
+namespace rollrig::rigs {
+
+/// Sensors. Traction force: 10 N offset, 215 N drift in 13 s (wind, surface and slope), 140 N noise, Assumed: as one
+/// car's trips leave over a fit of the road load (259 N rms, correlated over 13 s).
+const MachineKind& machine_road() {
+  using namespace models;
+  static const MachineKind kind{"road",
+                                "flat",
+                                {Surface::kRoad, Specimen::kVehicle, Restraint::kNone, quantities::kTractionForce},
+                                {{{"speed_km_h", columns::kSurfaceSpeed.range, "vehicle speed"},
+                                  {"elevation_m", any_number(), "height of the road"},
+                                  {"ambient_degC", kSetTemperatureRange, "air"}},
+                                 {},
+                                 {{"traction_force_N", any_number(), "force at the wheels"}}},
+                                {{"traction_force_N", {10.0, 215.0, 13.0, 140.0, 0.0}}},
+                                "follow_road"};
+  return kind;
+}
+
+}  // namespace rollrig::rigs

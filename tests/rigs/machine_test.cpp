@@ -1,0 +1,44 @@
+// Kinds of machines: what the registry knows, and the words of older files.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "rigs/rig_file.h"
+#include "sim/core/assets.h"
+#include "tests/support/machines.h"
+
+using namespace rollrig;
+
+TEST_CASE("every rig file is written as it was read", "[fast]") {
+  for (const std::string& name : list_assets("rigs")) {
+    INFO(name);
+    const rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", name)));
+    CHECK(rig.name == name);
+    const std::string text = rigs::write_rig(rig);
+    const rigs::RigFile again = rigs::read_rig(parse_config(text, "rig.toml"));
+    CHECK(again.kind == rig.kind);
+    CHECK(rigs::write_rig(again) == text);
+  }
+}
+
+TEST_CASE("a road by its former word is still read, and its asset still found", "[fast]") {
+  const rigs::RigFile rig = rigs::read_rig(parse_config(R"(format = "rollrig-rig/1"
+name = "flat"
+kind = "flat"
+[environment]
+ambient_degC = 20.0
+)",
+                                                        "rig.toml"));
+  CHECK(rig.kind == tests::kRoad);
+  CHECK(find_asset("rigs", "flat") == find_asset("rigs", "road"));
+}
+
+TEST_CASE("a measured column of a kind is one of its own, and its force is among them", "[fast]") {
+  for (const tests::Machine kind : rigs::machine_kinds()) {
+    INFO(kind->word);
+    const std::vector<std::string> measured = rigs::measured_channels(*kind);
+    CHECK(std::count(measured.begin(), measured.end(), kind->traits.force.header()) == 1);
+    for (const auto& [channel, sensor] : kind->default_sensors) {
+      CHECK(std::count(measured.begin(), measured.end(), channel) == 1);
+    }
+  }
+}
