@@ -43,6 +43,9 @@ constexpr bool is_tied_down(const MachineTraits& machine) { return machine.restr
 /// The carriage can take nearly all load off the tire, so that what is left is the machine's own loss.
 constexpr bool has_skim(const MachineTraits& machine) { return machine.restraint == Restraint::kCarriage; }
 
+/// The force is read as a torque about the axis of the surface.
+constexpr bool reads_torque(const MachineTraits& machine) { return machine.force.unit_suffix() == "Nm"; }
+
 /// The usual drum is the reference for curvature.
 constexpr bool is_drum(const MachineTraits& machine) { return machine.surface == Surface::kDrum; }
 

@@ -160,6 +160,12 @@ struct TracePort {
     }
     return nullptr;
   }
+  /// The machine's force as it is measured, or nullptr.
+  std::vector<S>* find_force() { return find(context->machine.force.header()); }
+  /// What a force at the surface is in that channel.
+  S to_reading(const S& force_N) const {
+    return reads_torque(context->machine) ? S(force_N / context->surface_curvature_per_m) : force_N;
+  }
 };
 
 /// Port "initial state".

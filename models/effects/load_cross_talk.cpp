@@ -49,16 +49,14 @@ struct LoadCrossTalk {
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
     using std::sin;
     const std::vector<S>* load_N = port.find("load_N");
-    if (load_N == nullptr) return;
+    std::vector<S>* force = port.find_force();
+    if (load_N == nullptr || force == nullptr) return;
     const std::vector<S> mean_N = calc_means(port.time_s, *load_N);
     const S& reference_N = port.context->tire.rolling_resistance.reference_load_N;
     const S& bending = self.parameter(kBending);
-    std::vector<S>* torque_Nm = port.find("drum_torque_Nm");
-    std::vector<S>* loss_N = port.find("loss_force_N");
     for (std::size_t i = 0; i < mean_N.size(); ++i) {
       const S share = sin(S(self.parameter(kAngle) * (S(1.0) - bending + bending * mean_N[i] / reference_N)));
-      if (torque_Nm != nullptr) (*torque_Nm)[i] += mean_N[i] * share / port.context->surface_curvature_per_m;
-      if (loss_N != nullptr) (*loss_N)[i] += mean_N[i] * share;
+      (*force)[i] += port.to_reading(mean_N[i] * share);
     }
   }
 };

@@ -34,24 +34,17 @@ struct TorqueGain {
 
   template <class S>
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
-    const S reference_N = quantity<S>(60.0, dimension::kForce);
-    scale(self, port.find("drum_torque_Nm"), reference_N / port.context->surface_curvature_per_m);
-    scale(self, port.find("loss_force_N"), reference_N);
-    std::vector<S>* traction_N = port.find("traction_force_N");
-    if (traction_N == nullptr) return;
-    for (S& value : *traction_N) value *= S(1.0) + self.parameter(kGain);
-  }
-
- private:
-  template <class S>
-  static void scale(const EffectView<S>& self, std::vector<S>* values, const S& reference) {
     using std::pow;
     constexpr double kAtRest = 0.05;
-    if (values == nullptr) return;
-    for (S& value : *values) {
+    const S reference = port.to_reading(quantity<S>(60.0, dimension::kForce));
+    std::vector<S>* force = port.find_force();
+    if (force == nullptr) return;
+    for (S& value : *force) {
       const S x = value / reference;
       const S share =
-          pow(S((x * x + S(kAtRest * kAtRest)) / S(1.0 + kAtRest * kAtRest)), S(0.5 * self.parameter(kPower)));
+          is_on_road(port.context->machine)
+              ? S(1.0)
+              : pow(S((x * x + S(kAtRest * kAtRest)) / S(1.0 + kAtRest * kAtRest)), S(0.5 * self.parameter(kPower)));
       value *= S(1.0) + self.parameter(kGain) * share;
     }
   }

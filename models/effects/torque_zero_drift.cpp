@@ -61,13 +61,10 @@ struct TorqueZeroDrift {
 
   template <class S>
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
-    std::vector<S>* torque_Nm = port.find("drum_torque_Nm");
-    std::vector<S>* loss_N = port.find("loss_force_N");
+    std::vector<S>* force = port.find_force();
+    if (force == nullptr) return;
     const std::vector<S> drift_N = calc_drift_N(self, port);
-    for (std::size_t i = 0; i < drift_N.size(); ++i) {
-      if (torque_Nm != nullptr) (*torque_Nm)[i] += drift_N[i] / port.context->surface_curvature_per_m;
-      if (loss_N != nullptr) (*loss_N)[i] += drift_N[i];
-    }
+    for (std::size_t i = 0; i < drift_N.size(); ++i) (*force)[i] += port.to_reading(drift_N[i]);
   }
 };
 
