@@ -106,7 +106,7 @@ TEST_CASE("no file that a command reads is written over, and then nothing is wri
   const std::string source = ROLLRIG_SOURCE_DIR;
   fs::copy(source + "/tests/bad_input/coastdown_good.csv", folder.file("coast.csv"));
   fs::copy(source + "/assets/tires/a50.toml", folder.file("mine.toml"));
-  fs::copy(source + "/assets/regression/drive_a50.csv", folder.file("drive.csv"));
+  fs::copy(source + "/assets/regression/follow_road_a50.csv", folder.file("drive.csv"));
   fs::create_directory(folder.file("runs"));
   fs::copy(source + "/assets/regression/skim_a40.toml", folder.file("runs/skim_a40.toml"));
   fs::create_symlink("mine.toml", folder.file("link.toml"));
@@ -498,7 +498,7 @@ TEST_CASE("a tire that heats without end is a failed run of recorded rows, too",
 }
 
 TEST_CASE("scenarios are known by their former names as well, which nothing shows", "[fast]") {
-  const std::string rows = ROLLRIG_SOURCE_DIR "/assets/regression/wheel_program_a50";
+  const std::string rows = ROLLRIG_SOURCE_DIR "/assets/regression/follow_roller_a50";
   const auto run = run_program("run wheel_program --tire a50 --set program=" + rows + ".csv --json -");
   INFO(run.err);
   REQUIRE(run.status == 0);

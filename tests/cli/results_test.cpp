@@ -24,9 +24,9 @@ std::string settings_of(const std::string& scenario) {
   const std::string drum = "--set rig.drum.diameter_m=1.707 ";
   if (scenario == "sae_j1634") return "--set wheels=1 --set mid_min=5 --set end_min=5";
   if (scenario == "coastdown" || scenario == "dyno_setting") return "--set warm_up_min=1";
-  if (scenario == "follow_roller") return rows + "wheel_program_a50.csv'";
-  if (scenario == "follow_road") return rows + "drive_a50.csv'";
-  if (scenario == "follow_drum") return drum + rows + "program_a50.csv'";
+  if (scenario == "follow_roller") return rows + "follow_roller_a50.csv'";
+  if (scenario == "follow_road") return rows + "follow_road_a50.csv'";
+  if (scenario == "follow_drum") return drum + rows + "follow_drum_a50.csv'";
   if (scenario == "iso_28580") return drum + "--set measurement_cycles=1";
   return drum;
 }

@@ -70,7 +70,7 @@ TEST_CASE("the two fidelities agree on every drum scenario", "[fast]") {
     if (scenario->has_vehicle) continue;  // those: vehicle_fidelities_test.cpp
     if (scenario->fidelities.size() < 2) continue;
     const bool needs_file = scenario->text.name == "follow_drum";
-    const std::string file = std::string(ROLLRIG_SOURCE_DIR) + "/assets/regression/program_a50.csv";
+    const std::string file = std::string(ROLLRIG_SOURCE_DIR) + "/assets/regression/follow_drum_a50.csv";
     compare(scenario->text.name, "a50",
             needs_file ? std::vector<std::string>{"program=" + file} : std::vector<std::string>{});
   }
