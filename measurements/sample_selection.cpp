@@ -39,8 +39,8 @@ std::vector<bool> find_settled_rows(const MeasuredRun& run) {
 
 std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) {
   const std::vector<double>& values = run.columns.at(channel);
-  const bool is_torque = channel == "drum_torque_Nm";
-  const std::vector<bool> settled = is_torque ? find_settled_rows(run) : std::vector<bool>(values.size(), true);
+  const bool is_force = rigs::is_force(channel);
+  const std::vector<bool> settled = is_force ? find_settled_rows(run) : std::vector<bool>(values.size(), true);
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (!std::isnan(values[row]) && settled[row]) rows.push_back(row);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rigs/machine.h"
+
 namespace rollrig::measurements {
 namespace {
 
@@ -71,10 +73,7 @@ std::vector<bool> find_steady_rows(const std::map<std::string, std::vector<doubl
   return steady;
 }
 
-bool carries_inertia(const std::string& column) {
-  return column == "drum_torque_Nm" || column == "loss_force_N" || column == "traction_force_N" ||
-         column == "longitudinal_force_N";
-}
+bool carries_inertia(const std::string& column) { return rigs::is_force(column) || column == "longitudinal_force_N"; }
 
 std::vector<std::size_t> find_spikes(const std::vector<double>& values, double threshold, double floor,
                                      const std::vector<bool>& is_judged) {

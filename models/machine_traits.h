@@ -9,7 +9,7 @@
 namespace rollrig::models {
 
 /// What a tire rolls on.
-enum class Surface { kDrum, kRoller, kRoad };
+enum class Surface { kDrum, kBelt, kRoller, kRoad };
 
 /// What its measurements are of: a tire on a spindle of the rig, one wheel of a vehicle, or a whole vehicle.
 enum class Specimen { kTire, kWheel, kVehicle };
@@ -20,7 +20,7 @@ struct MachineTraits {
   Surface surface;
   Specimen specimen;
   Restraint restraint;
-  Quantity force;  // the one channel that measures a force
+  Quantity force;  // the one channel that measures a force, or the torque at a drum's axis
 };
 
 constexpr bool is_any(const MachineTraits&) { return true; }

@@ -25,9 +25,9 @@ struct Context {
   ParasiticParameters<S> parasitic;
   VehicleBody<S> vehicle;  // of a measured vehicle on the road; elsewhere a rig's layout has it
   MachineTraits machine{Surface::kDrum, Specimen::kTire, Restraint::kCarriage, quantities::kDrumTorque};
-  S surface_curvature_per_m{};  // 1/R of drum or roller; 0 on the flat
-  S machine_radius_m{};         // torque at the machine's axis over force at its surface; 0 on the flat
-  S machine_mass_kg{};          // inertia of drum or roller as mass at its surface, J/R^2; 0 on the flat
+  S surface_curvature_per_m{};  // 1/R of drum or roller; 0 of a plane
+  S machine_radius_m{};         // torque at the machine's axis over force at its surface; 1 of a belt, 0 on the road
+  S machine_mass_kg{};          // inertia of drum, belt or roller as mass at its surface, J/R^2; 0 on the road
   S skim_load_N{};              // the rig's skim load
 };
 

@@ -71,7 +71,15 @@ class Scene {
     return {{"radius_m", geometry.outer_diameter_m / 2.0}, {"rim_radius_m", geometry.rim_diameter_m / 2.0}};
   }
 
-  double surface_radius_m() const { return spec_.rig.drum.diameter_m / 2.0; }
+  bool is_belt() const { return spec_.rig.kind->traits.surface == models::Surface::kBelt; }
+
+  /// Of what turns under the tire: of a belt, the drums at its ends.
+  double surface_radius_m() const {
+    constexpr double kBeltDrum_m = 0.3;  // Assumed, for the picture alone
+    return is_belt() ? kBeltDrum_m : spec_.rig.drum.diameter_m / 2.0;
+  }
+  /// Of the surface under the axle, above the point from which its height counts.
+  double surface_height_m() const { return is_belt() ? 0.0 : surface_radius_m(); }
 
   /// Height of an axle above the surface that carries it, from what the contact carries.
   Column height_by_load(const Column& load_N) const {
@@ -133,7 +141,7 @@ Json make_drum_wheel(const Scene& scene) {
   Json wheel = scene.make_wheel("", "drum_angle_rad");
   const Column* pose = find_pose(scene.recording(), "axle_height_m");
   Column height_m = scene.height_by_load(scene.contact_load_N(""));
-  for (double& height : height_m) height += scene.surface_radius_m();
+  for (double& height : height_m) height += scene.surface_height_m();
   wheel["axle_height_m"] = scene.series(pose != nullptr ? *pose : height_m, "height_m");
   return wheel;
 }
@@ -204,10 +212,11 @@ Block make_animation(const RunSpec& spec, const Recording& recording) {
   const char* of = recording.poses.empty()
                        ? "Drawn to scale; angles from the recorded speed, heights from the recorded load."
                        : "Drawn to scale from the recorded positions of the bodies.";
-  const char* machine = !is_vehicle ? "drum" : is_road ? "road" : "rollers";
-  const std::string what = !is_vehicle ? "The drum with the wheel on it"
-                           : is_road   ? "The vehicle on the road"
-                                       : "The vehicle on its rollers";
+  const char* machine = scene.is_belt() ? "belt" : !is_vehicle ? "drum" : is_road ? "road" : "rollers";
+  const std::string what = scene.is_belt() ? "The belt with the wheel on it"
+                           : !is_vehicle   ? "The drum with the wheel on it"
+                           : is_road       ? "The vehicle on the road"
+                                           : "The vehicle on its rollers";
   Block block = {{"type", "animation"},
                  {"machine", machine},
                  {"label", what + " at the slider's time; the tire is colored by its temperature"},

@@ -12,8 +12,9 @@ DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, models:
                              const RigFile& rig, const PresentProgram& present)
     : RigForces(forces, {contact}, 2),
       bodies_(bodies),
-      radius_m_(rig.drum.diameter_m / 2.0),
-      inertia_kg_m2_(rig.drum.inertia_kg_m2),
+      is_belt_(!rig.is_curved()),
+      radius_m_(rig.lever_m()),
+      inertia_kg_m2_(rig.inertia()),
       bandwidth_rad_s_(rig.drive.bandwidth_rad_s),
       damping_N_s_per_m_(rig.carriage.damping_N_s_per_m),
       load_time_constant_s_(rig.carriage.load_time_constant_s),
@@ -63,7 +64,8 @@ ActuatorEvaluation DrumActuators::evaluate(const State& state, const models::Inp
 void DrumActuators::add_own_forces(const State& state, const Contacts& contacts,
                                    SimTK::Vector_<SpatialVec>& body_forces, SimTK::Vector&) const {
   const ActuatorEvaluation at = evaluate(state, contacts.front().now.acting);
-  body_forces[bodies_.drum.getMobilizedBodyIndex()] += SpatialVec(Vec3(0, 0, at.motor_torque_Nm), Vec3(0));
+  body_forces[bodies_.drum.getMobilizedBodyIndex()] += is_belt_ ? SpatialVec(Vec3(0), Vec3(-at.motor_torque_Nm, 0, 0))
+                                                                : SpatialVec(Vec3(0, 0, at.motor_torque_Nm), Vec3(0));
   body_forces[bodies_.carriage.getMobilizedBodyIndex()] +=
       SpatialVec(Vec3(0), Vec3(0, at.damper_force_N - at.cylinder_force_N, 0));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Motor of the drum and load cylinder of the carriage, with the wheel that they press on the drum.
+/// Motor of the drum or belt and load cylinder of the carriage, with the wheel that they press on the drum.
 
 #include "rigs/drum_channels.h"
 #include "rigs/rig_file.h"
@@ -18,7 +18,8 @@ struct ActuatorEvaluation {
 
 /// Motor     T = J_eff domega_set/dt + R F_par(v_set) + K_p e + K_i I,  dI/dt = e,  e = omega_set - omega;
 ///           K_p = 2 J_eff w, K_i = J_eff w^2: critically damped at the bandwidth w;
-///           J_eff = J + I_spin (R/r_l)^2; F_par the rig's nominal parasitic loss; off: T = 0, I held
+///           J_eff = J + I_spin (R/r_l)^2; of a belt R = 1 and T is the force on it, towards -x; F_par the rig's
+///           nominal parasitic loss; off: T = 0, I held
 /// Cylinder  F = load asked for + e - weight of carriage and wheel, de/dt = -e/tau, so that the contact
 ///           comes to carry the load asked for; e [N] takes up each jump of it; damper c dz/dt
 /// Source    Assumed: gains; the load and weight from statics
@@ -26,7 +27,7 @@ struct ActuatorEvaluation {
 class DrumActuators : public RigForces {
  public:
   struct Bodies {
-    SimTK::MobilizedBody drum;
+    SimTK::MobilizedBody drum;  // or belt
     SimTK::MobilizedBody carriage;
   };
 
@@ -53,6 +54,7 @@ class DrumActuators : public RigForces {
   double calc_friction_feedforward_Nm(double speed_m_s) const;
 
   Bodies bodies_;
+  bool is_belt_;
   double radius_m_;
   double inertia_kg_m2_;
   double bandwidth_rad_s_;

@@ -18,7 +18,7 @@ constexpr double kYardstick_J = 1e3;  // has a kink where the motor turns to bra
 std::vector<sim::Integral> make_drum_integrals(Detail detail) {
   using Role = sim::Integral::Role;
   std::vector<sim::Integral> integrals{
-      {"drum_torque", Role::kChannel, kForceTime_N_s},
+      {"force_reading", Role::kChannel, kForceTime_N_s},
       {"liner_temperature", Role::kChannel, kTemperatureTime_K_s},
       {"cavity_pressure", Role::kChannel, kPressureTime_Pa_s},
       {"gas_temperature", Role::kChannel, kTemperatureTime_K_s},
@@ -53,7 +53,8 @@ std::vector<sim::Store> make_drum_stores(Detail detail) {
           {"stored_heat", Role::kHeat}};
 }
 
-std::vector<sim::Channel> make_drum_channels(const std::vector<models::CornerState>& states, bool surface_recorded,
+std::vector<sim::Channel> make_drum_channels(const models::MachineTraits& machine,
+                                             const std::vector<models::CornerState>& states, bool surface_recorded,
                                              Detail detail) {
   const auto mean = [](const char* name, DrumIntegral integral) { return sim::Channel{name, index_of(integral)}; };
   std::vector<sim::Channel> channels;
@@ -61,7 +62,7 @@ std::vector<sim::Channel> make_drum_channels(const std::vector<models::CornerSta
     for (const char* given : {"speed_km_h", "load_N", "ambient_degC"}) channels.push_back({given});
     if (surface_recorded) channels.push_back({"surface_temperature_degC"});
   }
-  channels.push_back(mean("drum_torque_Nm", DrumIntegral::kDrumTorque));
+  channels.push_back({machine.force.header(), index_of(DrumIntegral::kForceReading)});
   channels.push_back(mean("liner_temperature_degC", DrumIntegral::kLinerTemperature));
   channels.push_back(mean("cavity_pressure_kPa", DrumIntegral::kCavityPressure));
   channels.push_back(mean("gas_temperature_degC", DrumIntegral::kGasTemperature));

@@ -1,5 +1,6 @@
 #pragma once
-/// Inputs, channels, integrals and stores of a drum rig: one list for both fidelities.
+/// Inputs, channels, integrals and stores of a drum rig, or of a belt in the place of the drum: one list for both
+/// fidelities.
 
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ constexpr std::size_t kDrumInputCount = 4;
 
 /// Integrals, in this order: means of measured channels, means of others, energies.
 enum class DrumIntegral : std::size_t {
-  kDrumTorque,
+  kForceReading,
   kLinerTemperature,
   kCavityPressure,
   kGasTemperature,
@@ -46,7 +47,8 @@ std::vector<sim::Store> make_drum_stores(Detail detail);
 
 /// Recorded channels: given ones first, then measured ones, as in formats.md; then what only a
 /// simulation knows; then the states of further thermal nodes and of effects.
-std::vector<sim::Channel> make_drum_channels(const std::vector<models::CornerState>& states, bool surface_recorded,
+std::vector<sim::Channel> make_drum_channels(const models::MachineTraits& machine,
+                                             const std::vector<models::CornerState>& states, bool surface_recorded,
                                              Detail detail);
 
 /// Puts what is recorded at a time into `inputs`, all else as on a drum without effects.
@@ -85,8 +87,8 @@ struct DrumPowers {
 
 /// Integrands of the measured channels.
 template <class S>
-void put_drum_readings(const models::Instant<S>& now, const S& motor_torque_Nm, S* integrands) {
-  integrands[index_of(DrumIntegral::kDrumTorque)] = motor_torque_Nm;
+void put_drum_readings(const models::Instant<S>& now, const S& force_reading, S* integrands) {
+  integrands[index_of(DrumIntegral::kForceReading)] = force_reading;
   put_tire_readings(now, &integrands[index_of(DrumIntegral::kLinerTemperature)]);
 }
 

@@ -66,7 +66,7 @@ std::vector<std::string> machine_words() { return list_machines(&models::is_any)
 
 const MachineKind* find_machine_kind_if_any(const std::string& word) {
   for (const MachineKind* kind : machine_kinds()) {
-    if (word == kind->word || word == kind->former_word) return kind;
+    if (!word.empty() && (word == kind->word || word == kind->former_word)) return kind;
   }
   return nullptr;
 }
@@ -74,6 +74,11 @@ const MachineKind* find_machine_kind_if_any(const std::string& word) {
 const MachineKind& find_machine_kind(const std::string& word) {
   if (const MachineKind* kind = find_machine_kind_if_any(word)) return *kind;
   throw std::invalid_argument("no kind of machine '" + word + "'");
+}
+
+bool is_force(const std::string& heading) {
+  return std::any_of(machine_kinds().begin(), machine_kinds().end(),
+                     [&](const MachineKind* kind) { return kind->traits.force.header() == heading; });
 }
 
 std::vector<std::string> measured_channels(const MachineKind& kind) {

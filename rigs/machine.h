@@ -41,7 +41,7 @@ inline constexpr Field kGasTemperature{"gas_temperature_degC", kSetTemperatureRa
 /// No member has a default, so that a kind which leaves an answer out does not compile.
 struct MachineKind {
   const char* word;         // in files and messages
-  const char* former_word;  // in older files, which stay readable; else the same
+  const char* former_word;  // in files of format /1, which stay readable; empty where that knows no such kind
   models::MachineTraits traits;
   RunColumns columns;
   models::SensorSet default_sensors;  // where a set gives none; empty where it has to
@@ -56,6 +56,8 @@ const MachineKind* find_machine_kind_if_any(const std::string& word);
 /// The same, of a word that is known. Throws std::invalid_argument.
 const MachineKind& find_machine_kind(const std::string& word);
 
+/// Whether a column is the force channel of some kind.
+bool is_force(const std::string& heading);
 /// Headings of the measured columns of a kind.
 std::vector<std::string> measured_channels(const MachineKind& kind);
 /// Those of all kinds.

@@ -28,6 +28,9 @@ constexpr double kCylinderLag_N = 1e-5;
 
 constexpr double kDrumMass_kg = 1000.0;  // no motion depends on it: the drum turns about its center
 
+/// Along -x, in which the surface of a drum moves under the wheel as well.
+const Transform kBackwards(SimTK::Rotation(SimTK::Pi, SimTK::ZAxis));
+
 constexpr SpeedHold kHold{"the motor does not hold", 0.02, 0.2};  // Assumed: a rig would trip
 
 }  // namespace
@@ -36,12 +39,16 @@ class MultibodyDrum::Implementation : public SimbodySystem {
  public:
   Implementation(Corner<double>& corner, const RigFile& rig, RigStart<double> start, bool surface_recorded)
       : SimbodySystem({make_drum_integrals(Detail::kFull), make_drum_stores(Detail::kFull),
-                       make_drum_channels(corner.states(), surface_recorded, Detail::kFull)},
+                       make_drum_channels(corner.context().machine, corner.states(), surface_recorded, Detail::kFull)},
                       {&corner}, std::move(start), surface_recorded) {
     const models::ContactPort<double> port = find_contact_port(corner);
-    drum_ =
-        MobilizedBody::Pin(matter_.Ground(), Transform(),
-                           make_rotor(kDrumMass_kg, rig.drum.inertia_kg_m2 * port.machine_inertia_factor), Transform());
+    const double inertia = rig.inertia() * port.machine_inertia_factor;
+    if (rig.is_curved()) {
+      drum_ = MobilizedBody::Pin(matter_.Ground(), Transform(), make_rotor(kDrumMass_kg, inertia), Transform());
+    } else {
+      drum_ = MobilizedBody::Slider(matter_.Ground(), kBackwards, make_block(inertia), kBackwards);
+    }
+    surface_height_m_ = rig.is_curved() ? rig.lever_m() : 0.0;
     carriage_ = MobilizedBody::Slider(matter_.Ground(), kUpwards, make_block(rig.carriage.mass_kg), kUpwards);
     wheel_ = MobilizedBody::Pin(carriage_, kReversed, make_wheel(corner.context().tire), kReversed);
     const models::WheelContact contact(
@@ -68,7 +75,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
 
   /// The axle of the wheel is at the carriage's height above that of the drum.
   std::vector<sim::PoseCoordinate> poses() const override {
-    return {{"drum_angle_rad", q_state(drum_)},
+    return {{surface_height_m_ > 0.0 ? "drum_angle_rad" : "belt_way_m", q_state(drum_)},
             {"axle_height_m", q_state(carriage_)},
             {"wheel_angle_rad", q_state(wheel_)}};
   }
@@ -135,7 +142,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     const models::Context<double>& context = corner(0).context();
     const double radius_m = context.machine_radius_m;
     const double loaded_radius_m = calc_loaded_radius_m(context.tire, acting.load_N);
-    carriage_.setOneQ(state_, 0, radius_m + loaded_radius_m);
+    carriage_.setOneQ(state_, 0, surface_height_m_ + loaded_radius_m);
     drum_.setOneU(state_, 0, acting.speed_m_s / radius_m);
     wheel_.setOneU(state_, 0, acting.speed_m_s / loaded_radius_m);
     system_.realize(state_, Stage::Velocity);
@@ -153,16 +160,17 @@ class MultibodyDrum::Implementation : public SimbodySystem {
     const double carriage_m_s = carriage_.getOneU(state_, 0);
     put_drum_readings(at.now, drive.motor_torque_Nm, integrands);
     DrumPowers<double> power;
-    power.motor_W = drive.motor_torque_Nm * at.surface_speed_rad_s;
+    power.motor_W = drive.motor_torque_Nm * drum_.getOneU(state_, 0);
     power.load_actuator_W = -drive.cylinder_force_N * carriage_m_s;
     power.tire_W = at.couple_Nm * (at.wheel_speed_rad_s + at.surface_speed_rad_s);
-    power.bearing_W = at.now.parasitic_N * at.surface_speed_rad_s * corner(0).context().machine_radius_m;
+    power.bearing_W = at.now.parasitic_N * drum_.getOneU(state_, 0) * corner(0).context().machine_radius_m;
     power.tire_damper_W = actuators_->contacts().front().calc_tire_damper_W(at);
     power.cylinder_damper_W = -drive.damper_force_N * carriage_m_s;
     put_drum_powers(at.now, power, integrands);
   }
 
-  MobilizedBody::Pin drum_;
+  MobilizedBody drum_;             // or belt
+  double surface_height_m_ = 0.0;  // height of the surface above the origin of carriage and drum
   MobilizedBody::Slider carriage_;
   MobilizedBody::Pin wheel_;
   DrumActuators* actuators_ = nullptr;  // owned by the force subsystem

@@ -1,6 +1,6 @@
 #pragma once
-/// The drum rig as a multibody system in Simbody: drum on a pin, carriage on a vertical slider with its
-/// load cylinder, wheel and tire on a pin, contact element between wheel and drum.
+/// The drum rig as a multibody system in Simbody: drum on a pin, or a belt on a slider in its place, carriage on a
+/// vertical slider with its load cylinder, wheel and tire on a pin, contact element between wheel and drum.
 
 #include "rigs/drum_channels.h"
 #include "rigs/multibody_rig.h"

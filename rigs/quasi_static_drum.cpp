@@ -5,7 +5,7 @@ namespace rollrig::rigs {
 template <class S>
 QuasiStaticDrum<S>::QuasiStaticDrum(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded, Detail detail)
     : Base({make_drum_integrals(detail), make_drum_stores(detail),
-            make_drum_channels(corner.states(), surface_recorded, detail)},
+            make_drum_channels(corner.context().machine, corner.states(), surface_recorded, detail)},
            {&corner}, 1, std::move(start), surface_recorded),
       detail_(detail) {}
 
@@ -46,10 +46,10 @@ void QuasiStaticDrum<S>::find_motion(double time_s, const S* state) {
   motion.longitudinal_force_N = wheel.rolling.loss_at_wheel_N + spin_force_N;
   wheel.slip = models::calc_slip(now);
   models::put_slip(wheel.rolling, wheel.slip, motion);
-  drum_torque_Nm_ = zero<S>();
+  motor_torque_Nm_ = zero<S>();
   if (present_.drive_on) {
-    drum_torque_Nm_ = (resistance_N + effective_mass_kg * motion.acceleration_m_s2 + wheel.slip * spin_force_N) *
-                      context().machine_radius_m;
+    motor_torque_Nm_ = (resistance_N + effective_mass_kg * motion.acceleration_m_s2 + wheel.slip * spin_force_N) *
+                       context().machine_radius_m;
   }
 }
 
@@ -78,11 +78,11 @@ void QuasiStaticDrum<S>::evaluate(double time_s, const S* state, S* rates, S* in
 
 template <class S>
 void QuasiStaticDrum<S>::fill_integrands(S* integrands) const {
-  put_drum_readings(now(), drum_torque_Nm_, integrands);
+  put_drum_readings(now(), motor_torque_Nm_, integrands);
   if (detail_ == Detail::kMeasured) return;
   const models::Motion<S>& motion = now().motion;
   DrumPowers<S> power;
-  power.motor_W = drum_torque_Nm_ * motion.speed_m_s / context().machine_radius_m;
+  power.motor_W = motor_torque_Nm_ * motion.speed_m_s / context().machine_radius_m;
   power.tire_W = now().rolling_resistance_N * motion.rolling_speed_m_s;
   power.bearing_W = now().parasitic_N * motion.speed_m_s;
   put_drum_powers(now(), power, integrands);

@@ -1,5 +1,5 @@
 #pragma once
-/// The drum rig with its mechanics in equilibrium: thermal and effect states alone, and the speed when
+/// The drum rig, or the belt, with its mechanics in equilibrium: thermal and effect states alone, and the speed when
 /// the motor is off.
 
 #include "rigs/drum_channels.h"
@@ -9,8 +9,9 @@ namespace rollrig::rigs {
 
 /// Equation  torque = R (F_rr + F_par + m_eff a + s m_w a),  m_eff = j m_r + m_w;  off: a = -(F_rr + F_par)/m_eff;
 ///           the wheel: models/wheel/rolling_wheel.h without a force of its hub
-/// Symbols   R torque over force at the surface [m], m_r equivalent mass of the drum, j factor on it (1 in the
-///           baseline), m_w of the wheel's spin [kg], a acceleration of the surface [m/s2], s slip [1]
+/// Symbols   R torque over force at the surface [m], 1 of a belt, m_r equivalent mass of the drum, j factor on it
+///           (1 in the baseline), m_w of the wheel's spin [kg], a acceleration of the surface [m/s2],
+///           s slip [1]
 /// Validity  slow against the load cylinder's and the speed controller's settling (a few seconds)
 /// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
 ///           "load_changes" of the mechanical audit
@@ -45,7 +46,7 @@ class QuasiStaticDrum : public QuasiStaticRig<S> {
   const models::Instant<S>& now() const { return wheels_.front().now; }
 
   Detail detail_;
-  S drum_torque_Nm_{};
+  S motor_torque_Nm_{};
 };
 
 extern template class QuasiStaticDrum<double>;

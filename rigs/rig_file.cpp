@@ -37,6 +37,11 @@ const MachineKind& read_kind(TableReader& file) {
   return find_machine_kind(file.text("kind", machine_words()));  // throws
 }
 
+/// Whether the file says what the first format could not.
+bool is_new_form(const RigFile& rig) {
+  return !rig.conductances_of.empty() || std::string(rig.kind->word) != rig.kind->former_word;
+}
+
 }  // namespace
 
 RigFile read_rig(const ConfigTable& config) {
@@ -46,6 +51,7 @@ RigFile read_rig(const ConfigTable& config) {
   check_format(file, "rollrig-rig", 2);
   rig.name = file.text("name");
   rig.kind = &read_kind(file);
+  rig.conductances_of = file.text_or("conductances_of", "");
   RigFile::visit_tables(
       rig, [&](const char* name, auto& table, Presence presence) { read_table(file, name, presence, table, rig); });
   if (is_tied_down(rig.kind->traits)) {
@@ -56,8 +62,9 @@ RigFile read_rig(const ConfigTable& config) {
 }
 
 std::string write_rig(const RigFile& rig) {
-  std::string text =
-      fmt::format("format = \"rollrig-rig/1\"\nname = \"{}\"\nkind = \"{}\"\n", rig.name, rig.kind->word);
+  std::string text = fmt::format("format = \"rollrig-rig/{}\"\nname = \"{}\"\nkind = \"{}\"\n",
+                                 is_new_form(rig) ? 2 : 1, rig.name, rig.kind->word);
+  if (!rig.conductances_of.empty()) text += fmt::format("conductances_of = \"{}\"\n", rig.conductances_of);
   if (rig.driven_wheels_only) text += fmt::format("rollers_under = \"{}\"\n", kDrivenWheels);
   RigFile::visit_tables(rig, [&](const char* name, const auto& table, Presence presence) {
     if (presence == Presence::kOptional && rig.skim.load_N <= 0.0) return;
@@ -74,14 +81,14 @@ const char* name_of_rolling_wheels(const RigFile& rig) { return rig.driven_wheel
 
 models::Context<double> make_context(const models::TireFile& tire, const RigFile& rig, models::Baseline baseline) {
   models::Context<double> context;
-  context.tire = tire.parameters_on(rig.name, baseline);
+  context.tire = tire.parameters_on(rig.thermal_name(), baseline);
   context.parasitic = rig.parasitic;
   context.machine = rig.kind->traits;
   if (is_indoors(context.machine)) {
-    const double radius_m = rig.drum.diameter_m / 2.0;
-    context.surface_curvature_per_m = 2.0 / rig.drum.diameter_m;
-    context.machine_radius_m = radius_m;
-    context.machine_mass_kg = rig.drum.inertia_kg_m2 / (radius_m * radius_m);
+    const double lever_m = rig.lever_m();
+    context.surface_curvature_per_m = rig.curvature_per_m();
+    context.machine_radius_m = lever_m;
+    context.machine_mass_kg = rig.inertia() / (lever_m * lever_m);
   }
   context.skim_load_N = rig.skim.load_N;
   return context;

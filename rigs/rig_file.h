@@ -21,6 +21,17 @@ struct DrumParameters {
   }
 };
 
+/// A flat belt over two drums.
+struct BeltParameters {
+  double moving_mass_kg = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"moving_mass_kg", positive(), "Belt, and the inertia of its drums and motor as mass at its surface"},
+          p.moving_mass_kg);
+  }
+};
+
 struct RigEnvironment {
   double ambient_K = 0.0;
   double ambient_pressure_Pa = 0.0;
@@ -43,7 +54,7 @@ struct SkimParameters {
   }
 };
 
-/// The carriage that presses the wheel on the drum, from above.
+/// The carriage that presses the wheel on the drum or belt, from above.
 struct CarriageParameters {
   double mass_kg = 0.0;
   double damping_N_s_per_m = 0.0;
@@ -96,7 +107,9 @@ struct RigFile {
   std::string content;  // as read, for the manifest's hash
   std::string name;
   const MachineKind* kind = &find_machine_kind("drum");
-  DrumParameters drum;              // of each roller on a dyno
+  std::string conductances_of;  // the rig at which a tire's conductances hold here as well; empty: its own
+  DrumParameters drum;          // of each roller on a dyno
+  BeltParameters belt;
   bool driven_wheels_only = false;  // of a dyno: the other axle stands still, its tires lose nothing
   models::ParasiticParameters<double> parasitic;
   models::ParasiticParameters<double> parasitic_uncertainties;  // 0 where none was given
@@ -106,6 +119,15 @@ struct RigFile {
   DriveParameters drive;
   TieDownParameters tie_down;
 
+  /// The rig by whose name a tire file has its conductances.
+  const std::string& thermal_name() const { return conductances_of.empty() ? name : conductances_of; }
+  bool is_curved() const { return drum.diameter_m > 0.0; }
+  double curvature_per_m() const { return is_curved() ? 2.0 / drum.diameter_m : 0.0; }
+  /// Torque at the axis of drum or roller over force at its surface; 1 of a belt, whose motor is taken as a force.
+  double lever_m() const { return is_curved() ? drum.diameter_m / 2.0 : 1.0; }
+  /// Moment of inertia about that axis, or mass.
+  double inertia() const { return is_curved() ? drum.inertia_kg_m2 : belt.moving_mass_kg; }
+
   /// Whether a table must stand in the file, may be left out since its keys have defaults, or need not apply.
   enum class Presence { kRequired, kDefaults, kOptional };
 
@@ -114,6 +136,7 @@ struct RigFile {
   static void visit_tables(Self& rig, const Visit& visit) {
     const models::MachineTraits& machine = rig.kind->traits;
     if (machine.surface == models::Surface::kDrum) visit("drum", rig.drum, Presence::kRequired);
+    if (machine.surface == models::Surface::kBelt) visit("belt", rig.belt, Presence::kRequired);
     if (machine.surface == models::Surface::kRoller) visit("roller", rig.drum, Presence::kRequired);
     if (is_indoors(machine)) visit("parasitic", rig.parasitic, Presence::kRequired);
     visit("environment", rig.environment, Presence::kRequired);

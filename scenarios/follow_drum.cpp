@@ -58,15 +58,15 @@ using Settings = OnlyConditions<ProgramConditions>;
 
 struct Stretch {
   Reading reading;
-  double force_N = 0.0;
 
   void visit(ResultSheet& visit) const {
     visit(Result{"start_s", "start", ".0f", "start of the window that is averaged"}, reading.window.start_s);
     visit(Result{"end_s", "end", ".0f", "its end"}, reading.window.end_s);
     visit(Result{"load_N", "load", ".0f", "mean load"}, reading.load_N);
     visit(Result{"speed_km_h", "", ".1f", "mean speed"}, reading.speed_m_s);
-    visit(Result{"drum_torque_Nm", "torque", ".2f", "mean motor torque"}, reading.drum_torque_Nm);
-    visit(Result{"force_N", "force", ".2f", "the same at the drum's surface"}, force_N);
+    visit(Result{"drum_torque_Nm", "torque", ".2f", "mean motor torque; none on a belt"}.or_left_out(),
+          reading.drum_torque_Nm);
+    visit(Result{"force_N", "force", ".2f", "the same at the surface"}, reading.force_N);
     visit(Result{"liner_temperature_degC", "liner", ".1f", "mean"}, reading.liner_temperature_K);
     visit(Result{"cavity_pressure_kPa", "", ".1f", "mean, gauge"}, reading.pressure_Pa);
   }
@@ -100,10 +100,9 @@ std::vector<Stretch> read_stretches(const ProgramConditions& conditions, const R
   std::vector<Stretch> stretches;
   for (const LoadRange& range : find_test_ranges(recording, spec)) {
     const Window window = find_last_window(range, conditions.window_s, conditions.margin_s);
-    const std::vector<double>& torque_Nm = recording.channel(quantities::kDrumTorque);
-    if (count_window_samples(recording.time_s, torque_Nm, window, spec.sample_interval_s) == 0) continue;
-    const Reading reading = take_reading(recording, window, spec.sample_interval_s);
-    stretches.push_back({reading, reading.drum_torque_Nm / (spec.rig.drum.diameter_m / 2.0)});
+    const std::vector<double>& force = recording.channel(spec.rig.kind->traits.force);
+    if (count_window_samples(recording.time_s, force, window, spec.sample_interval_s) == 0) continue;
+    stretches.push_back({take_reading(recording, spec, window)});
   }
   return stretches;
 }

@@ -15,7 +15,8 @@ struct Results {
     visit(Result{"skim_load_N", "", ".0f", "mean load"}, skim.load_N);
     visit(Result{"speed_km_h", "", ".1f", "mean speed"}, skim.speed_m_s);
     visit(JointLine{"Skim load, speed", "{skim_load_N}, {speed_km_h}"});
-    visit(Result{"drum_torque_Nm", "Drum torque", ".3f", "mean motor torque"}, skim.drum_torque_Nm);
+    visit(Result{"drum_torque_Nm", "Drum torque", ".3f", "mean motor torque; none on a belt"}.or_left_out(),
+          skim.drum_torque_Nm);
     visit(Result{"parasitic_N", "Parasitic loss as measured", ".3f", "skim torque over drum radius"},
           cycle.parasitic_N);
     visit(Result{"rig_alone_N", "  of it the rig alone (simulated)", ".3f",

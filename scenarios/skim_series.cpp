@@ -99,7 +99,6 @@ Extrapolation extrapolate(const std::vector<Point>& points, double force_sd_N) {
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const double radius_m = spec.rig.drum.diameter_m / 2.0;
   const sim::Recording<double>& recording = outcome.recording;
   const std::vector<LoadRange> ranges = find_test_ranges(recording, spec);
   if (ranges.size() != settings.skim_loads_N.size() + 1) {
@@ -112,16 +111,16 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
     const auto mean = [&](const Quantity& quantity) {
       return calc_window_mean(recording.time_s, recording.channel(quantity), window, spec.sample_interval_s);
     };
-    const Reading reading = take_reading(recording, window, spec.sample_interval_s);
-    results.points.push_back({reading, reading.drum_torque_Nm / radius_m, mean(quantities::kRollingResistance)});
+    const Reading reading = take_reading(recording, spec, window);
+    results.points.push_back({reading, reading.force_N, mean(quantities::kRollingResistance)});
     results.rig_alone_N = mean(quantities::kParasiticLoss);
   }
-  const models::SensorParameters sensor = find_torque_sensor(spec);
+  const models::SensorParameters sensor = find_force_sensor(spec);
   const int samples = results.points.front().reading.samples;
   constexpr double kFarApart_s = 1e9;  // so that drift of the sensor counts in full
-  const double mean_sd_Nm =
+  const double mean_sd =
       std::sqrt(0.5 * models::calc_difference_variance(sensor, samples, spec.sample_interval_s, kFarApart_s));
-  results.zero_load = extrapolate(results.points, mean_sd_Nm / radius_m);
+  results.zero_load = extrapolate(results.points, mean_sd / spec.rig.lever_m());
   return results;
 }
 

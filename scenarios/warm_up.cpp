@@ -86,13 +86,13 @@ WarmUpCurve read_curve(const Settings& settings, const RunSpec& spec, const Cycl
   constexpr double kSettled_s = 5.0;       // Assumed: speed controller and load cylinder have settled
   constexpr std::size_t kEnoughRows = 10;  // Assumed: for a straight line through noise
   const sim::PhaseSpan& phase = outcome.recording.phase_named("warm-up");
-  const std::vector<double>& torque_Nm = outcome.recording.channel(quantities::kDrumTorque);
+  const std::vector<double>& force = outcome.recording.channel(spec.rig.kind->traits.force);
   const std::vector<double>& liner_temperature_K = outcome.recording.channel(quantities::kLinerTemperature);
   std::vector<double> start_times_s, start_N, band_dK, band_log;
   for (std::size_t i = 0; i < outcome.recording.row_count(); ++i) {
     const double time_s = outcome.recording.time_s[i];
     if (time_s < phase.start_s + kSettled_s || time_s > phase.end_s - settings.conditions.margin_s) continue;
-    const double loss_N = torque_Nm[i] / (spec.rig.drum.diameter_m / 2.0) - cycle.parasitic_N;
+    const double loss_N = force[i] / spec.rig.lever_m() - cycle.parasitic_N;
     const double liner_K = liner_temperature_K[i];
     if (time_s <= kSettled_s + settings.start_window_s) {
       start_times_s.push_back(time_s);

@@ -129,11 +129,13 @@ std::string describe_tire_file() {
 
 std::string describe_rig_file() {
   std::string text =
-      "\n## Rig file\n\n`format = \"rollrig-rig/1\"`, `name`, `kind` (`drum`, `dyno` or `road`), and the "
-      "tables below. A dyno has `[roller]` in place of\n`[drum]`, `[tie_down]`, and `rollers_under` (`all_wheels`, the "
-      "default, or `driven_wheels`: the other axle stands still); `[skim]` and `[carriage]` belong to a\ndrum, "
-      "`[parasitic]` and `[drive]` to a drum or a dyno.\n";
+      "\n## Rig file\n\n`format = \"rollrig-rig/2\"`, `name`, `kind` (`drum`, `flat_belt`, `dyno` or `road`), "
+      "`conductances_of` (a rig on which tires cool alike; default: its own name), and the tables below. A flat belt has "
+      "`[belt]` in place of `[drum]`, a dyno `[roller]`, `[tie_down]`, and `rollers_under` (`all_wheels`, the "
+      "default, or `driven_wheels`: the other axle stands still); `[skim]` and `[carriage]` belong to a\ndrum or "
+      "belt, `[parasitic]` and `[drive]` to all but a road.\n";
   text += describe_table<rigs::DrumParameters>("drum");
+  text += describe_table<rigs::BeltParameters>("belt");
   text += describe_table<models::ParasiticParameters<double>>("parasitic");
   text += describe_table<rigs::RigEnvironment>("environment");
   text += describe_table<rigs::SkimParameters>("skim");

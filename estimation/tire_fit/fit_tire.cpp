@@ -85,7 +85,7 @@ void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& u
     sd.thermal.H_gas_W_per_K = uncertainty.tire.thermal.H_gas_W_per_K;
   }
   // z and f belong to the rig on which they were found (§4.2.3).
-  fit.tire.rig_thermal[set.rig->name] = {
+  fit.tire.rig_thermal[set.rig->thermal_name()] = {
       best.tire.thermal.rest_conductance_W_per_K, uncertainty.tire.thermal.rest_conductance_W_per_K,
       best.tire.thermal.speed_conductance_W_s_per_m_K, uncertainty.tire.thermal.speed_conductance_W_s_per_m_K};
 }
@@ -97,7 +97,7 @@ void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
     const std::string key = find_file_key(estimate.key);  // "load_map.0.A0_N", "thermal.H_gas_W_per_K"
     std::string table = key.substr(0, key.find('.') + 1);
     if (table == "load_map.") table = "rolling_resistance.load_map.";
-    if (last_part(key).rfind("conductance_", 0) == 0) table += "rig." + set.rig->name + ".";
+    if (last_part(key).rfind("conductance_", 0) == 0) table += "rig." + set.rig->thermal_name() + ".";
     fit.notes[table + last_part(key)] = from;
   }
 }
@@ -151,7 +151,8 @@ Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vecto
 
 void require_drum_set(const measurements::MeasurementSet& set) {
   if (!is_of_vehicle(set.kind->traits)) return;
-  throw InputError({"a tire is fitted to a drum set", set.path, 0, "rig", "", "a rig with kind = \"drum\"", ""});
+  throw InputError({"a tire is fitted to a set of a drum or belt", set.path, 0, "rig", "",
+                    "a rig whose carriage presses the tire", ""});
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ LossSamples& find_speed(std::vector<LossSamples>& speeds, double speed_m_s) {
 /// K of drum_curvature.h: the rig's drum against the one on which A0 and A1 hold.
 double find_curvature_factor(const measurements::MeasurementSet& set) {
   return models::calc_drum_correction(2.0 / set.tire.values.rolling_resistance.reference_drum_diameter_m,
-                                      2.0 / set.rig->drum.diameter_m, set.tire.values.geometry.outer_diameter_m / 2.0);
+                                      set.rig->curvature_per_m(), set.tire.values.geometry.outer_diameter_m / 2.0);
 }
 
 /// Pressure as measured, or by the gas law at the tire's temperature where it was not.
@@ -58,20 +58,20 @@ double find_pressure_Pa(const measurements::MeasurementSet& set, const measureme
 
 void collect_losses(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                     std::vector<LossSamples>& speeds) {
-  if (!run.has("drum_torque_Nm") || !run.has("liner_temperature_degC")) return;
+  const std::string force = set.kind->traits.force.header();
+  if (!run.has(force) || !run.has("liner_temperature_degC")) return;
   const auto& rr = set.tire.values.rolling_resistance;
-  const double radius_m = set.rig->drum.diameter_m / 2.0;
   const std::vector<bool> settled = measurements::find_settled_rows(run);
   const std::vector<double>& load_N = run.columns.at("load_N");
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-    const double torque_Nm = run.columns.at("drum_torque_Nm")[row];
+    const double force_N = run.columns.at(force)[row] / set.rig->lever_m();
     const double liner_K = run.columns.at("liner_temperature_degC")[row];
     const bool loaded = load_N[row] > measurements::kLoadedShare * rr.reference_load_N;
     const bool steady_speed =
         std::abs(measurements::find_acceleration(run, row)) < measurements::kSteadyAcceleration_m_s2;
-    if (!settled[row] || !loaded || !steady_speed || std::isnan(torque_Nm) || std::isnan(liner_K)) continue;
-    const double loss_N = torque_Nm / radius_m - models::calc_parasitic_N(set.rig->parasitic, speed_m_s[row]);
+    if (!settled[row] || !loaded || !steady_speed || std::isnan(force_N) || std::isnan(liner_K)) continue;
+    const double loss_N = force_N - models::calc_parasitic_N(set.rig->parasitic, speed_m_s[row]);
     if (loss_N <= 0.0) continue;
     const double at_reference_N =
         loss_N / find_curvature_factor(set) * rr.reference_load_N / load_N[row] *

@@ -94,6 +94,8 @@ void WheelContact::add_forces(const State& state, const ContactEvaluation& at,
   const double curvature_per_m = corner_->context().surface_curvature_per_m;
   if (curvature_per_m > 0.0) {
     body_forces[bodies_.surface][0] -= at.now.parasitic_N / curvature_per_m * at.axis;
+  } else if (is_indoors(corner_->context().machine)) {
+    body_forces[bodies_.surface][1] -= at.now.parasitic_N * at.tangent;
   } else {
     const Vec3 on_hub_Nm = at.now.parasitic_N * at.loaded_radius_m * at.axis;  // the wheel turns about -axis
     body_forces[bodies_.wheel][0] += on_hub_Nm;

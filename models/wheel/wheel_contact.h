@@ -31,11 +31,12 @@ struct ContactEvaluation {
 };
 
 /// The tire of one wheel on one surface: a drum or roller that turns about the ground's z axis, or, where the
-/// corner's surface has no curvature, the plane y = 0 of the surface's body.
+/// corner's surface has no curvature, the plane y = 0 of the surface's body: the ground, or a belt on it.
 ///
 /// Forces    on the wheel at the contact: Fz n + Fx t; on the surface the opposite; the couple
-///           M of rolling resistance on both; the parasitic loss F_par as a torque on the drum, or on the flat,
-///           where no drum has bearings, as a torque between the wheel and the body that carries it
+///           M of rolling resistance on both; the parasitic loss F_par as a torque on the drum or a force on
+///           the belt, or on the road, where no surface has bearings, as a torque between the wheel and the body that
+///           carries it
 /// States    z: slip deflection, then the corner's states
 class WheelContact {
  public:

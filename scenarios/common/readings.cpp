@@ -5,6 +5,7 @@
 #include "measurements/sensor_file.h"
 #include "models/ambient_correction.h"
 #include "models/tire/drum_curvature.h"
+#include "models/wheel/rolling_wheel.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -12,27 +13,27 @@ namespace {
 constexpr double kReferenceRadius_m = 1.0;
 constexpr double kCoverageFactor = 2.0;
 
-double radius_of(const RunSpec& spec) { return spec.rig.drum.diameter_m / 2.0; }
-
 double calc_force_method_N(const Reading& reading, const RunSpec& spec) {
   const double loaded_radius_m = calc_loaded_radius_m(spec.tire.values, reading.load_N);
-  return reading.spindle_force_N * (1.0 + loaded_radius_m / radius_of(spec));
+  return reading.spindle_force_N * models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m());
 }
 
 }  // namespace
 
-Reading take_reading(const sim::Recording<double>& recording, const Window& window, double interval_s) {
+Reading take_reading(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window) {
+  const Quantity& force = spec.rig.kind->traits.force;
+  const double interval_s = spec.sample_interval_s;
   const auto mean = [&](const Quantity& quantity) {
     return calc_window_mean(recording.time_s, recording.channel(quantity), window, interval_s);
   };
   Reading reading;
   reading.window = window;
-  reading.samples =
-      count_window_samples(recording.time_s, recording.channel(quantities::kDrumTorque), window, interval_s);
+  reading.samples = count_window_samples(recording.time_s, recording.channel(force), window, interval_s);
   reading.load_N = mean(quantities::kLoad);
   reading.speed_m_s = mean(quantities::kSpeed);
   reading.ambient_K = mean(quantities::kAmbient);
-  reading.drum_torque_Nm = mean(quantities::kDrumTorque);
+  reading.force_N = mean(force) / spec.rig.lever_m();
+  if (reads_torque(spec.rig.kind->traits)) reading.drum_torque_Nm = mean(force);
   reading.spindle_force_N = mean(quantities::kSpindleForce);
   reading.liner_temperature_K = mean(quantities::kLinerTemperature);
   reading.pressure_Pa = mean(quantities::kCavityPressure);
@@ -43,8 +44,8 @@ Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& 
   Cycle cycle;
   cycle.loaded = loaded;
   cycle.skim = skim;
-  cycle.parasitic_N = skim.drum_torque_Nm / radius_of(spec);
-  cycle.rolling_resistance_N = loaded.drum_torque_Nm / radius_of(spec) - cycle.parasitic_N;
+  cycle.parasitic_N = skim.force_N;
+  cycle.rolling_resistance_N = loaded.force_N - cycle.parasitic_N;
   cycle.rrc = cycle.rolling_resistance_N / loaded.load_N;
   cycle.force_method_N = calc_force_method_N(loaded, spec) - calc_force_method_N(skim, spec);
   return cycle;
@@ -64,8 +65,7 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
                                const DrumConditions& conditions) {
   const std::vector<LoadRange> ranges = find_test_ranges(recording, spec);
   const auto read = [&](const LoadRange& range) {
-    return take_reading(recording, find_last_window(range, conditions.window_s, conditions.margin_s),
-                        spec.sample_interval_s);
+    return take_reading(recording, spec, find_last_window(range, conditions.window_s, conditions.margin_s));
   };
   std::vector<Cycle> cycles;
   for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
@@ -79,19 +79,21 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
 
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec) {
   const double tire_radius_m = spec.tire.values.geometry.outer_diameter_m / 2.0;
-  const double to_2m = models::calc_drum_correction(1.0 / radius_of(spec), 1.0 / kReferenceRadius_m, tire_radius_m);
+  const double to_2m =
+      models::calc_drum_correction(spec.rig.curvature_per_m(), 1.0 / kReferenceRadius_m, tire_radius_m);
   return rrc * to_2m * models::calc_ambient_correction(ambient_K);
 }
 
-models::SensorParameters find_torque_sensor(const RunSpec& spec) {
-  const std::string torque = quantities::kDrumTorque.header();
-  if (spec.sensors.has_value() && spec.sensors->count(torque) > 0) return spec.sensors->at(torque);
-  return measurements::read_sensor_asset("source").at(torque);
+models::SensorParameters find_force_sensor(const RunSpec& spec) {
+  const std::string force = spec.rig.kind->traits.force.header();
+  const models::SensorSet& usual = spec.rig.kind->default_sensors;
+  if (spec.sensors.has_value() && spec.sensors->count(force) > 0) return spec.sensors->at(force);
+  return usual.count(force) > 0 ? usual.at(force) : measurements::read_sensor_asset("source").at(force);
 }
 
 RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec) {
-  const models::SensorParameters sensor = find_torque_sensor(spec);
-  const double to_rrc = correct_rrc(1.0 / (radius_of(spec) * cycle.loaded.load_N), cycle.loaded.ambient_K, spec);
+  const models::SensorParameters sensor = find_force_sensor(spec);
+  const double to_rrc = correct_rrc(1.0 / (spec.rig.lever_m() * cycle.loaded.load_N), cycle.loaded.ambient_K, spec);
   const double variance = models::calc_difference_variance(sensor, cycle.loaded.samples, spec.sample_interval_s,
                                                            cycle.skim.window.start_s - cycle.loaded.window.start_s);
   RrcUncertainty uncertainty;

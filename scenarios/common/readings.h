@@ -2,6 +2,7 @@
 /// What a test engineer reads off a recording: means over windows, rolling resistance per cycle (§3.2.3.2),
 /// its corrections (§3.2.3.3) and its uncertainty (§4.1.1).
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,19 +18,20 @@ struct Reading {
   double load_N = 0.0;
   double speed_m_s = 0.0;
   double ambient_K = 0.0;
-  double drum_torque_Nm = 0.0;
+  double force_N = 0.0;                  // of the machine, at its surface
+  std::optional<double> drum_torque_Nm;  // where it is read as a torque
   double spindle_force_N = 0.0;
   double liner_temperature_K = 0.0;
   double pressure_Pa = 0.0;
 };
 
-Reading take_reading(const sim::Recording<double>& recording, const Window& window, double interval_s);
+Reading take_reading(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window);
 
 /// A load followed by a skim test.
 struct Cycle {
   Reading loaded;
   Reading skim;
-  double parasitic_N = 0.0;           // F_pl = T_skim/R
+  double parasitic_N = 0.0;           // F_pl = T_skim/R, of a belt the force in skim
   double rolling_resistance_N = 0.0;  // F_r = T_t/R - F_pl
   double rrc = 0.0;                   // N/N
   double force_method_N = 0.0;        // F_r from the spindle force
@@ -43,9 +45,11 @@ struct Cycle {
     visit(Result{"skim_end_s", "skim end", ".0f", "its end", Column::kSecond}, skim.window.end_s);
     visit(Result{"load_N", "load", ".0f", "mean load"}, loaded.load_N);
     visit(Result{"speed_km_h", "", ".1f", "mean speed"}, loaded.speed_m_s);
-    visit(Result{"drum_torque_Nm", "torque", ".2f", "mean motor torque under load"}, loaded.drum_torque_Nm);
-    visit(Result{"skim_torque_Nm", "skim", ".2f", "mean motor torque in skim", Column::kSecond}, skim.drum_torque_Nm);
-    visit(Result{"parasitic_N", "skim", ".2f", "F_pl, skim torque over drum radius"}, parasitic_N);
+    visit(Result{"drum_torque_Nm", "torque", ".2f", "mean motor torque under load; none on a belt"}.or_left_out(),
+          loaded.drum_torque_Nm);
+    visit(Result{"skim_torque_Nm", "skim", ".2f", "mean motor torque in skim", Column::kSecond}.or_left_out(),
+          skim.drum_torque_Nm);
+    visit(Result{"parasitic_N", "skim", ".2f", "F_pl, skim torque over drum radius; of a belt the force"}, parasitic_N);
     visit(Result{"rolling_resistance_N", "F_r", ".2f", "F_r = T_t/R - F_pl"}, rolling_resistance_N);
     visit(Result{"rrc_N_per_kN", "RRc", ".3f", "F_r over load"}, rrc);
     visit(Result{"force_method_N", "F_r by force", ".2f", "F_r from the spindle force", Column::kSecond},
@@ -66,7 +70,9 @@ struct Cycle {
 constexpr const char* kCycleWindows = "Windows that were averaged, torque in skim, and F_r by the force method";
 
 /// F_r of a loaded and a skim reading, by both of the standard's methods.
-/// Equation  torque method  F_r = T_t/R - T_skim/R;  force method F_r = F_t (1 + r_l/R) - F_t,skim (1 + r_l,skim/R)
+/// Equation  torque method  F_r = T_t/R - T_skim/R;  force method F_r = F_t (1 + r_l/R) - F_t,skim (1 + r_l,skim/R);
+///           on a belt forces in the place of T/R, and 1/R = 0
+/// Symbols   T motor torque, F_t spindle force, R radius of the drum, r_l loaded radius of the tire
 /// Source    §3.2.3.2; the force method from ISO 28580 (source [2]), with the loaded radius of each reading
 Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& spec);
 
@@ -90,7 +96,8 @@ struct RrcUncertainty {
 };
 RrcUncertainty calc_rrc_uncertainty(const Cycle& cycle, const RunSpec& spec);
 
-/// The torque sensor by which uncertainties are stated: the run's, else that of the source's rig.
-models::SensorParameters find_torque_sensor(const RunSpec& spec);
+/// The sensor of torque or force by which uncertainties are stated: the run's, else the usual one of the kind, else
+/// that of the source's rig.
+models::SensorParameters find_force_sensor(const RunSpec& spec);
 
 }  // namespace rollrig::scenarios

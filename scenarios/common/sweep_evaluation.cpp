@@ -23,15 +23,18 @@ double fit_power(const std::vector<double>& x, const std::vector<double>& y) {
 Cycle average_cycles(const std::vector<Cycle>& cycles) {
   Cycle mean = cycles.back();
   mean.parasitic_N = mean.rolling_resistance_N = mean.rrc = mean.force_method_N = 0.0;
-  mean.loaded.drum_torque_Nm = mean.skim.drum_torque_Nm = 0.0;
   const auto n = static_cast<double>(cycles.size());
   for (const Cycle& cycle : cycles) {
     mean.parasitic_N += cycle.parasitic_N / n;
     mean.rolling_resistance_N += cycle.rolling_resistance_N / n;
     mean.rrc += cycle.rrc / n;
     mean.force_method_N += cycle.force_method_N / n;
-    mean.loaded.drum_torque_Nm += cycle.loaded.drum_torque_Nm / n;
-    mean.skim.drum_torque_Nm += cycle.skim.drum_torque_Nm / n;
+  }
+  for (Reading Cycle::*part : {&Cycle::loaded, &Cycle::skim}) {
+    std::optional<double>& torque_Nm = (mean.*part).drum_torque_Nm;
+    if (!torque_Nm.has_value()) continue;
+    torque_Nm = 0.0;
+    for (const Cycle& cycle : cycles) *torque_Nm += *(cycle.*part).drum_torque_Nm / n;
   }
   return mean;
 }

@@ -103,7 +103,7 @@ TEST_CASE("dimensions are right through every port, with every effect on, on eve
   models::InitialPort<Q> initial;
   initial.soaked = GENERATE(true, false);
   initial.rest_before_s = Q(3600.0, dimension::kTime);
-  const auto kind = GENERATE(tests::kDrum, tests::kDyno, tests::kRoad);
+  const auto kind = GENERATE(from_range(rigs::machine_kinds()));
   models::Context<double> context = tests::make_context_on(kind);
   context.tire.own = tests::make_own(GENERATE("combined", "constant_rrc", "two_node"));
   tests::HandFedCorner<Q> at(context, all, initial, 310.0);

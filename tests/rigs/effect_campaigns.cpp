@@ -1,10 +1,9 @@
 #include "tests/rigs/effect_campaigns.h"
 
-#include <map>
-
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
 #include "scenarios/common/vehicle_bench.h"
+#include "sim/core/assets.h"
 #include "tests/support/vehicle_fixture.h"
 
 namespace rollrig::tests {
@@ -45,9 +44,17 @@ void choose_model(const std::string& model, Fixture& fixture) {
   fixture.tire.values.constant.rrc = 0.0075;
 }
 
-sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects, const std::string& model) {
+DrumFixture drum_with(const std::string& rig, const Effects& effects, const std::string& model) {
   DrumFixture fixture;
+  fixture.rig = rigs::read_rig(read_config(find_asset("rigs", rig)));
   choose_model(model, fixture);
+  fixture.effects = effects;
+  return fixture;
+}
+
+sim::Recording<Jet> run_drum_with_derivatives(const std::string& rig, const Effects& effects,
+                                              const std::string& model) {
+  const DrumFixture fixture = drum_with(rig, effects, model);
   models::Corner<Jet> corner(models::convert_context<Jet>(fixture.context()), effects);
   corner.effects()[0].parameters[0] = Jet(corner.effects()[0].parameters[0].a, 0);
   rigs::RigStart<Jet> start;
@@ -62,11 +69,20 @@ sim::Recording<Jet> run_drum_with_derivatives(const Effects& effects, const std:
   return recording;
 }
 
-DrumFixture drum_with(const Effects& effects, const std::string& model) {
-  DrumFixture fixture;
-  choose_model(model, fixture);
-  fixture.effects = effects;
-  return fixture;
+Campaign make_tire_campaign(Machine kind, const std::string& rig) {
+  return {kind,
+          kind->traits.force.header(),
+          {"load", "skim", "fast"},
+          sim::kAuditLimit,
+          [rig](const Effects& effects, const std::string& model) {
+            return drum_with(rig, effects, model).run_quasi_static(drum_program());
+          },
+          [rig](const Effects& effects, const std::string& model) {
+            return drum_with(rig, effects, model).run_multibody(drum_program());
+          },
+          [rig](const Effects& effects, const std::string& model) {
+            return run_drum_with_derivatives(rig, effects, model);
+          }};
 }
 
 constexpr double kLoadShare = 0.55;  // of the axle, so that the wheel's load is not the tire's reference load
@@ -145,27 +161,17 @@ sim::Recording<Jet> run_vehicle_with_derivatives(const VehicleFixture& fixture, 
 
 }  // namespace
 
-const std::set<std::string>& measured_on(tests::Machine kind) {
-  static const std::map<tests::Machine, std::set<std::string>> channels{
-      {tests::kDrum, {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}},
-      {tests::kDyno, {"loss_force_N", "liner_temperature_degC", "cavity_pressure_kPa"}},
-      {tests::kRoad, {"traction_force_N"}}};
-  return channels.at(kind);
+std::set<std::string> measured_on(tests::Machine kind) {
+  const std::vector<std::string> all = rigs::measured_channels(*kind);
+  std::set<std::string> channels(all.begin(), all.end());
+  channels.erase("gas_temperature_degC");  // beside the format's list
+  return channels;
 }
 
 const std::vector<Campaign>& campaigns() {
   static const std::vector<Campaign> all{
-      {tests::kDrum,
-       "drum_torque_Nm",
-       {"load", "skim", "fast"},
-       sim::kAuditLimit,
-       [](const Effects& effects, const std::string& model) {
-         return drum_with(effects, model).run_quasi_static(drum_program());
-       },
-       [](const Effects& effects, const std::string& model) {
-         return drum_with(effects, model).run_multibody(drum_program());
-       },
-       run_drum_with_derivatives},
+      make_tire_campaign(tests::kDrum, "drum_2m"),
+      make_tire_campaign(tests::kFlatBelt, "flat_belt"),
       {tests::kDyno,
        "loss_force_N",
        {"fast", "slow", "fastest", "slow again"},

@@ -27,8 +27,8 @@ struct Campaign {
   std::function<sim::Recording<Jet>(const Effects&, const std::string& tire_model)> run_with_derivatives;
 };
 
-/// Measured channels of a rig kind (formats.md).
-const std::set<std::string>& measured_on(tests::Machine kind);
+/// Measured channels of a kind (formats.md).
+std::set<std::string> measured_on(tests::Machine kind);
 
 /// One campaign for each kind of rig that has a fast and a multibody fidelity.
 const std::vector<Campaign>& campaigns();

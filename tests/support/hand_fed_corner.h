@@ -13,12 +13,12 @@
 
 namespace rollrig::tests {
 
-/// The context of tire a50 on the 2 m drum, on a 1.2 m roller, or on the flat.
+/// The context of tire a50 on the 2 m drum, on a 1.2 m roller, on a belt, or on the road.
 inline models::Context<double> make_context_on(tests::Machine kind) {
   models::Context<double> context = DrumFixture().context();
   context.machine = kind->traits;
   if (kind == tests::kDyno) context.surface_curvature_per_m = 1.0 / 0.6;
-  if (kind == tests::kRoad) context.surface_curvature_per_m = 0.0;
+  if (kind == tests::kRoad || kind == tests::kFlatBelt) context.surface_curvature_per_m = 0.0;
   return context;
 }
 

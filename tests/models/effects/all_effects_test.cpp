@@ -25,8 +25,8 @@ std::vector<double> drive(tests::Machine kind, const std::vector<models::ActiveE
   HandFedCorner<double> at(context, effects);
   at.inputs.speed_m_s = 36.0;
   at.inputs.load_N = 5000.0;
-  at.inputs.drive_force_N = kind == tests::kDrum ? 0.0 : -400.0;
-  at.inputs.brake_force_N = kind == tests::kDrum ? 0.0 : 400.0;
+  at.inputs.drive_force_N = is_of_vehicle(kind->traits) ? -400.0 : 0.0;
+  at.inputs.brake_force_N = is_of_vehicle(kind->traits) ? 400.0 : 0.0;
   at.inputs.slip_power_W = 20.0;
   at.advance(600.0, 200);
   return {at.now.rolling_resistance_N,

@@ -12,8 +12,6 @@ using tests::switch_on;
 
 namespace {
 
-const std::vector<tests::Machine> kKinds{tests::kDrum, tests::kDyno, tests::kRoad};
-
 /// Loss at a speed and a load, at 25 degC.
 double find_loss_N(tests::Machine kind, const std::vector<ActiveEffect>& effects, double speed_m_s, double load_N) {
   HandFedCorner<double> at(make_context_on(kind), effects);
@@ -83,7 +81,7 @@ TEST_CASE("loss goes with a power of the correction factor from one surface to a
 }
 
 TEST_CASE("tie-downs press the wheel onto its roller, and only there", "[fast]") {
-  for (const tests::Machine kind : kKinds) {
+  for (const tests::Machine kind : rigs::machine_kinds()) {
     HandFedCorner<double> at(make_context_on(kind), {switch_on("tie_down_load", {300.0})});
     CHECK(at.evaluate().acting.load_N == (kind == tests::kDyno ? 5700.0 : 5400.0));
     CHECK(at.now.recorded.load_N == 5400.0);

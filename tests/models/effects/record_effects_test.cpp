@@ -28,7 +28,7 @@ double find_acting_N(const models::ActiveEffect& effect, double recorded_N, test
 }  // namespace
 
 TEST_CASE("a wrong speed record turns the tire faster than it says, and the record stays", "[fast]") {
-  for (const tests::Machine kind : {tests::kDrum, tests::kDyno, tests::kRoad}) {
+  for (const tests::Machine kind : rigs::machine_kinds()) {
     HandFedCorner<double> wrong(make_context_on(kind), {switch_on("speed_record", {5.0, 0.0, 0.0})});
     HandFedCorner<double> right(make_context_on(kind), {});
     wrong.inputs.speed_m_s = 20.0;

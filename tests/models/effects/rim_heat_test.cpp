@@ -107,10 +107,10 @@ TEST_CASE("without conductance the rim is not felt, and derivatives by the condu
 }
 
 TEST_CASE("with a rim the heat balance closes, beside a tread and braking too", "[fast]") {
-  for (const tests::Machine kind : {tests::kDrum, tests::kDyno, tests::kRoad}) {
+  for (const tests::Machine kind : rigs::machine_kinds()) {
     HandFedCorner<double> at(make_context_on(kind),
                              {rim_at(2.0), switch_on("tread_liner_lag"), switch_on("brake_heat")}, {}, 315.0);
-    at.inputs.brake_force_N = kind == tests::kDrum ? 0.0 : 800.0;
+    at.inputs.brake_force_N = is_of_vehicle(kind->traits) ? 800.0 : 0.0;
     at.temperature_K(Node::kRim) = 305.0;
     check_heat_balance(at);
     at.advance(300.0);

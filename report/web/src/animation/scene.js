@@ -1,4 +1,4 @@
-// Scenes of the three machines. Lengths in meters; each scene has an element and show(time_s).
+// Scenes of the machines. Lengths in meters; each scene has an element and show(time_s).
 import { svg } from '../dom.js';
 import { fixed } from '../format.js';
 import { valueAt } from '../clock.js';
@@ -11,15 +11,27 @@ function makeHeat(block) {
   return (value) => (high > low ? (value - low) / (high - low) : 0.5);
 }
 
-/// The 2 m drum with the carriage that presses the wheel on it from above.
+/// A belt over two drums of radius r, its upper side at height 0.
+function makeBelt(r) {
+  const half = 2.2 * r;
+  const drums = [-half, half].map((x) => ({ x, drawn: makeDrum(r) }));
+  const loop = svg('rect', { x: -half - r, y: 0, width: 2 * (half + r), height: 2 * r, rx: r, class: 'belt' });
+  return {
+    element: svg('g', null, drums.map((d) => d.drawn.element), loop),
+    turn: (angle_rad) => drums.forEach((d) => d.drawn.turn(angle_rad, d.x, r)),
+  };
+}
+
+/// The drum, or the belt, with the carriage that presses the wheel on it from above.
 function makeDrumScene(block) {
   const { tire } = block;
   const [wheel] = block.wheels;
-  const R = block.drum_radius_m;
+  const isBelt = block.machine === 'belt';
+  const R = isBelt ? 0 : block.drum_radius_m;
   const highest = R + 2 * tire.radius_m + 0.62;
-  const width = 2 * R + 1.1;
+  const width = (isBelt ? 6.4 : 2) * block.drum_radius_m + 1.1;
   const share = makeHeat(block);
-  const drum = makeDrum(R);
+  const drum = isBelt ? makeBelt(block.drum_radius_m) : makeDrum(R);
   const turning = makeWheel(tire);
   const scale = makeHeatScale({ x: -width / 2 + 0.14, y: -highest + 0.18, width: 0.09, height: 0.72, low: block.temperature_degC[0], high: block.temperature_degC[1] });
   const load = makeArrow();
@@ -43,7 +55,7 @@ function makeDrumScene(block) {
       scale.point(heat);
       carriage.setAttribute('transform', `translate(0 ${-height})`);
       load.point(0.36, -height - 0.55, 0, Math.max(0, now_N) / kNewtonsPerMeter, `load ${fixed(now_N, 0)} N`);
-      speed.point(R * 0.5, 0.3, -Math.min(0.8, km_h / 160), 0, `${fixed(km_h, 1)} km/h`, 'start');
+      speed.point(isBelt ? 0.8 : R * 0.5, 0.3, -Math.min(0.8, km_h / 160), 0, `${fixed(km_h, 1)} km/h`, 'start');
     },
   };
 }
@@ -112,4 +124,4 @@ function moveRoad(ticks, position_m, left, right) {
   ticks.replaceChildren(...marks);
 }
 
-export const makeScene = (block) => (block.machine === 'drum' ? makeDrumScene(block) : makeVehicleScene(block));
+export const makeScene = (block) => (block.machine === 'drum' || block.machine === 'belt' ? makeDrumScene(block) : makeVehicleScene(block));
