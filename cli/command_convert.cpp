@@ -7,9 +7,9 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "cli/print.h"
 #include "estimation/loss_conversion.h"
 #include "models/tire/tire_file.h"
+#include "report/text.h"
 #include "sim/core/assets.h"
 #include "sim/core/config.h"
 #include "sim/core/file_io.h"
@@ -161,7 +161,7 @@ std::string format_conversion(const estimation::LossConversion& conversion, cons
     table.rows.push_back({factor.name, factor.equation, factor.from, factor.to, fmt::format("{:.4f}", factor.factor)});
   }
   table.rows.push_back({"product", "", "", "", fmt::format("{:.4f}", conversion.force_factor)});
-  std::string text = "convert   " + describe(from) + "\n" + format_table(table);
+  std::string text = "convert   " + describe(from) + "\n" + report::format_table(table);
   text += fmt::format("  converted  {}\n", describe(to));
   for (const std::string& warning : conversion.warnings) text += wrap("warning: " + warning, 2);
   return text;

@@ -1,21 +1,13 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 #include <optional>
 
 #include "cli/command.h"
 #include "cli/comparison_options.h"
 #include "cli/output_files.h"
-#include "cli/print.h"
 #include "cli/progress.h"
-#include "diagnosis/next_test/plan_files.h"
-#include "diagnosis/output/diagnosis_json.h"
-#include "diagnosis/output/explain.h"
-#include "diagnosis/output/fleet.h"
-#include "diagnosis/output/summary.h"
-#include "report/diagnosis_page.h"
-#include "sim/core/error.h"
+#include "rollrig/diagnose.h"
 
 namespace rollrig::cli {
 namespace {
@@ -43,37 +35,31 @@ void require_consistent(const Options& options) {
   options.comparison.check();
 }
 
-/// Calls `diagnose` with what the options ask for, and shows how far it is.
-template <class Diagnose>
-auto with_progress(const Options& options, const Diagnose& diagnose) {
-  ProgressLine progress("diagnose", options.output.quiet);
-  diagnosis::DiagnosisOptions how{options.comparison.without, options.comparison.only, options.threads};
-  how.progress = [&progress](double done, const std::string& stage) {
-    progress.show(fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
-  };
-  return diagnose(how);
+/// What the options ask for; `progress` shows how far it is.
+DiagnosisOptions make_options(const Options& options, ProgressLine& progress) {
+  return {options.comparison.without, options.comparison.only, options.threads, progress.callback()};
 }
 
 /// A folder of sets.
 int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
   Output output(options.output);
-  const diagnosis::Fleet fleet = with_progress(
-      options, [&sets](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose_fleet(sets, how); });
-  output.write({}, to_text(diagnosis::make_fleet_json(fleet)), [&fleet] { return report::make_fleet_page(fleet); });
-  output.print(diagnosis::format_fleet(fleet));
+  const FleetDiagnosis fleet = [&] {
+    ProgressLine progress("diagnose", options.output.quiet);
+    return diagnose_fleet(sets, make_options(options, progress));
+  }();
+  output.write(fleet);
+  output.print(fleet.text);
   int status = kDone;
-  for (const diagnosis::FleetMember& member : fleet.members) {
+  for (const FleetMember& member : fleet.members) {
     if (member.failure.empty()) continue;
     if (options.output.is_silent()) std::cerr << "error: " << member.folder << ": " << member.failure << '\n';
-    if (status != kInputError) status = member.problem ? kInputError : kRunFailed;
+    if (status != kInputError) status = member.is_input ? kInputError : kRunFailed;
   }
   return status;
 }
 
 /// Writes the first proposed test into the folder. What it says to a person: where it is, or that there is none.
-std::string write_plan(const measurements::MeasurementSet& set, const diagnosis::Diagnosis& result,
-                       OutputFolder& folder) {
-  const auto files = diagnosis::write_plan(set, result);
+std::string write_plan(const FolderFiles& files, OutputFolder& folder) {
   if (files.empty()) return fmt::format("no test is proposed, so no plan is written to {}/\n", folder.path());
   for (const auto& [name, content] : files) folder.add(name, content);
   folder.commit();
@@ -83,10 +69,10 @@ std::string write_plan(const measurements::MeasurementSet& set, const diagnosis:
 int diagnose_command(const Options& options) {
   require_consistent(options);
   if (!options.explain.empty()) {
-    std::cout << diagnosis::explain_effect(options.explain);
+    std::cout << explain_effect(options.explain);
     return kDone;
   }
-  const std::vector<std::string> sets = diagnosis::find_sets(options.set);
+  const std::vector<std::string> sets = find_sets(options.set);
   if (!sets.empty()) {
     if (!options.plan.empty()) {
       throw usage_error("a plan is made for one set", "--plan", options.plan,
@@ -95,17 +81,18 @@ int diagnose_command(const Options& options) {
     if (!options.output.quiet) warn_of_undescribed(options.set);
     return diagnose_all(options, sets);
   }
-  const measurements::MeasurementSet set = measurements::read_measurement_set(options.set);
+  const MeasurementSet set(options.set);
   Output output(options.output);
   std::optional<OutputFolder> plan;
   if (!options.plan.empty()) plan.emplace(options.plan, options.force);
-  const auto result =
-      with_progress(options, [&set](const diagnosis::DiagnosisOptions& how) { return diagnosis::diagnose(set, how); });
+  const Diagnosis found = [&] {
+    ProgressLine progress("diagnose", options.output.quiet);
+    return diagnose(set, make_options(options, progress));
+  }();
   output.require_no_input();
-  const std::string planned = plan.has_value() ? write_plan(set, result, *plan) : "";
-  output.write({}, to_text(diagnosis::make_diagnosis_json(result)),
-               [&set, &result] { return report::make_diagnosis_page(set, result); });
-  output.print(diagnosis::format_summary(result) + planned);
+  const std::string planned = plan.has_value() ? write_plan(found.make_plan(), *plan) : "";
+  output.write(found);
+  output.print(found.text + planned);
   return kDone;
 }
 

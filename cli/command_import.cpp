@@ -4,10 +4,10 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "cli/print.h"
 #include "diagnosis/checks/set_checks.h"
 #include "measurements/logs/import.h"
 #include "measurements/measurement_set.h"
+#include "sim/core/error_text.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 

@@ -6,14 +6,15 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "cli/print.h"
 #include "cli/progress.h"
 #include "report/list_pages.h"
+#include "report/text.h"
 #include "scenarios/run/golden.h"
 #include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
+#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -127,7 +128,7 @@ std::string format_cases(const std::vector<Case>& cases) {
         each.comparison.worst_quantity.empty() ? "-" : fmt::format("{:.2g}", each.comparison.worst_share);
     table.rows.push_back({each.name, each.status, fmt::format("{}", each.comparison.compared), worst});
   }
-  std::string text = format_table(table);
+  std::string text = report::format_table(table);
   constexpr std::size_t kShownProblems = 5;
   for (const Case& each : cases) {
     if (each.status == "same" || each.comparison.problems.empty()) continue;
@@ -172,7 +173,7 @@ int regress_command(const Options& options) {
   output.require_no_input();
   const int status = settle_cases(cases, options.update);
   const Json json = cases_to_json(cases);
-  output.write({}, to_text(json), [&json] { return report::make_regress_page(json); });
+  output.write({"", to_text(json), {}, [&json] { return report::make_html(report::make_regress_page(json)); }});
   output.print(format_cases(cases));
   return status;
 }

@@ -5,10 +5,8 @@
 
 #include "cli/command.h"
 #include "cli/typo.h"
-#include "diagnosis/output/explain.h"
-#include "models/effect.h"
-#include "scenarios/run/scenario.h"
-#include "sim/core/assets.h"
+#include "rollrig/assets.h"
+#include "rollrig/diagnose.h"
 #include "sim/core/error.h"
 
 namespace rollrig::cli {
@@ -23,13 +21,13 @@ std::string words_after(const std::string& what) {
   if (what == "--sensors") words = list_assets("sensors");
   if (what == "--fidelity") words = {"multibody", "quasi_static"};
   if (what == "--baseline") words = {"combined", "constant_rrc"};
-  if (what == "run" || what == "sweep") words = scenarios::scenario_names();
-  if (what == "--without" || what == "--only") words = models::effect_ids();
-  if (what == "--explain") words = diagnosis::explainable_names();
+  if (what == "run" || what == "sweep") words = names_of(list_scenarios());
+  if (what == "--without" || what == "--only") words = names_of(list_effects());
+  if (what == "--explain") words = explainable_names();
   if (what == "completion") words = {"bash", "zsh", "fish"};
   if (what == "describe") {
-    words = scenarios::scenario_names();
-    for (const std::string& id : models::effect_ids()) words.push_back(id);
+    words = names_of(list_scenarios());
+    for (const std::string& id : names_of(list_effects())) words.push_back(id);
     for (const char* folder : {"tires", "rigs", "sensors"}) {
       for (const std::string& name : list_assets(folder)) words.push_back(name);
     }

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "cli/print.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 

@@ -14,6 +14,6 @@ std::string HtmlOption::note() const {
   return is_wanted() && !is_standard_output() ? fmt::format("  page written to {}\n", path) : "";
 }
 
-void HtmlOption::write(const report::Page& page) const { write_output(path, report::make_html(page)); }
+void HtmlOption::write(const std::string& page) const { write_output(path, page); }
 
 }  // namespace rollrig::cli

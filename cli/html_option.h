@@ -5,8 +5,6 @@
 
 #include <string>
 
-#include "report/page.h"
-
 namespace rollrig::cli {
 
 struct HtmlOption {
@@ -15,7 +13,7 @@ struct HtmlOption {
   void add_to(CLI::App& command);
   bool is_wanted() const { return !path.empty(); }
   bool is_standard_output() const { return path == "-"; }
-  void write(const report::Page& page) const;
+  void write(const std::string& page) const;
   /// A line that says where the page is; empty where there is none, or where it went to standard output.
   std::string note() const;
 };

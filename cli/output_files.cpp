@@ -7,6 +7,8 @@
 #include <iostream>
 
 #include "cli/command.h"
+#include "rollrig/measurement_set.h"
+#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -62,25 +64,33 @@ Output::Output(const OutputOptions& options)
                                      : std::optional<OutputFolder>(std::in_place, options.folder, options.force)),
       files_({{"--json", options.json}, {"--html", options.html.path}}) {}
 
-void Output::write(const std::vector<std::pair<std::string, std::string>>& files, const std::string& json,
-                   const std::function<report::Page()>& make_page) {
+void Output::write(const Report& report) {
   files_.require_no_input();
   if (folder_.has_value()) {
-    for (const auto& [name, content] : files) {
+    for (const auto& [name, content] : report.make_files()) {
       folder_->add(name, content);
       const std::string shown = name.substr(0, name.find('/') == std::string::npos ? name.size() : name.find('/') + 1);
       if (written_.empty() || written_.back() != shown) written_.push_back(shown);
     }
     folder_->commit();
   }
-  if (!options_.json.empty()) write_output(options_.json, json);
-  if (options_.html.is_wanted()) options_.html.write(make_page());
+  if (!options_.json.empty()) write_output(options_.json, report.json);
+  if (options_.html.is_wanted()) options_.html.write(report.make_page());
 }
 
 void Output::print(const std::string& text) const {
   if (options_.is_silent()) return;
   std::cout << text << options_.html.note();
   if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
+}
+
+void warn_of_undescribed(const std::string& folder) {
+  const std::vector<std::string> left_out = find_undescribed_folders(folder);
+  if (left_out.empty()) return;
+  std::cerr << wrap(fmt::format("warning: left out, since they have CSV files and no set.toml: {}",
+                                fmt::join(left_out, ", ")),
+                    2)
+                   .substr(2);
 }
 
 }  // namespace rollrig::cli

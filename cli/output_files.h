@@ -1,13 +1,13 @@
 #pragma once
 /// What a command writes: --out, --json, --html and their like.
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cli/html_option.h"
+#include "rollrig/result.h"
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
 
@@ -59,9 +59,8 @@ class Output {
 
   /// Throws InputError where a file to be written has been read; write() does so as well.
   void require_no_input() const { files_.require_no_input(); }
-  /// Writes `files` into --out, `json` to --json, the page to --html, as far as they are wanted.
-  void write(const std::vector<std::pair<std::string, std::string>>& files, const std::string& json,
-             const std::function<report::Page()>& make_page);
+  /// Writes the files into --out, the JSON to --json, the page to --html, as far as they are wanted.
+  void write(const Report& report);
   /// Prints `text` and where the page and the files are, unless nothing is to be printed.
   void print(const std::string& text) const;
 
@@ -74,5 +73,8 @@ class Output {
 
 /// A JSON document as text, as it is written to files.
 inline std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
+
+/// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
+void warn_of_undescribed(const std::string& folder);
 
 }  // namespace rollrig::cli

@@ -7,10 +7,10 @@
 #include <iostream>
 #include <sstream>
 
-#include "cli/print.h"
 #include "cli/typo.h"
-#include "sim/core/error.h"
-#include "sim/core/interrupt.h"
+#include "rollrig/progress.h"
+#include "sim/core/error_text.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {

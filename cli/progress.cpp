@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace rollrig::cli {
@@ -48,9 +49,15 @@ void ProgressLine::show(const std::string& stage) {
   if (is_due()) print(stage);
 }
 
-sim::Progress ProgressLine::callback() {
+Progress ProgressLine::callback() {
   if (!active_) return {};
-  return [this](double done) { update(done); };
+  return [this](double done, const std::string& stage) {
+    if (stage.empty()) {
+      update(done);
+    } else {
+      show(std::isnan(done) ? stage : fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
+    }
+  };
 }
 
 }  // namespace rollrig::cli

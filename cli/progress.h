@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "sim/simulate.h"
+#include "rollrig/progress.h"
 
 namespace rollrig::cli {
 
@@ -21,8 +21,8 @@ class ProgressLine {
   void update(double done);
   /// For work whose length is not known: `stage` says how far it is.
   void show(const std::string& stage);
-  /// A callback for simulate().
-  sim::Progress callback();
+  /// A callback for calls of the API.
+  Progress callback();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -13,8 +13,8 @@ endif()
 
 # Debian's Simbody is built without NDEBUG and its inline functions depend on it: a program that defines
 # NDEBUG and includes its headers crashes. So no build type of this project defines it;
-# tests/build/ndebug_test.cpp and tests/build/compile_commands_test.cmake hold that. Programs that use the installed
-# libraries have it undefined (INSTALL_INTERFACE below).
+# tests/build/ndebug_test.cpp and tests/build/compile_commands_test.cmake hold that. Programs of others may define it:
+# no header of Simbody reaches them.
 foreach(language C CXX)
   set(CMAKE_${language}_FLAGS_RELEASE "-O2")
   set(CMAKE_${language}_FLAGS_RELWITHDEBINFO "-O2 -g")
@@ -23,11 +23,9 @@ endforeach()
 
 include(GNUInstallDirs)
 add_library(rollrig_options INTERFACE)
-target_compile_options(rollrig_options INTERFACE "$<BUILD_INTERFACE:-Wall;-Wextra;-Wconversion;-Wshadow=local>"
-                                                 $<BUILD_INTERFACE:$<$<BOOL:${ROLLRIG_WERROR}>:-Werror>>
-                                                 $<INSTALL_INTERFACE:-UNDEBUG>)
-target_include_directories(rollrig_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                                                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/rollrig>)
+target_compile_options(rollrig_options INTERFACE -Wall -Wextra -Wconversion -Wshadow=local
+                                                 $<$<BOOL:${ROLLRIG_WERROR}>:-Werror>)
+target_include_directories(rollrig_options INTERFACE "${PROJECT_SOURCE_DIR}")
 # Asserts inside Eigen's kernels cost a multiple of the arithmetic; nothing of Simbody depends on them.
 target_compile_definitions(rollrig_options INTERFACE $<$<CONFIG:Release>:EIGEN_NO_DEBUG>)
 

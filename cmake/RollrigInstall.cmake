@@ -15,21 +15,11 @@ install(FILES "${PROJECT_BINARY_DIR}/cli/rollrig.fish" DESTINATION "${CMAKE_INST
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE NOTICE.md DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATTERN "*.md")
 
-# Libraries: rollrig::scenarios and its like.
-set(rollrig_folders models rigs measurements estimation scenarios diagnosis report exports)
-set(rollrig_targets rollrig_options rollrig_simbody rollrig_matio rollrig_sim_core rollrig_sim rollrig_cvodes)
-list(TRANSFORM rollrig_folders PREPEND rollrig_ OUTPUT_VARIABLE rollrig_folder_targets)
-list(APPEND rollrig_targets ${rollrig_folder_targets})
-foreach(target IN LISTS rollrig_targets)
-  string(REPLACE "rollrig_" "" name ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
-endforeach()
-install(TARGETS ${rollrig_targets} EXPORT rollrigTargets
-  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-foreach(folder IN LISTS rollrig_folders ITEMS sim)
-  install(DIRECTORY ${folder} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/rollrig"
-    FILES_MATCHING PATTERN "*.h" PATTERN "*.def" PATTERN "web" EXCLUDE)
-endforeach()
+# The library: rollrig::rollrig, and behind it CVODES (sim/CMakeLists.txt).
+install(TARGETS rollrig_library EXPORT rollrigTargets LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS rollrig_cvodes LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(DIRECTORY include/rollrig DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" PATTERN error.h EXCLUDE)
+install(FILES sim/core/error.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/rollrig")  # include/rollrig includes it
 
 set(rollrig_cmake_folder "${CMAKE_INSTALL_LIBDIR}/cmake/rollrig")
 install(EXPORT rollrigTargets NAMESPACE rollrig:: DESTINATION "${rollrig_cmake_folder}")

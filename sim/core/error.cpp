@@ -1,4 +1,6 @@
+#pragma GCC visibility push(default)  // include/rollrig has it
 #include "sim/core/error.h"
+#pragma GCC visibility pop
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <csignal>
 
+#include "include/rollrig/progress.h"
 #include "sim/core/error.h"
 
 namespace rollrig {
@@ -11,11 +12,15 @@ namespace {
 std::atomic<bool> interrupted{false};
 
 extern "C" void note_interrupt(int signal_number) {
-  interrupted = true;
+  request_interrupt();
   std::signal(signal_number, SIG_DFL);
 }
 
 }  // namespace
+
+void request_interrupt() { interrupted = true; }
+
+void clear_interrupt() { interrupted = false; }
 
 void install_interrupt_handler() {
   std::signal(SIGINT, note_interrupt);

@@ -1,4 +1,4 @@
-// Includes follow one direction: cli -> report -> diagnosis -> scenarios -> estimation -> measurements -> rigs
+// Includes follow one direction: cli -> api -> report -> diagnosis -> scenarios -> estimation -> measurements -> rigs
 // -> models -> sim/core, and rigs -> sim -> sim/core; validation stands on top of all of it, its generator on
 // sim/core alone.
 // Third-party packages stay behind a few files.
@@ -20,10 +20,24 @@ namespace {
 const fs::path kSource = ROLLRIG_SOURCE_DIR;
 
 /// The folders from the lowest up; each may include what stands before it.
-const std::vector<std::string> kOrder{
-    "sim/core",          "sim",       "models", "rigs", "measurements", "estimation",           "scenarios",
-    "exports",           "diagnosis", "report", "cli",  "validation",   "validation/generator", "validation/scoring",
-    "validation/program"};
+const std::vector<std::string> kOrder{"include/rollrig",
+                                      "sim/core",
+                                      "sim",
+                                      "models",
+                                      "rigs",
+                                      "measurements",
+                                      "estimation",
+                                      "scenarios",
+                                      "exports",
+                                      "diagnosis",
+                                      "report",
+                                      "api",
+                                      "cli",
+                                      "validation",
+                                      "validation/generator",
+                                      "validation/scoring",
+                                      "validation/program",
+                                      "examples"};
 
 /// Includes of lower folders that are wrong nevertheless.
 const std::set<std::pair<std::string, std::string>> kForbidden{{"models", "sim"},
@@ -33,6 +47,12 @@ const std::set<std::pair<std::string, std::string>> kForbidden{{"models", "sim"}
                                                                {"validation/scoring", "report"},
                                                                {"validation/scoring", "cli"},
                                                                {"validation/scoring", "validation/generator"}};
+
+/// Of the project the command line may include these.
+const std::set<std::string> kOfCommandLine{"include/rollrig", "cli", "sim/core"};
+/// Commands that the API does not have yet.
+const std::set<std::string> kOutsideApi{"cli/command_convert.cpp", "cli/command_export.cpp", "cli/command_import.cpp",
+                                        "cli/command_regress.cpp"};
 
 /// Of the project the generator, which the diagnosis is judged by, may include this alone.
 const std::set<std::string> kOfGenerator{"sim/core", "validation", "validation/generator"};
@@ -57,7 +77,9 @@ const std::map<std::string, std::set<std::string>> kPackages{
 };
 
 std::string folder_of(const std::string& path) {
-  for (const char* inner : {"sim/core", "validation/generator", "validation/scoring", "validation/program"}) {
+  if (path.rfind("rollrig/", 0) == 0) return "include/rollrig";
+  for (const char* inner :
+       {"include/rollrig", "sim/core", "validation/generator", "validation/scoring", "validation/program"}) {
     if (path.rfind(inner + std::string("/"), 0) == 0) return inner;
   }
   return path.substr(0, path.find('/'));
@@ -68,8 +90,9 @@ std::size_t rank_of(const std::string& folder) {
   return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), folder) - kOrder.begin());
 }
 
-const std::vector<const char*> kTops{"sim",     "models",    "rigs",       "measurements", "estimation", "scenarios",
-                                     "exports", "diagnosis", "validation", "report",       "cli"};
+const std::vector<const char*> kTops{"include",    "sim",       "models",  "rigs",      "measurements",
+                                     "estimation", "scenarios", "exports", "diagnosis", "validation",
+                                     "report",     "api",       "cli",     "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {
@@ -113,6 +136,19 @@ TEST_CASE("the independent generator includes nothing of the simulator", "[fast]
     ++own;
   });
   CHECK(own > 20);
+}
+
+TEST_CASE("the command line and the examples use the API alone", "[fast]") {
+  int own = 0;
+  visit_includes([&](const std::string& file, const std::string& included) {
+    const std::string from = folder_of(file);
+    const std::string to = folder_of(included);
+    if ((from != "cli" && from != "examples") || rank_of(to) == kOrder.size() || kOutsideApi.count(file) == 1) return;
+    INFO(file << " includes " << included);
+    CHECK((to == "include/rollrig" || (from == "cli" && kOfCommandLine.count(to) == 1)));
+    ++own;
+  });
+  CHECK(own > 50);
 }
 
 TEST_CASE("tests and documents that the code names are there", "[fast]") {

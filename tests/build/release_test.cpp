@@ -26,6 +26,7 @@ TEST_CASE("version and date of the release are the same everywhere", "[fast]") {
   const std::string version = find(cmake, "project\\(rollrig VERSION ([0-9.]+)");
   const std::string date = find(cmake, "ROLLRIG_RELEASE_DATE ([0-9-]+)");
   CHECK_THAT(read_source("CHANGELOG.md"), Contains("## [" + version + "] - " + date + "\n"));
+  CHECK_THAT(read_source("include/rollrig/version.h"), Contains("kVersion = \"" + version + "\";"));
   CHECK_THAT(read_source("CITATION.cff"), Contains("\nversion: " + version + "\ndate-released: " + date + "\n"));
 }
 

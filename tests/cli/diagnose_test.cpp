@@ -179,7 +179,7 @@ TEST_CASE("the example program diagnoses through the library", "[slow]") {
   const auto run = run_other(ROLLRIG_EXAMPLE_DIAGNOSE, "set", made.folder.path());
   INFO(run.out << run.err);
   CHECK(run.status == 0);
-  CHECK_THAT(run.out, Contains("Verdict") && Contains("verdict "));
+  CHECK_THAT(run.out, Contains("Verdict"));
   const auto missing = run_other(ROLLRIG_EXAMPLE_DIAGNOSE, "nowhere", made.folder.path());
   CHECK(missing.status == 2);
   CHECK_THAT(missing.err, Contains("error:"));

@@ -55,7 +55,7 @@ TEST_CASE("an installed program runs from anywhere, and a project that finds the
   const InstalledPrefix prefix;
   const double rrc_N_per_kN = run_installed_program(prefix);
   for (const char* file : {"share/man/man1/rollrig.1", "share/zsh/site-functions/_rollrig",
-                           "share/bash-completion/completions/rollrig", "include/rollrig/scenarios/run/run_spec.h"}) {
+                           "share/bash-completion/completions/rollrig", "include/rollrig/rollrig.h"}) {
     INFO(file);
     CHECK(fs::exists(prefix.file(file)));
   }
@@ -72,15 +72,47 @@ TEST_CASE("an installed program runs from anywhere, and a project that finds the
   const ProgramResult built = run_other(ROLLRIG_CMAKE, "--build .", build.path());
   INFO(built.out << built.err);
   REQUIRE(built.status == 0);
-  const ProgramResult run = run_other(build.file("program").c_str(), "", "/", "env -u ROLLRIG_ASSETS");
-  INFO(run.err);
-  REQUIRE(run.status == 0);
-  std::istringstream out(run.out);
-  double found_N_per_kN = 0.0;
-  std::string tire_file;
-  out >> found_N_per_kN >> tire_file;
-  CHECK(found_N_per_kN == rrc_N_per_kN);
-  CHECK(tire_file == prefix.file("share/rollrig/assets/tires/a50.toml"));
+  for (const char* program : {"program_17_on", "program_17_off", "program_20_on", "program_20_off"}) {
+    const ProgramResult run = run_other(build.file(program).c_str(), "", "/", "env -u ROLLRIG_ASSETS");
+    INFO(program << run.err);
+    REQUIRE(run.status == 0);
+    std::istringstream out(run.out);
+    double found_N_per_kN = 0.0;
+    std::string unit;
+    std::string tire_file;
+    out >> found_N_per_kN >> unit >> tire_file;
+    CHECK(found_N_per_kN == rrc_N_per_kN);
+    CHECK(unit == "N/kN");
+    CHECK(tire_file == prefix.file("share/rollrig/assets/tires/a50.toml"));
+  }
+}
+
+TEST_CASE("what is installed shows the API alone", "[fast]") {
+  const ProgramResult symbols = run_other("nm", "--dynamic --defined-only --demangle " ROLLRIG_LIBRARY);
+  REQUIRE(symbols.status == 0);
+  CHECK_THAT(symbols.out, Contains("rollrig::Run::carry_out"));
+  CHECK_THAT(symbols.out, Contains("rollrig::InputError::InputError"));
+  for (const char* inside : {"rollrig::scenarios", "rollrig::models",
+                             "rollrig::diagnosis::", "rollrig::sim::", " rollrig::read_config", "CVode"}) {
+    INFO(inside);
+    std::istringstream lines(symbols.out);
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_of_std = line.find(" std::") != std::string::npos || line.find(" void std::") != std::string::npos;
+      if (!is_of_std) CHECK_THAT(line, !Contains(inside));
+    }
+  }
+  const std::string config = read_file(ROLLRIG_BINARY_DIR "/rollrigConfig.cmake");
+  CHECK_THAT(config, !Contains("find_dependency"));
+  for (const auto& entry : fs::directory_iterator(ROLLRIG_SOURCE_DIR "/include/rollrig")) {
+    const bool is_moved = entry.path().filename() == "error.h";  // cmake/RollrigInstall.cmake
+    std::istringstream header(read_file(is_moved ? ROLLRIG_SOURCE_DIR "/sim/core/error.h" : entry.path().string()));
+    for (std::string line; std::getline(header, line);) {
+      if (line.rfind("#include", 0) != 0) continue;
+      INFO(entry.path() << ": " << line);
+      const bool is_own = line[9] == '"' && line.find('/') == std::string::npos;
+      CHECK((is_own || (line[9] == '<' && line.find('.') == std::string::npos)));
+    }
+  }
 }
 
 TEST_CASE("the manual page names every command", "[fast]") {

@@ -50,7 +50,7 @@ int score_command(Options options) {
   files.require_no_input();
   if (!options.json.empty()) write_output(options.json, make_score_json(score).dump(1) + "\n");
   if (!options.markdown.empty()) write_output(options.markdown, format_score_markdown(score));
-  if (options.html.is_wanted()) options.html.write(make_score_page(score, options.order.set));
+  if (options.html.is_wanted()) options.html.write(report::make_html(make_score_page(score, options.order.set)));
   const bool is_output_taken = options.json == "-" || options.markdown == "-" || options.html.is_standard_output();
   if (!options.quiet && !is_output_taken) std::cout << format_score(score) << options.html.note();
   return cli::kDone;

@@ -1,20 +1,21 @@
 // A program of somebody else's: an ISO 28580 test through the installed library.
-#include <fmt/format.h>
+#include <rollrig/rollrig.h>
 
-#include "scenarios/run/run_spec.h"
-#include "sim/core/error.h"
+#include <cstdio>
 
 int main() {
-  namespace scenarios = rollrig::scenarios;
   try {
-    rollrig::ConfigTable document = scenarios::make_run_document("iso_28580");
-    rollrig::set_config_value(document, "tire", "a50", "program");
-    const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
-    const scenarios::Outcome outcome = scenarios::run_scenario(spec, nullptr);
-    const rollrig::Json result = scenarios::make_result_json(spec, outcome);
-    fmt::print("{}\n{}\n", result["result"]["rrc_25degC_2m_N_per_kN"].get<double>(), spec.tire.path);
-  } catch (const rollrig::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    rollrig::RunInput input;
+    input.scenario_or_file = "iso_28580";
+    input.tire = "a50";
+    input.settings = {"speed_km_h=80"};
+    const rollrig::RunResult result = rollrig::Run(input).carry_out();
+    for (const rollrig::ResultValue& at : result.values) {
+      if (at.name == "rrc_25degC_2m_N_per_kN") std::printf("%.17g %s\n", at.number.value_or(0.0), at.unit.c_str());
+    }
+    std::printf("%s\n", rollrig::find_asset("tires", "a50").c_str());
+  } catch (const rollrig::InputError& error) {  // what, file, line, key, value, allowed, nearest
+    std::fprintf(stderr, "%s\n", error.what());
     return 2;
   }
 }

@@ -1,16 +1,14 @@
-#include "cli/print.h"
+#include "report/text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <iostream>
-#include <sstream>
 
-#include "diagnosis/output/fleet.h"
 #include "scenarios/run/run_spec.h"
+#include "sim/core/text.h"
 
-namespace rollrig::cli {
+namespace rollrig::report {
 
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines) {
   std::size_t width = 0;
@@ -73,13 +71,4 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
   return text;
 }
 
-void warn_of_undescribed(const std::string& folder) {
-  const std::vector<std::string> left_out = diagnosis::find_undescribed_folders(folder);
-  if (left_out.empty()) return;
-  std::cerr << wrap(fmt::format("warning: left out, since they have CSV files and no set.toml: {}",
-                                fmt::join(left_out, ", ")),
-                    2)
-                   .substr(2);
-}
-
-}  // namespace rollrig::cli
+}  // namespace rollrig::report

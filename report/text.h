@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "scenarios/run/scenario.h"
-#include "sim/core/error_text.h"
-#include "sim/core/text.h"
 
-namespace rollrig::cli {
+namespace rollrig::report {
 
 /// Label and value lines, values aligned.
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines);
@@ -19,7 +17,4 @@ std::string format_table(const scenarios::ResultTable& table);
 /// Header, lines, tables and warnings of a run.
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
 
-/// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
-void warn_of_undescribed(const std::string& folder);
-
-}  // namespace rollrig::cli
+}  // namespace rollrig::report

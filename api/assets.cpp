@@ -1,0 +1,120 @@
+#include "rollrig/assets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scenarios/common/speed_trace.h"
+#include "scenarios/run/run_spec.h"
+#include "sim/core/file_io.h"
+#include "sim/core/text.h"
+
+namespace rollrig {
+namespace {
+
+std::string describe_scenario(const scenarios::Scenario& scenario) {
+  std::string text = scenario.text.name + ": scenario\n" + wrap(scenario.text.summary, 2) + '\n';
+  text += "Procedure\n" + wrap(scenario.text.procedure, 2) + "Source\n" + wrap(scenario.text.source, 2);
+  text += "Settings (--set key=value)\n";
+  for (const scenarios::SettingInfo& setting : scenario.settings) {
+    const std::string range = setting.range.empty() ? "" : ", " + setting.range;
+    text += fmt::format("  {} [{}{}]\n", setting.key, setting.fallback, range) + wrap(setting.doc, 6);
+  }
+  text += "Results\n";
+  for (const scenarios::ResultInfo& result : scenario.results) text += "  " + result.key + '\n' + wrap(result.doc, 6);
+  return text;
+}
+
+std::string join_or_none(const std::vector<std::string>& words) {
+  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
+}
+
+std::string describe_effect(const models::EffectInfo& info) {
+  std::string text = info.id + ": effect\n" + wrap(info.summary, 2) + '\n';
+  text += "Equation\n" + wrap(info.equation, 2) + "Source\n" + wrap(info.source, 2);
+  text += fmt::format("Parameters ([effects.{}])\n", info.id);
+  for (const models::EffectParameter& parameter : info.parameters) {
+    const std::string off = parameter.off.has_value() ? fmt::format(", off at {}", *parameter.off) : "";
+    text += fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]\n", parameter.key, parameter.prior.center(),
+                        parameter.prior.low, parameter.prior.high, parameter.prior.either_sign ? ", either sign" : "",
+                        parameter.range.to_string(), off) +
+            wrap(parameter.doc, 6);
+  }
+  text += "Acts on\n" + wrap(join_or_none(rigs::list_machines(info.acts_on)), 2);
+  if (info.only_against != nullptr) text += "Acts only against\n  the baseline constant_rrc\n";
+  const std::vector<std::string> faint = rigs::list_machines(info.faint_on);
+  if (!faint.empty()) text += "Too faint to be seen on\n" + wrap(join_or_none(faint), 2);
+  text += "Shows in\n" + wrap(join_or_none(rigs::list_visible(info)), 2);
+  text += "Leaves clean\n" + wrap(join_or_none(rigs::list_clean(info)), 2);
+  text += "Confused with\n" + wrap(join_or_none(info.confused_with), 2);
+  text += "Tests that split\n" + wrap(fmt::format("{}", fmt::join(info.splitting_tests, "; ")), 2);
+  return text;
+}
+
+/// A trace is read best in a plot; here what it comes to.
+std::string describe_cycle(const std::string& path) {
+  const scenarios::SpeedTrace trace = scenarios::read_speed_trace(path);
+  double distance_m = 0.0;
+  double standing_s = 0.0;
+  for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
+    const double step_s = trace.time_s[i] - trace.time_s[i - 1];
+    distance_m += 0.5 * (trace.speed_m_s[i] + trace.speed_m_s[i - 1]) * step_s;
+    if (trace.speed_m_s[i] == 0.0 && trace.speed_m_s[i - 1] == 0.0) standing_s += step_s;
+  }
+  const double fastest_m_s = *std::max_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
+  return fmt::format("{}\n\n{}: drive cycle, {}, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill\n",
+                     path, trace.name, format_count(trace.time_s.size(), "row"), trace.duration_s(), distance_m / 1e3,
+                     3.6 * fastest_m_s, standing_s);
+}
+
+}  // namespace
+
+const std::vector<std::string>& asset_folders() {
+  static const std::vector<std::string> folders{"tires", "rigs", "vehicles", "cycles", "sensors"};
+  return folders;
+}
+
+std::vector<std::string> names_of(const std::vector<Listed>& listed) {
+  std::vector<std::string> names;
+  for (const Listed& one : listed) names.push_back(one.name);
+  return names;
+}
+
+std::vector<Listed> list_scenarios() {
+  std::vector<Listed> listed;
+  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) {
+    listed.push_back({scenario->text.name, scenario->text.summary});
+  }
+  return listed;
+}
+
+std::vector<Listed> list_effects() {
+  std::vector<Listed> listed;
+  for (const models::Effect* effect : models::all_effects()) {
+    listed.push_back({effect->info.id, effect->info.summary});
+  }
+  return listed;
+}
+
+std::string describe(const std::string& name) {
+  if (const auto* scenario = scenarios::find_scenario_if_any(name)) return describe_scenario(*scenario);
+  std::vector<std::string> known = scenarios::scenario_names();
+  const auto is_asked = [&](const std::string& each) {
+    known.push_back(each);
+    return each == name;
+  };
+  for (const models::Effect* effect : models::all_effects()) {
+    if (is_asked(effect->info.id)) return describe_effect(effect->info);
+  }
+  for (const std::string& folder : asset_folders()) {
+    for (const std::string& asset : list_assets(folder)) {
+      if (!is_asked(asset)) continue;
+      const std::string path = find_asset(folder, name);
+      // Source comments of an asset are part of what it says: the file itself is shown.
+      return folder == "cycles" ? describe_cycle(path) : path + "\n\n" + read_text_file(path);
+    }
+  }
+  throw InputError(unknown_name("scenario, effect or asset", name, known));
+}
+
+}  // namespace rollrig

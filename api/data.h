@@ -1,0 +1,20 @@
+#pragma once
+/// What objects of the API hold, and what its results are made with.
+
+#include "measurements/measurement_set.h"
+#include "rollrig/measurement_set.h"
+#include "sim/core/json.h"
+
+namespace rollrig {
+
+struct MeasurementSet::Data {
+  measurements::MeasurementSet set;
+};
+
+/// Values in SI units as a channel of the API has them.
+Channel make_channel(const std::string& name, std::vector<double> values_SI);
+
+/// A document as it is written to files.
+inline std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
+
+}  // namespace rollrig

@@ -1,0 +1,21 @@
+#include "rollrig/result.h"
+
+#include "api/data.h"
+#include "sim/core/file_io.h"
+#include "sim/core/units.h"
+
+namespace rollrig {
+
+Channel make_channel(const std::string& name, std::vector<double> values_SI) {
+  const Unit unit = unit_of_key(name);
+  for (double& value : values_SI) value = unit.from_si(value);
+  return {name, unit.symbol, std::move(values_SI)};
+}
+
+void write_folder(const std::string& folder, const FolderFiles& files, bool force) {
+  OutputFolder out(folder, force);
+  for (const auto& [name, content] : files) out.add(name, content);
+  out.commit();
+}
+
+}  // namespace rollrig

@@ -1,0 +1,170 @@
+#include "rollrig/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include <boost/algorithm/string/split.hpp>
+
+#include "api/data.h"
+#include "api/run_document.h"
+#include "report/list_pages.h"
+#include "report/text.h"
+#include "sim/core/csv.h"
+#include "sim/core/parallel.h"
+#include "sim/core/text.h"
+
+namespace rollrig {
+
+struct Sweep::Data {
+  SweepInput input;
+  std::vector<std::vector<std::string>> points;
+  std::vector<scenarios::RunSpec> specs;
+};
+
+namespace {
+
+InputError bad_axis(const std::string& text) {
+  return InputError({fmt::format("--vary '{}' is not understood", text), "command line", 0, "--vary", text,
+                     "key=a,b,c or key=from:to:step, with the keys of --set", ""});
+}
+
+/// Every combination of the axes' values, the last axis fastest.
+std::vector<std::vector<std::string>> make_grid(const std::vector<SweepAxis>& axes) {
+  std::vector<std::vector<std::string>> grid{{}};
+  for (const SweepAxis& axis : axes) {
+    std::vector<std::vector<std::string>> longer;
+    for (const auto& point : grid) {
+      for (const std::string& value : axis.values) {
+        longer.push_back(point);
+        longer.back().push_back(value);
+      }
+    }
+    grid = std::move(longer);
+  }
+  return grid;
+}
+
+/// The sweep's document (rollrig-sweep/1).
+Json make_json(const std::string& scenario, const SweepResult& sweep, const std::vector<Json>& results) {
+  Json json = {{"format", "rollrig-sweep/1"}, {"scenario", scenario}, {"points", Json::array()}};
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    Json varied = Json::object();
+    for (std::size_t a = 0; a < sweep.axes.size(); ++a) varied[sweep.axes[a]] = sweep.points[i][a];
+    json["points"].push_back({{"set", varied}, {"result", results[i]}});
+  }
+  return json;
+}
+
+/// A field is empty where a point has no such result.
+std::string make_csv(const SweepResult& sweep) {
+  std::vector<std::string> columns = sweep.axes;
+  columns.insert(columns.end(), sweep.results.begin(), sweep.results.end());
+  CsvWriter csv(columns);
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    csv.begin_row();
+    for (const std::string& value : sweep.points[i]) csv.add(value);
+    for (const double value : sweep.values[i]) csv.add(value, 12);
+    csv.end_row();
+  }
+  return csv.take();
+}
+
+/// Results shown in the terminal: as asked for, else the first of those that change, as many as fit 80 columns.
+std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json,
+                                      const SweepResult& sweep) {
+  for (const std::string& key : asked) {
+    if (std::find(sweep.results.begin(), sweep.results.end(), key) != sweep.results.end()) continue;
+    throw InputError(unknown_name("result", key, sweep.results));
+  }
+  if (!asked.empty()) return asked;
+  std::size_t width = 2;
+  for (const std::string& axis : sweep.axes) width += axis.size() + 1;
+  const std::vector<std::string> changing = report::list_changing(json);
+  std::vector<std::string> shown;
+  for (const std::string& key : changing.empty() ? sweep.results : changing) {
+    if (width + key.size() + 1 > 80 && !shown.empty()) continue;
+    width += key.size() + 1;
+    shown.push_back(key);
+  }
+  return shown;
+}
+
+}  // namespace
+
+SweepAxis read_sweep_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) throw bad_axis(text);
+  SweepAxis axis{text.substr(0, equals), {}};
+  const std::string values = text.substr(equals + 1);
+  if (values.find(':') == std::string::npos) {
+    boost::algorithm::split(axis.values, values, [](char c) { return c == ','; });
+    return axis;
+  }
+  std::vector<std::string> words;
+  boost::algorithm::split(words, values, [](char c) { return c == ':'; });
+  if (words.size() != 3) throw bad_axis(text);
+  const std::optional<double> from = parse_number(words[0]);
+  const std::optional<double> to = parse_number(words[1]);
+  const std::optional<double> step = parse_number(words[2]);
+  if (!from.has_value() || !to.has_value() || !step.has_value()) throw bad_axis(text);
+  constexpr double kMostValues = 10000.0;
+  const double intervals = (*to - *from) / *step;
+  if (*step == 0.0 || intervals < 0.0 || intervals > kMostValues) throw bad_axis(text);
+  const int last = static_cast<int>(std::floor(intervals + 1e-9));
+  for (int i = 0; i <= last; ++i) axis.values.push_back(fmt::format("{:.12g}", *from + i * *step));
+  return axis;
+}
+
+Sweep::Sweep(const SweepInput& input) {
+  const auto data = std::make_shared<Data>(Data{input, make_grid(input.axes), {}});
+  for (const auto& point : data->points) {
+    RunInput run = input.run;
+    for (std::size_t i = 0; i < point.size(); ++i) run.settings.push_back(input.axes[i].key + "=" + point[i]);
+    data->specs.push_back(api::read_run(run));
+  }
+  data_ = data;
+}
+
+SweepResult Sweep::carry_out(const Progress& progress) const {
+  const std::vector<scenarios::RunSpec>& specs = data_->specs;
+  std::vector<Json> results(specs.size());
+  FolderFiles files(specs.size() + 2);
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(specs.size(), data_->input.threads, [&](std::size_t i) {
+    const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
+    results[i] = outcome.result;
+    files[i + 2] = {fmt::format("manifests/{:04}.json", i + 1), to_text(scenarios::make_manifest(specs[i], outcome))};
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (progress) progress(static_cast<double>(++done) / static_cast<double>(specs.size()), "");
+  });
+  SweepResult sweep;
+  for (const SweepAxis& axis : data_->input.axes) sweep.axes.push_back(axis.key);
+  sweep.points = data_->points;
+  const Json json = make_json(specs.front().scenario->text.name, sweep, results);
+  sweep.results = report::list_numbers(json);
+  for (const Json& result : results) {
+    sweep.values.emplace_back();
+    for (const std::string& key : sweep.results) {
+      const Json value = result.value(key, Json());
+      sweep.values.back().push_back(value.is_number() ? value.get<double>() : std::nan(""));
+    }
+  }
+  const std::vector<std::string> shown = choose_shown(data_->input.shown, json, sweep);
+  sweep.json = to_text(json);
+  sweep.text = report::format_table(report::make_sweep_table(json, format_count(specs.size(), "run"), shown));
+  files[0] = {"sweep.csv", make_csv(sweep)};
+  files[1] = {"sweep.json", sweep.json};
+  sweep.make_files = [files] { return files; };
+  sweep.make_page = [json, data = data_] {
+    const scenarios::RunSpec& spec = data->specs.front();
+    const std::string of = fmt::format("Tire {}, rig {}", spec.tire.name, spec.rig.name);
+    return report::make_html(report::make_sweep_page(json, data->input.shown, of));
+  };
+  return sweep;
+}
+
+}  // namespace rollrig

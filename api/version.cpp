@@ -1,0 +1,7 @@
+#include "rollrig/version.h"
+
+namespace rollrig {
+
+const char* library_version() { return ROLLRIG_VERSION; }
+
+}  // namespace rollrig

@@ -1,0 +1,13 @@
+#pragma once
+/// The whole of the API: docs/api.md.
+
+#include "assets.h"
+#include "diagnose.h"
+#include "error.h"
+#include "fit.h"
+#include "measurement_set.h"
+#include "progress.h"
+#include "result.h"
+#include "run.h"
+#include "sweep.h"
+#include "version.h"

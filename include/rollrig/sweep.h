@@ -1,0 +1,52 @@
+#pragma once
+/// A scenario at every point of a grid of settings.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "run.h"
+
+#pragma GCC visibility push(default)
+namespace rollrig {
+
+/// A setting with the values that it takes.
+struct SweepAxis {
+  std::string key;                  // as in RunInput::settings
+  std::vector<std::string> values;  // in the unit of the key
+};
+
+/// "key=a,b,c" or "key=from:to:step". Throws InputError.
+SweepAxis read_sweep_axis(const std::string& text);
+
+struct SweepInput {
+  RunInput run;
+  std::vector<SweepAxis> axes;
+  std::vector<std::string> shown;  // results in the report's table and charts; none: those that change
+  int threads = 0;                 // 0: as many as the machine has
+};
+
+/// A row a point, the last axis fastest. Its files: sweep.csv, sweep.json, a manifest a point.
+struct SweepResult : Report {
+  std::vector<std::string> axes;                 // keys
+  std::vector<std::vector<std::string>> points;  // values of the axes
+  std::vector<std::string> results;              // names of the results that are single numbers
+  std::vector<std::vector<double>> values;       // of each point the results; NaN where it has none
+};
+
+/// A sweep whose runs are all read and checked. Copies share it; any number of threads may use it.
+class Sweep {
+ public:
+  /// Throws InputError.
+  explicit Sweep(const SweepInput& input);
+  /// Runs all points, several at a time. Throws InputError for a result to be shown that there is not, RunFailure,
+  /// Interrupted.
+  SweepResult carry_out(const Progress& progress = {}) const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace rollrig
+#pragma GCC visibility pop
