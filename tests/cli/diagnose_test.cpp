@@ -216,8 +216,8 @@ TEST_CASE("a plan for a wheel or a vehicle is run, and what it writes is diagnos
     const TemporaryFolder folder;
     write_file(folder.file("run.toml"),
                "format = \"rollrig-run/1\"\nscenario = \"" + scenario + "\"\ntire = \"a50\"\n[settings]\nprogram = \"" +
-                   ROLLRIG_SOURCE_DIR + "/assets/regression/" + (is_road ? "drive" : "wheel_program") +
-                   "_a50.csv\"\n[sensors." + (is_road ? "traction_force_N" : "loss_force_N") +
+                   ROLLRIG_SOURCE_DIR + "/assets/regression/" + scenario + "_a50.csv\"\n[sensors." +
+                   (is_road ? "traction_force_N" : "loss_force_N") +
                    (is_road ? "]\noffset_sd = 10.0\ndrift_sd = 20.0\ndrift_time_s = 13.0\nnoise_sd = 14.0\n"
                             : "]\noffset_sd = 2.0\ndrift_sd = 1.0\ndrift_time_s = 60.0\nnoise_sd = 2.0\n") +
                    "resolution = 0.0\n");
