@@ -135,8 +135,7 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 /// The vehicle's coastdown on the road, from the same tires.
-Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Progress& progress,
-                    std::vector<std::string>& warnings) {
+Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Progress& progress) {
   if (settings.target_A_N.has_value()) {
     return {*settings.target_A_N, *settings.target_B_N_s_per_m, *settings.target_C_N_s2_per_m2};
   }
@@ -152,9 +151,7 @@ Load find_road_load(const RunSpec& spec, const Settings& settings, const sim::Pr
   settings.coastdowns.append_to(program);
   Outcome outcome;
   simulate_vehicle(road, conditions, program, progress, outcome);
-  const estimation::RoadLoadFit fit = fit_coastdowns(outcome.recording, road, conditions, settings.coastdowns);
-  for (const std::string& warning : fit.warnings) warnings.push_back("coastdown on the road: " + warning);
-  return fit.load;
+  return fit_coastdowns(outcome.recording, road, conditions, settings.coastdowns).load;
 }
 
 /// Energies of rolling resistance of all tires over the highway sections (Table 4.2).
@@ -183,29 +180,28 @@ Results run(const RunSpec& spec, Settings settings, const VehicleProgram& progra
     return [&, share](double part_done) { progress(done + (1.0 - done) * share * part_done); };
   };
   Results results;
-  results.target = find_road_load(spec, settings, part(0.2), outcome.warnings);
+  results.target = find_road_load(spec, settings, part(0.2));
   done = 0.2;
   results.set = results.target;
-  estimation::RoadLoadFit fit;
+  Load found{};
   while (true) {
     settings.conditions.set_A_N = results.set.A_N;
     settings.conditions.set_B_N_s_per_m = results.set.B_N_s_per_m;
     settings.conditions.set_C_N_s2_per_m2 = results.set.C_N_s2_per_m2;
     simulate_vehicle(spec, settings.conditions, program, part(0.4), outcome);
-    fit = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns);
+    found = fit_coastdowns(outcome.recording, spec, settings.conditions, settings.coastdowns).load;
     done += 0.4 * (1.0 - done);
-    results.largest_difference_N = find_largest_N(sum(fit.load, results.target, -1.0));
+    results.largest_difference_N = find_largest_N(sum(found, results.target, -1.0));
     if (results.largest_difference_N <= kShareOfCriterion * settings.criterion_N) break;
     if (results.corrections == settings.iterations) break;
-    results.set = sum(results.set, sum(results.target, fit.load, -1.0), 1.0);
+    results.set = sum(results.set, sum(results.target, found, -1.0), 1.0);
     ++results.corrections;
   }
   outcome.settings = settings_to_json(settings);
-  outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   results.within_criterion = results.largest_difference_N <= settings.criterion_N;
   for (const double speed_m_s : road_load_speeds_m_s()) {
     const auto force_N = [speed_m_s](const Load& load) { return models::calc_road_load_N(load, speed_m_s); };
-    results.differences.push_back({speed_m_s, force_N(results.target), force_N(fit.load), force_N(results.set)});
+    results.differences.push_back({speed_m_s, force_N(results.target), force_N(found), force_N(results.set)});
   }
   add_highway(spec, settings, outcome.recording, results);
   if (!results.within_criterion) {

@@ -103,8 +103,9 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
 }
 
 const std::vector<double>& road_load_speeds_m_s() {
-  static const std::vector<double> speeds{20.0 / 3.6,  40.0 / 3.6,  60.0 / 3.6, 80.0 / 3.6,
-                                          100.0 / 3.6, 120.0 / 3.6, 130.0 / 3.6};
+  constexpr double kKmh = 1e3 / 3600.0;
+  static const std::vector<double> speeds{20.0 * kKmh,  40.0 * kKmh,  60.0 * kKmh, 80.0 * kKmh,
+                                          100.0 * kKmh, 120.0 * kKmh, 130.0 * kKmh};
   return speeds;
 }
 
