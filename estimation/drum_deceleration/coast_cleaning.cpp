@@ -13,7 +13,7 @@ constexpr double kTopShare = 0.98;     // of the highest speed: the coast has be
 constexpr double kSlowest_m_s = 0.5;   // below, a body is as good as at rest
 constexpr std::size_t kFewestRows = 20;
 
-/// Running median, narrower towards the ends so that it stays centerd and does not lag a falling speed.
+/// Running median, narrower towards the ends so that it stays centered and does not lag a falling speed.
 std::vector<double> calc_running_median(const std::vector<double>& values) {
   std::vector<double> medians(values.size());
   std::vector<double> window;

@@ -8,7 +8,7 @@ namespace {
 
 const PressureLevel* find_level(const SpeedPoint& point, double pressure_Pa) {
   for (const PressureLevel& level : point.levels) {
-    if (std::abs(level.pressure_Pa / pressure_Pa - 1.0) < 0.01) return &level;
+    if (is_same_pressure(level.pressure_Pa, pressure_Pa)) return &level;
   }
   return nullptr;
 }
@@ -57,7 +57,6 @@ std::size_t find_reference_speed(const CoastSet& set) {
 
 void add_ratios(const CoastSet& set, const Tables& tables, DrumCoastdownFit& fit) {
   const std::size_t reference_speed = find_reference_speed(set);
-  const std::vector<PressureLevel> reference_levels = fit.points[reference_speed].levels;
   fit.reference_pressure_Pa =
       set.reference_pressure_Pa.value_or(tables.levels.pressures_Pa[tables.levels.pressures_Pa.size() / 2]);
   const PressureLevel* reference = find_level(fit.points[reference_speed], fit.reference_pressure_Pa);

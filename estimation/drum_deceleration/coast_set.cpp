@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <boost/math/constants/constants.hpp>
 
-#include <cmath>
 #include <filesystem>
 
 #include "sim/core/csv.h"
@@ -111,7 +110,7 @@ CoastRun read_run(const ConfigTable& table, const std::string& folder) {
   run.pressure_Pa =
       run.state == CoastState::kLoaded ? reader.number(pressure) : reader.number_or_none(pressure).value_or(0.0);
   run.direction = reader.text_or("direction", "");
-  run.load_N = reader.number_or_none({"load_N", positive(), ""});
+  reader.number_or_none({"load_N", positive(), ""});  // for the record: nothing depends on it
   const bool wheel = reader.text_or("body", "drum", {"drum", "wheel"}) == "wheel";
   reader.finish();
   const CsvTable csv = CsvTable::read(run.file);

@@ -1,6 +1,7 @@
 #pragma once
 /// Coast-downs of a drum as files give them ("rollrig-drum-coastdown/1", docs/formats.md).
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,12 @@ namespace rollrig::estimation {
 
 enum class CoastState { kLoaded, kLifted };
 enum class CoastBody { kDrum, kWheel };
+
+constexpr double kSamePressure = 0.01;  // Assumed: pressures that differ by less are one
+/// Whether a pressure is that of a level.
+inline bool is_same_pressure(double pressure_Pa, double level_Pa) {
+  return std::abs(pressure_Pa / level_Pa - 1.0) < kSamePressure;
+}
 
 /// Surface speed of one body over time, a row a pulse (or a sample).
 struct CoastSeries {
@@ -24,7 +31,6 @@ struct CoastRun {
   CoastState state = CoastState::kLoaded;
   double pressure_Pa = 0.0;  // gauge; of loaded runs
   std::string direction;     // empty where not said
-  std::optional<double> load_N;
   std::optional<CoastSeries> drum;
   std::optional<CoastSeries> wheel;
 };

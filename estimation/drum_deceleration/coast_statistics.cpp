@@ -97,7 +97,6 @@ double calc_mean_covariance(const RunTable& table, Eigen::Index speed_1, Eigen::
 }
 
 Levels group_by_pressure(const CoastSet& set, const RunTable& loaded) {
-  constexpr double kSamePressure = 0.01;
   Levels levels;
   std::vector<Eigen::Index> order(loaded.runs.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i);

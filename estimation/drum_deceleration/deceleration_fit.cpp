@@ -8,8 +8,8 @@
 namespace rollrig::estimation {
 namespace {
 
-constexpr double kTukey = 4.685;  // 95 % efficiency with normal noise (Holland and Welsch 1977)
-constexpr double kHuber = 1.345;
+constexpr double kTukey = 4.685;     // 95 % efficiency with normal noise (Holland and Welsch 1977)
+constexpr double kHuber = 1.345;     // likewise
 constexpr double kMadToSd = 1.4826;  // of the normal distribution
 constexpr int kLossTerms = 3;
 
@@ -27,8 +27,7 @@ Rows choose_rows(const Coast& coast, double speed_m_s, double half_band_m_s, con
   bool joined = false;
   for (std::size_t i = 0; i < coast.time_s.size(); ++i) {
     const double smooth_m_s = coast.smooth_m_s[i];
-    const bool out = std::any_of(left_out.begin(), left_out.end(),
-                                 [smooth_m_s](const SpeedRange& range) { return range.contains(smooth_m_s); });
+    const bool out = is_left_out(left_out, smooth_m_s);
     if (out) joined = false;
     if (out || std::abs(smooth_m_s - speed_m_s) > half_band_m_s) continue;
     if (!joined) rows.part_starts.push_back(rows.time_s.size());
@@ -168,6 +167,11 @@ std::string find_lack(const Rows& rows, Eigen::Index unknowns) {
 }
 
 }  // namespace
+
+bool is_left_out(const std::vector<SpeedRange>& ranges, double speed_m_s) {
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [speed_m_s](const SpeedRange& range) { return range.contains(speed_m_s); });
+}
 
 DecelerationFit fit_deceleration(const Coast& coast, double speed_m_s, double half_band_m_s,
                                  const std::vector<SpeedRange>& left_out) {

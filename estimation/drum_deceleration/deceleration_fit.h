@@ -13,6 +13,8 @@ struct SpeedRange {
   double to_m_s = 0.0;
   bool contains(double speed_m_s) const { return speed_m_s >= from_m_s && speed_m_s <= to_m_s; }
 };
+/// Whether a speed lies in one of these.
+bool is_left_out(const std::vector<SpeedRange>& ranges, double speed_m_s);
 
 struct FittedRow {
   double time_s = 0.0;
@@ -39,7 +41,8 @@ struct DecelerationFit {
 /// Validity  rows on both sides of v_0; standard deviation by Newey and West's estimator, since rows of one turn
 ///           of the drum are not independent
 /// Source    Holland and Welsch, Communications in Statistics A6 (1977) 813 (the weights); Newey and West,
-///           Econometrica 55 (1987) 703. Assumed: the law is a quadratic within the band.
+///           Econometrica 55 (1987) 703; the same, Review of Economic Studies 61 (1994) 631 (how many rows are taken
+///           as correlated). Assumed: the law is a quadratic within the band.
 /// Checked   tests/estimation/deceleration_fit_test.cpp
 DecelerationFit fit_deceleration(const Coast& coast, double speed_m_s, double half_band_m_s,
                                  const std::vector<SpeedRange>& left_out);

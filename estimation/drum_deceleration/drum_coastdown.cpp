@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "estimation/drum_deceleration/coast_evaluation.h"
@@ -32,9 +31,8 @@ struct Kind {
   CoastState state = CoastState::kLifted;
   double pressure_Pa = 0.0;  // 0: any
   bool has(const CoastRun& run) const {
-    constexpr double kSamePressure = 0.01;
     if (run.state != state) return false;
-    return pressure_Pa == 0.0 || std::abs(run.pressure_Pa / pressure_Pa - 1.0) < kSamePressure;
+    return pressure_Pa == 0.0 || is_same_pressure(run.pressure_Pa, pressure_Pa);
   }
 };
 
@@ -48,11 +46,6 @@ std::vector<Kind> list_kinds(const CoastSet& set) {
   return kinds;
 }
 
-bool is_left_out(const std::vector<SpeedRange>& ranges, double speed_m_s) {
-  return std::any_of(ranges.begin(), ranges.end(),
-                     [speed_m_s](const SpeedRange& range) { return range.contains(speed_m_s); });
-}
-
 std::string describe(const FoundResonance& found) {
   const Resonance& resonance = found.resonance;
   const std::string which = found.state == CoastState::kLifted ? "with the tire lifted"
@@ -61,8 +54,7 @@ std::string describe(const FoundResonance& found) {
                                 : fmt::format("with the tire loaded at {:.0f} kPa", found.pressure_Pa / 1e3);
   return fmt::format(
       "the rig resonates near {:.1f} km/h {}: {:.1f} +- {:.1f} % more deceleration than about it; {:.1f} to {:.1f} "
-      "km/h "
-      "are left out there",
+      "km/h are left out there",
       3.6 * resonance.peak_m_s, which, 100.0 * resonance.excess, 200.0 * resonance.sd, 3.6 * resonance.range.from_m_s,
       3.6 * resonance.range.to_m_s);
 }

@@ -1,7 +1,6 @@
 #pragma once
 /// Rolling resistance by ISO 28580's deceleration method (`rollrig fit drum-coastdown`).
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "estimation/drum_deceleration/drum_coastdown.h"
