@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <optional>
 
@@ -10,6 +9,7 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
+#include <boost/math/constants/constants.hpp>
 
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
@@ -17,8 +17,16 @@
 namespace rollrig::estimation {
 namespace {
 
-const std::vector<std::string> kConditionColumns{"ambient_degC", "ambient_pressure_kPa", "wind_m_s", "crosswind_m_s",
-                                                 "slope"};
+struct ConditionColumn {
+  Field field;
+  std::vector<double> CoastdownConditions::*values;
+};
+const std::vector<ConditionColumn> kConditionColumns{
+    {{"ambient_degC", between(-50.0, 60.0), ""}, &CoastdownConditions::ambient_K},
+    {{"ambient_pressure_kPa", between(50.0, 110.0), ""}, &CoastdownConditions::ambient_pressure_Pa},
+    {{"wind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::wind_m_s},
+    {{"crosswind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::crosswind_m_s},
+    {{"slope", between(-0.2, 0.2), ""}, &CoastdownConditions::slope}};
 const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "session", "heading"};
 const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "run",
                                            "use",      "heading",  "session", "start_time"};
@@ -37,7 +45,7 @@ class HeadingReader {
       throw table.cell_error(row, "heading", "not a heading", "+ or -, or degrees");
     }
     if (!first_deg_.has_value()) first_deg_ = *degrees;
-    return std::cos((*degrees - *first_deg_) * 0.017453292519943295) >= 0.0 ? +1 : -1;
+    return std::cos((*degrees - *first_deg_) * boost::math::constants::degree<double>()) >= 0.0 ? +1 : -1;
   }
 
  private:
@@ -62,31 +70,24 @@ std::vector<std::string> text_or_empty(const CsvTable& table, const std::string&
   return table.has(column) ? table.text(column) : std::vector<std::string>(table.row_count());
 }
 
-using ConditionValues = std::map<std::string, std::vector<double>>;
-
-ConditionValues read_conditions(const CsvTable& table) {
-  ConditionValues values;
-  const auto read = [&](const Field& field) {
-    if (table.has(field.key)) values[field.key] = table.numbers(field);
-  };
-  read({"ambient_degC", between(-50.0, 60.0), ""});
-  read({"ambient_pressure_kPa", between(50.0, 110.0), ""});
-  read({"wind_m_s", between(-40.0, 40.0), ""});
-  read({"crosswind_m_s", between(-40.0, 40.0), ""});
-  read({"slope", between(-0.2, 0.2), ""});
-  return values;
+std::vector<std::string> add_condition_columns(std::vector<std::string> columns) {
+  for (const ConditionColumn& column : kConditionColumns) columns.emplace_back(column.field.key);
+  return columns;
 }
 
-void add_conditions(const ConditionValues& values, std::size_t row, CoastdownConditions& to) {
-  const auto add = [&](const char* column, std::vector<double>& list) {
-    const auto it = values.find(column);
-    if (it != values.end()) list.push_back(it->second[row]);
-  };
-  add("ambient_degC", to.ambient_K);
-  add("ambient_pressure_kPa", to.ambient_pressure_Pa);
-  add("wind_m_s", to.wind_m_s);
-  add("crosswind_m_s", to.crosswind_m_s);
-  add("slope", to.slope);
+/// Of all rows of a file.
+CoastdownConditions read_conditions(const CsvTable& table) {
+  CoastdownConditions conditions;
+  for (const auto& [field, values] : kConditionColumns) {
+    if (table.has(field.key)) conditions.*values = table.numbers(field);
+  }
+  return conditions;
+}
+
+void add_conditions(const CoastdownConditions& of_rows, std::size_t row, CoastdownConditions& to) {
+  for (const auto& [field, values] : kConditionColumns) {
+    if (!(of_rows.*values).empty()) (to.*values).push_back((of_rows.*values)[row]);
+  }
 }
 
 /// Rows sorted into runs, in the order in which the runs begin.
@@ -143,12 +144,10 @@ void require_falling(const CsvTable& table, const CoastdownRun& run) {
 }
 
 void read_trace(const CsvTable& table, CoastdownFile& file) {
-  std::vector<std::string> known = kTraceColumns;
-  known.insert(known.end(), kConditionColumns.begin(), kConditionColumns.end());
-  table.require_known(known);
+  table.require_known(add_condition_columns(kTraceColumns));
   const std::vector<double> times = table.numbers({"time_s", any_number(), ""});
   const std::vector<double> speeds = table.numbers({"speed_km_h", between(0.0, 500.0), ""});
-  const ConditionValues conditions = read_conditions(table);
+  const CoastdownConditions conditions = read_conditions(table);
   RunSorter sorter(table, file.data);
   for (std::size_t row = 0; row < table.row_count(); ++row) {
     CoastdownRun& run = sorter.run_of(row, row == 0);
@@ -196,12 +195,10 @@ void read_bins(const CsvTable& table, CoastdownFile& file) {
   const std::vector<double> durations = table.numbers({"dt_s", positive(), ""});
   const std::vector<std::string> uses = text_or_empty(table, "use");
   const std::vector<std::string> starts = text_or_empty(table, "start_time");
-  const ConditionValues conditions = read_conditions(table);
+  const CoastdownConditions conditions = read_conditions(table);
+  const std::vector<std::string> known = add_condition_columns(kBinColumns);
   for (const std::string& column : table.columns()) {
-    const auto known = [&column](const std::vector<std::string>& list) {
-      return std::find(list.begin(), list.end(), column) != list.end();
-    };
-    if (!known(kBinColumns) && !known(kConditionColumns)) file.ignored_columns.push_back(column);
+    if (std::find(known.begin(), known.end(), column) == known.end()) file.ignored_columns.push_back(column);
   }
   RunSorter sorter(table, file.data);
   double last_high = -1.0;

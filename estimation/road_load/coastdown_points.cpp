@@ -120,8 +120,8 @@ std::vector<SpeedCell> cut_into_cells(const CoastdownRun& run, const CellOptions
     const double center = static_cast<double>(index) * width;
     const double covered = std::min(upper, center + 0.5 * width) - std::max(lower, center - 0.5 * width);
     if (end - first >= 2 && covered >= kLeastShare * width) {
-      const bool centerd = covered > 0.9 * width;
-      const double nominal = centerd ? center : std::round(0.5 * (upper + lower) / kNominal_m_s) * kNominal_m_s;
+      const bool centered = covered > 0.9 * width;
+      const double nominal = centered ? center : std::round(0.5 * (upper + lower) / kNominal_m_s) * kNominal_m_s;
       cells.push_back(make_cell(run, first, end, nominal));
       cells.back().high_m_s = upper;
       cells.back().low_m_s = lower;

@@ -1,6 +1,7 @@
 #pragma once
 /// A speed trace, condensed to times at which nominal speeds are passed.
 
+#include <limits>
 #include <vector>
 
 #include "estimation/road_load/coastdown_data.h"
@@ -33,7 +34,7 @@ struct SpeedCell {
 struct CellOptions {
   double width_m_s = 5.0 / 3.6;  // Assumed: 5 km/h
   double low_m_s = 0.0;
-  double high_m_s = 1e9;
+  double high_m_s = std::numeric_limits<double>::infinity();
 };
 
 /// The coasting part of a trace, cut into cells between fixed speeds: from the highest speed to where it

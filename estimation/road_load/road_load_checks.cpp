@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
-#include <Eigen/Dense>
 
 #include "sim/core/units.h"
 
@@ -38,10 +36,6 @@ std::vector<double> gather(const CoastdownData& data, std::vector<double> Coastd
   return all;
 }
 
-double mean_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())).mean();
-}
-
 RoadLoadCheck not_checked(const char* name, const std::string& why, const std::string& limit, const char* clause) {
   return {name, CheckStatus::kNotChecked, why, limit, clause};
 }
@@ -61,7 +55,7 @@ void check_wind(const CoastdownData& data, std::vector<RoadLoadCheck>& checks) {
       total[i] = std::hypot(along[i], across[i]);
     }
     for (double& wind : total) wind = std::abs(wind);
-    const double mean = mean_of(total);
+    const double mean = calc_mean(total);
     const double peak = *std::max_element(total.begin(), total.end());
     checks.push_back(
         {"wind, mean", status_of(mean <= kMostWind_m_s), fmt::format("{:.2f} m/s", mean), mean_limit, "SAE J1263"});
@@ -72,7 +66,7 @@ void check_wind(const CoastdownData& data, std::vector<RoadLoadCheck>& checks) {
     checks.push_back(not_checked("crosswind, mean", "no column crosswind_m_s", cross_limit, "SAE J1263"));
     return;
   }
-  const double cross = std::abs(mean_of(across));
+  const double cross = std::abs(calc_mean(across));
   checks.push_back({"crosswind, mean", status_of(cross <= kMostCrosswind_m_s), fmt::format("{:.2f} m/s", cross),
                     cross_limit, "SAE J1263"});
 }

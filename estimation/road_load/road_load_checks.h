@@ -1,7 +1,6 @@
 #pragma once
 /// Whether coastdowns keep to what SAE J1263, J2263 and UN GTR 15 ask for, and how they drift.
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -19,6 +19,12 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+std::size_t count_bins(const CoastdownProblem& problem) {
+  std::size_t bins = 0;
+  for (const FitRun& run : problem.runs) bins += run.bins.size();
+  return bins;
+}
+
 RoadLoadEstimate to_estimate(const LinearEstimate& linear) {
   RoadLoadEstimate estimate;
   estimate.load = {linear.coefficients(0), linear.coefficients(1), linear.coefficients(2)};
@@ -83,9 +89,7 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
 void put_wind_and_slope(const CoastdownProblem& problem, const RoadLoadFitOptions& options,
                         const LinearEstimate& linear, RoadLoadFit& fit) {
   if (problem.model.count() < 4) return;
-  const double weight_N =
-      (options.mass_kg.has_value() ? *options.mass_kg : fit.effective_mass_kg / kDefaultEffectiveRatio) *
-      kStandardGravity_m_s2;
+  const double weight_N = options.find_test_mass_kg(fit.effective_mass_kg) * kStandardGravity_m_s2;
   fit.slope = linear.coefficients(3) / weight_N;
   fit.slope_sd = std::sqrt(linear.covariance(3, 3)) / weight_N;
   const double drag = given_drag(options).value_or(fit.load.C_N_s2_per_m2);
@@ -124,12 +128,11 @@ void put_headings(const CoastdownProblem& problem, const RoadLoadFitOptions& opt
 models::RoadLoad<double> at_test_weather(const CoastdownProblem& problem, const models::RoadLoad<double>& load) {
   double rolling = 0.0;
   double density = 0.0;
-  double bins = 0.0;
+  const auto bins = static_cast<double>(count_bins(problem));
   for (const FitRun& run : problem.runs) {
     for (const FitBin& bin : run.bins) {
       rolling += bin.at.rolling;
       density += bin.at.density;
-      bins += 1.0;
     }
   }
   return {load.A_N * rolling / bins, load.B_N_s_per_m * rolling / bins, load.C_N_s2_per_m2 * density / bins};
@@ -137,11 +140,10 @@ models::RoadLoad<double> at_test_weather(const CoastdownProblem& problem, const 
 
 void require_enough(const CoastdownProblem& problem, const RoadLoadFitOptions& options) {
   constexpr std::size_t kLeastBins = 4;  // one more than coefficients
-  std::size_t bins = 0;
-  for (const FitRun& run : problem.runs) bins += run.bins.size();
+  const std::size_t bins = count_bins(problem);
   if (bins >= kLeastBins) return;
   const double from = 3.6 * options.speed_from_m_s;
-  const bool limited = options.speed_to_m_s < 1e8;
+  const bool limited = std::isfinite(options.speed_to_m_s);
   throw InputError({fmt::format("too few speed bins to fit A, B and C: {} {}", bins,
                                 limited ? fmt::format("from {:.4g} to {:.4g} km/h", from, 3.6 * options.speed_to_m_s)
                                         : fmt::format("above {:.4g} km/h", from)),
@@ -225,14 +227,12 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
       iterate_road_load(problem, options.bounds, start, Components::kEstimated);
   fit.iterations = iterations;
   static_cast<RoadLoadEstimate&>(fit) = to_estimate(linear);
-  std::size_t bins = 0;
-  for (const FitRun& run : problem.runs) bins += run.bins.size();
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
     fit.on_bound[at] = linear.covariance(i, i) == 0.0;
     fit.degrees_freedom[at] = linear.degrees_freedom(i);
   }
-  fit.chi2_per_dof = linear.chi2 / static_cast<double>(static_cast<Index>(bins) - problem.model.count());
+  fit.chi2_per_dof = linear.chi2 / static_cast<double>(static_cast<Index>(count_bins(problem)) - problem.model.count());
   const auto measured = [&data](auto member) {
     return std::any_of(data.runs.begin(), data.runs.end(),
                        [member](const CoastdownRun& run) { return !(run.conditions.*member).empty(); });

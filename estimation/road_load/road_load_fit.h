@@ -2,6 +2,7 @@
 /// A, B, C of a vehicle from its coastdowns.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,9 +33,14 @@ struct RoadLoadFitOptions {
   double reference_pressure_Pa = 98.21e3;   // 40 CFR 1066.305
   double rolling_fall_per_K = 8.6e-3;       // of A and B with ambient temperature; docs/fit_road_load.md
   double speed_from_m_s = 15.0 / 3.6;       // SAE J2263, scope
-  double speed_to_m_s = 1e9;
+  double speed_to_m_s = std::numeric_limits<double>::infinity();
   double bin_width_m_s = 5.0 / 3.6;  // of a trace. Assumed
   std::optional<RoadLoadBounds> bounds;
+
+  /// Where it is not given, what belongs to that effective mass.
+  double find_test_mass_kg(double effective_mass_kg) const {
+    return mass_kg.value_or(effective_mass_kg / kDefaultEffectiveRatio);
+  }
 };
 
 /// Air density at the reference conditions: p/(R T), 1.167 kg/m3 by default (40 CFR 1066.310: 1.17).

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "sim/core/csv.h"
 #include "sim/core/units.h"
 
@@ -61,7 +59,7 @@ Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
                {"mass_kg", number_or_null(options.mass_kg)}};
   json["effective_mass_kg"] = fit.per_mass ? Json(nullptr) : Json(fit.effective_mass_kg);
   json["rotating_mass_assumed"] = !fit.per_mass && !options.rotating_mass_kg.has_value();
-  if (options.speed_to_m_s < 1e8) json["speed_to_km_h"] = kKmhPerMs * options.speed_to_m_s;
+  if (std::isfinite(options.speed_to_m_s)) json["speed_to_km_h"] = kKmhPerMs * options.speed_to_m_s;
   if (!options.bounds.has_value()) return json;
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);

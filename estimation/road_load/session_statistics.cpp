@@ -14,10 +14,6 @@ namespace {
 
 double quantile_t(double freedom) { return boost::math::quantile(boost::math::students_t(freedom), 0.975); }
 
-double mean_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())).mean();
-}
-
 /// Runs by session, in the order of their start.
 std::map<std::string, std::vector<std::size_t>> sort_sessions(const CoastdownData& data) {
   std::map<std::string, std::vector<std::size_t>> sessions;
@@ -93,40 +89,46 @@ std::optional<SessionDrift> fit_drift(const CoastdownData& data, const std::vect
   return drift;
 }
 
-/// Time of a run from `high` to `low`, where its points lead from the one to the other.
-std::optional<double> chain_s(const std::vector<RoadLoadPoint>& points, std::size_t run, double high, double low) {
+/// Time of a run from one speed to a lower one, where its points lead from the one to the other.
+std::optional<double> sum_times_s(const std::vector<RoadLoadPoint>& points, std::size_t run, double high_m_s,
+                                  double low_m_s) {
   constexpr double kSame_m_s = 1e-6;
-  double at = high;
-  double sum = 0.0;
+  double at_m_s = high_m_s;
+  double sum_s = 0.0;
   for (const RoadLoadPoint& point : points) {
-    if (point.run != run || std::abs(point.high_m_s - at) > kSame_m_s) continue;
-    sum += point.duration_s;
-    at = point.low_m_s;
-    if (std::abs(at - low) < kSame_m_s) return sum;
-    if (at < low) return std::nullopt;
+    if (point.run != run || std::abs(point.high_m_s - at_m_s) > kSame_m_s) continue;
+    sum_s += point.duration_s;
+    at_m_s = point.low_m_s;
+    if (std::abs(at_m_s - low_m_s) < kSame_m_s) return sum_s;
+    if (at_m_s < low_m_s) return std::nullopt;
   }
   return std::nullopt;
 }
 
 std::optional<PairPrecision> find_precision(const RoadLoadFit& fit,
-                                            const std::vector<std::array<std::size_t, 2>>& pairs, double speed) {
+                                            const std::vector<std::array<std::size_t, 2>>& pairs, double speed_m_s) {
   constexpr double kHalf_m_s = 5.0 / 3.6;
   std::vector<double> times;
   for (const auto& [plus, minus] : pairs) {
-    const std::optional<double> a = chain_s(fit.points, plus, speed + kHalf_m_s, speed - kHalf_m_s);
-    const std::optional<double> b = chain_s(fit.points, minus, speed + kHalf_m_s, speed - kHalf_m_s);
+    const std::optional<double> a = sum_times_s(fit.points, plus, speed_m_s + kHalf_m_s, speed_m_s - kHalf_m_s);
+    const std::optional<double> b = sum_times_s(fit.points, minus, speed_m_s + kHalf_m_s, speed_m_s - kHalf_m_s);
     if (a.has_value() && b.has_value()) times.push_back(2.0 / (1.0 / *a + 1.0 / *b));
   }
   if (times.size() < 2) return std::nullopt;
   const double n = static_cast<double>(times.size());
-  const double mean = mean_of(times);
+  const double mean = calc_mean(times);
   double squares = 0.0;
   for (const double time : times) squares += (time - mean) * (time - mean);
   const double s = std::sqrt(squares / (n - 1.0));
-  return PairPrecision{speed, static_cast<int>(times.size()), mean, quantile_t(n - 1.0) * s / (std::sqrt(n) * mean)};
+  return PairPrecision{speed_m_s, static_cast<int>(times.size()), mean,
+                       quantile_t(n - 1.0) * s / (std::sqrt(n) * mean)};
 }
 
 }  // namespace
+
+double calc_mean(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())).mean();
+}
 
 std::vector<SessionDrift> find_session_drifts(const CoastdownData& data, const RoadLoadFit& fit) {
   const std::map<std::size_t, double> deviations = find_deviations(fit);

@@ -8,6 +8,8 @@
 
 namespace rollrig::estimation {
 
+double calc_mean(const std::vector<double>& values);
+
 /// Change of the times of a session from its first to its last run, headings averaged.
 struct SessionDrift {
   std::string session;

@@ -101,16 +101,6 @@ Sums sum_up(const std::vector<LinearBlock>& blocks, const VectorXd& components, 
   return sums;
 }
 
-/// Sub-system of the components in `kept`.
-MatrixXd pick(const MatrixXd& H, const std::vector<Index>& kept) {
-  const auto n = static_cast<Index>(kept.size());
-  MatrixXd part(n, n);
-  for (Index i = 0; i < n; ++i) {
-    for (Index j = 0; j < n; ++j) part(i, j) = H(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]);
-  }
-  return part;
-}
-
 /// Solves H s = q over the components that the data decide, negative ones put to their floor.
 VectorXd solve_components(const Sums& sums, const VectorXd& floors, const std::vector<bool>& decided,
                           std::vector<Index>& kept) {
@@ -120,16 +110,12 @@ VectorXd solve_components(const Sums& sums, const VectorXd& floors, const std::v
   }
   VectorXd components = floors;
   while (!kept.empty()) {
-    VectorXd q(static_cast<Index>(kept.size()));
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-      q(static_cast<Index>(i)) = sums.q(kept[i]);
-      for (Index j = 0; j < floors.size(); ++j) {
-        if (std::find(kept.begin(), kept.end(), j) == kept.end()) {
-          q(static_cast<Index>(i)) -= sums.H(kept[i], j) * floors(j);
-        }
-      }
+    VectorXd q = sums.q(kept);
+    for (Index j = 0; j < floors.size(); ++j) {
+      if (std::find(kept.begin(), kept.end(), j) == kept.end()) q -= sums.H(kept, j) * floors(j);
     }
-    const VectorXd s = pick(sums.H, kept).colPivHouseholderQr().solve(q);
+    const MatrixXd H = sums.H(kept, kept);
+    const VectorXd s = H.colPivHouseholderQr().solve(q);
     std::size_t worst = kept.size();
     double least = 0.0;
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -140,7 +126,7 @@ VectorXd solve_components(const Sums& sums, const VectorXd& floors, const std::v
       }
     }
     if (worst == kept.size()) {
-      for (std::size_t i = 0; i < kept.size(); ++i) components(kept[i]) = s(static_cast<Index>(i));
+      components(kept) = s;
       break;
     }
     kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst));
@@ -180,7 +166,8 @@ LinearEstimate step_variance_components(const std::vector<LinearBlock>& blocks, 
   estimate.components = solve_components(sums, floors, estimate.decided, kept);
   estimate.degrees_freedom = VectorXd::Constant(sums.beta.size(), std::numeric_limits<double>::infinity());
   if (kept.empty()) return estimate;
-  const MatrixXd variance = pick(sums.H, kept).completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd H = sums.H(kept, kept);
+  const MatrixXd variance = H.completeOrthogonalDecomposition().pseudoInverse();
   for (Index c = 0; c < sums.beta.size(); ++c) {
     VectorXd gradient(static_cast<Index>(kept.size()));
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -221,13 +208,10 @@ void apply_bounds(LinearEstimate& estimate, const VectorXd& lower, const VectorX
     VectorXd moved = shift;
     MatrixXd covariance = MatrixXd::Zero(p, p);
     if (!free_ones.empty()) {
-      const MatrixXd inverse = invert(pick(N, free_ones));
-      for (std::size_t i = 0; i < free_ones.size(); ++i) {
-        for (std::size_t j = 0; j < free_ones.size(); ++j) {
-          const double entry = inverse(static_cast<Index>(i), static_cast<Index>(j));
-          moved(free_ones[i]) += entry * pull(free_ones[j]);
-          covariance(free_ones[i], free_ones[j]) = entry;
-        }
+      const MatrixXd inverse = invert(N(free_ones, free_ones));
+      covariance(free_ones, free_ones) = inverse;
+      for (Index j = 0; j < inverse.cols(); ++j) {
+        moved(free_ones) += inverse.col(j) * pull(free_ones[static_cast<std::size_t>(j)]);
       }
     }
     const VectorXd value = estimate.coefficients + moved;

@@ -20,7 +20,7 @@ struct LinearEstimate {
   Eigen::VectorXd components;       // variances, not negative
   Eigen::VectorXd degrees_freedom;  // of each coefficient's variance (Satterthwaite)
   std::vector<bool> decided;        // whether the data decide the component at all
-  double chi2 = 0.0;                // rest, weighted by the covariance found
+  double chi2 = 0.0;                // of the residuals, weighted by the covariance found
 };
 
 /// One step towards the restricted maximum likelihood, and the estimate there.
