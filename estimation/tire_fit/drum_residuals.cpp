@@ -1,12 +1,12 @@
 #include "estimation/tire_fit/drum_residuals.h"
 
-#include <cmath>
 #include <map>
 
 #include "measurements/sample_selection.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::estimation {
+
 DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {

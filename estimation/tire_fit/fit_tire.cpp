@@ -162,7 +162,7 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& opti
   TireFit fit;
   fit.two_step = estimate_in_two_steps(set);
   const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {
-    return run.has("gas_temperature_degC");
+    return run.has(models::quantities::kGasTemperature);
   });
   const bool free_H = options.free_H.value_or(gas_measured);
   const FitUnknowns unknowns = choose_unknowns(set, fit.two_step, options.load_map, free_H);
@@ -192,8 +192,8 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& opti
   measure_channels(set, residuals, at_best, fit);
   put_estimates(set, unknowns, found, find_covariance(residuals, found), fit);
   write_notes(set, fit);
-  constexpr double kNoiseDoubled = 2.0;
-  if (fit.chi2_per_sample > kNoiseDoubled) {
+  constexpr double kMostChi2 = 2.0;  // Assumed: per sample
+  if (fit.chi2_per_sample > kMostChi2) {
     fit.warnings.push_back(
         fmt::format("what is left is {:.1f} times the noise that the sensors' table says: the model "
                     "lacks something, or the table is wrong; intervals are too narrow",

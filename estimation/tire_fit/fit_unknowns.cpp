@@ -14,13 +14,13 @@
 namespace rollrig::estimation {
 namespace {
 
-/// Loads at which the set rolls, each at least a minute; near ones (2 %) are one.
+/// Loads at which the set rolls. Assumed: each at least a minute; near ones (2 %) are one.
 std::vector<double> find_loads_N(const measurements::MeasurementSet& set) {
   constexpr double kSameLoad = 0.02;      // Assumed
   constexpr double kLongEnough_s = 60.0;  // Assumed
   std::map<double, double> seconds_by_load;
   for (const measurements::MeasuredRun& run : set.runs) {
-    const std::vector<double>& load_N = run.columns.at("load_N");
+    const std::vector<double>& load_N = run.column(models::quantities::kLoad);
     for (std::size_t row = 0; row + 1 < load_N.size(); ++row) {
       if (load_N[row] < measurements::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N) continue;
       seconds_by_load[load_N[row]] += run.time_s[row + 1] - run.time_s[row];

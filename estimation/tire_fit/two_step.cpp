@@ -14,8 +14,10 @@
 namespace rollrig::estimation {
 namespace {
 
+namespace quantities = models::quantities;
+
 constexpr double kSameSpeed = 0.02;         // Assumed: speeds within 2 % are one speed
-constexpr std::size_t kEnoughSamples = 30;  // for a straight line
+constexpr std::size_t kEnoughSamples = 30;  // Assumed: for a straight line
 
 /// ln of the loss at reference pressure and load, and the temperature it belongs to.
 struct LossSamples {
@@ -28,13 +30,18 @@ Eigen::Map<const Eigen::VectorXd> as_vector(const std::vector<double>& values) {
   return {values.data(), static_cast<Eigen::Index>(values.size())};
 }
 
+/// a and b of y = a x_1 + b x_2 by least squares.
+Eigen::Vector2d fit_two(const Eigen::VectorXd& x_1, const Eigen::VectorXd& x_2, const Eigen::VectorXd& y) {
+  Eigen::MatrixXd design(y.size(), 2);
+  design << x_1, x_2;
+  return design.colPivHouseholderQr().solve(y);
+}
+
 LossSamples& find_speed(std::vector<LossSamples>& speeds, double speed_m_s) {
   for (LossSamples& known : speeds) {
     if (std::abs(known.speed_m_s - speed_m_s) <= kSameSpeed * known.speed_m_s) return known;
   }
-  LossSamples fresh;
-  fresh.speed_m_s = speed_m_s;
-  speeds.push_back(fresh);
+  speeds.push_back({speed_m_s, {}, {}});
   return speeds.back();
 }
 
@@ -47,9 +54,9 @@ double find_curvature_factor(const measurements::MeasurementSet& set) {
 /// Pressure as measured, or by the gas law at the tire's temperature where it was not.
 double find_pressure_Pa(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run, std::size_t row,
                         double tire_K) {
-  if (run.has("cavity_pressure_kPa")) {
-    const double measured = run.columns.at("cavity_pressure_kPa")[row];
-    if (!std::isnan(measured)) return measured;
+  if (run.has(quantities::kCavityPressure)) {
+    const double measured_Pa = run.column(quantities::kCavityPressure)[row];
+    if (!std::isnan(measured_Pa)) return measured_Pa;
   }
   const models::Inflation<double> inflation{run.cold_pressure_Pa, run.initial_tire_temperature_K,
                                             set.rig->environment.ambient_pressure_Pa};
@@ -58,15 +65,15 @@ double find_pressure_Pa(const measurements::MeasurementSet& set, const measureme
 
 void collect_losses(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                     std::vector<LossSamples>& speeds) {
-  const std::string force = set.kind->traits.force.header();
-  if (!run.has(force) || !run.has("liner_temperature_degC")) return;
+  const Quantity& force = set.kind->traits.force;
+  if (!run.has(force) || !run.has(quantities::kLinerTemperature)) return;
   const auto& rr = set.tire.values.rolling_resistance;
   const std::vector<bool> settled = measurements::find_settled_rows(run);
-  const std::vector<double>& load_N = run.columns.at("load_N");
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>& load_N = run.column(quantities::kLoad);
+  const std::vector<double>& speed_m_s = run.column(quantities::kSpeed);
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-    const double force_N = run.columns.at(force)[row] / set.rig->lever_m();
-    const double liner_K = run.columns.at("liner_temperature_degC")[row];
+    const double force_N = run.column(force)[row] / set.rig->lever_m();
+    const double liner_K = run.column(quantities::kLinerTemperature)[row];
     const bool loaded = load_N[row] > measurements::kLoadedShare * rr.reference_load_N;
     const bool steady_speed =
         std::abs(measurements::find_acceleration(run, row)) < measurements::kSteadyAcceleration_m_s2;
@@ -83,10 +90,9 @@ void collect_losses(const measurements::MeasurementSet& set, const measurements:
 }
 
 SpeedFit fit_speed(const LossSamples& samples) {
-  Eigen::MatrixXd design(static_cast<Eigen::Index>(samples.log_loss.size()), 2);
-  design.col(0).setOnes();
-  design.col(1) = -as_vector(samples.temperature_dK);
-  const Eigen::Vector2d line = design.colPivHouseholderQr().solve(as_vector(samples.log_loss));
+  const auto log_loss = as_vector(samples.log_loss);
+  const Eigen::Vector2d line =
+      fit_two(Eigen::VectorXd::Ones(log_loss.size()), -as_vector(samples.temperature_dK), log_loss);
   return {samples.speed_m_s, std::exp(line[0]), line[1]};
 }
 
@@ -114,15 +120,15 @@ struct HeatBalance {
 
 void collect_heat(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                   const TwoStepEstimate& estimate, HeatBalance& balance) {
-  if (!run.has("liner_temperature_degC")) return;
+  if (!run.has(quantities::kLinerTemperature)) return;
   const auto& thermal = set.tire.values.thermal;
-  const bool gas_measured = run.has("gas_temperature_degC");
+  const bool gas_measured = run.has(quantities::kGasTemperature);
   models::TireParameters<double> tire = set.tire.values;
   static_cast<models::SpeedLines<double>&>(tire.rolling_resistance) = estimate;
-  const std::vector<double>& liner = run.columns.at("liner_temperature_degC");
-  const std::vector<double>& ambient_K = run.columns.at("ambient_degC");
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
-  const std::vector<double>& load_N = run.columns.at("load_N");
+  const std::vector<double>& liner = run.column(quantities::kLinerTemperature);
+  const std::vector<double>& ambient_K = run.column(quantities::kAmbient);
+  const std::vector<double>& speed_m_s = run.column(quantities::kSpeed);
+  const std::vector<double>& load_N = run.column(quantities::kLoad);
   double z_integral = 0.0, f_integral = 0.0, generated_J = 0.0, H_integral = 0.0;
   double tire_K = run.initial_tire_temperature_K;
   double gas_K = tire_K;
@@ -130,8 +136,8 @@ void collect_heat(const measurements::MeasurementSet& set, const measurements::M
     const double step_s = run.time_s[row + 1] - run.time_s[row];
     if (!std::isnan(liner[row])) tire_K = liner[row];
     gas_K += step_s * thermal.H_gas_W_per_K / thermal.gas_heat_capacity_J_per_K * (tire_K - gas_K);
-    if (gas_measured && !std::isnan(run.columns.at("gas_temperature_degC")[row])) {
-      gas_K = run.columns.at("gas_temperature_degC")[row];
+    if (gas_measured && !std::isnan(run.column(quantities::kGasTemperature)[row])) {
+      gas_K = run.column(quantities::kGasTemperature)[row];
     }
     const double loss_N =
         find_curvature_factor(set) * models::calc_rolling_resistance_N(tire, speed_m_s[row], load_N[row],
@@ -156,19 +162,13 @@ void collect_heat(const measurements::MeasurementSet& set, const measurements::M
 void fit_heat(const measurements::MeasurementSet& set, TwoStepEstimate& estimate) {
   HeatBalance balance;
   for (const measurements::MeasuredRun& run : set.runs) collect_heat(set, run, estimate, balance);
-  Eigen::MatrixXd design(static_cast<Eigen::Index>(balance.to_z.size()), 2);
-  design.col(0) = as_vector(balance.to_z);
-  design.col(1) = as_vector(balance.to_f);
-  const Eigen::Vector2d solution = design.colPivHouseholderQr().solve(as_vector(balance.heat_J));
-  estimate.rest_conductance_W_per_K = solution[0];
-  estimate.speed_conductance_W_s_per_m_K = solution[1];
-  if (!balance.to_H.empty()) {
-    Eigen::MatrixXd gas_design(static_cast<Eigen::Index>(balance.to_H.size()), 2);
-    gas_design.col(0) = as_vector(balance.to_H);
-    gas_design.col(1) = as_vector(balance.time_s);
-    const Eigen::Vector2d gas_solution = gas_design.colPivHouseholderQr().solve(as_vector(balance.gas_heat_J));
-    estimate.H_gas_W_per_K = gas_solution[0];
-  }
+  const Eigen::Vector2d conductances =
+      fit_two(as_vector(balance.to_z), as_vector(balance.to_f), as_vector(balance.heat_J));
+  estimate.rest_conductance_W_per_K = conductances[0];
+  estimate.speed_conductance_W_s_per_m_K = conductances[1];
+  if (balance.to_H.empty()) return;
+  estimate.H_gas_W_per_K =
+      fit_two(as_vector(balance.to_H), as_vector(balance.time_s), as_vector(balance.gas_heat_J))[0];
 }
 
 InputError too_few_speeds(const measurements::MeasurementSet& set, std::size_t found) {
