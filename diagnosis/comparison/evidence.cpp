@@ -1,12 +1,13 @@
 #include "diagnosis/comparison/evidence.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/comparison/log_determinant.h"
 #include "diagnosis/thresholds.h"
 
 namespace rollrig::diagnosis {
+
 double log_sum_exp(const std::vector<double>& logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
   if (!std::isfinite(largest)) return largest;
@@ -101,7 +102,7 @@ Evidence::Solution Evidence::solve(const Sums& sums, bool with_covariance) const
   Solution solution;
   solution.step = -factor.solve(g);
   solution.chi2 = sums.square + unknowns_.squaredNorm() + g.dot(solution.step);
-  const double log_m = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  const double log_m = calc_log_determinant(factor);
   solution.log_value = -0.5 * (solution.chi2 + sums.log_determinant + log_determinant_below_ + log_m);
   if (with_covariance) solution.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
   return solution;

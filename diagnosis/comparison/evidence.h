@@ -24,8 +24,7 @@ AmplitudePrior law_amplitude(double least, double middle);
 /// Equation  Z = sum over amplitudes of w |Sigma|^-1/2 |M|^-1/2 exp(-chi2/2),
 ///           M = 1 + J^T Sigma^-1 J, g = u + J^T Sigma^-1 r, chi2 = r^T Sigma^-1 r + u^T u - g^T M^-1 g
 /// Symbols   r whitened residual at the unknowns u (prior units), J its derivatives, Sigma of the discrepancy;
-/// constants
-///           that all hypotheses share are left out
+///           constants that all hypotheses share are left out
 /// Source    Laplace's method with a normal prior of unit variance
 /// Checked   tests/diagnosis/evidence_test.cpp
 class Evidence {
@@ -78,7 +77,7 @@ class Evidence {
 /// A free discrepancy: either as small as model error, or of any size up to a hundred floors.
 AmplitudePrior free_amplitude(double smallest);
 
-/// log(sum exp).
+/// ln of the sum of the numbers whose logarithms these are.
 double log_sum_exp(const std::vector<double>& logs);
 
 }  // namespace rollrig::diagnosis

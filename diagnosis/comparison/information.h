@@ -12,12 +12,6 @@ struct PredictedOutcome {
   Eigen::MatrixXd covariance;
 };
 
-/// Entropy of probabilities that add to 1.
-double calc_entropy_bits(const std::vector<double>& probabilities);
-
-/// Expected log Bayes factor for `truth` against `other`, were `truth` true: the divergence of Kullback and Leibler.
-double calc_divergence_nats(const PredictedOutcome& truth, const PredictedOutcome& other);
-
 /// Distance of Bhattacharyya, -ln of the integral of sqrt(p q).
 double calc_overlap_distance_nats(const PredictedOutcome& a, const PredictedOutcome& b);
 

@@ -5,13 +5,14 @@
 
 #include "diagnosis/comparison/evidence.h"
 #include "diagnosis/comparison/linear_fit.h"
+#include "diagnosis/comparison/log_determinant.h"
 #include "diagnosis/findings/perturbations.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr Eigen::Index kKnots = static_cast<Eigen::Index>(kPerturbationKnots);
+constexpr auto kKnots = static_cast<Eigen::Index>(kPerturbationKnots);
 constexpr int kAmplitudes = 10;  // 0.5, 1, 2 .. 256 noise floors
 constexpr double kSignificantOdds = 100.0;
 
@@ -21,7 +22,7 @@ using Choice = std::vector<int>;
 double amplitude_of(int chosen) { return chosen == 0 ? 0.0 : 0.25 * std::exp2(chosen); }
 
 /// Largest rms by channel that a constant perturbation of size 1 makes, in noise floors.
-double measure_constant_push(const PreparedSet& set, const RowMatrix& columns) {
+double measure_constant(const PreparedSet& set, const RowMatrix& columns) {
   std::vector<double> squares(set.channels().size(), 0.0);
   std::vector<double> counts(set.channels().size(), 0.0);
   for (const Series& series : set.series()) {
@@ -44,7 +45,7 @@ class PerturbationModel {
       : null_curvature_(null.curvature), count_(families.size()) {
     RowMatrix columns(at(set.residual_count()), at(count_) * kKnots);
     for (std::size_t f = 0; f < count_; ++f) {
-      const double largest = measure_constant_push(set, families[f].columns);
+      const double largest = measure_constant(set, families[f].columns);
       columns.middleCols(at(f) * kKnots, kKnots) = families[f].columns / (largest > 0.0 ? largest : 1.0);
     }
     null.whiten(columns);
@@ -60,7 +61,7 @@ class PerturbationModel {
       of.score += rows.transpose() * series.rows_of(null.residual);
     }
     const Eigen::LLT<Eigen::MatrixXd> factor(null_curvature_);
-    null_log_determinant_ = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    null_log_determinant_ = calc_log_determinant(factor);
   }
 
   std::size_t family_count() const { return count_; }
@@ -85,10 +86,10 @@ class PerturbationModel {
       curvature -= one.half_with_null.transpose() * one.half_with_null;
       pull -= one.half_with_null.transpose() * one.half_score;
       square += one.half_score.squaredNorm();
-      log_determinant += 2.0 * one.factor.matrixLLT().diagonal().array().log().sum();
+      log_determinant += calc_log_determinant(one.factor);
     }
     const Eigen::LLT<Eigen::MatrixXd> factor(curvature);
-    log_determinant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    log_determinant += calc_log_determinant(factor);
     const Eigen::VectorXd unknowns = factor.solve(pull);
     Result result{0.5 * (square + pull.dot(unknowns) - log_determinant), std::vector<double>(count_, 0.0)};
     for (const Solved& one : solved) {
