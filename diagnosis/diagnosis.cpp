@@ -44,14 +44,8 @@ const Candidate* find_lead(const Comparison& comparison, const std::vector<Cause
 /// What a fit makes of the sensors, offsets included.
 std::vector<double> find_fitted(const Study& study, const Fit& fit) {
   const Eigen::VectorXd left = study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
-  std::vector<double> values(study.set.residual_count());
-  for (const Series& series : study.set.series()) {
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      const std::size_t row = series.first_residual + k;
-      values[row] = series.measured[k] - left(at(row));
-    }
-  }
-  return values;
+  const Eigen::VectorXd fitted = study.set.measured() - left;
+  return {fitted.begin(), fitted.end()};
 }
 
 /// A set that cannot be what it is said to be has no cause in the catalog, whatever comes near.

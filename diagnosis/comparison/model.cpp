@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "diagnosis/checks/rig_sensors.h"
-#include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
@@ -26,6 +25,14 @@ Jet make_scalar<Jet>(double value, double derivative, std::size_t column) {
 void store_derivatives(double, RowMatrix*, std::size_t, std::size_t, std::size_t) {}
 void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::size_t first, std::size_t count) {
   for (std::size_t c = 0; c < count; ++c) (*out)(at(row), at(first + c)) = value.v[at(c)];
+}
+
+/// Beyond it a simulation has left its domain: the steps were too long for what moves that fast. Assumed: 2000 K,
+/// 1 kbar, 100 kN or kN m.
+double find_most_SI(const std::string& channel) {
+  const Dimension dimension = unit_of_key(channel).dimension;
+  if (dimension == dimension::kTemperature) return 2000.0;
+  return dimension == dimension::kPressure ? 1e8 : 1e5;
 }
 
 }  // namespace
@@ -52,18 +59,6 @@ bool Model::find_parameters(const Eigen::VectorXd& unknowns, std::vector<Paramet
   }
   return true;
 }
-
-namespace {
-
-/// Beyond it a simulation has left its domain: the steps were too long for what moves that fast. Assumed: 2000 K,
-/// 1 kbar, 100 kN or kN m.
-double find_most_SI(const std::string& channel) {
-  const Dimension dimension = unit_of_key(channel).dimension;
-  if (dimension == dimension::kTemperature) return 2000.0;
-  return dimension == dimension::kPressure ? 1e8 : 1e5;
-}
-
-}  // namespace
 
 template <class S>
 bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters, std::size_t first_column,
@@ -135,13 +130,9 @@ bool Model::derive_run(std::size_t run, const Eigen::VectorXd& unknowns, RowMatr
 }
 
 Eigen::VectorXd Model::subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const {
-  Eigen::VectorXd difference(at(residual_count()));
+  Eigen::VectorXd difference = set_.measured() - simulated;
   for (const Series& series : set_.series()) {
-    const double offset = series.offset_sd * unknowns[at(parameter_count() + series.offset)];
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      const Eigen::Index row = at(series.first_residual + k);
-      difference[row] = series.measured[k] - simulated[row] - offset;
-    }
+    series.rows_of(difference).array() -= series.offset_sd * unknowns[at(parameter_count() + series.offset)];
   }
   return difference;
 }

@@ -25,10 +25,6 @@ void require_sensor_error(const measurements::MeasurementSet& set, const std::st
   throw InputError(problem);
 }
 
-bool has_sample(const std::vector<double>& values) {
-  return std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); });
-}
-
 /// Whether the surface stands still over a row and its neighbors.
 bool stands(const measurements::MeasuredRun& run, std::size_t row) {
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
@@ -87,9 +83,8 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
     if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
   }
   for (const std::string& channel : readable) {
-    const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(), [&](const measurements::MeasuredRun& run) {
-      return run.has(channel) && has_sample(run.columns.at(channel));
-    });
+    const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(),
+                                      [&](const measurements::MeasuredRun& run) { return run.has_samples(channel); });
     if (measured) channels_.push_back(channel);
   }
   std::map<std::pair<std::string, std::size_t>, std::size_t> offsets;  // by session and channel
@@ -104,6 +99,10 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   offset_count_ = offsets.size();
   if (series_.empty()) {
     throw InputError({"nothing was measured in any run", set_.path, 0, "", "", "samples in one measured channel", ""});
+  }
+  measured_.resize(at(residual_count_));
+  for (const Series& series : series_) {
+    series.rows_of(measured_) = Eigen::Map<const Eigen::VectorXd>(series.measured.data(), at(series.size()));
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// A measured set made ready for comparison: runs in a fixed order, blocks of samples, whitening, sensor offsets.
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -77,6 +76,8 @@ class PreparedSet {
   const std::vector<Series>& series() const { return series_; }
   std::size_t offset_count() const { return offset_count_; }
   std::size_t residual_count() const { return residual_count_; }
+  /// Block means of every series, SI units, one a residual.
+  const Eigen::VectorXd& measured() const { return measured_; }
 
  private:
   void add_series(std::size_t run, std::size_t channel, std::size_t offset);
@@ -90,6 +91,7 @@ class PreparedSet {
   std::vector<Series> series_;
   std::size_t offset_count_ = 0;
   std::size_t residual_count_ = 0;
+  Eigen::VectorXd measured_;
 };
 
 }  // namespace rollrig::diagnosis

@@ -1,6 +1,5 @@
 #include "diagnosis/findings/gap.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,7 +12,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// The noise that a series' differences are expected to hold, once the best offset is taken off them.
+/// The offset that fits a series' differences best within its sensor's.
 struct OffsetFit {
   double offset = 0.0;           // SI
   double offset_variance = 0.0;  // of what stays of it
@@ -42,6 +41,7 @@ struct Stretch {
   double blocks = 0.0;
 };
 
+/// What is left of some runs.
 struct Measure {
   std::map<std::pair<std::size_t, std::size_t>, Stretch> stretches;  // by run and phase
   std::vector<Stretch> channels;                                     // squares in SI
@@ -77,18 +77,6 @@ double gap_of(const Measure& measure) {
   return gap_of(sum.above, sum.blocks);
 }
 
-/// Measured less simulated, without any offset.
-Eigen::VectorXd find_difference(const PreparedSet& set, const Eigen::VectorXd& simulated) {
-  Eigen::VectorXd difference(at(set.residual_count()));
-  for (const Series& series : set.series()) {
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      const Eigen::Index row = at(series.first_residual + k);
-      difference[row] = series.measured[k] - simulated[row];
-    }
-  }
-  return difference;
-}
-
 /// What the cause changes in a run, whitened, in squares.
 double measure_change(const Study& study, const Candidate& cause, std::size_t run) {
   Eigen::VectorXd change = study.null.fit.residuals - cause.fit.residuals;
@@ -112,7 +100,7 @@ Measure measure_as_calibrated(const Study& study, const Candidate& candidate) {
   const Eigen::VectorXd simulated = refit(model, study.discrepancy, start).simulated;
   Measure measure;
   if (simulated.size() == 0) return measure;
-  const Eigen::VectorXd difference = find_difference(set, simulated);
+  const Eigen::VectorXd difference = set.measured() - simulated;
   for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(set, run, difference, measure);
   return measure;
 }
@@ -193,8 +181,8 @@ HeldOut measure_held_out(const Study& study, const Candidate* cause, const Black
     if (lost) continue;  // no fit without it
     const auto of_run = [run](const Series& series) { return series.run == run; };
     if (std::none_of(set.series().begin(), set.series().end(), of_run)) continue;  // it measured nothing
-    const Eigen::VectorXd difference = find_difference(set, before[run].simulated);
-    const Eigen::VectorXd with_cause = cause != nullptr ? find_difference(set, after[run].simulated) : difference;
+    const Eigen::VectorXd difference = set.measured() - before[run].simulated;
+    const Eigen::VectorXd with_cause = set.measured() - (cause != nullptr ? after : before)[run].simulated;
     add_run(set, run, difference, all.before);
     add_run(set, run, with_cause, all.after);
     if (!can_leave_out) continue;

@@ -20,8 +20,7 @@ using BlackBox =
 /// Symbols   d measured less simulated, less the best offset within the sensor's; floor: noise of a full block
 /// Interval  2.5 and 97.5 percentiles over 1000 seeded resamples of stretches (a phase of a run, all its channels)
 /// With one run, nothing can be left out: the gap is judged on the run itself, and held_out is empty.
-/// Black box a ridge regression of the discrepancy on speed, load, temperature and time under load, learnt on the other
-///           runs
+/// Black box what `black_box` leaves of each run (black_box.h)
 /// Checked   tests/diagnosis/gap_test.cpp
 Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_box = subtract_black_box);
 

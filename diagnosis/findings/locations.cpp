@@ -154,17 +154,11 @@ double calc_excess(const Stretch& stretch, const Eigen::VectorXd& difference) {
 }
 
 /// Measured less simulated less offset, block means in SI units, of the baseline fitted beside the stretches.
-Eigen::VectorXd calc_difference(const PreparedSet& set, const Fit& fit, const Eigen::VectorXd& unknowns) {
-  const Eigen::VectorXd offsets = fit.unknowns.tail(at(set.offset_count()));
-  Eigen::VectorXd difference = fit.jacobian * (unknowns - fit.unknowns);
-  for (const Series& series : set.series()) {
-    series.whitener.undo(difference.data() + series.first_residual, 1);
-    for (std::size_t k = 0; k < series.size(); ++k) {
-      const Eigen::Index row = at(series.first_residual + k);
-      difference[row] += series.measured[k] - fit.simulated[row] - series.offset_sd * offsets[at(series.offset)];
-    }
-  }
-  return difference;
+Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unknowns) {
+  const Fit& fit = study.null.fit;
+  Eigen::VectorXd moved = fit.jacobian * (unknowns - fit.unknowns);
+  for (const Series& series : study.set.series()) series.whitener.undo(moved.data() + series.first_residual, 1);
+  return moved + study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
 }
 
 Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& sized) {
@@ -196,7 +190,7 @@ std::vector<Location> find_locations(const Study& study) {
 
   Eigen::VectorXd unknowns = linear.unknowns;
   for (const Sized& sized : listed) unknowns += scores.null_steps.col(at(sized.stretch)) * sized.size;
-  const Eigen::VectorXd difference = calc_difference(set, study.null.fit, unknowns);
+  const Eigen::VectorXd difference = calc_difference(study, unknowns);
   std::vector<Location> locations;
   double of_listed = 0.0;
   double of_others = 0.0;
