@@ -10,18 +10,12 @@ namespace {
 /// The free unknowns, the others as they are in `x`.
 void solve_free(const Eigen::MatrixXd& curvature, const Eigen::VectorXd& gradient,
                 const std::vector<Eigen::Index>& free, Eigen::VectorXd& x) {
-  const auto n = static_cast<Eigen::Index>(free.size());
-  for (const Eigen::Index i : free) x[i] = 0.0;
+  x(free).setZero();
   const Eigen::VectorXd rest = gradient - curvature * x;
-  Eigen::MatrixXd part(n, n);
-  Eigen::VectorXd right(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index row = free[static_cast<std::size_t>(i)];
-    right[i] = rest[row];
-    for (Eigen::Index k = 0; k < n; ++k) part(i, k) = curvature(row, free[static_cast<std::size_t>(k)]);
-  }
+  const Eigen::MatrixXd part = curvature(free, free);
+  const Eigen::VectorXd right = rest(free);
   const Eigen::VectorXd solved = part.llt().solve(right);
-  for (Eigen::Index i = 0; i < n; ++i) x[free[static_cast<std::size_t>(i)]] = solved[i];
+  x(free) = solved;
 }
 
 }  // namespace
