@@ -48,6 +48,10 @@ std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::s
   return rows;
 }
 
+double calc_mean_interval_s(const MeasuredRun& run) {
+  return (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.time_s.size() - 1);
+}
+
 std::vector<double> find_times(const MeasuredRun& run, const std::vector<std::size_t>& rows) {
   std::vector<double> times_s;
   for (const std::size_t row : rows) times_s.push_back(run.time_s[row]);

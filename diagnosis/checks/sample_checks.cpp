@@ -40,10 +40,7 @@ void check_force(const MeasurementSet& set, SetChecks& checks) {
 void check_spacing(const MeasurementSet& set, SetChecks& checks) {
   constexpr double kWide_s = 1.9;  // Assumed: formats.md's examples have rows a second apart
   double widest_s = 0.0;
-  for (const MeasuredRun& run : set.runs) {
-    const double mean_s = (run.time_s.back() - run.time_s.front()) / static_cast<double>(run.time_s.size() - 1);
-    widest_s = std::max(widest_s, mean_s);
-  }
+  for (const MeasuredRun& run : set.runs) widest_s = std::max(widest_s, measurements::calc_mean_interval_s(run));
   if (widest_s < kWide_s) return;
   checks.warnings.push_back(
       fmt::format("rows are up to {:.2g} s apart, and inputs are taken as straight between them: a clock_shift of up "

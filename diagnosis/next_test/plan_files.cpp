@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/next_test/test_menu.h"
+#include "measurements/sample_selection.h"
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
 
@@ -68,8 +69,7 @@ std::string write_inputs(const MeasuredRun& run, const MachineKind& kind) {
 
 /// The interval of the set's own rows, as far as a run takes it.
 double find_sample_interval_s(const MeasurementSet& set) {
-  const std::vector<double>& time_s = set.runs.front().time_s;
-  const double mean_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  const double mean_s = measurements::calc_mean_interval_s(set.runs.front());
   return std::clamp(std::round(100.0 * mean_s) / 100.0, 0.01, 60.0);
 }
 

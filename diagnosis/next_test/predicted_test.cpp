@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "diagnosis/checks/rig_sensors.h"
+#include "measurements/sample_selection.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-/// Means over ten seconds come as one sample a row: of a sensor whose noise they lessen, and whose rounding.
+/// The sensor of means over so many samples, one a row: its noise and rounding are smaller.
 models::SensorParameters average_sensor(models::SensorParameters sensor, double samples) {
   const double lasting = measurements::calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
   const double white = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting;
@@ -18,23 +19,16 @@ models::SensorParameters average_sensor(models::SensorParameters sensor, double 
 }
 
 double find_sample_interval_s(const PreparedSet& set) {
-  const std::vector<double>& time_s = set.runs().front().measured.time_s;
-  return (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+  return measurements::calc_mean_interval_s(set.runs().front().measured);
 }
 
 /// The test's runs as a set on the same rig, with the same sensors.
 measurements::MeasurementSet make_virtual_set(const PreparedSet& set, const PlannedTest& test) {
-  measurements::MeasurementSet made;
-  made.path = set.source().path;
+  measurements::MeasurementSet made = set.source();
   made.name = test.id;
-  made.kind = set.source().kind;
-  made.baseline = set.source().baseline;
-  made.tire = set.source().tire;
-  made.rig = set.source().rig;
-  made.vehicle = set.source().vehicle;
   made.runs = test.runs;
   const double samples = std::max(1.0, kVirtualRow_s / find_sample_interval_s(set));
-  for (const auto& [channel, sensor] : set.source().sensors) made.sensors[channel] = average_sensor(sensor, samples);
+  for (auto& [channel, sensor] : made.sensors) sensor = average_sensor(sensor, samples);
   for (const std::string& channel : test.extra.sensors) made.sensors[channel] = find_rig_sensor(channel).error;
   return made;
 }
