@@ -61,13 +61,22 @@ ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& 
     simulated_sum += unit.from_si(simulated[row]);
   }
   if (rows.empty()) {
-    const bool sampled = std::any_of(measured.begin(), measured.end(), [](double value) { return !std::isnan(value); });
-    misfit.rms = sampled ? kUncompared : 0.0;
+    misfit.rms = run.has_samples(channel) ? kUncompared : 0.0;
     return misfit;
   }
   misfit.rms = std::sqrt(std::max(0.0, squares - noise_squares) / static_cast<double>(rows.size()));
   misfit.ratio = measured_sum / simulated_sum;
   return misfit;
+}
+
+/// The misfit of a run simulated again, or why it cannot be; `recording` is filled where it can.
+RunMisfit try_baseline(const MeasurementSet& set, const MeasuredRun& run, sim::Recording<double>& recording) {
+  try {
+    recording = resimulate_baseline(set, run);
+    return calc_misfit(set, run, recording);
+  } catch (const RunFailure& failure) {
+    return {{}, failure.what()};
+  }
 }
 
 }  // namespace
@@ -97,7 +106,8 @@ double RunMisfit::worst() const {
 }
 
 double RunMisfit::sum_of_squares() const {
-  if (!failure.empty()) return kLargestMisfit * kLargestMisfit * 4.0;
+  constexpr double kChannels = 4.0;  // Assumed: of so many the misfit counts as the largest
+  if (!failure.empty()) return kLargestMisfit * kLargestMisfit * kChannels;
   double sum = 0.0;
   for (const ChannelMisfit& channel : channels) sum += channel.rms * channel.rms;
   return sum;
@@ -113,25 +123,14 @@ RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const s
 }
 
 RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run) {
-  try {
-    return calc_misfit(set, run, resimulate_baseline(set, run));
-  } catch (const RunFailure& failure) {
-    RunMisfit misfit;
-    misfit.failure = failure.what();
-    return misfit;
-  }
+  sim::Recording<double> recording;
+  return try_baseline(set, run, recording);
 }
 
 BaselineRuns resimulate_baseline(const MeasurementSet& set, int threads) {
   BaselineRuns baseline{std::vector<sim::Recording<double>>(set.runs.size()), std::vector<RunMisfit>(set.runs.size())};
-  parallel_for(set.runs.size(), threads, [&](std::size_t r) {
-    try {
-      baseline.recordings[r] = resimulate_baseline(set, set.runs[r]);
-      baseline.misfits[r] = calc_misfit(set, set.runs[r], baseline.recordings[r]);
-    } catch (const RunFailure& failure) {
-      baseline.misfits[r].failure = failure.what();
-    }
-  });
+  parallel_for(set.runs.size(), threads,
+               [&](std::size_t r) { baseline.misfits[r] = try_baseline(set, set.runs[r], baseline.recordings[r]); });
   return baseline;
 }
 

@@ -16,14 +16,6 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-/// Undoes a mistake; false where it cannot have been made in that run.
-using Undo = std::function<bool(MeasuredRun&)>;
-
-struct Mistake {
-  std::string text;
-  Undo undo;
-};
-
 bool is_given(const MeasurementSet& set, const std::string& column) {
   for (const Field& field : set.kind->columns.measured) {
     if (field.key == column) return false;
@@ -50,7 +42,7 @@ std::vector<double> read_as(const std::vector<double>& values, const Unit& from,
   return out;
 }
 
-Mistake exchange(const MeasurementSet& set, const Field& a, const Field& b) {
+Repair exchange(const MeasurementSet& set, const Field& a, const Field& b) {
   const auto undo = [a, b, a_given = is_given(set, a.key), b_given = is_given(set, b.key)](MeasuredRun& run) {
     if (!run.has(a.key) || !run.has(b.key)) return false;
     std::vector<double> as_a = read_as(run.columns.at(b.key), unit_of_key(b.key), a, a_given);
@@ -63,7 +55,7 @@ Mistake exchange(const MeasurementSet& set, const Field& a, const Field& b) {
   return {fmt::format("the columns {} and {} are exchanged", a.key, b.key), undo};
 }
 
-Mistake wrong_unit(const WrongUnit& wrong) {
+Repair wrong_unit(const WrongUnit& wrong) {
   const auto undo = [wrong](MeasuredRun& run) {
     if (!run.has(wrong.column)) return false;
     const Unit unit = unit_of_key(wrong.column);
@@ -75,8 +67,8 @@ Mistake wrong_unit(const WrongUnit& wrong) {
   return {wrong.column + " " + wrong.text, undo};
 }
 
-std::vector<Mistake> list_mistakes(const MeasurementSet& set, Mistakes which) {
-  std::vector<Mistake> mistakes;
+std::vector<Repair> list_mistakes(const MeasurementSet& set, Mistakes which) {
+  std::vector<Repair> mistakes;
   if (which == Mistakes::kAll) {
     for (const WrongUnit& wrong : kind_of(set).list_wrong_units()) mistakes.push_back(wrong_unit(wrong));
   }
@@ -88,7 +80,7 @@ std::vector<Mistake> list_mistakes(const MeasurementSet& set, Mistakes which) {
 }
 
 /// Sum of squares of a run's misfit once the mistake is undone; infinite where a channel stays outside.
-double calc_squares_without(const Mistake& mistake, const MeasurementSet& set, std::size_t r) {
+double calc_squares_without(const Repair& mistake, const MeasurementSet& set, std::size_t r) {
   MeasuredRun run = set.runs[r];
   if (!mistake.undo(run)) return std::numeric_limits<double>::infinity();
   const RunMisfit misfit = calc_misfit(set, run);
@@ -119,7 +111,7 @@ std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<s
   const auto calc_squares = [&set](std::size_t r) { return calc_misfit(set, set.runs[r]).sum_of_squares(); };
   double before = 0.0;
   for (const std::size_t r : odd_runs) before += calc_squares(r);
-  const std::vector<Mistake> mistakes = list_mistakes(set, which);
+  const std::vector<Repair> mistakes = list_mistakes(set, which);
   std::vector<double> after(mistakes.size(), 0.0);
   parallel_for(mistakes.size(), threads, [&](std::size_t i) {
     for (const std::size_t r : odd_runs) {
@@ -129,11 +121,10 @@ std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<s
   });
   const auto best = std::min_element(after.begin(), after.end());
   if (*best > kMuchBetter * before) return std::nullopt;
-  const Mistake& found = mistakes[static_cast<std::size_t>(best - after.begin())];
-  Repair repair{found.text, found.undo, {}};
+  Repair repair = mistakes[static_cast<std::size_t>(best - after.begin())];
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     const bool odd = std::find(odd_runs.begin(), odd_runs.end(), r) != odd_runs.end();
-    if (odd || calc_squares_without(found, set, r) <= kMuchBetter * calc_squares(r)) repair.runs.push_back(r);
+    if (odd || calc_squares_without(repair, set, r) <= kMuchBetter * calc_squares(r)) repair.runs.push_back(r);
   }
   return repair;
 }

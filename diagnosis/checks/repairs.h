@@ -12,9 +12,9 @@ namespace rollrig::diagnosis {
 
 /// A mistake that, undone, makes runs plausible.
 struct Repair {
-  std::string text;  // "speed_km_h holds m/s"
-  std::function<bool(measurements::MeasuredRun&)> undo;
-  std::vector<std::size_t> runs;  // in which it was made
+  std::string text;                                      // "speed_km_h holds m/s"
+  std::function<bool(measurements::MeasuredRun&)> undo;  // false where it cannot have been made in that run
+  std::vector<std::size_t> runs = {};                    // in which it was made
 };
 
 /// A mistake with a unit that a kind of set is prone to: the numbers of the file, times `factor` and plus `offset`, in
