@@ -136,6 +136,12 @@ std::optional<LoneRun> diagnose_without_run(measurements::MeasurementSet set, co
 
 }  // namespace
 
+const ParameterEstimate* find_size(const Cause& cause, const std::string& effect) {
+  const auto is_of_effect = [&](const ParameterEstimate& one) { return one.name.rfind(effect + ".", 0) == 0; };
+  const auto size = std::find_if(cause.parameters.begin(), cause.parameters.end(), is_of_effect);
+  return size == cause.parameters.end() ? nullptr : &*size;
+}
+
 double probability_of(const Diagnosis& diagnosis, const std::string& name) {
   const auto at = diagnosis.probability.find(name);
   return at == diagnosis.probability.end() ? 0.0 : at->second;

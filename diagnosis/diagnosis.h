@@ -35,6 +35,9 @@ struct Cause {
   std::vector<std::string> objections;  // why not adequate, a sentence each
 };
 
+/// The size of one of a cause's effects, the first of the parameters of that effect; nullptr where there is none.
+const ParameterEstimate* find_size(const Cause& cause, const std::string& effect);
+
 /// A gap in noise floors: rms of what is left without noise, in standard deviations of a mean over a
 /// block of ten seconds; the session's offset does not count.
 struct GapView {

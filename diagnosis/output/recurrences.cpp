@@ -15,19 +15,9 @@ constexpr double kPrior = 0.02;
 constexpr double kRecurs = 0.8;
 constexpr double kCertain = 1e-6;  // a comparison is not surer than this
 
-bool names(const Diagnosis& diagnosis, const std::string& effect) {
-  if (diagnosis.verdict != Verdict::kExplained || diagnosis.causes.empty()) return false;
-  const auto& ids = diagnosis.causes.front().effects;
-  return std::find(ids.begin(), ids.end(), effect) != ids.end();
-}
-
-/// The size of an effect that a set names: the first parameter of its cause that is the effect's.
-std::optional<ParameterEstimate> find_size(const Diagnosis& diagnosis, const std::string& effect) {
-  if (!names(diagnosis, effect)) return std::nullopt;
-  for (const ParameterEstimate& parameter : diagnosis.causes.front().parameters) {
-    if (parameter.name.rfind(effect + ".", 0) == 0) return parameter;
-  }
-  return std::nullopt;
+bool names_cause(const FleetMember& member) {
+  return member.diagnosis.has_value() && member.diagnosis->verdict == Verdict::kExplained &&
+         !member.diagnosis->causes.empty();
 }
 
 void average_sizes(const std::vector<ParameterEstimate>& sizes, Recurrence& recurrence) {
@@ -82,7 +72,7 @@ std::vector<Group> make_groups(const std::vector<FleetMember>& members) {
 std::set<std::string> find_named(const std::vector<FleetMember>& members) {
   std::set<std::string> named;
   for (const FleetMember& member : members) {
-    if (!member.diagnosis || member.diagnosis->verdict != Verdict::kExplained) continue;
+    if (!names_cause(member)) continue;
     for (const std::string& id : member.diagnosis->causes.front().effects) named.insert(id);
   }
   return named;
@@ -99,7 +89,8 @@ Recurrence judge(const std::string& effect, const Group& group) {
     const auto& probability = member->diagnosis->probability;
     const auto at = probability.find(effect);
     if (at != probability.end()) in_sets.push_back(at->second);
-    if (const auto size = find_size(*member->diagnosis, effect)) sizes.push_back(*size);
+    if (!names_cause(*member)) continue;
+    if (const auto* size = find_size(member->diagnosis->causes.front(), effect)) sizes.push_back(*size);
   }
   recurrence.sets = in_sets.size();
   recurrence.named_in = sizes.size();

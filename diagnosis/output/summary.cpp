@@ -75,42 +75,24 @@ std::string verdict_line(const Diagnosis& diagnosis) {
   return {};
 }
 
-/// The first parameter of each effect is its size.
-std::vector<ParameterEstimate> find_sizes(const Cause& cause) {
-  std::vector<ParameterEstimate> sizes;
-  for (const std::string& effect : cause.effects) {
-    const auto first =
-        std::find_if(cause.parameters.begin(), cause.parameters.end(),
-                     [&effect](const ParameterEstimate& at) { return at.name.rfind(effect + ".", 0) == 0; });
-    if (first != cause.parameters.end()) sizes.push_back(*first);
-  }
-  return sizes;
-}
-
 /// "fall 0.0192 1/K"
 std::string describe_size(const ParameterEstimate& size) {
   const std::string key = last_part(size.name);
   return fmt::format("{} {}", plain_name(key), with_unit(fmt::format("{:.3g}", size.value), size.unit));
 }
 
-std::string describe_interval(const ParameterEstimate& size) {
-  return fmt::format("{:.3g} to {:.3g}", size.low_95, size.high_95);
-}
-
 /// An effect with its size and the interval of that, as far as they are known.
-std::string describe_effect(const std::string& effect, const std::vector<ParameterEstimate>& sizes) {
-  for (const ParameterEstimate& size : sizes) {
-    if (size.name.rfind(effect + ".", 0) != 0) continue;
-    return fmt::format("{}: {} (95 %: {})", effect, describe_size(size), describe_interval(size));
-  }
-  return effect;
+std::string describe_effect(const std::string& effect, const Cause& cause) {
+  const ParameterEstimate* size = find_size(cause, effect);
+  if (size == nullptr) return effect;
+  return fmt::format("{}: {} (95 %: {:.3g} to {:.3g})", effect, describe_size(*size), size->low_95, size->high_95);
 }
 
 std::string cause_line(const Diagnosis& diagnosis) {
   if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
   if (diagnosis.causes.empty()) return line("Cause", "none of the catalog");
   const Cause& cause = diagnosis.causes.front();
-  return line("Cause", describe_effect(cause.effects.front(), find_sizes(cause)));
+  return line("Cause", describe_effect(cause.effects.front(), cause));
 }
 
 std::string describe_alternatives(const Cause& cause) {
@@ -132,7 +114,7 @@ std::string second_line(const Diagnosis& diagnosis) {
   const Cause& cause = diagnosis.causes.front();
   std::string more;
   for (std::size_t i = 1; i < cause.effects.size(); ++i) {
-    more += line("  with", describe_effect(cause.effects[i], find_sizes(cause)));
+    more += line("  with", describe_effect(cause.effects[i], cause));
   }
   if (!more.empty()) return more;
   if (!cause.indistinguishable_from.empty()) return line("or as well", describe_alternatives(cause));
