@@ -2,7 +2,6 @@
 /// Checks of a measurement set before and beside the comparison: what cannot be diagnosed, what is doubtful, what
 /// cannot be true.
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #pragma once
 /// What no named effect explains: flexible functions in every channel, of time in each run or of the conditions.
 
-#include <optional>
 #include <vector>
 
 #include "diagnosis/comparison/model.h"

@@ -15,7 +15,7 @@ constexpr std::size_t kMost = 6;
 constexpr std::size_t kMostOnBaseline = 9;  // one term is cheaper to simulate than two
 constexpr double kRunnerUp = 0.01;
 constexpr double kLeastShare = 0.05;
-constexpr double kDetectable = 3.0;  // as for what is not excluded (verdict.cpp)
+constexpr double kDetectable_sd = 3.0;  // Assumed: less detectable terms, the set would not have shown
 
 /// Fitted hypotheses, the likeliest first, one sign of each.
 std::vector<const Candidate*> rank(const Study& study, const Comparison& comparison) {
@@ -88,7 +88,7 @@ std::optional<OpenHypothesis> add_unseen(const Study& study, const Candidate& le
 std::vector<const Term*> find_hidden(const Study& study, const Comparison& comparison) {
   std::vector<const Term*> hidden;
   for (const Term* term : study.settings.terms) {
-    if (comparison.find_detectability(*term) < kDetectable) hidden.push_back(term);
+    if (comparison.find_detectability(*term) < kDetectable_sd) hidden.push_back(term);
   }
   std::stable_sort(hidden.begin(), hidden.end(), [&](const Term* a, const Term* b) {
     return comparison.find_detectability(*a) < comparison.find_detectability(*b);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "diagnosis/terms/term.h"
 #include "rigs/machine.h"
 #include "sim/core/error.h"

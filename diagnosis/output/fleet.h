@@ -1,7 +1,6 @@
 #pragma once
 /// Several measurement sets at once: one table, and which effects come back from set to set.
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>

@@ -22,7 +22,7 @@ struct Coast {
 /// A pulse is missed when the speed of its row is near a half or a third of the running median of its
 /// neighbors, double when near twice. A speed that repeats to the end of the record is of a body at rest.
 /// Symbols   pulse_length_m way between two pulses: a speed from a period holds half a period before its row
-/// Source    Assumed: all limits
+/// Source    Assumed: all limits.
 /// Errors    InputError: fewer than twenty rows of coast
 /// Checked   tests/estimation/coast_cleaning_test.cpp
 Coast find_coast(const CoastSeries& series, const std::optional<double>& pulse_length_m, const CoastRun& run);

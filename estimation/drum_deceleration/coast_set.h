@@ -13,7 +13,8 @@ namespace rollrig::estimation {
 enum class CoastState { kLoaded, kLifted };
 enum class CoastBody { kDrum, kWheel };
 
-constexpr double kSamePressure = 0.01;  // Assumed: pressures that differ by less are one
+constexpr double kSamePressure = 0.01;  // Assumed: pressures that differ by less are one.
+
 /// Whether a pressure is that of a level.
 inline bool is_same_pressure(double pressure_Pa, double level_Pa) {
   return std::abs(pressure_Pa / level_Pa - 1.0) < kSamePressure;
