@@ -32,36 +32,33 @@ const std::set<std::string>& sizes_apart() {
   return ids;
 }
 
-bool holds(const std::vector<std::string>& all, const std::string& one) {
-  return std::find(all.begin(), all.end(), one) != all.end();
-}
-
 }  // namespace
 
 std::vector<std::string> Case::named_set() const {
   return has_cause() ? list_named(answer.diagnosis) : std::vector<std::string>{};
 }
 
-bool Case::is_split_by(const FollowUp& test) const {
-  if (!test.answer.has_value()) return false;
+Case Case::answered_after(const FollowUp& test) const {
   Case after;
   after.truth = truth;
-  after.answer = *test.answer;
+  if (test.answer.has_value()) after.answer = *test.answer;
+  return after;
+}
+
+bool Case::is_split_by(const FollowUp& test) const {
+  if (!test.answer.has_value()) return false;
+  const Case after = answered_after(test);
   return after.is_named() && after.named_set().size() < test.plan.named.size();
 }
 
 bool Case::names_truth() const {
-  if (truth.effects.empty()) return false;
   const std::vector<std::string> all = named_set();
-  return all.size() <= kLargestNamedSet &&
-         std::all_of(truth.effects.begin(), truth.effects.end(),
-                     [&all](const TrueEffect& effect) { return holds(all, effect.id); });
+  return all.size() <= kLargestNamedSet && truth.is_within(all);
 }
 
 bool Case::is_exact() const {
-  if (!is(Verdict::kExplained) || !has_cause() || cause().effects.size() != truth.effects.size()) return false;
-  return std::all_of(truth.effects.begin(), truth.effects.end(),
-                     [this](const TrueEffect& effect) { return holds(cause().effects, effect.id); });
+  return is(Verdict::kExplained) && has_cause() && cause().effects.size() == truth.effects.size() &&
+         truth.is_within(cause().effects);
 }
 
 bool Case::names_one_of_two() const {

@@ -56,7 +56,11 @@ struct Case {
   bool is_clean() const { return truth.effects.empty(); }
   bool is_single() const { return truth.effects.size() == 1 && !truth.outside; }
   bool is_pair() const { return truth.effects.size() == 2 && !truth.outside; }
+  /// Whether there is an effect, and none outside of the catalog.
+  bool is_inside() const { return is_single() || is_pair(); }
   std::optional<SizeCheck> check_size() const;
+  /// The same case with the answer to it after a test; without an answer where the test was not done.
+  Case answered_after(const FollowUp& test) const;
   /// Whether a test that was done has split the named set: with its runs the verdict is explained, the new named set
   /// holds the truth and at most three effects, and fewer than before.
   bool is_split_by(const FollowUp& test) const;

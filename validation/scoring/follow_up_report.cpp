@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
+#include <utility>
 
 #include "sim/core/text.h"
 #include "validation/scoring/report.h"
@@ -8,29 +9,16 @@
 namespace rollrig::validation {
 namespace {
 
-Case answered_after(const Case& one, const FollowUp& test) {
-  Case after;
-  after.truth = one.truth;
-  if (test.answer.has_value()) after.answer = *test.answer;
-  return after;
-}
-
-/// Whether the truth is among what is named, however much that is.
-bool holds_truth(const std::vector<std::string>& named, const Case& one) {
-  const std::vector<std::string> truth = one.truth.ids();
-  return !truth.empty() && std::all_of(truth.begin(), truth.end(), [&named](const std::string& id) {
-    return std::find(named.begin(), named.end(), id) != named.end();
-  });
-}
+const std::array kTests{std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")};
 
 /// What became of a named set, in a few words.
 std::string judge(const Case& one, const FollowUp& test) {
   if (!test.answer.has_value()) return "not made, " + test.plan.not_made;
   if (one.is_split_by(test)) return "split";
-  const Case after = answered_after(one, test);
+  const Case after = one.answered_after(test);
   if (!after.is(diagnosis::Verdict::kExplained)) return after.said();
-  if (!holds_truth(after.named_set(), one)) {
-    return holds_truth(test.plan.named, one) ? "the truth lost" : "the truth in neither";
+  if (!one.truth.is_within(after.named_set())) {
+    return one.truth.is_within(test.plan.named) ? "the truth lost" : "the truth in neither";
   }
   return after.named_set().size() < test.plan.named.size() ? "more than three left" : "not smaller";
 }
@@ -59,7 +47,7 @@ std::string summarize(const Score& score, std::optional<FollowUp> Case::*test, c
 
 Json make_follow_up(const Case& one, const std::optional<FollowUp>& test) {
   if (!test.has_value()) return nullptr;
-  const Case after = answered_after(one, *test);
+  const Case after = one.answered_after(*test);
   const bool is_done = test->answer.has_value();
   return {{"test", test->plan.test},
           {"not_made", test->plan.not_made.empty() ? Json(nullptr) : Json(test->plan.not_made)},
@@ -75,14 +63,13 @@ std::string describe_follow_up(const Case& one, const FollowUp& test) {
   std::string text = fmt::format("{} {}, {}: {}", one.truth.number, one.truth.campaign, one.truth.name(),
                                  fmt::join(test.plan.named, ", "));
   if (!test.plan.test.empty()) text += fmt::format("; {}", test.plan.test);
-  if (test.answer.has_value()) text += fmt::format("; {}", fmt::join(answered_after(one, test).named_set(), ", "));
+  if (test.answer.has_value()) text += fmt::format("; {}", fmt::join(one.answered_after(test).named_set(), ", "));
   return text + ": " + judge(one, test);
 }
 
 std::string format_follow_ups(const Score& score) {
   std::string text;
-  for (const auto& [test, what] :
-       {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
+  for (const auto& [test, what] : kTests) {
     const std::string summary = summarize(score, test, what);
     if (summary.empty()) continue;
     text += "\n" + wrap(summary, 0);
@@ -95,15 +82,14 @@ std::string format_follow_ups(const Score& score) {
 
 std::vector<Table> make_follow_up_tables(const Score& score) {
   std::vector<Table> tables;
-  for (const auto& [test, what] :
-       {std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")}) {
+  for (const auto& [test, what] : kTests) {
     Table table{summarize(score, test, what), {"case", "true", "named before", "test", "named after", ""}, {}};
     for (const Case& one : score.followed_up) {
       const std::optional<FollowUp>& of = one.*test;
       if (!of.has_value()) continue;
       table.rows.push_back({one.truth.number + " " + one.truth.campaign, one.truth.name(),
                             fmt::format("{}", fmt::join(of->plan.named, ", ")), of->plan.test,
-                            fmt::format("{}", fmt::join(answered_after(one, *of).named_set(), ", ")), judge(one, *of)});
+                            fmt::format("{}", fmt::join(one.answered_after(*of).named_set(), ", ")), judge(one, *of)});
     }
     tables.push_back(std::move(table));
   }

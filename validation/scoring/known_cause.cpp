@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "models/effect.h"
-#include "validation/scoring/case.h"
+#include "validation/scoring/follow_up.h"
 
 namespace rollrig::validation {
 
@@ -12,16 +12,9 @@ Twins find_twins(const std::vector<Truth>& truths, const std::string& answers) {
   for (const Truth& truth : truths) {
     const std::optional<Answer> answer = find_answer(answers, truth.number);
     if (!answer || !answer->failure.empty()) continue;
-    Case one;
-    one.truth = truth;
-    one.answer = *answer;
-    std::vector<std::string> named = one.named_set();
-    const std::vector<std::string> ids = truth.ids();
-    const auto holds = [&named](const std::string& id) {
-      return std::find(named.begin(), named.end(), id) != named.end();
-    };
-    if (ids.empty() || !std::all_of(ids.begin(), ids.end(), holds)) continue;
-    for (const std::string& id : ids) named.erase(std::remove(named.begin(), named.end(), id), named.end());
+    std::vector<std::string> named = list_named(answer->diagnosis);
+    if (!truth.is_within(named)) continue;
+    for (const std::string& id : truth.ids()) named.erase(std::remove(named.begin(), named.end(), id), named.end());
     if (!named.empty()) twins[truth.number] = named;
   }
   return twins;

@@ -61,6 +61,12 @@ std::vector<std::string> Truth::ids() const {
   return all;
 }
 
+bool Truth::is_within(const std::vector<std::string>& named) const {
+  return !effects.empty() && std::all_of(effects.begin(), effects.end(), [&named](const TrueEffect& effect) {
+    return std::find(named.begin(), named.end(), effect.id) != named.end();
+  });
+}
+
 std::vector<Truth> read_truths(const std::string& set, const std::string& hash) {
   const std::vector<std::string> numbers = list_cases(set);
   const TruthFile opened = open_truth(set, hash);

@@ -27,6 +27,8 @@ struct Truth {
   /// "none", or the effects joined by "+".
   std::string name() const;
   std::vector<std::string> ids() const;
+  /// Whether there are effects, and all of them are among `named`.
+  bool is_within(const std::vector<std::string>& named) const;
 };
 
 /// The truth of all cases of a validation set.
