@@ -22,22 +22,11 @@ Cases only(const Cases& cases, const Is& wanted) {
   return some;
 }
 
-struct Name {
-  const char* id;
-  const char* label;
-};
-
-struct Measured {
-  std::optional<double> value;
-  std::size_t n = 0;
-};
-
-Figure make_share(const Name& name, const Cases& of, const Is& counts, double target, bool more_is_better = true) {
-  Figure figure{name.id, name.label};
+/// The share of the cases `of` that count.
+Figure make_share(const char* id, const char* label, const Cases& of, const Is& counts) {
+  Figure figure{id, label};
   figure.n = of.size();
   figure.k = static_cast<std::size_t>(std::count_if(of.begin(), of.end(), counts));
-  figure.target = target;
-  figure.more_is_better = more_is_better;
   if (figure.n > 0) {
     figure.value = static_cast<double>(figure.k) / static_cast<double>(figure.n);
     figure.interval = calc_wilson_95(figure.k, figure.n);
@@ -47,14 +36,26 @@ Figure make_share(const Name& name, const Cases& of, const Is& counts, double ta
   return figure;
 }
 
-Figure make_number(const Name& name, const Measured& measured, Unit unit, std::optional<double> target,
-                   bool more_is_better = false) {
-  Figure figure{name.id, name.label, measured.value};
-  figure.n = measured.n;
+/// A number over `n` cases, of which less is better.
+Figure make_number(const char* id, const char* label, std::optional<double> value, std::size_t n, Unit unit) {
+  Figure figure{id, label, value};
+  figure.n = n;
   figure.unit = unit;
+  figure.more_is_better = false;
+  if (!value.has_value()) figure.note = "no such case";
+  return figure;
+}
+
+Figure at_least(double target, Figure figure, std::optional<double> floor = std::nullopt) {
   figure.target = target;
-  figure.more_is_better = more_is_better;
-  if (!measured.value.has_value()) figure.note = "no such case";
+  figure.floor = floor;
+  figure.more_is_better = true;
+  return figure;
+}
+
+Figure at_most(double target, Figure figure, std::optional<double> floor = std::nullopt) {
+  figure = at_least(target, std::move(figure), floor);
+  figure.more_is_better = false;
   return figure;
 }
 
@@ -69,59 +70,41 @@ bool is_detectable(const Case& one, const ScoreOptions& options) {
 }
 
 void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
+  const auto is_named = [](const Case& one) { return one.is_named(); };
   const Cases singles = only(cases, [](const Case& one) { return one.is_single(); });
   const Cases detectable = only(singles, [&](const Case& one) { return is_detectable(one, options); });
   // Without any upper bound all count; with d' alone none is known to be.
   const Cases identifiable =
       only(detectable, [](const Case& one) { return one.identifiable.value_or(!one.d_prime.has_value()); });
-  figures.push_back(make_share(
-      {"detection", "detection, detectable singles"}, detectable,
-      [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); }, 0.99));
+  figures.push_back(at_least(
+      0.99, make_share("detection", "detection, detectable singles", detectable,
+                       [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kNoGap); })));
   figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_detection);
-  figures.push_back(make_share(
-      {"false_alarms", "false alarms, no effect"}, only(cases, [](const Case& one) { return one.is_clean(); }),
-      [](const Case& one) { return !one.is(Verdict::kNoGap); }, 0.01, false));
-  figures.back().floor = 0.02;
-  figures.push_back(make_share(
-      {"top1_set_aware", "top-1 set-aware, detectable"}, detectable, [](const Case& one) { return one.is_named(); },
-      0.97));
-  figures.back().floor = 0.92;
+  figures.push_back(at_most(
+      0.01,
+      make_share("false_alarms", "false alarms, no effect", only(cases, [](const Case& one) { return one.is_clean(); }),
+                 [](const Case& one) { return !one.is(Verdict::kNoGap); }),
+      0.02));
+  figures.push_back(
+      at_least(0.97, make_share("top1_set_aware", "top-1 set-aware, detectable", detectable, is_named), 0.92));
   figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_small_set);
-  figures.push_back(make_share(
-      {"top1_exact", "top-1 exact, identifiable"}, identifiable, [](const Case& one) { return one.is_exact(); }, 0.95));
-  figures.push_back(make_share(
-      {"top3", "top-3, all singles"}, singles,
-      [](const Case& one) { return one.answer.failure.empty() && one.rank_of_truth() < kTop; }, 0.98));
-  figures.back().floor = 0.95;
+  figures.push_back(at_least(0.95, make_share("top1_exact", "top-1 exact, identifiable", identifiable,
+                                              [](const Case& one) { return one.is_exact(); })));
+  figures.push_back(
+      at_least(0.98,
+               make_share("top3", "top-3, all singles", singles,
+                          [](const Case& one) { return one.answer.failure.empty() && one.rank_of_truth() < kTop; }),
+               0.95));
   const Cases pairs = only(cases, [](const Case& one) { return one.is_pair(); });
-  figures.push_back(make_share(
-      {"pairs", "pairs, both named"}, pairs, [](const Case& one) { return one.is_named(); }, 0.90));
+  figures.push_back(at_least(0.90, make_share("pairs", "pairs, both named", pairs, is_named)));
   figures.back().upper_bound =
       find_mean_chance(pairs, [&](const Case& one) { return find_chance_of_pair(one, options.detectable_d_prime); });
   // Only a computed bound tells that the second effect can be seen beside the first.
-  figures.push_back(make_share(
-      {"pairs_identifiable", "  of those that can be told"},
-      only(cases,
-           [&](const Case& one) {
-             return one.is_pair() && one.d_prime.has_value() && is_detectable(one, options) &&
-                    one.identifiable.value_or(false);
-           }),
-      [](const Case& one) { return one.is_named(); }, 0.90));
-}
-
-/// A part of the row above it, without a target of its own.
-Figure make_part(const Name& name, const Cases& of, const Is& counts) {
-  Figure figure = make_share(name, of, counts, 0.0, false);
-  figure.target.reset();
-  return figure;
-}
-
-std::vector<Stated> list_stated(const Cases& cases) {
-  std::vector<Stated> stated;
-  for (const Case& one : cases) {
-    if (one.answer.failure.empty()) stated.push_back(one.stated());
-  }
-  return stated;
+  const Cases identifiable_pairs = only(pairs, [&](const Case& one) {
+    return one.d_prime.has_value() && is_detectable(one, options) && one.identifiable.value_or(false);
+  });
+  figures.push_back(
+      at_least(0.90, make_share("pairs_identifiable", "  of those that can be told", identifiable_pairs, is_named)));
 }
 
 std::optional<double> calc_ece_of(const Cases& cases) {
@@ -130,66 +113,53 @@ std::optional<double> calc_ece_of(const Cases& cases) {
 }
 
 void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector<Figure>& figures) {
-  const Cases inside = only(cases, [](const Case& one) { return one.is_single() || one.is_pair(); });
+  const Cases inside = only(cases, [](const Case& one) { return one.is_inside(); });
   const Cases outside = only(cases, [](const Case& one) { return one.truth.outside; });
   const auto wrong = [](const Case& one) { return one.is_wrong_above(kConfident); };
-  figures.push_back(make_share({"wrong_above_inside", "wrong above 0.9, in the catalog"}, inside, wrong, 0.01, false));
-  figures.back().floor = 0.02;
-  figures.push_back(make_part({"wrong_above_half", "  with one of two named, alone"}, inside,
-                              [&](const Case& one) { return wrong(one) && one.names_one_of_two(); }));
-  figures.push_back(make_share(
-      {"wrong_above_of_calls", "  of what is stated above 0.9"},
-      only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); }), wrong, 0.01, false));
-  figures.push_back(make_share({"wrong_above_outside", "wrong above 0.9, outside of it"}, outside, wrong, 0.05, false));
-  figures.back().floor = 0.08;
-  figures.push_back(make_share(
-      {"abstention", "abstention, outside of it"}, outside,
-      [](const Case& one) { return one.answer.failure.empty() && !one.is(Verdict::kExplained); }, 0.90));
+  figures.push_back(
+      at_most(0.01, make_share("wrong_above_inside", "wrong above 0.9, in the catalog", inside, wrong), 0.02));
+  figures.push_back(make_share("wrong_above_half", "  with one of two named, alone", inside,
+                               [&](const Case& one) { return wrong(one) && one.names_one_of_two(); }));
+  figures.back().more_is_better = false;
+  const Cases calls = only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); });
+  figures.push_back(at_most(0.01, make_share("wrong_above_of_calls", "  of what is stated above 0.9", calls, wrong)));
+  figures.push_back(
+      at_most(0.05, make_share("wrong_above_outside", "wrong above 0.9, outside of it", outside, wrong), 0.08));
+  figures.push_back(at_least(0.90, make_share("abstention", "abstention, outside of it", outside, [](const Case& one) {
+                               return one.answer.failure.empty() && !one.is(Verdict::kExplained);
+                             })));
   const std::vector<Stated> stated = list_stated(cases);
-  const bool any = !stated.empty();
-  figures.push_back(make_number({"ece", "calibration, ECE"}, {calc_ece_of(cases), stated.size()}, Unit::kNumber, 0.02));
+  figures.push_back(
+      at_most(0.02, make_number("ece", "calibration, ECE", calc_ece_of(cases), stated.size(), Unit::kNumber)));
   const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
-  figures.push_back(make_number({"ece_visible", "  without what cannot be seen"},
-                                {calc_ece_of(visible), visible.size()}, Unit::kNumber, std::nullopt));
-  figures.push_back(make_number({"brier", "calibration, Brier score"},
-                                {any ? std::optional<double>(calc_brier(stated)) : std::nullopt, stated.size()},
-                                Unit::kNumber, 0.08));
+  figures.push_back(
+      make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(), Unit::kNumber));
+  const auto brier = stated.empty() ? std::nullopt : std::optional<double>(calc_brier(stated));
+  figures.push_back(
+      at_most(0.08, make_number("brier", "calibration, Brier score", brier, stated.size(), Unit::kNumber)));
 }
 
 void add_sizes(const Cases& cases, std::vector<Figure>& figures) {
+  const Cases sized = only(cases, [](const Case& one) { return one.check_size().has_value(); });
   std::vector<double> errors;
-  std::size_t covered = 0;
-  for (const Case& one : cases) {
-    const std::optional<SizeCheck> check = one.check_size();
-    if (!check) continue;
-    errors.push_back(check->error);
-    covered += check->covered ? 1 : 0;
-  }
-  figures.push_back(make_number({"size_error", "size, median error"}, {quantile(errors, kMedian), errors.size()},
-                                Unit::kPercent, 0.05));
-  Figure coverage{"size_coverage", "size, held by its 95 % interval"};
-  coverage.k = covered;
-  coverage.n = errors.size();
-  if (coverage.n > 0) {
-    coverage.value = static_cast<double>(covered) / static_cast<double>(coverage.n);
-    coverage.interval = calc_wilson_95(covered, coverage.n);
-  } else {
-    coverage.note = "no such case";
-  }
-  figures.push_back(coverage);
+  for (const Case& one : sized) errors.push_back(one.check_size()->error);
+  figures.push_back(at_most(
+      0.05, make_number("size_error", "size, median error", quantile(errors, kMedian), errors.size(), Unit::kPercent)));
+  figures.push_back(make_share("size_coverage", "size, held by its 95 % interval", sized,
+                               [](const Case& one) { return one.check_size()->covered; }));
 }
 
 void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
   std::vector<double> ratios;
   for (const Case& one : cases) {
     if (!one.known_cause_shrink_percent.has_value() || *one.known_cause_shrink_percent <= 0.0) continue;
-    if (!one.is_single() && !one.is_pair()) continue;
+    if (!one.is_inside()) continue;
     ratios.push_back(one.answer.diagnosis.gap.shrink_percent.value_or(0.0) / *one.known_cause_shrink_percent);
   }
-  figures.push_back(make_number({"shrinkage_median", "shrinkage/known cause's, median"},
-                                {quantile(ratios, kMedian), ratios.size()}, Unit::kNumber, 0.97, true));
-  figures.push_back(make_number({"shrinkage_tenth", "  10th percentile"}, {quantile(ratios, kTenth), ratios.size()},
-                                Unit::kNumber, 0.8, true));
+  figures.push_back(at_least(0.97, make_number("shrinkage_median", "shrinkage/known cause's, median",
+                                               quantile(ratios, kMedian), ratios.size(), Unit::kNumber)));
+  figures.push_back(at_least(0.8, make_number("shrinkage_tenth", "  10th percentile", quantile(ratios, kTenth),
+                                              ratios.size(), Unit::kNumber)));
   if (ratios.empty()) {
     figures.end()[-1].note = figures.end()[-2].note = "not measured: rollrig_validation known-cause";
   }
@@ -197,50 +167,53 @@ void add_shrinkage(const Cases& cases, std::vector<Figure>& figures) {
 
 /// Of the sets with an effect of the catalog whose next test was done: in how many it splits what was named.
 void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
+  const auto is_done = [](const Case& one, std::optional<FollowUp> Case::*test) {
+    return one.is_inside() && (one.*test).has_value() && (one.*test)->answer.has_value();
+  };
   const auto add = [&](const char* id, const char* label, std::optional<FollowUp> Case::*test, const char* how) {
-    const Cases done = only(cases, [test](const Case& one) {
-      return (one.is_single() || one.is_pair()) && (one.*test).has_value() && (one.*test)->answer.has_value();
-    });
-    figures.push_back(make_share(
-        {id, label}, done, [test](const Case& one) { return one.is_split_by(*(one.*test)); }, 0.90));
+    figures.push_back(make_share(id, label, only(cases, [&](const Case& one) { return is_done(one, test); }),
+                                 [test](const Case& one) { return one.is_split_by(*(one.*test)); }));
     const bool any =
         std::any_of(cases.begin(), cases.end(), [test](const Case& one) { return (one.*test).has_value(); });
     if (!any) figures.back().note = how;
   };
   add("next_test", "next test splits the set", &Case::next_test, "not measured: rollrig_validation plan");
-  const Cases promised = only(cases, [](const Case& one) {
-    return (one.is_single() || one.is_pair()) && one.next_test.has_value() && one.next_test->answer.has_value() &&
-           one.next_test->is_promised(one.answer);
-  });
-  figures.push_back(make_share(
-      {"promised_test", "  where it is said to"}, promised,
-      [](const Case& one) { return one.is_split_by(*one.next_test); }, 0.90));
-  figures.back().target.reset();
+  figures.back().target = 0.90;
+  const Cases promised = only(
+      cases, [&](const Case& one) { return is_done(one, &Case::next_test) && one.next_test->is_promised(one.answer); });
+  figures.push_back(make_share("promised_test", "  where it is said to", promised,
+                               [](const Case& one) { return one.is_split_by(*one.next_test); }));
   if (promised.empty()) figures.back().note = figures.end()[-2].value ? "no such case" : figures.end()[-2].note;
   add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig_validation plan --drawn");
-  figures.back().target.reset();  // what there is to beat
 }
 
 void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
   Tally all;
   std::vector<double> seconds;
   for (const Case& one : cases) {
-    if (one.is_single() || one.is_pair()) all.add(one);
+    if (one.is_inside()) all.add(one);
     seconds.push_back(one.answer.cpu_seconds);
   }
   const std::size_t explained = all.named + all.named_wrong;
   add_next_tests(cases, figures);
-  figures.push_back(make_number({"named_set", "mean size of the named set"},
-                                {explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt, explained},
-                                Unit::kNumber, 1.3));
-  figures.back().floor = 1.5;
-  figures.push_back(make_number({"time_median", "CPU time of a case, median"},
-                                {quantile(seconds, kMedian), seconds.size()}, Unit::kSeconds, std::nullopt));
+  const auto mean = explained > 0 ? std::optional<double>(all.mean_named_set()) : std::nullopt;
   figures.push_back(
-      make_number({"time_largest", "  largest"}, {quantile(seconds, 1.0), seconds.size()}, Unit::kSeconds, 30.0));
+      at_most(1.3, make_number("named_set", "mean size of the named set", mean, explained, Unit::kNumber), 1.5));
+  figures.push_back(make_number("time_median", "CPU time of a case, median", quantile(seconds, kMedian), seconds.size(),
+                                Unit::kSeconds));
+  figures.push_back(
+      at_most(30.0, make_number("time_largest", "  largest", quantile(seconds, 1.0), seconds.size(), Unit::kSeconds)));
 }
 
 }  // namespace
+
+std::vector<Stated> list_stated(const Cases& cases) {
+  std::vector<Stated> stated;
+  for (const Case& one : cases) {
+    if (one.answer.failure.empty()) stated.push_back(one.stated());
+  }
+  return stated;
+}
 
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
   std::vector<Figure> figures;

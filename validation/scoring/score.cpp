@@ -86,7 +86,6 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
   Score score;
   score.cases = cases.size();
   score.figures = find_figures(cases, options);
-  std::vector<Stated> stated;
   std::set<std::string> programs;
   for (const Case& one : cases) {
     score.by_effect[one.truth.effects.size() > 1 ? "pairs" : one.truth.name()].add(one);
@@ -96,15 +95,12 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
       score.by_size_class[one.truth.effects.front().size_class].add(one);
     }
     ++score.confusion[one.truth.name()][one.said()];
-    if (one.answer.failure.empty()) stated.push_back(one.stated());
     if (!one.is_right()) score.missed.push_back(one);
     if (one.next_test.has_value() || one.drawn_test.has_value()) score.followed_up.push_back(one);
     programs.insert(one.answer.settings.program_sha256);
   }
-  score.reliability = find_reliability(stated);
-  const auto lacks_d_prime = [](const Case& one) {
-    return (one.is_single() || one.is_pair()) && !one.d_prime.has_value();
-  };
+  score.reliability = find_reliability(list_stated(cases));
+  const auto lacks_d_prime = [](const Case& one) { return one.is_inside() && !one.d_prime.has_value(); };
   const auto lacking = std::count_if(cases.begin(), cases.end(), lacks_d_prime);
   const bool any_known =
       std::any_of(cases.begin(), cases.end(), [](const Case& one) { return one.d_prime.has_value(); });
@@ -116,8 +112,7 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
   if (programs.size() > 1) {
     score.warnings.push_back(fmt::format("the answers are of {} different programs", programs.size()));
   }
-  const bool has_d_prime = std::any_of(cases.begin(), cases.end(), [](const Case& c) { return c.d_prime.has_value(); });
-  if (!has_d_prime) {
+  if (!any_known) {
     score.warnings.push_back(
         fmt::format("no d' is known: \"detectable\" is a signal of {:g} noise floors or more in one channel, before "
                     "calibration, and takes all these effects for identifiable",
