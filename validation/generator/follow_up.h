@@ -19,9 +19,11 @@ std::string follow_up_folder(const FollowUpOrder& order);
 /// For each plan in <folder>/plans/<number>/ the case with the planned runs after its own, in
 /// <folder>/sets/<number>/: the same specimen, effects with their sizes, forms and shapes, and sensors; a session that
 /// the case does not have has offsets of its own. A function of the truth and the plans. Returns how many cases there
-/// are. Errors InputError: no plans; a plan of no case of this set, or of other files; truth or cases are not those of
-///         this program's set; cases are there already
-/// Checked tests/validation/generator/follow_up_test.cpp
+/// are.
+///
+/// Errors   InputError: no plans; a plan of no case of this set, or of other files; truth or cases are not those of
+///          this program's set; cases are there already
+/// Checked  tests/validation/generator/follow_up_test.cpp
 std::size_t write_follow_up(const FollowUpOrder& order, const Count& progress);
 
 }  // namespace rollrig::generator

@@ -7,7 +7,8 @@
 
 namespace rollrig::generator {
 
-/// The order that makes a case of `truth` anew. Errors  InputError: no truth of this generator
+/// The order that makes a case of `truth` anew.
+/// Errors  InputError: no truth of this generator
 SetOrder read_order(const Json& truth);
 
 /// Errors  InputError: the files in `folder` are not those that the order makes

@@ -40,7 +40,7 @@ struct SensorStream {
   std::string run;
 };
 
-/// Adds what the sensor makes of the true values, then takes samples away (NaN).
+/// Turns true values into what the sensor reads.
 /// Drift starts stationary in every run and channel and goes on through missing samples; rounding comes last.
 void apply_sensor(const Sensor& sensor, const SensorStream& stream, const Channel& channel,
                   const std::vector<double>& time_s, std::vector<double>& values);

@@ -55,8 +55,10 @@ struct PlanOrder {
 /// the files of diagnosis::write_plan. The runs are those of the menu's test of that description: an answer does not
 /// hold them, and the menu is a function of the set. A test is not made where a measurement set has no place for what
 /// it reads (a common pulse, a further sensor). Drawn: each test that can be made is as likely. Opens cases and answers
-/// alone. Errors   InputError: cases without an answer to their files; a test that the menu does not have; plans are
-/// there Checked  tests/validation/scoring/follow_up_test.cpp
+/// alone.
+///
+/// Errors   InputError: cases without an answer to their files; a test that the menu does not have; plans are there
+/// Checked  tests/validation/scoring/follow_up_test.cpp
 std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order);
 
 /// Puts the tests of a choice, planned in `folder`, and the answers to them beside the cases of a validation set.

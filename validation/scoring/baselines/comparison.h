@@ -10,7 +10,7 @@ namespace rollrig::validation {
 /// Errors   InputError: as read_cases()
 std::vector<BaselineScore> score_baselines(const ScoreOrder& order, const ScoreOptions& options);
 
-/// Into the score, with the best value of each figure.
+/// Puts the baselines' figures into the score, and the best of them beside each figure of the diagnosis.
 /// Checked  tests/validation/scoring/score_test.cpp
 void put_beside(std::vector<BaselineScore> baselines, Score& score);
 

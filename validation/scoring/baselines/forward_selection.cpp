@@ -36,8 +36,7 @@ Naming name_by_forward_selection(const LinearData& data, double penalty) {
   while (true) {
     const std::vector<CandidateModel> models = add_one(data, squares, penalty, best.columns);
     tried.insert(tried.end(), models.begin(), models.end());
-    const auto next = std::min_element(models.begin(), models.end(),
-                                       [](const auto& a, const auto& b) { return a.criterion < b.criterion; });
+    const auto next = std::min_element(models.begin(), models.end());
     if (next == models.end() || next->criterion >= best.criterion) break;
     best = *next;
   }

@@ -8,8 +8,9 @@
 namespace rollrig::validation {
 
 /// Regression with a squared-exponential kernel about 0. One factor for all length scales and the size of the signal
-/// are those of largest likelihood, on a grid; the noise is known. Equation  K(x, x') = s^2 exp(-|x - x'|^2/(2 f^2));
-/// prediction K(x, X) (K + N)^-1 y;
+/// are those of largest likelihood, on a grid; the noise is known.
+///
+/// Equation  K(x, x') = s^2 exp(-|x - x'|^2/(2 f^2));  prediction K(x, X) (K + N)^-1 y;
 ///           ln p = -(y^T (K + N)^-1 y + ln |K + N|)/2
 /// Symbols   X, y what was seen; N covariance of its noise; s size, f factor
 /// Source    Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), equations 2.25 and 5.8

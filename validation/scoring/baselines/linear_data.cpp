@@ -5,8 +5,6 @@
 
 namespace rollrig::validation {
 
-using diagnosis::at;
-
 BaseProjection::BaseProjection(const diagnosis::RowMatrix& jacobian) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobian.transpose() * jacobian);
   constexpr double kNegligible = 1e-12;
@@ -30,16 +28,9 @@ LeastSquares::LeastSquares(const LinearData& data) : chi2_(data.residual.squared
 }
 
 LeastSquares::Fit LeastSquares::fit(const std::vector<std::size_t>& columns) const {
-  const Eigen::Index n = at(columns.size());
-  Eigen::MatrixXd products(n, n);
-  Eigen::VectorXd along(n);
-  Eigen::VectorXd lengths(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Eigen::Index column = at(columns[static_cast<std::size_t>(i)]);
-    along[i] = along_[column];
-    lengths[i] = lengths_[column];
-    for (Eigen::Index k = 0; k < n; ++k) products(i, k) = products_(column, at(columns[static_cast<std::size_t>(k)]));
-  }
+  const Eigen::MatrixXd products = products_(columns, columns);
+  const Eigen::VectorXd along = along_(columns);
+  const Eigen::VectorXd lengths = lengths_(columns);
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(1e-9);  // of twins: rounding, not difference
   decomposition.compute(products);

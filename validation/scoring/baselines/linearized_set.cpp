@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/screen.h"
@@ -30,6 +31,8 @@ const EffectParameter& size_of(const TriedEffect& tried) { return tried.term.ter
 struct Size {
   double off = 0.0;
   double tried = 0.0;
+
+  double at_amplitude(double amplitude) const { return off + amplitude * (tried - off); }
 };
 
 /// In the unit of the key.
@@ -44,8 +47,7 @@ Eigen::VectorXd scale_own(const ChosenEffect& chosen) {
   const Size size = find_size(chosen.tried);
   const double factor = unit_of_key(size_of(chosen.tried).key).factor;
   Eigen::VectorXd own = chosen.tried.own;
-  own[0] = diagnosis::to_prior_units(size_of(chosen.tried),
-                                     factor * (size.off + chosen.amplitude * (size.tried - size.off)));
+  own[0] = diagnosis::to_prior_units(size_of(chosen.tried), factor * size.at_amplitude(chosen.amplitude));
   return own;
 }
 
@@ -133,7 +135,7 @@ diagnosis::ParameterEstimate estimate_size(const ChosenEffect& chosen) {
   diagnosis::ParameterEstimate estimate;
   estimate.name = fmt::format("{}.{}", chosen.tried.term.term->name(), declared.key);
   estimate.unit = unit_of_key(declared.key).symbol;
-  estimate.value = size.off + chosen.amplitude * (size.tried - size.off);
+  estimate.value = size.at_amplitude(chosen.amplitude);
   estimate.sd = chosen.sd * std::abs(size.tried - size.off);
   estimate.low_95 = estimate.value - kNormal95 * estimate.sd;
   estimate.high_95 = estimate.value + kNormal95 * estimate.sd;

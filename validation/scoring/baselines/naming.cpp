@@ -24,8 +24,7 @@ Naming weigh(const LinearData& data, const std::vector<CandidateModel>& models, 
   naming.probability = {{"none", 0.0}, {"unknown", 0.0}};
   for (const std::string& effect : data.effects) naming.probability[effect] = 0.0;
   const std::vector<std::string> named = find_named(data, naming.chosen);
-  const auto better = [](const CandidateModel& a, const CandidateModel& b) { return a.criterion < b.criterion; };
-  const double best = std::min_element(models.begin(), models.end(), better)->criterion;
+  const double best = std::min_element(models.begin(), models.end())->criterion;
   double sum = 0.0;
   for (const CandidateModel& model : models) sum += std::exp(0.5 * (best - model.criterion));
   for (const CandidateModel& model : models) {

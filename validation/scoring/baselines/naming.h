@@ -24,6 +24,8 @@ struct CandidateModel {
   std::vector<std::size_t> columns;
   double criterion = 0.0;
 };
+/// Whether `a` is the better one.
+inline bool operator<(const CandidateModel& a, const CandidateModel& b) { return a.criterion < b.criterion; }
 
 /// Probabilities by the weights of Akaike or Schwarz; an effect has those of all models that contain it.
 /// Equation  w_i = exp(-(c_i - c_best)/2) / sum

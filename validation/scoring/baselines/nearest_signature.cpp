@@ -19,8 +19,7 @@ Naming name_by_nearest_signature(const LinearData& data) {
     const double along = std::max(0.0, squares.along()[at(column)]);
     effects.push_back({{column}, -along * along});
   }
-  const auto nearest = std::min_element(effects.begin(), effects.end(),
-                                        [](const auto& a, const auto& b) { return a.criterion < b.criterion; });
+  const auto nearest = std::min_element(effects.begin(), effects.end());
   const bool is_named = is_gap && nearest != effects.end() && nearest->criterion < 0.0;
   if (effects.empty()) effects.push_back({{}, 0.0});
   Naming naming = weigh(data, effects, is_named ? nearest->columns : std::vector<std::size_t>{});

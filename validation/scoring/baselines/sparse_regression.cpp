@@ -53,9 +53,7 @@ Naming name_by_sparse_regression(const LinearData& data) {
     if (!known.insert({support.begin(), support.end()}).second) continue;
     path.push_back({support, squares.fit(support).chi2 + penalty * static_cast<double>(support.size())});
   }
-  const auto best = std::min_element(path.begin(), path.end(),
-                                     [](const auto& a, const auto& b) { return a.criterion < b.criterion; });
-  return weigh(data, path, best->columns);
+  return weigh(data, path, std::min_element(path.begin(), path.end())->columns);
 }
 
 }  // namespace rollrig::validation
