@@ -16,16 +16,7 @@ namespace fs = std::filesystem;
 namespace rollrig::validation {
 namespace {
 
-constexpr const char* kFormat = "rollrig-blind-bank/1";
 constexpr const char* kMade = "a folder made by rollrig_validation make, with its cases in sets/";
-
-/// Whatever is in a file; nothing where it cannot be read.
-std::string read_bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
 
 /// The hash that truth.json must have. Throws InputError.
 std::string find_hash(const fs::path& set, const std::string& given) {
@@ -44,6 +35,13 @@ std::string find_hash(const fs::path& set, const std::string& given) {
 }
 
 }  // namespace
+
+std::string read_bytes(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream content;
+  content << in.rdbuf();
+  return content.str();
+}
 
 std::vector<std::string> list_cases(const std::string& set) {
   const fs::path folder = fs::path(set) / "sets";
@@ -72,7 +70,7 @@ std::string hash_case(const std::string& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file()) continue;
-    files[fs::relative(entry.path(), folder).generic_string()] = read_bytes(entry.path());
+    files[fs::relative(entry.path(), folder).generic_string()] = read_bytes(entry.path().string());
   }
   return hash_files(files);
 }
@@ -89,11 +87,11 @@ TruthFile open_truth(const std::string& set, const std::string& hash) {
   }
   try {
     const Json json = Json::parse(text);
-    if (json.at("format") == kFormat) opened.cases = json.at("sets");
+    if (json.at("format") == kTruthFormat) opened.cases = json.at("sets");
   } catch (const Json::exception&) {  // said below
   }
   if (opened.cases.is_object()) return opened;
-  throw InputError({"not the truth of a validation set", file, 0, "format", "", kFormat, ""});
+  throw InputError({"not the truth of a validation set", file, 0, "format", "", kTruthFormat, ""});
 }
 
 bool lies_within(const std::string& path, const std::string& folder) {

@@ -9,6 +9,18 @@
 
 namespace rollrig::validation {
 
+// Formats of the files that the generator and the scoring exchange.
+constexpr const char* kTruthFormat = "rollrig-blind-bank/1";
+constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
+constexpr const char* kUpperBoundFormat = "rollrig-blind-ceiling/1";
+
+// In a validation set: plans of follow-up tests, and the cases made by them.
+constexpr const char* kFollowUpFolder = "followup";
+constexpr const char* kDrawnFollowUpFolder = "followup-drawn";  // tests drawn from the menu
+
+/// Whatever is in a file; nothing where it cannot be read.
+std::string read_bytes(const std::string& file);
+
 /// Numbers of the cases, which are the folders in <set>/sets, sorted. Throws InputError where there is none. Opens no
 /// file.
 std::vector<std::string> list_cases(const std::string& set);

@@ -58,7 +58,8 @@ Files follow_up_case(const FollowUpOrder& order, const std::string& number, cons
 }  // namespace
 
 std::string follow_up_folder(const FollowUpOrder& order) {
-  return (fs::path(order.set) / (order.drawn ? "followup-drawn" : "followup")).string();
+  return (fs::path(order.set) / (order.drawn ? validation::kDrawnFollowUpFolder : validation::kFollowUpFolder))
+      .string();
 }
 
 std::size_t write_follow_up(const FollowUpOrder& order, const Count& progress) {

@@ -8,13 +8,12 @@
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "validation/files.h"
 
 namespace fs = std::filesystem;
 
 namespace rollrig::generator {
 namespace {
-
-constexpr const char* kFormat = "rollrig-blind-plan/1";
 
 /// The given columns of one planned run.
 class PlannedTable {
@@ -143,12 +142,12 @@ TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double
   TestPlan plan;
   try {
     const Json json = Json::parse(read_text_file(file));
-    require(json, "format", kFormat);
+    require(json, "format", validation::kPlanFormat);
     require(json, "kind", order.machine->name());
     plan.set_sha256 = json.at("set_sha256").get<std::string>();
     for (const Json& run : json.at("runs")) plan.runs.push_back(read_run(folder, run, order, road_load_N));
   } catch (const Json::exception& error) {
-    throw InputError({fmt::format("not a plan: {}", error.what()), file, 0, "", "", kFormat, ""});
+    throw InputError({fmt::format("not a plan: {}", error.what()), file, 0, "", "", validation::kPlanFormat, ""});
   }
   if (plan.runs.empty()) throw InputError({"a plan without runs", file, 0, "runs", "[]", "one run or more", ""});
   return plan;

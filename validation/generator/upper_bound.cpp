@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 namespace rollrig::generator {
 namespace {
 
-constexpr const char* kFormat = "rollrig-blind-ceiling/1";
 constexpr double kToldApart = 3.0;  // expected log Bayes factor; the diagnosis' own measure
 
 bool is_outside(const std::string& id) { return find_effect_kind(id)->outside; }
@@ -68,8 +67,8 @@ std::vector<std::pair<std::string, SetOrder>> read_orders(const UpperBoundOrder&
 Json read_kept(const std::string& file, const std::string& truth_sha256) {
   std::ifstream in(file);
   const Json old = Json::parse(in, nullptr, false);
-  const bool is_ours =
-      old.is_object() && old.value("format", "") == kFormat && old.value("truth_sha256", "") == truth_sha256;
+  const bool is_ours = old.is_object() && old.value("format", "") == validation::kUpperBoundFormat &&
+                       old.value("truth_sha256", "") == truth_sha256;
   return is_ours && old.contains("sets") ? old["sets"] : Json::object();
 }
 
@@ -117,7 +116,9 @@ std::size_t write_upper_bounds(UpperBoundOrder& order, const Count& progress) {
     require_same_files(validation::case_folder(order.set, number), set);
     described[i] = describe(set, find_upper_bound(set, order.detection_alone));
   });
-  Json json = {{"format", kFormat}, {"truth_sha256", truth.sha256}, {"sets", read_kept(order.out, truth.sha256)}};
+  Json json = {{"format", validation::kUpperBoundFormat},
+               {"truth_sha256", truth.sha256},
+               {"sets", read_kept(order.out, truth.sha256)}};
   for (std::size_t i = 0; i < orders.size(); ++i) json["sets"][orders[i].first] = std::move(described[i]);
   write_output(order.out, json.dump(1) + "\n");
   return orders.size();

@@ -96,7 +96,7 @@ MadeSet make_planned(const ValidationSetOrder& order, const Plan& plan, const st
 }
 
 Json describe(const ValidationSetOrder& order) {
-  Json truth = {{"format", "rollrig-blind-bank/1"},
+  Json truth = {{"format", validation::kTruthFormat},
                 {"seed", order.seed},
                 {"each", order.each},
                 {"none", order.none},

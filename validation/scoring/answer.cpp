@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "diagnosis/output/diagnosis_json.h"
 #include "sim/core/error.h"
@@ -72,12 +70,7 @@ bool operator==(const Settings& a, const Settings& b) {
   return a.program_sha256 == b.program_sha256 && a.only == b.only && a.without == b.without;
 }
 
-std::string hash_program() {
-  std::ifstream in("/proc/self/exe", std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return calc_sha256(content.str());
-}
+std::string hash_program() { return calc_sha256(read_bytes("/proc/self/exe")); }
 
 Json make_answer_json(const Answer& answer) {
   Json json = {{"format", kFormat},

@@ -25,7 +25,6 @@ using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
 constexpr const char* kPlansFormat = "rollrig-blind-plans/1";
-constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
 
 const char* flag_of(Choice choice) { return choice == Choice::kDrawn ? " --drawn" : ""; }
 
@@ -204,7 +203,7 @@ bool is_for(const FollowUpPlan& plan, const Answer& answer, Choice choice) {
 
 }  // namespace
 
-const char* folder_of(Choice choice) { return choice == Choice::kDrawn ? "followup-drawn" : "followup"; }
+const char* folder_of(Choice choice) { return choice == Choice::kDrawn ? kDrawnFollowUpFolder : kFollowUpFolder; }
 
 std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis) {
   if (diagnosis.causes.empty()) return {};

@@ -9,6 +9,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
+#include "validation/files.h"
 #include "validation/scoring/figures.h"
 
 namespace fs = std::filesystem;
@@ -45,7 +46,7 @@ void read_upper_bound(const std::string& set, const std::string& file, std::vect
     }
   } catch (const Json::exception& error) {
     throw InputError({fmt::format("not an upper bound of a validation set: {}", error.what()), file, 0, "--upper-bound",
-                      file, "rollrig-blind-ceiling/1", ""});
+                      file, kUpperBoundFormat, ""});
   }
 }
 
