@@ -115,7 +115,7 @@ CLI::App* add_answering(CLI::App& app, cli::Action& action, const Answering& of,
   options = shared.get();
   CLI::App* command = add_set_command(app, of.name, of.what, options->set);
   command->add_option("--threads", options->threads, "Cases at the same time [as many as the machine has cores]")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, kMostThreads));
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
   command->callback([shared, of, &action] { action = [shared, of] { return of.answer(*shared); }; });
   return command;

@@ -15,9 +15,10 @@ void add_plan_command(CLI::App& app, cli::Action& action);
 void add_score_command(CLI::App& app, cli::Action& action);
 void add_release_check_command(CLI::App& app, cli::Action& action);
 
-constexpr const char* kSetHelp = "Folder made by rollrig_validation make";
 constexpr const char* kAloneFolder = "answers-alone";       // in a validation set: the true effect alone
 constexpr const char* kLeftOutFolder = "answers-left-out";  // likewise: without it
+
+constexpr int kMostThreads = 1024;
 
 /// A command with the validation set that it is for.
 CLI::App* add_set_command(CLI::App& app, const std::string& name, const std::string& what, std::string& set);

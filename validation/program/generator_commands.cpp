@@ -19,7 +19,6 @@ namespace {
 using namespace generator;
 
 constexpr int kMostCases = 2000;
-constexpr int kMostThreads = 1024;
 
 /// Counts cases on a terminal.
 class CaseCounter {

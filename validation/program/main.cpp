@@ -10,7 +10,7 @@ namespace rollrig::validation {
 
 CLI::App* add_set_command(CLI::App& app, const std::string& name, const std::string& what, std::string& set) {
   CLI::App* command = app.add_subcommand(name, what);
-  command->add_option("set", set, kSetHelp)->required();
+  command->add_option("set", set, "Folder made by rollrig_validation make")->required();
   return command;
 }
 

@@ -29,13 +29,9 @@ Block make_shares(const Score& score) {
     high.push_back(rounded(100.0 * figure.interval->high));
     targets.push_back(figure.target.has_value() ? rounded(100.0 * *figure.target) : Json(nullptr));
   }
-  return {{"type", "bars"},
-          {"label", "Shares of cases"},
-          {"unit", "%"},
-          {"categories", names},
-          {"series",
-           {{{"name", "share, 95 % interval"}, {"values", values}, {"low", low}, {"high", high}},
-            {{"name", "target"}, {"values", targets}}}}};
+  return report::make_bars({"Shares of cases", "%"}, names,
+                           {{{"name", "share, 95 % interval"}, {"values", values}, {"low", low}, {"high", high}},
+                            {{"name", "target"}, {"values", targets}}});
 }
 
 Block make_reliability(const Score& score) {
@@ -44,7 +40,7 @@ Block make_reliability(const Score& score) {
     if (bin.cases == 0) continue;
     const Interval interval = calc_wilson_95(bin.right, bin.cases);
     x.push_back(rounded(bin.mean_probability));
-    y.push_back(rounded(static_cast<double>(bin.right) / static_cast<double>(bin.cases)));
+    y.push_back(rounded(bin.right_share()));
     low.push_back(rounded(interval.low));
     high.push_back(rounded(interval.high));
   }
@@ -73,12 +69,8 @@ Block make_lead(const Score& score) {
 }  // namespace
 
 report::Page make_score_page(const Score& score, const std::string& set) {
-  report::Page page{"score",
-                    "Score of a validation set",
-                    fmt::format("Validation set {}, {}", set, format_count(score.cases, "case")),
-                    {},
-                    false,
-                    {}};
+  report::Page page{"score", "Score of a validation set",
+                    fmt::format("Validation set {}, {}", set, format_count(score.cases, "case"))};
   const std::vector<Table> tables = make_score_tables(score);
   Section result{"Result", "", {make_lead(score)}};
   if (!score.warnings.empty()) result.blocks.push_back(report::make_warnings(score.warnings));

@@ -30,18 +30,13 @@ std::string format_upper_bounds(const Score& score) {
 }
 
 std::string format_figures(const Score& score) {
-  std::string text =
-      fmt::format("{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n", "figure", "value", "95 %", "cases", "target", "best b.");
+  constexpr char kRow[] = "{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n";
+  std::string text = fmt::format(kRow, "figure", "value", "95 %", "cases", "target", "best b.");
   for (const Figure& figure : score.figures) {
-    if (!figure.value.has_value()) {
-      text += fmt::format("{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n", figure.label, "-", "", "", format_target(figure),
-                          format_value(figure, figure.best_baseline)) +
-              wrap(figure.note, 4);
-      continue;
-    }
-    text += fmt::format("{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n", figure.label, format_value(figure, figure.value),
-                        format_interval(figure), format_cases(figure), format_target(figure),
+    text += fmt::format(kRow, figure.label, format_value(figure, figure.value), format_interval(figure),
+                        figure.value.has_value() ? format_cases(figure) : "", format_target(figure),
                         format_value(figure, figure.best_baseline));
+    if (!figure.value.has_value()) text += wrap(figure.note, 4);
   }
   return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n" + format_upper_bounds(score);
 }
@@ -96,8 +91,7 @@ std::string format_reliability(const Reliability& reliability) {
     if (bin.cases == 0) continue;
     const Interval interval = calc_wilson_95(bin.right, bin.cases);
     text += fmt::format("{:<12}{:>6} {:>8.1f} % {:>6.1f} % {:>14}\n", fmt::format("{} to {} %", 10 * i, 10 * (i + 1)),
-                        bin.cases, 100.0 * bin.mean_probability,
-                        100.0 * static_cast<double>(bin.right) / static_cast<double>(bin.cases),
+                        bin.cases, 100.0 * bin.mean_probability, 100.0 * bin.right_share(),
                         fmt::format("{:.1f} to {:.1f}", 100.0 * interval.low, 100.0 * interval.high));
   }
   return text;

@@ -84,11 +84,10 @@ Table make_reliability(const Reliability& reliability) {
     const ReliabilityBin& bin = reliability[i];
     if (bin.cases == 0) continue;
     const Interval interval = calc_wilson_95(bin.right, bin.cases);
-    table.rows.push_back(
-        {fmt::format("{} to {} %", 10 * i, 10 * (i + 1)), fmt::format("{}", bin.cases),
-         fmt::format("{:.1f} %", 100.0 * bin.mean_probability),
-         fmt::format("{:.1f} %", 100.0 * static_cast<double>(bin.right) / static_cast<double>(bin.cases)),
-         fmt::format("{:.1f} to {:.1f}", 100.0 * interval.low, 100.0 * interval.high)});
+    table.rows.push_back({fmt::format("{} to {} %", 10 * i, 10 * (i + 1)), fmt::format("{}", bin.cases),
+                          fmt::format("{:.1f} %", 100.0 * bin.mean_probability),
+                          fmt::format("{:.1f} %", 100.0 * bin.right_share()),
+                          fmt::format("{:.1f} to {:.1f}", 100.0 * interval.low, 100.0 * interval.high)});
   }
   return table;
 }

@@ -33,6 +33,8 @@ struct ReliabilityBin {
   std::size_t cases = 0;
   std::size_t right = 0;
   double mean_probability = 0.0;
+
+  double right_share() const { return static_cast<double>(right) / static_cast<double>(cases); }
 };
 using Reliability = std::array<ReliabilityBin, kReliabilityBins>;
 Reliability find_reliability(const std::vector<Stated>& stated);
