@@ -5,6 +5,14 @@
 
 namespace rollrig::generator {
 
+double RunStart::left_after_rest(double time_s, double pace) const {
+  return rest_before_min.has_value() ? std::exp(-60.0 * *rest_before_min * pace / time_s) : 0.0;
+}
+
+double RunStart::recovered_in_rest(double time_s) const {
+  return rest_before_min.has_value() ? -std::expm1(-60.0 * *rest_before_min / time_s) : 1.0;
+}
+
 const std::vector<const EffectKind*>& effect_kinds() {
   static const std::vector<const EffectKind*> kinds{
 #define ROLLRIG_EFFECT(id) &kind_##id,

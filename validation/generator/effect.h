@@ -18,6 +18,8 @@ namespace rollrig::generator {
 
 struct Wall;
 struct RunRecord;
+class Effect;
+using Effects = std::vector<std::unique_ptr<Effect>>;
 
 /// State of rig or vehicle at one instant; forces are those of one wheel. The first part is given, the second what
 /// enter() may change beside load and air, the third what act() may change, the last what rates() may read.
@@ -69,6 +71,11 @@ struct RunStart {
   std::optional<double> rest_before_min;  // none: soaked; 0: right after another run
   std::size_t index = 0;                  // of the run in its campaign
   double first_load_N = 0.0;
+
+  /// What the rest before the run leaves of something that decays as exp(-pace t/time_s); nothing where it was soaked.
+  double left_after_rest(double time_s, double pace = 1.0) const;
+  /// What of something comes back during the rest as 1 - exp(-t/time_s); all where it was soaked.
+  double recovered_in_rest(double time_s) const;
 };
 
 /// Heat of a warm tire at 80 km/h and the reference load: what effects driven by heat are measured by.
@@ -96,6 +103,7 @@ class Effect {
   /// What really acts where load and air are recorded, and the cavity; before everything else.
   virtual void enter(const double* /*state*/, Instant&) const {}
   virtual void act(const double* /*state*/, Instant&) const {}
+  /// Of its states; they are 0 before.
   virtual void rates(const double* /*state*/, const Instant&, double* /*rates*/) const {}
   /// What instruments and clocks do to the channels of a run.
   virtual void trace(RunRecord&) const {}

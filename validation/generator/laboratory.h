@@ -12,7 +12,6 @@
 
 namespace rollrig::generator {
 
-using Effects = std::vector<std::unique_ptr<Effect>>;
 using Columns = std::vector<std::vector<double>>;  // of the measured channels, by row; NaN: no sample
 
 constexpr double kLeastForceSpeed_km_h = 20.0;  // formats.md: below it the force may be empty

@@ -18,7 +18,7 @@ constexpr double kGasConstantOfAir = 287.05;  // J/(kg K)
 
 }  // namespace
 
-Plant::Plant(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run)
+Plant::Plant(const Specimen& specimen, const Effects& effects, const RunPlan& run)
     : specimen_(specimen),
       effects_(effects),
       run_(run),
@@ -186,6 +186,7 @@ void Plant::calc_rates(double time_s, const double* state, double* rates) const 
   rates[n] = to_gas_W + now.gas_heat_W - now.leak_mol_s * (kFreedoms + 1.0) * kGasConstant * (now.gas_degC + kZero_K);
   rates[n] -= 1e3 * (now.pressure_kPa + 1e-3 * kAir_Pa) * cavity_m3_ * now.volume_rate_per_s;  // work on the wall
   rates[n + 1] = -now.leak_mol_s;
+  std::fill(rates + n + 2, rates + size_, 0.0);
   for (std::size_t i = 0; i < effects_.size(); ++i) {
     effects_[i]->rates(state + effect_state_[i], now, rates + effect_state_[i]);
   }

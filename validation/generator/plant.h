@@ -32,7 +32,7 @@ struct Reading {
 
 class Plant {
  public:
-  Plant(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run);
+  Plant(const Specimen& specimen, const Effects& effects, const RunPlan& run);
 
   std::size_t size() const { return size_; }
   std::vector<double> start() const;
@@ -56,7 +56,7 @@ class Plant {
   void find_losses(const double* state, Instant& now, std::vector<double>& layer_loss_N) const;
 
   const Specimen& specimen_;
-  const std::vector<std::unique_ptr<Effect>>& effects_;
+  const Effects& effects_;
   const RunPlan& run_;
   Wall wall_;
   std::vector<double> loss_share_;

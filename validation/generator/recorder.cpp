@@ -149,7 +149,7 @@ Vector march_leg(const Plant& plant, const Leg& leg, Vector state, Collector& co
   return state;
 }
 
-Collector simulate(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run) {
+Collector simulate(const Specimen& specimen, const Effects& effects, const RunPlan& run) {
   Plant plant(specimen, effects, run);
   const std::vector<double> start = plant.start();
   Vector state(start.size());
@@ -221,8 +221,7 @@ double RunRecord::sample(const Signal& signal, std::size_t row, double shift_s) 
   return signal.mean(from_s + shift_s, to_s + shift_s);
 }
 
-RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects,
-                     const RunPlan& run) {
+RunRecord record_run(const Specimen& specimen, const Effects& effects, const RunPlan& run) {
   Collector collected = simulate(specimen, effects, run);
   RunRecord record;
   record.specimen = &specimen;

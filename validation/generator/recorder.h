@@ -49,6 +49,6 @@ constexpr double kMargin_s = 30.0;
 
 /// Simulates a run by linearly implicit Rosenbrock steps of order 4: on a drum of free size, restarted at each event;
 /// where the speed has a knot each second, of half a second.
-RunRecord record_run(const Specimen& specimen, const std::vector<std::unique_ptr<Effect>>& effects, const RunPlan& run);
+RunRecord record_run(const Specimen& specimen, const Effects& effects, const RunPlan& run);
 
 }  // namespace rollrig::generator

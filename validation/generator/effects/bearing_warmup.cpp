@@ -29,9 +29,7 @@ class BearingWarmup : public Effect {
 
   void start(const RunStart& start, double* rise_dK) const override {
     // Not soaked: warm before the rest. Standing, only the unforced share of the cooling acts.
-    if (start.rest_before_min.has_value()) {
-      rise_dK[0] = rise_dK_ * std::exp(-60.0 * *start.rest_before_min * (1.0 - forced_share_) / time_s_);
-    }
+    rise_dK[0] = rise_dK_ * start.left_after_rest(time_s_, 1.0 - forced_share_);
   }
 
   void act(const double* rise_dK, Instant& now) const override {
@@ -85,10 +83,8 @@ class ArrheniusBearing : public Effect {
   std::size_t state_count() const override { return 2; }  // rise of races and of housing
 
   void start(const RunStart& start, double* rise_dK) const override {
-    if (!start.rest_before_min.has_value()) return;
-    const double rest_s = 60.0 * *start.rest_before_min;
-    rise_dK[1] = (1.0 - race_share_) * rise_dK_ * std::exp(-rest_s * (1.0 - forced_share_) / time_s_);
-    rise_dK[0] = rise_dK[1] + race_share_ * rise_dK_ * std::exp(-rest_s / race_s_);
+    rise_dK[1] = (1.0 - race_share_) * rise_dK_ * start.left_after_rest(time_s_, 1.0 - forced_share_);
+    rise_dK[0] = rise_dK[1] + race_share_ * rise_dK_ * start.left_after_rest(race_s_);
   }
 
   void act(const double* rise_dK, Instant& now) const override {

@@ -13,9 +13,8 @@ class CellAirWarming : public Effect {
   std::size_t state_count() const override { return 2; }
 
   void start(const RunStart& start, double* state) const override {
-    if (!start.rest_before_min.has_value()) return;
-    state[0] = std::exp(-60.0 * *start.rest_before_min / air_s_);
-    state[1] = std::exp(-60.0 * *start.rest_before_min / walls_s_);
+    state[0] = start.left_after_rest(air_s_);
+    state[1] = start.left_after_rest(walls_s_);
   }
 
   void enter(const double* state, Instant& now) const override {

@@ -25,8 +25,6 @@ class Drafting : public Effect {
     now.drag_factor *= 1.0 - share_ * near;
   }
 
-  void rates(const double*, const Instant&, double* rates) const override { rates[0] = 0.0; }
-
  private:
   double share_;
   double meeting_m_ = 1.0;

@@ -15,8 +15,7 @@ class WarmingOil : public Effect {
   std::size_t state_count() const override { return 1; }
 
   void start(const RunStart& start, double* rise_dK) const override {
-    if (!start.rest_before_min.has_value()) return;
-    rise_dK[0] = 0.7 * rise_dK_ * std::exp(-60.0 * *start.rest_before_min / time_s_);
+    rise_dK[0] = 0.7 * rise_dK_ * start.left_after_rest(time_s_);
   }
 
  protected:

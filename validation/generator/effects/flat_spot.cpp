@@ -21,8 +21,7 @@ class FlatSpot : public Effect {
   std::size_t state_count() const override { return 2; }
 
   void start(const RunStart& start, double* flat) const override {
-    const bool soaked = !start.rest_before_min.has_value();
-    flat[0] = flat[1] = soaked ? 1.0 : -std::expm1(-60.0 * *start.rest_before_min / set_s_);
+    flat[0] = flat[1] = start.recovered_in_rest(set_s_);
   }
 
   void act(const double* flat, Instant& now) const override {
@@ -48,9 +47,7 @@ class SecondOrderSpot : public Effect {
 
   std::size_t state_count() const override { return 1; }
 
-  void start(const RunStart& start, double* flat) const override {
-    flat[0] = start.rest_before_min.has_value() ? -std::expm1(-60.0 * *start.rest_before_min / set_s_) : 1.0;
-  }
+  void start(const RunStart& start, double* flat) const override { flat[0] = start.recovered_in_rest(set_s_); }
 
   void act(const double* flat, Instant& now) const override { now.loss_factor *= 1.0 + excess_ * flat[0]; }
 

@@ -22,8 +22,6 @@ class HeaterRadiation : public Effect {
     now.tread_heat_W += power_W_ * on;
   }
 
-  void rates(const double*, const Instant&, double* rates) const override { rates[0] = 0.0; }
-
  private:
   double power_W_ = size_;
   double period_s_ = note("period_s", draws_.uniform(700.0, 2500.0));

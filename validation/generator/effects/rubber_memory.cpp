@@ -26,11 +26,8 @@ class RubberMemory : public Effect {
   std::size_t state_count() const override { return 2; }
 
   void start(const RunStart& start, double* rested) const override {
-    for (std::size_t i = 0; i < 2; ++i) {
-      // Not soaked: worked in before the rest.
-      rested[i] =
-          start.rest_before_min.has_value() ? -std::expm1(-60.0 * *start.rest_before_min / recovery_s_[i]) : 1.0;
-    }
+    // Not soaked: worked in before the rest.
+    for (std::size_t i = 0; i < 2; ++i) rested[i] = start.recovered_in_rest(recovery_s_[i]);
   }
 
   void act(const double* rested, Instant& now) const override {
@@ -59,9 +56,7 @@ class SecondOrderMemory : public Effect {
 
   std::size_t state_count() const override { return 1; }
 
-  void start(const RunStart& start, double* rested) const override {
-    rested[0] = start.rest_before_min.has_value() ? -std::expm1(-60.0 * *start.rest_before_min / recovery_s_) : 1.0;
-  }
+  void start(const RunStart& start, double* rested) const override { rested[0] = start.recovered_in_rest(recovery_s_); }
 
   void act(const double* rested, Instant& now) const override { now.loss_factor *= 1.0 + excess_ * rested[0]; }
 

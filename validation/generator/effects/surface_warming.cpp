@@ -13,9 +13,8 @@ class SurfaceWarming : public Effect {
   std::size_t state_count() const override { return 2; }
 
   void start(const RunStart& start, double* state) const override {
-    if (!start.rest_before_min.has_value()) return;
-    state[0] = std::exp(-60.0 * *start.rest_before_min / skin_s_);
-    state[1] = std::exp(-60.0 * *start.rest_before_min / body_s_);
+    state[0] = start.left_after_rest(skin_s_);
+    state[1] = start.left_after_rest(body_s_);
   }
 
   void act(const double* state, Instant& now) const override {
@@ -44,8 +43,7 @@ class CooledBody : public Effect {
   std::size_t state_count() const override { return 1; }
 
   void start(const RunStart& start, double* rise) const override {
-    if (!start.rest_before_min.has_value()) return;
-    rise[0] = std::exp(-60.0 * *start.rest_before_min * still_share_ / time_s_);
+    rise[0] = start.left_after_rest(time_s_, still_share_);
   }
 
   void act(const double* rise, Instant& now) const override { now.surface_rise_dK += rise_dK_ * rise[0]; }

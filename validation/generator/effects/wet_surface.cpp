@@ -33,8 +33,6 @@ class WetSurface : public Effect {
     now.rig_force_N += film * wet * drag_N_ * cooling_W_per_K_ * std::pow(x, 1.6);
   }
 
-  void rates(const double*, const Instant&, double* rates) const override { rates[0] = 0.0; }
-
  private:
   static constexpr std::size_t kMostRuns = 6;
 

@@ -37,8 +37,6 @@ class WindAndGrade : public Effect {
     now.body_force_N += now.specimen->truth(Base::kMass) * 9.80665 * slope_ * strength;
   }
 
-  void rates(const double*, const Instant&, double* rates) const override { rates[0] = 0.0; }
-
  private:
   static constexpr std::array<double, 5> kPeriods_s{4.0, 9.0, 21.0, 47.0, 110.0};  // over 2 pi
 
@@ -74,8 +72,6 @@ class TurningRoad : public Effect {
     now.drag_factor *= 1.0 + side_ * strength;
     now.body_force_N += now.specimen->truth(Base::kMass) * 9.80665 * slope_ * strength;
   }
-
-  void rates(const double*, const Instant&, double* rates) const override { rates[0] = 0.0; }
 
  private:
   static constexpr std::array<double, 4> kLengths_m{90.0, 250.0, 700.0, 1800.0};  // over 2 pi; Assumed
