@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
 namespace rollrig::generator {
+
+using boost::math::constants::two_pi;
 
 double Leg::slope() const {
   const double way_m = mean_m_s() * duration_s;
@@ -13,17 +16,15 @@ double Leg::slope() const {
 }
 
 double Air::at(double time_s) const {
-  constexpr double kPi = 3.14159265358979323846;
-  return mean_degC + swing_dK * std::sin(2.0 * kPi * time_s / period_s + phase) + slope_K_per_s * time_s;
+  return mean_degC + swing_dK * std::sin(two_pi<double>() * time_s / period_s + phase) + slope_K_per_s * time_s;
 }
 
 Air draw_air(Draws& draws, double mean_degC) {
-  constexpr double kPi = 3.14159265358979323846;
   Air air;
   air.mean_degC = mean_degC + draws.uniform(-0.6, 0.6);
   air.swing_dK = draws.uniform(0.1, 0.5);
   air.period_s = draws.uniform(900.0, 2500.0);
-  air.phase = draws.uniform(0.0, 2.0 * kPi);
+  air.phase = draws.uniform(0.0, two_pi<double>());
   air.slope_K_per_s = draws.uniform(-0.7, 0.7) / 3600.0;
   return air;
 }

@@ -6,13 +6,12 @@
 
 #include "sim/core/assets.h"
 #include "sim/core/csv.h"
+#include "sim/core/units.h"
 #include "validation/generator/campaign.h"
 #include "validation/generator/speed_trace.h"
 
 namespace rollrig::generator {
 namespace {
-
-constexpr double kGravity_m_s2 = 9.80665;
 
 /// Adds a cycle of the project's assets.
 void drive(const std::string& cycle, SpeedTrace& trace) {
@@ -85,14 +84,14 @@ const std::vector<CampaignKind>& campaign_kinds() {
 /// Force of the wheel on the roller at each row: its share of what moves the vehicle, or of its friction brakes.
 std::vector<double> find_longitudinal_N(const std::vector<double>& speeds_m_s, double load_N,
                                         const Specimen& specimen) {
-  const double mass_kg = specimen.tires * load_N / kGravity_m_s2;
+  const double mass_kg = specimen.tires * load_N / kStandardGravity_m_s2;
   std::vector<double> forces_N(speeds_m_s.size(), 0.0);
   for (std::size_t i = 1; i + 1 < speeds_m_s.size(); ++i) {
     const double v = speeds_m_s[i];
     if (v <= 0.0) continue;
     const double acceleration_m_s2 = 0.5 * (speeds_m_s[i + 1] - speeds_m_s[i - 1]);
     // Assumed: 1.2 % of the weight and 1.2 kg/m3 of air.
-    const double road_N = 0.012 * mass_kg * kGravity_m_s2 +
+    const double road_N = 0.012 * mass_kg * kStandardGravity_m_s2 +
                           0.6 * specimen.base[static_cast<std::size_t>(Base::kDragArea)].nominal * v * v;
     const double demand_N = 1.035 * mass_kg * acceleration_m_s2 + road_N;
     const double force_N = demand_N * (demand_N > 0.0 ? specimen.drive_share : specimen.brake_share);

@@ -28,8 +28,7 @@ Eigen::MatrixXd put_side_by_side(const std::vector<Eigen::VectorXd>& columns, Ei
 }  // namespace
 
 KnownSet::KnownSet(const SetOrder& order) : order_(order), lab_(draw_laboratory(order)) {
-  Json ignored = Json::array();
-  const Effects effects = draw_effects(order_, lab_.specimen, ignored);
+  const Effects effects = draw_effects(order_, lab_.specimen);
   const std::vector<RunRecord> records = record_all(lab_.specimen, lab_.campaign, effects);
   for (std::size_t r = 0; r < records.size(); ++r) {
     const Columns measured = measure(order_.seed, lab_, lab_.campaign.runs[r], records[r], order_.noise_free);
@@ -70,8 +69,7 @@ Eigen::VectorXd KnownSet::signal_of(std::size_t effect) const {
   alone.effects = {order_.effects[effect]};
   alone.sizes = {order_.sizes[effect]};
   alone.forms = {order_.forms[effect]};
-  Json ignored = Json::array();
-  return whiten(drive(lab_.specimen, draw_effects(alone, lab_.specimen, ignored)));
+  return whiten(drive(lab_.specimen, draw_effects(alone, lab_.specimen)));
 }
 
 Eigen::MatrixXd KnownSet::signatures(const EffectKind& kind) const {

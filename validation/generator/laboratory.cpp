@@ -37,7 +37,7 @@ Laboratory draw_laboratory(const SetOrder& order) {
   return lab;
 }
 
-Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& described) {
+Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* described) {
   Effects effects;
   for (std::size_t i = 0; i < order.effects.size(); ++i) {
     const EffectKind& kind = *find_effect_kind(order.effects[i]);
@@ -48,17 +48,18 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& desc
     const double size = order.sizes[i].value_or(drawn);
     const Form& form = choose_form(order, i);
     effects.push_back(form.make({size, shapes, specimen}));
+    if (described == nullptr) continue;
     Json shape = Json::object();
     for (const auto& [name, value] : effects.back()->shape) shape[name] = value;
-    described.push_back({{"id", kind.id},
-                         {"size", size},
-                         {"unit", kind.size.unit},
-                         {"size_is", kind.size.meaning},
-                         {"neutral", kind.size.neutral},
-                         {"form", form.name},
-                         {"shape", shape},
-                         {"law", form.law}});
-    if (has_class) described.back()["size_class"] = kSizeClassNames[static_cast<std::size_t>(order.size_classes[i])];
+    described->push_back({{"id", kind.id},
+                          {"size", size},
+                          {"unit", kind.size.unit},
+                          {"size_is", kind.size.meaning},
+                          {"neutral", kind.size.neutral},
+                          {"form", form.name},
+                          {"shape", shape},
+                          {"law", form.law}});
+    if (has_class) described->back()["size_class"] = kSizeClassNames[static_cast<std::size_t>(order.size_classes[i])];
   }
   return effects;
 }

@@ -25,7 +25,7 @@ struct Laboratory {
 Laboratory draw_laboratory(const SetOrder& order);
 
 /// The effects of an order with their sizes, forms and shapes; `described` gets what the truth says of them.
-Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json& described);
+Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* described = nullptr);
 
 /// All runs of a campaign. The records point to the specimen.
 std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& campaign, const Effects& effects);

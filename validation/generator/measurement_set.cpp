@@ -120,8 +120,7 @@ Json describe(const SetOrder& order, const Laboratory& lab) {
 
 Files follow_up(const SetOrder& order, std::vector<RunPlan> further) {
   Laboratory lab = draw_laboratory(order);
-  Json ignored = Json::array();
-  const Effects effects = draw_effects(order, lab.specimen, ignored);
+  const Effects effects = draw_effects(order, lab.specimen);
   for (RunPlan& run : further) {
     run.index = lab.campaign.runs.size();
     lab.campaign.runs.push_back(std::move(run));
@@ -142,7 +141,7 @@ MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
   const Laboratory lab = draw_laboratory(order);
   MadeSet made;
   made.truth = describe(order, lab);
-  const Effects effects = draw_effects(order, lab.specimen, made.truth["effects"]);
+  const Effects effects = draw_effects(order, lab.specimen, &made.truth["effects"]);
   const std::vector<RunRecord> records = record_all(lab.specimen, lab.campaign, effects);
   made.files = write_files(order, lab, records, order.noise_free);
   const std::vector<RunRecord> without = effects.empty() ? records : record_all(lab.specimen, lab.campaign, {});

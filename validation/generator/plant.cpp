@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator {
 namespace {
 
-constexpr double kGasConstant = 8.314462618;  // J/(mol K)
-constexpr double kFreedoms = 2.5;             // c_v/R of a gas of two atoms
-constexpr double kAir_Pa = 101325.0;
-constexpr double kZero_K = 273.15;
-constexpr double kWalkingPace_m_s = 0.05;
-constexpr double kGravity_m_s2 = 9.80665;
-constexpr double kGasConstantOfAir = 287.05;  // J/(kg K)
+constexpr double kCvOverR = 2.5;                         // of a gas of two atoms
+constexpr double kCreep_m_s = 0.05;                      // Assumed: below it losses fade to nothing
+constexpr double kGasConstantOfAir_J_per_kg_K = 287.05;  // dry air; International Standard Atmosphere, ISO 2533
 
 }  // namespace
 
@@ -30,8 +27,9 @@ Plant::Plant(const Specimen& specimen, const Effects& effects, const RunPlan& ru
     const double depth = (static_cast<double>(i) + 0.5) / layers;  // 0 at the tread, 1 at the liner
     loss_share_.push_back((1.0 + wall_.loss_skew * (1.0 - 2.0 * depth)) / layers);
   }
-  gas_mol_ = specimen.truth(Base::kCGas) / (kFreedoms * kGasConstant);
-  cavity_m3_ = gas_mol_ * kGasConstant * (run.initial_degC + kZero_K) / (1e3 * run.cold_pressure_kPa + kAir_Pa);
+  gas_mol_ = specimen.truth(Base::kCGas) / (kCvOverR * kGasConstant_J_per_mol_K);
+  cavity_m3_ = gas_mol_ * kGasConstant_J_per_mol_K * (run.initial_degC + kZeroCelsius_K) /
+               (1e3 * run.cold_pressure_kPa + kStandardAtmosphere_Pa);
   size_ = wall_.layers + 2;  // layers, energy of the gas, amount of the gas
   for (const auto& effect : effects_) {
     effect_state_.push_back(size_);
@@ -42,7 +40,7 @@ Plant::Plant(const Specimen& specimen, const Effects& effects, const RunPlan& ru
 std::vector<double> Plant::start() const {
   std::vector<double> state(size_, 0.0);
   std::fill(state.begin(), state.begin() + static_cast<std::ptrdiff_t>(wall_.layers), run_.initial_degC);
-  state[wall_.layers] = gas_mol_ * kFreedoms * kGasConstant * (run_.initial_degC + kZero_K);
+  state[wall_.layers] = gas_mol_ * kCvOverR * kGasConstant_J_per_mol_K * (run_.initial_degC + kZeroCelsius_K);
   state[wall_.layers + 1] = gas_mol_;
   RunStart start{run_.initial_degC, run_.air.at(0.0), run_.cold_pressure_kPa, run_.rest_before_min, run_.index, 0.0};
   if (run_.started_warm) start.rest_before_min = 0.0;
@@ -93,7 +91,7 @@ Instant Plant::find_instant(double time_s, const double* state) const {
   now.gas_mol = state[wall_.layers + 1];
   // Ideal gas: energy U = 5/2 n R T, and p V = n R T = 2/5 U.
   const double gas_J = state[wall_.layers];
-  now.gas_degC = gas_J / (kFreedoms * kGasConstant * now.gas_mol) - kZero_K;
+  now.gas_degC = gas_J / (kCvOverR * kGasConstant_J_per_mol_K * now.gas_mol) - kZeroCelsius_K;
   now.specimen = &specimen_;
   now.target_load_N = leg_.load_N;
   now.acceleration_m_s2 = leg_.acceleration_m_s2();
@@ -106,7 +104,7 @@ Instant Plant::find_instant(double time_s, const double* state) const {
   now.distance_m = leg_.start_distance_m + 0.5 * (leg_.start_m_s + now.speed_m_s) * (time_s - leg_.start_s);
   for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->enter(state + effect_state_[i], now);
   if (leg_.load_N <= 0.0) now.load_N = load_at(time_s);  // whatever a record or a strap says, a lifted tire is off
-  now.pressure_kPa = 1e-3 * (gas_J / (kFreedoms * cavity_m3_ * now.volume_factor) - kAir_Pa);
+  now.pressure_kPa = 1e-3 * (gas_J / (kCvOverR * cavity_m3_ * now.volume_factor) - kStandardAtmosphere_Pa);
   return now;
 }
 
@@ -114,9 +112,9 @@ Instant Plant::find_instant(double time_s, const double* state) const {
 double Plant::vehicle_friction_N(double time_s) const {
   const double v = recorded_speed_at(time_s);
   const double mass_kg = specimen_.truth(Base::kMass);
-  const double rolling_N = 0.008 * mass_kg * kGravity_m_s2;  // Assumed: enough for the driver's foot
+  const double rolling_N = 0.008 * mass_kg * kStandardGravity_m_s2;  // Assumed: enough for the driver's foot
   const double demand_N = (mass_kg + specimen_.truth(Base::kRotatingMass)) * leg_.acceleration_m_s2() +
-                          mass_kg * kGravity_m_s2 * leg_.slope() + rolling_N +
+                          mass_kg * kStandardGravity_m_s2 * leg_.slope() + rolling_N +
                           0.6 * specimen_.truth(Base::kDragArea) * v * v;
   const double limit_N = mass_kg * specimen_.regeneration_m_s2 * std::min(1.0, v / specimen_.regeneration_fade_m_s);
   return std::max(0.0, -demand_N - limit_N);
@@ -129,8 +127,8 @@ bool Plant::friction_brakes_at(double time_s) const {
 /// Beside the tires: slope and air, with the density of dry air.
 double Plant::calc_vehicle_N(const Instant& now) const {
   const double slope = leg_.slope();
-  const double grade_N = specimen_.truth(Base::kMass) * kGravity_m_s2 * slope / std::sqrt(1.0 + slope * slope);
-  const double density = kAir_Pa / (kGasConstantOfAir * (now.ambient_degC + kZero_K));
+  const double grade_N = specimen_.truth(Base::kMass) * kStandardGravity_m_s2 * slope / std::sqrt(1.0 + slope * slope);
+  const double density = kStandardAtmosphere_Pa / (kGasConstantOfAir_J_per_kg_K * (now.ambient_degC + kZeroCelsius_K));
   const double air_m_s = now.speed_m_s + now.wind_m_s;
   const double area_m2 = specimen_.truth(Base::kDragArea) * now.drag_factor;
   return grade_N + 0.5 * density * area_m2 * air_m_s * std::abs(air_m_s) + now.body_force_N;
@@ -141,7 +139,7 @@ void Plant::find_losses(const double* state, Instant& now, std::vector<double>& 
   for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->act(state + effect_state_[i], now);
   if (run_.surface_degC.has_value()) now.surface_rise_dK = *run_.surface_degC - now.ambient_degC;
   const double v = now.speed_m_s;
-  const double fade = v / std::sqrt(v * v + kWalkingPace_m_s * kWalkingPace_m_s);
+  const double fade = v / std::sqrt(v * v + kCreep_m_s * kCreep_m_s);
   const double cold_N = specimen_.truth(Base::kA0) + specimen_.truth(Base::kA1) * v;
   const double fall_per_K = specimen_.truth(Base::kB0) + specimen_.truth(Base::kB1) * v;
   const double constant_N = follows_law_ ? 0.0 : 1e-3 * specimen_.truth(Base::kRrc) * now.load_N * now.loss_factor;
@@ -183,8 +181,10 @@ void Plant::calc_rates(double time_s, const double* state, double* rates) const 
                   (1.0 - wall_.tread_share_of_air) * air_W_per_K * (now.liner_degC - now.ambient_degC);
   for (std::size_t i = 0; i < n; ++i) rates[i] /= layer_J_per_K;
   // What leaks takes its enthalpy 7/2 R T along.
-  rates[n] = to_gas_W + now.gas_heat_W - now.leak_mol_s * (kFreedoms + 1.0) * kGasConstant * (now.gas_degC + kZero_K);
-  rates[n] -= 1e3 * (now.pressure_kPa + 1e-3 * kAir_Pa) * cavity_m3_ * now.volume_rate_per_s;  // work on the wall
+  rates[n] = to_gas_W + now.gas_heat_W -
+             now.leak_mol_s * (kCvOverR + 1.0) * kGasConstant_J_per_mol_K * (now.gas_degC + kZeroCelsius_K);
+  rates[n] -= 1e3 * (now.pressure_kPa + 1e-3 * kStandardAtmosphere_Pa) * cavity_m3_ *
+              now.volume_rate_per_s;  // work on the wall
   rates[n + 1] = -now.leak_mol_s;
   std::fill(rates + n + 2, rates + size_, 0.0);
   for (std::size_t i = 0; i < effects_.size(); ++i) {

@@ -3,15 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/constants/constants.hpp>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/campaign.h"
 #include "validation/generator/speed_trace.h"
 
 namespace rollrig::generator {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+using boost::math::constants::two_pi;
 
 /// How fast traffic flows, and how often it stops.
 struct Road {
@@ -56,13 +58,14 @@ struct Hills {
     const std::array<double, 3> longest{9000.0, 2500.0, 700.0};
     for (std::size_t i = 0; i < 3; ++i) {
       length_m[i] = longest[i] * draws.uniform(0.6, 1.4);
-      height_m[i] = length_m[i] / (2.0 * kPi) * draws.uniform(0.001, 0.011);  // steepest 0.1 to 1.1 %
-      phase[i] = draws.uniform(0.0, 2.0 * kPi);
+      height_m[i] = length_m[i] / two_pi<double>() * draws.uniform(0.001, 0.011);  // steepest 0.1 to 1.1 %
+      phase[i] = draws.uniform(0.0, two_pi<double>());
     }
   }
   double at(double way_m) const {
     double height = 200.0;
-    for (std::size_t i = 0; i < 3; ++i) height += height_m[i] * std::sin(2.0 * kPi * way_m / length_m[i] + phase[i]);
+    for (std::size_t i = 0; i < 3; ++i)
+      height += height_m[i] * std::sin(two_pi<double>() * way_m / length_m[i] + phase[i]);
     return std::round(1e3 * height) / 1e3;
   }
 };
@@ -105,11 +108,10 @@ std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N)
 }  // namespace
 
 Campaign draw_road_campaign(const CampaignOrder& order, const Specimen& specimen) {
-  constexpr double kGravity_m_s2 = 9.80665;
   constexpr std::array<const char*, 3> kKinds{"commute", "motorway", "journey"};
   Draws draws(order.seed, "campaign");
   const double year_degC = draws.uniform(8.0, 18.0);
-  const double load_N = specimen.truth(Base::kMass) * kGravity_m_s2 / specimen.tires;
+  const double load_N = specimen.truth(Base::kMass) * kStandardGravity_m_s2 / specimen.tires;
   Campaign campaign{"trips", {}};
   int day = 0;
   double day_degC = 0.0;

@@ -9,7 +9,8 @@
 
 namespace rollrig::generator {
 
-constexpr double kSpeed80_m_s = 80.0 / 3.6;  // to which sizes and shapes of effects refer
+constexpr double kGasConstant_J_per_mol_K = 8.314462618;  // CODATA 2018
+constexpr double kSpeed80_m_s = 80.0 / 3.6;               // to which sizes and shapes of effects refer
 
 /// Numbers that somebody has identified, so that the file has them with an uncertainty: of tire, rig, vehicle.
 enum class Base : std::size_t {

@@ -1,6 +1,7 @@
 /// Grease of the rig's bearings, thinner as the bearings' own friction warms it: by Vogel's law, or by Arrhenius'.
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator {
@@ -69,8 +70,8 @@ class ArrheniusBearing : public Effect {
     race_share_ = note("share_between_race_and_housing",
                        of.draws.uniform(0.1, 0.35));  // Assumed: of the rise, between races and housing
     const double race_min = note("race_min", of.draws.uniform(2.0, 6.0));
-    reference_K_ = kSoaked_degC + warm_share * rise_dK_ + kZero_K;
-    const double soaked_K = kSoaked_degC + kZero_K;
+    reference_K_ = kSoaked_degC + warm_share * rise_dK_ + kZeroCelsius_K;
+    const double soaked_K = kSoaked_degC + kZeroCelsius_K;
     activation_K_ = of.size * soaked_K * (soaked_K + rise_dK_);
     const double cold_N = of.specimen.truth(Base::kC0) + of.specimen.truth(Base::kC1) * kSpeed80_m_s;
     const double steady_W = thinning(soaked_K + rise_dK_) * cold_N * kSpeed80_m_s;
@@ -88,7 +89,7 @@ class ArrheniusBearing : public Effect {
   }
 
   void act(const double* rise_dK, Instant& now) const override {
-    now.bearing_factor *= thinning(now.ambient_degC + rise_dK[0] + kZero_K);
+    now.bearing_factor *= thinning(now.ambient_degC + rise_dK[0] + kZeroCelsius_K);
   }
 
   void rates(const double* rise_dK, const Instant& now, double* rates) const override {
@@ -100,8 +101,6 @@ class ArrheniusBearing : public Effect {
   }
 
  private:
-  static constexpr double kZero_K = 273.15;
-
   double thinning(double race_K) const { return std::exp(activation_K_ * (1.0 / race_K - 1.0 / reference_K_)); }
 
   double rise_dK_ = 0.0;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator {
@@ -52,7 +53,7 @@ class SecondOrderSpot : public Effect {
   void act(const double* flat, Instant& now) const override { now.loss_factor *= 1.0 + excess_ * flat[0]; }
 
   void rates(const double* flat, const Instant& now, double* rates) const override {
-    const double pace = std::exp(activation_K_ * (1.0 / 308.15 - 1.0 / (now.rubber_degC + 273.15)));
+    const double pace = std::exp(activation_K_ * (1.0 / 308.15 - 1.0 / (now.rubber_degC + kZeroCelsius_K)));
     rates[0] = -flat[0] * std::abs(flat[0]) * pace * now.speed_m_s / distance_m_;
   }
 
@@ -63,7 +64,7 @@ class SecondOrderSpot : public Effect {
   // Half is gone when it is of a first-order decay.
   double distance_m_ = kHalf * 1e3 * note("distance_km_at_35_degC", draws_.from(log_normal(4.0, 15.0, 3.0, 20.0)));
   double set_s_ = 3600.0 * note("set_time_h", draws_.from(log_normal(0.7, 4.0, 0.4, 6.0)));
-  double activation_K_ = note("activation_K", draws_.uniform(15e3, 35e3) / 8.314462618);
+  double activation_K_ = note("activation_K", draws_.uniform(15e3, 35e3) / kGasConstant_J_per_mol_K);
 };
 
 }  // namespace

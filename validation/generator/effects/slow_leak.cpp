@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator {
 namespace {
 
 constexpr double kAir_kPa = 101.325;
-constexpr double kZero_K = 273.15;
 
 class SlowLeak : public Effect {
  public:
@@ -29,7 +29,7 @@ class SlowLeak : public Effect {
   /// Amount in the cavity at the reference pressure and 25 degC: the cavity holds n = p V/(R T).
   static double reference_amount(const Instant& now) {
     const double abs_kPa = now.pressure_kPa + kAir_kPa;
-    return now.gas_mol * (now.specimen->reference_pressure_kPa + kAir_kPa) / abs_kPa * (now.gas_degC + kZero_K) /
+    return now.gas_mol * (now.specimen->reference_pressure_kPa + kAir_kPa) / abs_kPa * (now.gas_degC + kZeroCelsius_K) /
            298.15;
   }
 
@@ -44,7 +44,7 @@ class NozzleLeak : public SlowLeak {
   double find_relative(const Instant& now) const override {
     const double abs_kPa = std::max(0.0, now.pressure_kPa) + kAir_kPa;
     const double reference_abs_kPa = now.specimen->reference_pressure_kPa + kAir_kPa;
-    return flow(abs_kPa) / flow(reference_abs_kPa) * std::sqrt(298.15 / (now.gas_degC + kZero_K));
+    return flow(abs_kPa) / flow(reference_abs_kPa) * std::sqrt(298.15 / (now.gas_degC + kZeroCelsius_K));
   }
 
   /// Flow through a nozzle, but for factors: sonic above 1.893 times the pressure outside (Saint-Venant, Wantzel).
@@ -62,12 +62,12 @@ class Permeation : public SlowLeak {
 
  private:
   double find_relative(const Instant& now) const override {
-    const double warm_K = now.liner_degC + kZero_K;
+    const double warm_K = now.liner_degC + kZeroCelsius_K;
     return now.pressure_kPa / now.specimen->reference_pressure_kPa *
            std::exp(activation_K_ * (1.0 / 313.15 - 1.0 / warm_K));
   }
 
-  double activation_K_ = note("activation_K", draws_.uniform(25e3, 45e3) / 8.314462618);
+  double activation_K_ = note("activation_K", draws_.uniform(25e3, 45e3) / kGasConstant_J_per_mol_K);
 };
 
 }  // namespace

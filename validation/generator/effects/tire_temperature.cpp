@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator {
@@ -28,13 +29,11 @@ class ArrheniusLoss : public Effect {
   using Effect::Effect;
 
   void act(const double*, Instant& now) const override {
-    now.loss_factor *= std::exp(activation_K_ * (1.0 / (now.rubber_degC + kZero_K) - 1.0 / reference_K_));
+    now.loss_factor *= std::exp(activation_K_ * (1.0 / (now.rubber_degC + kZeroCelsius_K) - 1.0 / reference_K_));
   }
 
  private:
-  static constexpr double kZero_K = 273.15;
-
-  double reference_K_ = note("reference_degC", draws_.uniform(28.0, 42.0)) + kZero_K;
+  double reference_K_ = note("reference_degC", draws_.uniform(28.0, 42.0)) + kZeroCelsius_K;
   double activation_K_ = size_ * reference_K_ * reference_K_;
 };
 

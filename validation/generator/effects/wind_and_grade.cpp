@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator {
@@ -34,7 +35,7 @@ class WindAndGrade : public Effect {
     now.wind_m_s += wind_m_s_ * run[0] * (1.0 + gusts_ * gusts);
     const double strength = std::abs(wind_m_s_) / 5.0;
     now.drag_factor *= 1.0 + side_ * strength;
-    now.body_force_N += now.specimen->truth(Base::kMass) * 9.80665 * slope_ * strength;
+    now.body_force_N += now.specimen->truth(Base::kMass) * kStandardGravity_m_s2 * slope_ * strength;
   }
 
  private:
@@ -70,7 +71,7 @@ class TurningRoad : public Effect {
     now.wind_m_s += wind_m_s_ * (1.0 + turning_ * turns / std::sqrt(0.5 * static_cast<double>(phases_.size())));
     const double strength = std::abs(wind_m_s_) / 5.0;
     now.drag_factor *= 1.0 + side_ * strength;
-    now.body_force_N += now.specimen->truth(Base::kMass) * 9.80665 * slope_ * strength;
+    now.body_force_N += now.specimen->truth(Base::kMass) * kStandardGravity_m_s2 * slope_ * strength;
   }
 
  private:

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator {
@@ -13,7 +14,7 @@ class Windage : public Effect {
 
   void act(const double*, Instant& now) const override {
     const double x = now.speed_m_s / kSpeed80_m_s;
-    const double density = 298.15 / (now.ambient_degC + 273.15);
+    const double density = 298.15 / (now.ambient_degC + kZeroCelsius_K);
     const double rubbed = std::pow(density, 0.8) * std::pow(x, 1.8);
     now.rig_force_N += force_N_ * ((1.0 - pumped_share_) * rubbed + pumped_share_ * density * x * x * (0.8 + 0.2 * x));
   }
