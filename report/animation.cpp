@@ -47,7 +47,7 @@ Column scaled(Column values, double factor) {
   return values;
 }
 
-/// The wheel position of formats ("front_left") that ends a channel's quantity; empty for the only wheel.
+/// The channel of the wheel at a position such as "front_left"; empty for the only wheel.
 std::string named(const std::string& channel, const std::string& position) {
   return rigs::wheel_channel(channel, {position});
 }
@@ -58,10 +58,7 @@ class Scene {
   Scene(const RunSpec& spec, const Recording& recording) : spec_(spec), recording_(recording) {}
 
   Json series(const Column& values_SI, const char* key) const {
-    const Unit unit = unit_of_key(key);
-    Column values;
-    for (const double value : values_SI) values.push_back(unit.from_si(value));
-    Json json = make_series("", recording_.time_s, values);
+    Json json = make_series("", recording_.time_s, in_unit_of(key, values_SI));
     json.erase("name");
     return json;
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 
@@ -100,6 +101,17 @@ std::string pretty_unit(std::string symbol) {
   const std::size_t at = symbol.find("degC");
   if (at != std::string::npos) symbol.replace(at, 4, "°C");
   return symbol;
+}
+
+std::string capitalized(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
+}
+
+std::vector<double> in_unit_of(const std::string& key, std::vector<double> values_SI) {
+  const Unit unit = unit_of_key(key);
+  for (double& value : values_SI) value = unit.from_si(value);
+  return values_SI;
 }
 
 std::string shown_unit(const std::string& key) { return pretty_unit(unit_of_key(key).symbol); }

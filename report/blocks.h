@@ -45,9 +45,13 @@ Block make_lead(const std::string& tone, const std::string& text, const std::str
 /// All inputs, from a manifest or the like.
 Section make_inputs(const Json& groups);
 
+/// Values in the unit of a key: "load_kN" takes N.
+std::vector<double> in_unit_of(const std::string& key, std::vector<double> values_SI);
 /// The unit of a key as a person reads it: "°C" of "ambient_degC".
 std::string shown_unit(const std::string& key);
 /// "degC" in a unit's symbol as "°C".
 std::string pretty_unit(std::string symbol);
+/// The text with a capital first.
+std::string capitalized(std::string text);
 
 }  // namespace rollrig::report

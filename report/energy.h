@@ -6,7 +6,7 @@
 
 namespace rollrig::report {
 
-/// Both ledgers of the audit, what the tire loses going on as heat.
+/// Both ledgers of the audit as flows; what the tire loses flows on from the mechanical into the thermal one.
 Block make_energy(const sim::EnergyAudit& audit);
 
 }  // namespace rollrig::report

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include "report/page_template.h"
 
 namespace rollrig::report {
@@ -23,8 +25,8 @@ Json make_payload(const Page& page) {
                {"subtitle", page.subtitle},
                {"about", fmt::format("Made by rollrig {}.", ROLLRIG_VERSION)},
                {"sections", Json::array()}};
-  if (page.has_clock) {
-    json["clock"] = {{"start_s", page.clock.start_s}, {"end_s", page.clock.end_s}, {"now_s", page.clock.now_s}};
+  if (page.clock.has_value()) {
+    json["clock"] = {{"start_s", page.clock->start_s}, {"end_s", page.clock->end_s}, {"now_s", page.clock->now_s}};
   }
   for (const Section& section : page.sections) json["sections"].push_back(make_section(section));
   return json;
@@ -37,17 +39,8 @@ void Page::add(Section section) {
 }
 
 std::string escape_json(const Json& json) {
-  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char c : text) {  // "<" stands in strings alone, so nothing in the text can end the script
-    if (c == '<') {
-      escaped += "\\u003c";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
+  // "<" stands in strings alone, so nothing in the text can end the script.
+  return boost::algorithm::replace_all_copy(json.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
 }
 
 std::string make_html(const Page& page) {

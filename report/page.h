@@ -1,6 +1,7 @@
 #pragma once
 /// A page: a title and sections of blocks, each drawn by the function of its type in report/web/src/main.js.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,7 @@ struct Page {
   std::string title;
   std::string subtitle;
   std::vector<Section> sections = {};
-  bool has_clock = false;
-  PageClock clock = {};
+  std::optional<PageClock> clock = {};  // of a page with a run over time
 
   /// Adds a section, unless it would be empty.
   void add(Section section);

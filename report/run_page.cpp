@@ -47,7 +47,7 @@ Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome&
 }  // namespace
 
 Page make_run_page(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
-  Page page{"run", spec.scenario->text.summary, make_subtitle(spec), {}, true, find_view(outcome.recording)};
+  Page page{"run", spec.scenario->text.summary, make_subtitle(spec), {}, find_view(outcome.recording)};
   page.add(make_result(outcome));
   page.add(make_run_figures(outcome.result));
   page.add(make_over_time(spec, outcome));

@@ -42,17 +42,9 @@ Json make_run_phases(const PreparedRun& run) {
   return phases;
 }
 
-/// Block values of a series in the unit of its channel.
-std::vector<double> in_unit(const std::string& channel, const Series& series, const double* values_SI) {
-  const Unit unit = unit_of_key(channel);
-  std::vector<double> values;
-  for (std::size_t k = 0; k < series.size(); ++k) values.push_back(unit.from_si(values_SI[k]));
-  return values;
-}
-
 Json make_measured(const PreparedSet& set, const Series& series) {
   const std::string& channel = set.channels()[series.channel];
-  Json measured = make_series("measured", series.time_s, in_unit(channel, series, series.measured.data()));
+  Json measured = make_series("measured", series.time_s, in_unit_of(channel, series.measured));
   measured["points"] = true;
   return measured;
 }
@@ -69,14 +61,13 @@ std::vector<double> subtract(const std::string& channel, const Series& series, c
 /// The channel with what is measured and simulated, and below it what is left.
 void add_panels(const PreparedSet& set, const Series& series, const std::vector<SimulatedSet>& all, Json& panels) {
   const std::string& channel = set.channels()[series.channel];
-  std::string label = plain_name(channel);
-  label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+  const std::string label = capitalized(plain_name(channel));
   Json values = Json::array({make_measured(set, series)});
   Json left = Json::array();
   for (const SimulatedSet& simulated : all) {
     if (simulated.values.empty()) continue;
     const double* first = simulated.values.data() + series.first_residual;
-    values.push_back(make_series(simulated.name, series.time_s, in_unit(channel, series, first)));
+    values.push_back(make_series(simulated.name, series.time_s, in_unit_of(channel, {first, first + series.size()})));
     left.push_back(make_series(simulated.name, series.time_s, subtract(channel, series, simulated)));
   }
   panels.push_back({{"label", label}, {"unit", shown_unit(channel)}, {"series", values}});

@@ -1,7 +1,6 @@
 #include "report/time_panels.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "models/quantities.h"
@@ -35,11 +34,6 @@ constexpr Rule kRules[]{{"speed", "Speed"},
 constexpr std::size_t kRuleCount = std::size(kRules);
 
 constexpr const char* kWheels[]{"front_left", "front_right", "rear_left", "rear_right"};
-
-std::string capitalized(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 
 struct Place {
   std::size_t order = 0;
@@ -77,13 +71,6 @@ Panel& find_panel(std::vector<Panel>& panels, const Place& place, const std::str
   }
   panels.push_back({place.order, place.panel, unit, Json::array()});
   return panels.back();
-}
-
-std::vector<double> in_file_units(const std::string& channel, const std::vector<double>& values_SI) {
-  const Unit unit = unit_of_key(channel);
-  std::vector<double> values;
-  for (const double value : values_SI) values.push_back(unit.from_si(value));
-  return values;
 }
 
 /// The load that a wheel is given stays as it is on a vehicle: what its contact carries says more.
@@ -140,7 +127,7 @@ Block make_times(const sim::Recording<double>& recording) {
     const std::string& channel = recording.channels[i].name;
     const Place place = find_place(channel);
     Panel& panel = find_panel(panels, place, shown_unit(channel));
-    panel.series.push_back(make_series(place.series, recording.time_s, in_file_units(channel, recording.values[i])));
+    panel.series.push_back(make_series(place.series, recording.time_s, in_unit_of(channel, recording.values[i])));
   }
   std::stable_sort(panels.begin(), panels.end(), [](const Panel& a, const Panel& b) { return a.order < b.order; });
   const PageClock view = find_view(recording);

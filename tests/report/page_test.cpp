@@ -12,7 +12,7 @@ using Catch::Contains;
 namespace {
 
 report::Page make_page(const std::string& title) {
-  report::Page page{"run", title, "", {}, false, {}};
+  report::Page page{"run", title, ""};
   page.add({"Result", "", {report::make_paragraph(title)}});
   page.add({"Nothing"});
   return page;
