@@ -53,7 +53,7 @@ TEST_CASE("fit road-load: table of 80 columns, JSON and residuals", "[fast]") {
   const CsvTable residuals = CsvTable::read(folder.file("fitted/residuals.csv"));
   CHECK(residuals.row_count() == json["residuals"].size());
   CHECK(residuals.has("residual_N"));
-  // what is left is centerd, in proportion to its standard deviation
+  // what is left is centered, in proportion to its standard deviation
   double sum = 0.0;
   for (const Json& point : json["residuals"]) {
     CHECK(point["force_N"].get<double>() - point["fit_N"].get<double>() ==

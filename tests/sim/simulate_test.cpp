@@ -51,7 +51,7 @@ void check_kinked() {
 
 }  // namespace
 
-TEST_CASE("rows hold instants and centerd means, also across a knot and at both ends", "[fast]") {
+TEST_CASE("rows hold instants and centered means, also across a knot and at both ends", "[fast]") {
   check_kinked<sim::FixedGridIntegrator<double>>();
   check_kinked<sim::CvodesIntegrator>();
 }

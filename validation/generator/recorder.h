@@ -41,7 +41,7 @@ struct RunRecord {
   Signal liner;     // of the tire, beyond the end of the run by kMargin_s
   Signal pressure;  // likewise
 
-  /// Mean over the sampling interval centerd on a row, half an interval at the ends.
+  /// Mean over the sampling interval centered on a row, half an interval at the ends.
   double sample(const Signal& signal, std::size_t row, double shift_s = 0.0) const;
 };
 

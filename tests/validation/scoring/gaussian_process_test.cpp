@@ -50,7 +50,7 @@ TEST_CASE("far from all that was seen, and where nothing was, nothing is predict
   CHECK(of_nothing.predict(spread_over(6.0)).isZero());
 }
 
-TEST_CASE("what an offset of the sensor may be is not learnt", "[fast]") {
+TEST_CASE("what an offset of the sensor may be is not learned", "[fast]") {
   const Eigen::MatrixXd offset = kNoise + Eigen::MatrixXd::Constant(kPoints, kPoints, 100.0);
   const validation::GaussianProcess process(spread_over(6.0), Eigen::VectorXd::Constant(kPoints, 8.0), offset);
   CHECK(rms(process.predict(spread_over(6.0))) < 0.5);

@@ -27,8 +27,9 @@ class GaussianProcess {
   Eigen::VectorXd weights_;  // s^2 (K + N)^-1 y
 };
 
-/// The discrepancy of one run less what a process that learnt it on the other runs predicts for it, channel by channel.
-/// Inputs: time in the run, speed, load, air temperature. Noise: one floor, and the offset of the sensor's session.
+/// The discrepancy of one run less what a process that learned it on the other runs predicts for it, channel by
+/// channel. Inputs: time in the run, speed, load, air temperature. Noise: one floor, and the offset of the sensor's
+/// session.
 Eigen::VectorXd subtract_gaussian_process(const diagnosis::PreparedSet& set, const Eigen::VectorXd& difference,
                                           std::size_t run);
 
