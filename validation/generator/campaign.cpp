@@ -53,7 +53,7 @@ bool RunPlan::is_read(double time_s) const {
                       [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
 }
 
-double RunPlan::hung_at(double time_s) const {
+double RunPlan::find_hung_torque_Nm(double time_s) const {
   double torque_Nm = 0.0;
   for (const auto& [from_s, torque_then_Nm] : hung_Nm) {
     if (time_s >= from_s) torque_Nm = torque_then_Nm;

@@ -55,14 +55,14 @@ struct RunPlan {
   std::vector<Leg> legs;
   std::optional<double> surface_degC;               // at which drum or roller is held, and recorded; none: as it goes
   bool reversed = false;                            // turned the other way round
-  std::vector<std::pair<double, double>> hung_Nm;   // from, torque: on the force sensor from then on, besides
+  std::vector<std::pair<double, double>> hung_Nm;   // time, and the torque hung on the force sensor from then on
   bool reads_zero = false;                          // the force is logged while the surface stands
-  std::vector<std::pair<double, double>> unread_s;  // from, to: nothing is logged
+  std::vector<std::pair<double, double>> unread_s;  // from, to: spans in which nothing is logged
 
   std::size_t index = 0;  // in the campaign
 
   bool is_read(double time_s) const;
-  double hung_at(double time_s) const;
+  double find_hung_torque_Nm(double time_s) const;
 
   double end_s() const { return legs.back().end_s(); }
 };
@@ -74,7 +74,7 @@ struct RunKind {
   double pressure_kPa = 0.0;     // 0: the usual one
   double rest_before_min = 0.0;  // 0: soaked
   double ambient_degC = 0.0;     // 0: the usual one
-  double payload = 1.0;          // on the wheel's load
+  double payload = 1.0;          // factor on the wheel's load
 };
 
 struct CampaignKind {
@@ -82,7 +82,7 @@ struct CampaignKind {
   std::vector<RunKind> runs;
 };
 
-/// How far a tire is warm after a rest: so much just after it has stood still, then less.
+/// How much warmer than the air a tire is after a rest: drawn between the two where the rest begins, then decaying.
 struct Cooling {
   double least_dK;
   double most_dK;

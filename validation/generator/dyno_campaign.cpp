@@ -90,7 +90,7 @@ std::vector<double> find_longitudinal_N(const std::vector<double>& speeds_m_s, d
     const double v = speeds_m_s[i];
     if (v <= 0.0) continue;
     const double acceleration_m_s2 = 0.5 * (speeds_m_s[i + 1] - speeds_m_s[i - 1]);
-    // Assumed: 1.2 % of the weight and 1.2 kg/m3 of air.
+    // Assumed: 1.2 % of the weight, 1.2 kg/m3 of air, 3.5 % of the mass for what turns.
     const double road_N = 0.012 * mass_kg * kStandardGravity_m_s2 +
                           0.6 * specimen.base[static_cast<std::size_t>(Base::kDragArea)].nominal * v * v;
     const double demand_N = 1.035 * mass_kg * acceleration_m_s2 + road_N;

@@ -1,6 +1,7 @@
 #pragma once
 /// What an effect is to the generator: one file in validation/generator/effects, one line in
 /// validation/generator/effects.def.
+/// Assumed: the spreads from which sizes and shapes are drawn, and every constant of a law that names no source.
 
 #include <array>
 #include <cstddef>

@@ -62,7 +62,7 @@ std::string follow_up_folder(const FollowUpOrder& order) {
       .string();
 }
 
-std::size_t write_follow_up(const FollowUpOrder& order, const Count& progress) {
+std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress) {
   const Json truths = validation::open_truth(order.set, "").cases;
   const std::vector<std::string> numbers = list_plans(order);
   for (const std::string& number : numbers) {

@@ -24,6 +24,6 @@ std::string follow_up_folder(const FollowUpOrder& order);
 /// Errors   InputError: no plans; a plan of no case of this set, or of other files; truth or cases are not those of
 ///          this program's set; cases are there already
 /// Checked  tests/validation/generator/follow_up_test.cpp
-std::size_t write_follow_up(const FollowUpOrder& order, const Count& progress);
+std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress);
 
 }  // namespace rollrig::generator

@@ -1,5 +1,5 @@
 #pragma once
-/// What makes a case anew whose truth is known.
+/// A case made anew from its truth.
 
 #include <string>
 

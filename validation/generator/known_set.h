@@ -1,5 +1,5 @@
 #pragma once
-/// A set whose truth is known, driven again with other causes and other base parameters, without noise.
+/// A set whose truth is known, simulated again with other causes and other base parameters, without noise.
 
 #include <Eigen/Core>
 #include <string>

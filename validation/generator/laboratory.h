@@ -30,6 +30,7 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* desc
 /// All runs of a campaign. The records point to the specimen.
 std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& campaign, const Effects& effects);
 
+/// What perfect sensors would show in the measured channels.
 Columns columns_of(const RunRecord& record);
 
 /// What the loggers write of a run: with the errors of the sensors unless `noise_free`, the force empty at low speed

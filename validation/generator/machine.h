@@ -30,6 +30,7 @@ class Machine {
 
   virtual const std::vector<GivenColumn>& given_columns() const = 0;
   virtual const std::vector<Channel>& channels() const = 0;  // measured; the first is the force
+  /// Whether the files of a set on this machine give the number, with an uncertainty.
   virtual bool gives(const Specimen& specimen, Base which) const = 0;
   virtual std::string write_set_keys(const Specimen& specimen) const = 0;
   virtual std::string file_name() const = 0;  // of its own file

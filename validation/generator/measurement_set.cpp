@@ -46,7 +46,7 @@ std::string write_run_file(const RunPlan& run, const RunRecord& record, const Co
       fmt::format_to(out, fmt::runtime(column.format), (record.*column.values)[row]);
     }
     if (run.surface_degC.has_value()) fmt::format_to(out, ",{:.10g}", *run.surface_degC);
-    if (!run.hung_Nm.empty()) fmt::format_to(out, ",{:.10g}", run.hung_at(record.time_s[row]));
+    if (!run.hung_Nm.empty()) fmt::format_to(out, ",{:.10g}", run.find_hung_torque_Nm(record.time_s[row]));
     for (const std::vector<double>& column : measured) {
       text += ',';
       if (!std::isnan(column[row])) fmt::format_to(out, "{:.{}g}", column[row], noise_free ? 9 : 6);

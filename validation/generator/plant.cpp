@@ -108,7 +108,7 @@ Instant Plant::find_instant(double time_s, const double* state) const {
   return now;
 }
 
-/// Of all wheels: what the motor's recuperation leaves, by the vehicle's own numbers.
+/// Of all wheels: what the motor's recuperation leaves, by the vehicle's own numbers. Assumed: 1.2 kg/m3 of air.
 double Plant::vehicle_friction_N(double time_s) const {
   const double v = recorded_speed_at(time_s);
   const double mass_kg = specimen_.truth(Base::kMass);

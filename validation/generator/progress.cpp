@@ -7,7 +7,8 @@
 
 namespace rollrig::generator {
 
-void work_on_all(std::size_t count, int threads, const Count& progress, const std::function<void(std::size_t)>& work) {
+void work_on_all(std::size_t count, int threads, const Progress& progress,
+                 const std::function<void(std::size_t)>& work) {
   std::mutex mutex;
   std::size_t done = 0;
   parallel_for(count, threads, [&](std::size_t i) {

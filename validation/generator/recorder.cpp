@@ -239,7 +239,8 @@ RunRecord record_run(const Specimen& specimen, const Effects& effects, const Run
     record.liner_degC.push_back(record.sample(record.liner, row));
     record.pressure_kPa.push_back(record.sample(record.pressure, row));
   }
-  for (std::size_t row = 0; row < record.time_s.size(); ++row) record.force[row] += run.hung_at(record.time_s[row]);
+  for (std::size_t row = 0; row < record.time_s.size(); ++row)
+    record.force[row] += run.find_hung_torque_Nm(record.time_s[row]);
   // Torque counts positive when it drives, so in reversed rotation the sensor has the other sign; its zero does not.
   if (run.reversed) turn_over(record.force);
   for (const auto& effect : effects) effect->trace(record);

@@ -105,7 +105,7 @@ UpperBound find_upper_bound(const SetOrder& order, bool detection_alone) {
   return bound;
 }
 
-std::size_t write_upper_bounds(UpperBoundOrder& order, const Count& progress) {
+std::size_t write_upper_bounds(UpperBoundOrder& order, const Progress& progress) {
   const validation::TruthFile truth = validation::open_truth(order.set, "");
   if (order.out.empty()) order.out = (fs::path(order.set) / "upper_bound.json").string();
   check_place(order.out, order.set);

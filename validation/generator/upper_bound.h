@@ -37,6 +37,6 @@ struct UpperBoundOrder {
 /// Opens the truth and writes rollrig-blind-ceiling/1 to `order.out`. What the file has of other cases of the same
 /// truth stays. Returns of how many cases.
 /// Errors  InputError: as open_truth() and require_same_files(); no such case
-std::size_t write_upper_bounds(UpperBoundOrder& order, const Count& progress);
+std::size_t write_upper_bounds(UpperBoundOrder& order, const Progress& progress);
 
 }  // namespace rollrig::generator

@@ -130,7 +130,7 @@ std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campai
 }
 
 void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
-                          const Count& progress) {
+                          const Progress& progress) {
   validation::require_new_folder(order.out, "--out");
   OutputFolder folder(order.out, true);
   const auto add = [&folder](const std::string& name, const Files& files) {

@@ -43,6 +43,6 @@ std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campai
 /// Writes <out>/sets/<number>/, <out>/truth.json and <out>/truth.sha256, which sha256sum -c reads. `hashed` is told the
 /// SHA-256 of truth.json before any of it stands at its place.
 void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
-                          const Count& progress);
+                          const Progress& progress);
 
 }  // namespace rollrig::generator

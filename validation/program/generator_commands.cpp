@@ -23,7 +23,7 @@ constexpr int kMostCases = 2000;
 /// Counts cases on a terminal.
 class CaseCounter {
  public:
-  Count count() {
+  Progress callback() {
     return [this](std::size_t done, std::size_t of) { line_.show(fmt::format("{} of {} cases", done, of)); };
   }
 
@@ -86,20 +86,20 @@ int make_command(MakeOptions options) {
     std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
     if (!std::cout) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
   };
-  write_validation_set(order, hashed, counter.count());
+  write_validation_set(order, hashed, counter.callback());
   return cli::kDone;
 }
 
 int upper_bound_command(UpperBoundOrder order) {
   CaseCounter counter;
-  const std::size_t cases = write_upper_bounds(order, counter.count());
+  const std::size_t cases = write_upper_bounds(order, counter.callback());
   std::cout << fmt::format("upper bound of {} cases with effects written to {}\n", cases, order.out);
   return cli::kDone;
 }
 
 int follow_up_command(const FollowUpOrder& order) {
   CaseCounter counter;
-  const std::size_t cases = write_follow_up(order, counter.count());
+  const std::size_t cases = write_follow_up(order, counter.callback());
   std::cout << fmt::format("{} cases with their next test in {}/sets\n", cases, follow_up_folder(order));
   return cli::kDone;
 }

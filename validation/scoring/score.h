@@ -36,8 +36,8 @@ struct Figure {
 /// How the cases of one cause, campaign or size were answered.
 struct Tally {
   std::size_t cases = 0, named = 0, named_wrong = 0, no_gap = 0, unexplained = 0, failed = 0;
-  std::size_t right_above = 0, wrong_above = 0;
-  std::size_t named_effects = 0;  // in the cases that are named, right or wrong
+  std::size_t right_above = 0, wrong_above = 0;  // first causes stated above kConfident
+  std::size_t named_effects = 0;                 // in the cases that are named, right or wrong
 
   void add(const Case& one);
   double mean_named_set() const;

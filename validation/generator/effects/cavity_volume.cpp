@@ -7,6 +7,9 @@
 namespace rollrig::generator {
 namespace {
 
+constexpr double kReference_N = 5400.0;
+constexpr double kFollows_s = 0.5;  // Assumed: about as the load settles
+
 class CavityVolume : public Effect {
  public:
   using Effect::Effect;
@@ -27,9 +30,6 @@ class CavityVolume : public Effect {
   }
 
  private:
-  static constexpr double kReference_N = 5400.0;
-  static constexpr double kFollows_s = 0.5;  // Assumed: about as the load settles
-
   double aim(const Instant& now) const {
     const double load = std::max(0.0, now.load_N) / kReference_N;
     const double x = now.speed_m_s / kSpeed80_m_s;
@@ -62,9 +62,6 @@ class SegmentOfContact : public Effect {
   }
 
  private:
-  static constexpr double kReference_N = 5400.0;
-  static constexpr double kFollows_s = 0.5;  // Assumed: about as the load settles
-
   double segment(double load_N, double pressure_kPa) const {
     const double stiffness = carcass_ + (1.0 - carcass_) * pressure_kPa / reference_kPa_;
     return std::pow(std::max(0.0, load_N) / kReference_N / stiffness, 1.5);
