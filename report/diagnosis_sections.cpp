@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "diagnosis/output/summary.h"
 #include "diagnosis/terms/term.h"

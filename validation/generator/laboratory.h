@@ -1,7 +1,6 @@
 #pragma once
 /// Everything of a set but its files: what is driven with which sensors, and what they record.
 
-#include <memory>
 #include <vector>
 
 #include "validation/generator/campaign.h"

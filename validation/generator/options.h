@@ -1,7 +1,6 @@
 #pragma once
 /// What a user says about kind, effects, sizes and forms of cases, checked. All throw InputError.
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -6,7 +6,6 @@
 /// energy; the load cylinder settles after a step. Where the wall conducts well, all that is the baseline.
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "validation/generator/campaign.h"

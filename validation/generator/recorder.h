@@ -1,7 +1,6 @@
 #pragma once
 /// From a plan to what the loggers write: integrates a run and takes means over sampling intervals.
 
-#include <memory>
 #include <vector>
 
 #include "validation/generator/plant.h"

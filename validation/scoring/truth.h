@@ -1,7 +1,6 @@
 #pragma once
 /// What is true of the cases of a validation set.
 
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>

@@ -1,5 +1,4 @@
 /// Pads that keep rubbing after braking, until the disc has pushed them back or has cooled.
-#include <cmath>
 
 #include "validation/generator/effect.h"
 

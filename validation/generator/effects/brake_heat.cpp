@@ -1,5 +1,4 @@
 /// Heat of the brakes goes to bead and gas: through a disc that the air cools and a rim, or as a share, late.
-#include <algorithm>
 #include <cmath>
 
 #include "validation/generator/effect.h"

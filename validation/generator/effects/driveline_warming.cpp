@@ -1,5 +1,4 @@
 /// Oil of axle and wheel bearings: viscosity by Vogel or by Walther, warmed by its own friction.
-#include <algorithm>
 #include <cmath>
 
 #include "validation/generator/effect.h"

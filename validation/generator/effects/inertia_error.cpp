@@ -1,5 +1,4 @@
 /// More or less turns than is reckoned with, and hangs on softly.
-#include <cmath>
 
 #include "validation/generator/effect.h"
 #include "validation/generator/machine.h"

@@ -1,5 +1,4 @@
 /// The sensor in the cavity reads off by a constant that goes with its temperature, or by a scale that bends.
-#include <cmath>
 
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"

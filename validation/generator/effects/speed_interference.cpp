@@ -1,5 +1,4 @@
 /// Outside of the catalog: the inverter disturbs the force meter about one speed.
-#include <cmath>
 
 #include "validation/generator/effect.h"
 #include "validation/generator/machine.h"

@@ -1,5 +1,4 @@
 /// Outside of the catalog: the axle is held at a height, so that a tire that grows with speed presses harder.
-#include <algorithm>
 #include <cmath>
 
 #include "validation/generator/effect.h"

@@ -1,5 +1,4 @@
 /// Air that the turning tire and its wheel drag along and pump.
-#include <algorithm>
 #include <cmath>
 
 #include "sim/core/units.h"

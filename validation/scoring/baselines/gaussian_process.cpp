@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <cmath>
 
 #include "validation/scoring/baselines/naming.h"
 
