@@ -1,6 +1,5 @@
 #include "measurements/resimulation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

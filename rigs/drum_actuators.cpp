@@ -1,7 +1,5 @@
 #include "rigs/drum_actuators.h"
 
-#include <cmath>
-
 namespace rollrig::rigs {
 
 using SimTK::SpatialVec;

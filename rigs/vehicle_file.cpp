@@ -5,7 +5,6 @@
 #include <map>
 
 #include "rigs/toml_group.h"
-#include "sim/core/error.h"
 
 namespace rollrig::rigs {
 namespace {

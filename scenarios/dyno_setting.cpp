@@ -7,7 +7,6 @@
 #include "scenarios/common/coastdown_evaluation.h"
 #include "scenarios/common/vehicle_bench.h"
 #include "sim/core/assets.h"
-#include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {
 namespace {

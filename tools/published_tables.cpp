@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <boost/math/tools/roots.hpp>
-#include <cmath>
 #include <functional>
 #include <vector>
 

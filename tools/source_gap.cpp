@@ -6,7 +6,6 @@
 #include <boost/math/interpolators/makima.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "diagnosis/terms/hypothesis.h"

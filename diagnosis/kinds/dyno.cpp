@@ -1,5 +1,4 @@
 /// Sets measured on a dynamometer: one wheel of a vehicle on its roller; its loss and its tire are measured.
-#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/kinds/driving_phases.h"

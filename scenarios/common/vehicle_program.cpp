@@ -1,7 +1,5 @@
 #include "scenarios/common/vehicle_program.h"
 
-#include <algorithm>
-
 #include "scenarios/run/fidelity.h"
 
 namespace rollrig::scenarios {

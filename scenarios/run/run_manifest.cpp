@@ -1,5 +1,4 @@
 // What went into a run and what came out, as JSON.
-#include <fmt/format.h>
 
 #include "scenarios/run/run_spec.h"
 #include "sim/core/file_io.h"
