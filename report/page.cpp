@@ -9,8 +9,6 @@
 namespace rollrig::report {
 namespace {
 
-constexpr std::string_view kPlaceholder = "/*PAYLOAD*/";
-
 Json make_section(const Section& section) {
   Json json = {{"title", section.title}, {"blocks", section.blocks}};
   if (!section.note.empty()) json["note"] = section.note;
@@ -44,12 +42,8 @@ std::string escape_json(const Json& json) {
 }
 
 std::string make_html(const Page& page) {
-  const std::string_view html = page_template();
-  const std::size_t at = html.find(kPlaceholder);
-  std::string whole(html.substr(0, at));
-  whole += escape_json(make_payload(page));
-  whole += html.substr(at + kPlaceholder.size());
-  return whole;
+  const std::string html(page_template());
+  return boost::algorithm::replace_first_copy(html, "/*PAYLOAD*/", escape_json(make_payload(page)));
 }
 
 }  // namespace rollrig::report

@@ -77,19 +77,16 @@ void add_panels(const PreparedSet& set, const Series& series, const std::vector<
       {{"label", label + ", measured less simulated"}, {"unit", shown_unit(channel)}, {"series", left}, {"low", true}});
 }
 
-struct Cell {
+/// Mean of measured less simulated over a phase; not a number where the series has no block in it.
+double calc_mean_over(std::size_t phase, const Series& series, const SimulatedSet& simulated) {
   double sum = 0.0;
   double blocks = 0.0;
-};
-
-Cell sum_phase(const Series& series, std::size_t phase, const SimulatedSet& simulated) {
-  Cell cell;
   for (std::size_t k = 0; k < series.size(); ++k) {
     if (series.phase[k] != phase) continue;
-    cell.sum += series.measured[k] - simulated.values[series.first_residual + k];
-    cell.blocks += 1.0;
+    sum += series.measured[k] - simulated.values[series.first_residual + k];
+    blocks += 1.0;
   }
-  return cell;
+  return sum / blocks;
 }
 
 /// The clearest stretch within a phase that the diagnosis lists.
@@ -115,9 +112,8 @@ Json make_cell(const PreparedSet& set, const Series& series, std::size_t phase, 
                const std::vector<diagnosis::Location>& where) {
   const PreparedRun& run = set.runs()[series.run];
   const std::string& channel = set.channels()[series.channel];
-  const Cell cell = sum_phase(series, phase, simulated);
-  if (cell.blocks == 0.0) return nullptr;
-  const double mean = cell.sum / cell.blocks;
+  const double mean = calc_mean_over(phase, series, simulated);
+  if (std::isnan(mean)) return nullptr;
   const diagnosis::ReportUnit unit = diagnosis::find_report_unit(set, channel);
   Json json = {{"text", fmt::format("{:+.2f}", unit.per_SI * mean)}, {"shade", 0}};
   const diagnosis::Location* listed = find_listed(where, channel, run.measured.id, run.phases[phase].name);
