@@ -11,13 +11,11 @@
 namespace rollrig::models {
 namespace {
 
-/// A standard deviation in the unit of the channel is a difference: the factor without the offset.
-double difference_to_si(const std::string& channel, double value) { return value * unit_of_key(channel).factor; }
-
 SensorParameters read_sensor(TableReader& reader, const std::string& channel) {
   SensorParameters sensor;
+  // A standard deviation in the unit of the channel is a difference: the factor without the offset.
   const auto in_channel_unit = [&](const char* key, const char* doc) {
-    return difference_to_si(channel, reader.number({key, non_negative(), doc}));
+    return reader.number({key, non_negative(), doc}) * unit_of_key(channel).factor;
   };
   sensor.offset_sd = in_channel_unit("offset_sd", "constant over a session");
   sensor.drift_sd = in_channel_unit("drift_sd", "first-order autoregressive drift");

@@ -16,9 +16,6 @@ const char* kind_of(const ConfigValue& value) {
   return kKinds[value.data.index()];
 }
 
-/// As it stands in the file; nothing of tables and arrays, which no line can show.
-std::string shown(const ConfigValue& value) { return value.text; }
-
 std::string allowed_number(const Field& field) {
   const Unit unit = unit_of_key(field.key);
   std::string text = "a number";
@@ -51,8 +48,7 @@ std::string TableReader::full_key(const std::string& key) const { return name_.e
 InputError TableReader::problem(const std::string& key, const std::string& what, const std::string& allowed) const {
   const ConfigValue* value = table_.find(key);
   const Origin& origin = value != nullptr ? value->origin : table_.origin;
-  return InputError(
-      {what, origin.file, origin.line, full_key(key), value != nullptr ? shown(*value) : "", allowed, ""});
+  return InputError({what, origin.file, origin.line, full_key(key), value != nullptr ? value->text : "", allowed, ""});
 }
 
 bool TableReader::has(const std::string& key) const { return table_.find(key) != nullptr; }
@@ -204,7 +200,7 @@ void TableReader::finish() const {
     unknown.file = value.origin.file;
     unknown.line = value.origin.line;
     unknown.key = full_key(key);
-    unknown.value = shown(value);
+    unknown.value = value.text;
     throw InputError(unknown);
   }
 }

@@ -21,14 +21,9 @@ struct Options {
 /// How many cases leave something open, and why some of them are not followed up.
 std::string summarize(const std::vector<FollowUpPlan>& plans, const std::string& folder) {
   std::map<std::string, std::size_t> reasons;
-  std::size_t planned = 0;
-  for (const FollowUpPlan& plan : plans) {
-    if (plan.not_made.empty()) {
-      ++planned;
-    } else {
-      ++reasons[plan.not_made];
-    }
-  }
+  for (const FollowUpPlan& plan : plans) ++reasons[plan.not_made];
+  const std::size_t planned = reasons[""];
+  reasons.erase("");
   std::string text =
       wrap(fmt::format("cases with causes that they cannot tell apart: {}; tests for {} of them in {}/plans",
                        plans.size(), planned, folder),
