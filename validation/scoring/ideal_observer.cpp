@@ -6,16 +6,11 @@
 #include "diagnosis/thresholds.h"
 
 namespace rollrig::validation {
-namespace {
-
-double calc_normal_share_below(double deviations) { return cdf(boost::math::normal(), deviations); }
-
-}  // namespace
 
 std::optional<double> find_chance_of_detection(const Case& one) {
   constexpr double kOneInHundred = 2.326;  // quantile of the normal distribution
   if (!one.d_prime.has_value()) return std::nullopt;
-  return calc_normal_share_below(*one.d_prime - kOneInHundred);
+  return cdf(boost::math::normal(), *one.d_prime - kOneInHundred);
 }
 
 std::optional<double> find_chance_of_small_set(const Case& one) {
