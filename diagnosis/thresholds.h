@@ -1,5 +1,5 @@
 #pragma once
-/// Every number that decides what the diagnosis says, in one place.
+/// The numbers that decide which causes the diagnosis names.
 ///
 /// A release is checked against what they were when the last validation set was answered (docs/validation.md, "A new
 /// validation set").

@@ -23,14 +23,6 @@ constexpr double kOutside = 2.0;  // from which none is needed to doubt the set;
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
-void require_noise(const MeasurementSet& set) {
-  for (const auto& [channel, sensor] : set.sensors) {
-    if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) continue;
-    throw InputError({"a sensor has no noise at all, so that nothing would be within it", set.path, 0,
-                      fmt::format("[sensors.{}]", channel), "0", "noise_sd, drift_sd or resolution above 0", ""});
-  }
-}
-
 /// Warns of numbers that the files do not give.
 void check_assumed(const MeasurementSet& set, SetChecks& checks) {
   if (!set.assumed_sensors.empty()) {
@@ -156,7 +148,7 @@ void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline
 
 SetChecks check_set(const MeasurementSet& set, int threads) {
   measurements::make_context(set);  // throws where the files lack what the kind needs
-  require_noise(set);
+  for (const auto& [channel, sensor] : set.sensors) require_noise(set, channel);
   SetChecks checks;
   check_assumed(set, checks);
   check_samples(set, checks);

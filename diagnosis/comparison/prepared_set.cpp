@@ -13,18 +13,6 @@ namespace {
 constexpr double kBlock_s = 10.0;  // design: work on 10 s means
 constexpr double kSlack_s = 1e-6;
 
-void require_sensor_error(const measurements::MeasurementSet& set, const std::string& channel,
-                          const models::SensorParameters& sensor) {
-  if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) return;
-  InputProblem problem;
-  problem.what = "a sensor without any error: what counts as a gap could not be told";
-  problem.file = set.path;
-  problem.key = "[sensors." + channel + "]";
-  problem.value = "noise_sd = drift_sd = resolution = 0";
-  problem.allowed = "one of them above 0";
-  throw InputError(problem);
-}
-
 /// Whether the surface stands still over a row and its neighbors.
 bool stands(const measurements::MeasuredRun& run, std::size_t row) {
   const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
@@ -73,6 +61,13 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 
 }  // namespace
 
+void require_noise(const measurements::MeasurementSet& set, const std::string& channel) {
+  const models::SensorParameters& sensor = set.sensors.at(channel);
+  if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) return;
+  throw InputError({"a sensor has no noise at all, so that nothing would be within it", set.path, 0,
+                    "[sensors." + channel + "]", "0", "noise_sd, drift_sd or resolution above 0", ""});
+}
+
 PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra)
     : extra_(std::move(extra)), set_(set), kind_(&kind_of(set)) {
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -110,7 +105,7 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   const PreparedRun& run = runs_[r];
   const std::string& name = channels_[channel];
   const models::SensorParameters& sensor = set_.sensors.at(name);
-  require_sensor_error(set_, name, sensor);
+  require_noise(set_, name);
   const std::vector<double>& values = run.measured.columns.at(name);
   std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, name);
   const bool reads_zero = extra_.force_at_standstill || run.measured.force_at_standstill;

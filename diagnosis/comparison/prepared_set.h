@@ -59,10 +59,13 @@ struct ExtraReadings {
   std::vector<std::string> sensors;  // channels of sensors that the rig has not (rig_sensors.h)
 };
 
+/// Throws InputError where the sensor of a channel has no noise at all.
+void require_noise(const measurements::MeasurementSet& set, const std::string& channel);
+
 /// Runs are put in the order of their ids, so that the order in the file does not matter.
 /// Blocks are 10 s long and end where a phase or an averaging gap does. What depends on the kind of the set
 /// (kinds/measurement_kind.h): which rows are compared, the phases, how a run is simulated.
-/// Errors  InputError: no sample in any channel; a sensor without any error; what the set's kind needs is not there
+/// Errors  InputError: no sample in any channel; a sensor without any noise; what the set's kind needs is not there
 class PreparedSet {
  public:
   explicit PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra = {});
