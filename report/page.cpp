@@ -30,15 +30,16 @@ Json make_payload(const Page& page) {
   return json;
 }
 
+/// JSON that can stand inside a script element.
+std::string escape_json(const Json& json) {
+  // "<" stands in strings alone, so nothing in the text can end the script.
+  return boost::algorithm::replace_all_copy(json.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
+}
+
 }  // namespace
 
 void Page::add(Section section) {
   if (!section.blocks.empty()) sections.push_back(std::move(section));
-}
-
-std::string escape_json(const Json& json) {
-  // "<" stands in strings alone, so nothing in the text can end the script.
-  return boost::algorithm::replace_all_copy(json.dump(-1, ' ', false, Json::error_handler_t::replace), "<", "\\u003c");
 }
 
 std::string make_html(const Page& page) {

@@ -41,7 +41,4 @@ struct Page {
 /// Checked  tests/report/page_test.cpp, tests/report/browser_test.cpp
 std::string make_html(const Page& page);
 
-/// JSON that can stand inside a script element.
-std::string escape_json(const Json& json);
-
 }  // namespace rollrig::report

@@ -28,6 +28,13 @@ constexpr const char* kPlansFormat = "rollrig-blind-plans/1";
 
 const char* flag_of(Choice choice) { return choice == Choice::kDrawn ? " --drawn" : ""; }
 
+/// Whether the verdict is explained, by a cause that the case cannot tell from others.
+bool leaves_open(const Answer& answer) {
+  const diagnosis::Diagnosis& said = answer.diagnosis;
+  return answer.failure.empty() && said.verdict == diagnosis::Verdict::kExplained && !said.causes.empty() &&
+         !said.causes.front().indistinguishable_from.empty();
+}
+
 /// Why no measurement set can hold what a test reads; empty where it can.
 std::string find_obstacle(const PlannedTest& test) {
   if (!test.extra.sensors.empty()) return "a further sensor: a set has no column for it";
@@ -211,12 +218,6 @@ std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis) {
   const std::vector<std::string>& others = diagnosis.causes.front().indistinguishable_from;
   all.insert(all.end(), others.begin(), others.end());
   return all;
-}
-
-bool leaves_open(const Answer& answer) {
-  const diagnosis::Diagnosis& said = answer.diagnosis;
-  return answer.failure.empty() && said.verdict == diagnosis::Verdict::kExplained && !said.causes.empty() &&
-         !said.causes.front().indistinguishable_from.empty();
 }
 
 bool FollowUp::is_promised(const Answer& before) const {

@@ -21,8 +21,6 @@ const char* folder_of(Choice choice);
 
 /// What an answer names: the first cause's effects and all that it cannot be told from.
 std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis);
-/// Whether the verdict is explained, by a cause that the case cannot tell from others.
-bool leaves_open(const Answer& answer);
 
 /// The next test of one case.
 struct FollowUpPlan {
