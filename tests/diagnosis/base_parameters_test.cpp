@@ -105,7 +105,7 @@ TEST_CASE("priors stand around the values of the files", "[fast]") {
 TEST_CASE("z and f are those of the set's rig, with its uncertainty", "[fast]") {
   auto set = make_set();
   set.tire.standard_uncertainties.thermal.rest_conductance_W_per_K = 9.0;
-  auto& on_rig = set.tire.rig_thermal.at(set.rig->name);
+  auto& on_rig = set.tire.rig_thermal.at(set.rig->thermal_name());
   on_rig.rest_conductance_sd_W_per_K = 0.7;
   on_rig.speed_conductance_sd_W_s_per_m_K = 0.05;
   set.tire.rig_thermal["dyno_1m2"].rest_conductance_sd_W_per_K = 3.0;
@@ -172,7 +172,7 @@ TEST_CASE("with a map over load its lines move, each by its share, and not the l
 TEST_CASE("a number that is zero can still move", "[fast]") {
   auto set = make_set();
   set.rig->parasitic.c2_N_s2_per_m2 = 0.0;
-  set.tire.rig_thermal.at(set.rig->name).rest_conductance_W_per_K = 0.0;
+  set.tire.rig_thermal.at(set.rig->thermal_name()).rest_conductance_W_per_K = 0.0;
   const auto base = find(set);
   CHECK(base.at("parasitic.c2_N_s2_per_m2").prior_sd_SI > 0.0);
   CHECK(base.at("tire.thermal.z_W_per_K").prior_sd_SI > 0.0);

@@ -60,7 +60,7 @@ measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect
   set.path = "simulated";
   set.name = "simulated";
   set.tire = read_asset_tire();
-  set.rig = read_asset_rig();
+  set.rig = make_uneven_drum();
   set.sensors = measurements::read_sensor_asset(sensors);
   for (std::size_t i = 0; i < runs; ++i) {
     measurements::MeasuredRun run = plan_run(plans[i], set.rig->skim.load_N);

@@ -72,13 +72,14 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
   measurements::MeasuredRun run;
   run.time_s = {0.0, 1.0, 2.0};
   run.columns = {{"load_N", {0.0, 0.0, 0.0}}, {"ambient_degC", {298.15, 298.15, 298.15}}};
-  run.columns["hung_torque_Nm"] = {0.0, 60.0, 600.0};
+  const double radius_m = study.set.rig->drum.diameter_m / 2.0;
+  run.columns["hung_torque_Nm"] = {0.0, 60.0 * radius_m, 600.0 * radius_m};
   sim::Recording<double> recording;
   recording.channels.push_back({"drum_torque_Nm"});
   recording.values = {{0.0, 0.0, 0.0}};
   const std::vector<double> read_Nm = read_channel(study.set, run, corner, recording, "drum_torque_Nm");
   CHECK(read_Nm[0] == 0.0);
-  CHECK(read_Nm[1] == Approx(61.2));  // 60 N at a radius of 1 m
-  CHECK(read_Nm[2] > 600.0);
-  CHECK(read_Nm[2] < 600.0 + 0.6 * 12.0);
+  CHECK(read_Nm[1] == Approx(61.2 * radius_m));  // 60 N at the surface
+  CHECK(read_Nm[2] > 600.0 * radius_m);
+  CHECK(read_Nm[2] < (600.0 + 0.6 * 12.0) * radius_m);
 }

@@ -74,9 +74,10 @@ TEST_CASE("without loss a free-rolling wheel has no hub moment and the drum no t
     Ran ran(fixture, load_step(5400.0));
     INFO("tolerances times " << factor);
     const rigs::DrumForces at_end = ran.forces();
-    CHECK(std::abs(at_end.hub_moment_Nm) < 1e-6);
-    CHECK(std::abs(at_end.motor_torque_Nm) < 1e-6);
-    CHECK(std::abs(at_end.spindle_force_N) < 1e-6);
+    const double nothing = 1e-6 * std::max(1.0, factor);  // N m, N
+    CHECK(std::abs(at_end.hub_moment_Nm) < nothing);
+    CHECK(std::abs(at_end.motor_torque_Nm) < nothing);
+    CHECK(std::abs(at_end.spindle_force_N) < nothing);
   }
 }
 
@@ -160,7 +161,8 @@ TEST_CASE("a drum that coasts without tire load stops when the closed form says"
   program.phases[0].until = sim::StopCondition{rigs::kWatchSpeed, 1.0, sim::StopCondition::Direction::kFalling};
   // (m_eff) dv/dt = -(c0 + c1 v) from 30 to 1 m/s: t = m/c1 ln((c0 + 30 c1)/(c0 + c1))
   const double radius_m = 0.7176 / 2.0 - 200.0 / 220000.0;
-  const double mass_kg = 450.0 + 1.5 / (radius_m * radius_m);
+  const double drum_radius_m = fixture.rig.drum.diameter_m / 2.0;
+  const double mass_kg = fixture.rig.drum.inertia_kg_m2 / (drum_radius_m * drum_radius_m) + 1.5 / (radius_m * radius_m);
   const double expected_s = mass_kg / 1.5 * std::log((20.0 + 45.0) / (20.0 + 1.5));
   CHECK(fixture.run_multibody(program).phases[0].end_s == Approx(expected_s).margin(1e-3));
   CHECK(fixture.run_quasi_static(program).phases[0].end_s == Approx(expected_s).margin(1e-3));

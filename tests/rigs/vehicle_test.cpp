@@ -288,6 +288,7 @@ TEST_CASE("a quarter stands for the whole: each wheel of an evenly loaded vehicl
 TEST_CASE("at equal temperature the roller costs a50 8.45 % over the 2 m drum, the road less than either", "[fast]") {
   // A law without temperature and pressure in it: what is left is the surface. Published: 1.0845.
   tests::DrumFixture drum;
+  drum.rig = tests::read_asset_rig();
   const auto isothermal = [](models::TireFile& tire) {
     tire.values.rolling_resistance.B0_per_K = 0.0;
     tire.values.rolling_resistance.B1_s_per_m_K = 0.0;

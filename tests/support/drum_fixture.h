@@ -11,6 +11,7 @@
 #include "sim/cvodes_integrator.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
+#include "tests/support/uneven_machines.h"
 
 namespace rollrig::tests {
 
@@ -24,7 +25,7 @@ models::OwnParameters<double> make_own(const std::string& model);
 /// A drum test that a test may change before it runs.
 struct DrumFixture {
   models::TireFile tire = read_asset_tire();
-  rigs::RigFile rig = read_asset_rig();
+  rigs::RigFile rig = make_uneven_drum();
   models::Baseline baseline = models::Baseline::kCombined;
   std::vector<models::ActiveEffect> effects;
   double initial_K = 298.15;

@@ -55,11 +55,12 @@ measurements::MeasurementSet simulate_campaign(const Campaign& campaign, std::ui
   set.path = "simulated/set.toml";
   set.name = "simulated";
   set.tire = read_asset_tire(campaign.tire);
-  set.rig = read_asset_rig();
+  set.rig = make_uneven_drum();
   set.sensors = measurements::read_sensor_asset("source");
   for (std::size_t part = 0; part < campaign.parts.size(); ++part) {
     const auto& [scenario, settings] = campaign.parts[part];
     scenarios::RunSpec spec = make_spec(scenario, campaign.tire, settings, "quasi_static");
+    spec.rig = *set.rig;
     spec.effects = campaign.effects;
     const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
     for (const scenarios::SetRun& cut : outcome.set_runs) {

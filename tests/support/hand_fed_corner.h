@@ -13,7 +13,7 @@
 
 namespace rollrig::tests {
 
-/// The context of tire a50 on the 2 m drum, on a 1.2 m roller, on a belt, or on the road.
+/// The context of tire a50 on a 1.707 m drum, on a 1.2 m roller, on a belt, or on the road.
 inline models::Context<double> make_context_on(tests::Machine kind) {
   models::Context<double> context = DrumFixture().context();
   context.machine = kind->traits;

@@ -12,6 +12,7 @@ rigs::RigFile read_asset(const std::string& name) { return rigs::read_rig(read_c
 rigs::RigFile make_uneven_drum() {
   rigs::RigFile rig = read_asset("drum_2m");
   rig.name = "drum_1707";
+  rig.conductances_of = "drum_2m";
   rig.drum = {1.707, 310.0};
   rig.parasitic = {9.0, 0.3, 0.006};
   return rig;

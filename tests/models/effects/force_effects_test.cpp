@@ -66,18 +66,23 @@ TEST_CASE("the standing wave starts at its critical speed, grows with the square
 }
 
 TEST_CASE("loss goes with a power of the correction factor from one surface to another", "[fast]") {
-  const double v = 20.0;
-  const double roller_N = find_loss_N(tests::kDyno, {}, v, 5400.0);
-  const double road_N = find_loss_N(tests::kRoad, {}, v, 5400.0);
+  const auto find_on = [](double curvature_per_m, const std::vector<ActiveEffect>& effects) {
+    auto context = make_context_on(tests::kDrum);
+    context.surface_curvature_per_m = curvature_per_m;
+    return HandFedCorner<double>(context, effects).evaluate().rolling_resistance_N;
+  };
+  constexpr double kReference_per_m = 1.0;  // of the 2 m drum
+  const double reference_N = find_on(kReference_per_m, {});
   for (const double exponent : {0.6, 1.4}) {
     const std::vector<ActiveEffect> with{switch_on("curvature_exponent", {exponent})};
-    const double ratio = find_loss_N(tests::kDyno, with, v, 5400.0) / find_loss_N(tests::kRoad, with, v, 5400.0);
-    CHECK(ratio == Approx(std::pow(roller_N / road_N, exponent)));
-    CHECK(find_loss_N(tests::kDrum, with, v, 5400.0) == find_loss_N(tests::kDrum, {}, v, 5400.0));
+    for (const double curvature_per_m : {0.0, 2.0 / 1.707, 1.0 / 0.6}) {
+      const double without_N = find_on(curvature_per_m, {});
+      CHECK(find_on(curvature_per_m, with) == Approx(reference_N * std::pow(without_N / reference_N, exponent)));
+    }
+    CHECK(find_on(kReference_per_m, with) == reference_N);
   }
-  // to the power 0 there is no correction: the roller is like the drum
-  CHECK(find_loss_N(tests::kDyno, {switch_on("curvature_exponent", {0.0})}, v, 5400.0) ==
-        Approx(find_loss_N(tests::kDrum, {}, v, 5400.0)));
+  // to the power 0 there is no correction: every surface is like the reference drum
+  CHECK(find_on(1.0 / 0.6, {switch_on("curvature_exponent", {0.0})}) == Approx(reference_N));
 }
 
 TEST_CASE("tie-downs press the wheel onto its roller, and only there", "[fast]") {
@@ -129,7 +134,7 @@ TEST_CASE("more drum inertia asks for torque by its share of J a/R, and none at 
   const auto plain = fixture.run_quasi_static(program);
   fixture.effects = {switch_on("inertia_error", {4.0})};
   const auto with = fixture.run_quasi_static(program);
-  const double radius_m = 1.0;
+  const double radius_m = fixture.rig.drum.diameter_m / 2.0;
   const double added_Nm = 0.04 * fixture.rig.drum.inertia_kg_m2 / radius_m * (15.0 / 60.0);
   CHECK(with.channel("drum_torque_Nm")[30] - plain.channel("drum_torque_Nm")[30] == Approx(added_Nm));
   CHECK(with.channel("drum_torque_Nm")[100] == Approx(plain.channel("drum_torque_Nm")[100]).epsilon(1e-10));
@@ -169,7 +174,8 @@ TEST_CASE("friction of loaded bearings is reported as the tire's, but for its sh
   fixture.effects = {switch_on("bearing_load_friction", {1.5})};
   const auto with = fixture.run_quasi_static(program);
   const auto added_N = [&](std::size_t row) {
-    return with.channel("drum_torque_Nm")[row] - plain.channel("drum_torque_Nm")[row];  // R = 1 m
+    const double torque_Nm = with.channel("drum_torque_Nm")[row] - plain.channel("drum_torque_Nm")[row];
+    return torque_Nm / (fixture.rig.drum.diameter_m / 2.0);
   };
   CHECK(added_N(100) - added_N(220) == Approx(1.5 * (1.0 - 200.0 / 5400.0)));
 }

@@ -201,15 +201,16 @@ TEST_CASE("load leaks into the torque by its angle, by the drum's radius, whatev
   const auto effect = switch_on("load_cross_talk", {0.4, 0.0});
   const std::vector<double> time_s{0.0, 1.0, 2.0};
   const NamedChannel load{"load_N", {5000.0, 5000.0, 5000.0}};
+  constexpr double kTorque_Nm = 5000.0 * 0.4e-3 * 0.8535;  // load, angle, radius of the drum
   for (const double torque_Nm : {0.0, 60.0}) {
     const auto shown =
         apply_trace(effect, time_s, {"drum_torque_Nm", {torque_Nm, torque_Nm, torque_Nm}}, tests::kDrum, {load});
-    CHECK(shown[1] - torque_Nm == Approx(2.0));  // 5 kN, 0.4 mrad, R = 1 m
+    CHECK(shown[1] - torque_Nm == Approx(kTorque_Nm));
   }
   const std::vector<double> zeros(3, 0.0);
   CHECK(apply_trace(effect, time_s, {"loss_force_N", zeros}, tests::kDyno, {load})[1] == Approx(2.0));
   CHECK(apply_trace(switch_on("load_cross_talk", {-0.4, 0.0}), time_s, {"drum_torque_Nm", zeros}, tests::kDrum,
-                    {load})[1] == Approx(-2.0));
+                    {load})[1] == Approx(-kTorque_Nm));
   CHECK(apply_trace(effect, time_s, {"drum_torque_Nm", zeros}, tests::kDrum) == zeros);  // no load, no leak
 }
 
@@ -230,7 +231,7 @@ TEST_CASE("beside a step of the load a sample has the mean of what held before a
   const std::vector<double> time_s{0.0, 1.0, 4.0, 5.0};
   const NamedChannel load{"load_N", {1000.0, 1000.0, 3000.0, 3000.0}};  // steps at 4 s
   const auto shown = apply_trace(effect, time_s, {"drum_torque_Nm", std::vector<double>(4, 0.0)}, tests::kDrum, {load});
-  const double sine = std::sin(1e-3);
+  const double sine = 0.8535 * std::sin(1e-3);  // by the radius of the drum, m
   CHECK(shown[0] == Approx(1000.0 * sine));
   CHECK(shown[1] == Approx(1000.0 * sine));
   CHECK(shown[2] == Approx((1.5 * 1000.0 + 0.5 * 3000.0) / 2.0 * sine));

@@ -159,7 +159,7 @@ TEST_CASE("grease that is thin leaves the drum its air drag, or a share of it", 
     HandFedCorner<double> at(make_context_on(tests::kDrum),
                              {switch_on("bearing_warmup", {0.2, 30.0, 0.1, 1.0, quadratic_share})});
     at.inputs.ambient_K = 298.15 + 200.0;
-    const double air_drag_N = 0.004 * k80_m_s * k80_m_s;  // assets/rigs/drum_2m.toml
+    const double air_drag_N = tests::make_uneven_drum().parasitic.c2_N_s2_per_m2 * k80_m_s * k80_m_s;
     CHECK(at.evaluate().parasitic_N == Approx((1.0 - quadratic_share) * air_drag_N).margin(1e-9));
   }
 }

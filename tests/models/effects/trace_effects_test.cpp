@@ -59,6 +59,7 @@ constexpr double kLag_s = 24.0;  // of the gas behind the rubber
 /// Integral of a warm-up that starts at 0.
 double integral_of_warm_up(double t) { return t < 0.0 ? 0.0 : 20.0 * (t + kLag_s * (std::exp(-t / kLag_s) - 1.0)); }
 
+constexpr double kRadius_m = 0.8535;  // of the drum of tests/support/uneven_machines.h
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -67,10 +68,11 @@ TEST_CASE("the torque's zero starts to drift at its rate and comes to rest by ra
   const std::vector<double> time_s = rows_every(10.0, 36000.0);
   const std::vector<double> zeros(time_s.size(), 0.0);
   const auto drift_Nm = apply(switch_on("torque_zero_drift", {1.8, 60.0, 0.0}), time_s, zeros, kTorque);
+  constexpr double kSize_Nm = 1.8 * kRadius_m;
   CHECK(drift_Nm[0] == 0.0);
-  CHECK(drift_Nm[1] == Approx(1.8 * 10.0 / 3600.0).epsilon(2e-3));  // R = 1 m
-  CHECK(drift_Nm[360] == Approx(1.8 * (1.0 - std::exp(-1.0))));
-  CHECK(drift_Nm.back() == Approx(1.8).epsilon(1e-4));
+  CHECK(drift_Nm[1] == Approx(kSize_Nm * 10.0 / 3600.0).epsilon(2e-3));
+  CHECK(drift_Nm[360] == Approx(kSize_Nm * (1.0 - std::exp(-1.0))));
+  CHECK(drift_Nm.back() == Approx(kSize_Nm).epsilon(1e-4));
   const auto other_way = apply(switch_on("torque_zero_drift", {-1.8, 60.0, 0.0}), time_s, zeros, kTorque);
   CHECK(other_way[360] == -drift_Nm[360]);
 }
@@ -105,8 +107,8 @@ TEST_CASE("a kelvin of ambient moves the zero like its minutes of drift, and non
   const auto in_time = drift(1.2, 0.0);
   const auto both = drift(1.2, 5.0);
   CHECK(both[0] == 0.0);
-  CHECK(both[1] - in_time[1] == Approx(0.02 * 5.0 * 2.0));  // 1.2 N/h are 0.02 N a minute
-  CHECK(both[2] - in_time[2] == Approx(-0.02 * 5.0 * 1.0));
+  CHECK(both[1] - in_time[1] == Approx(kRadius_m * 0.02 * 5.0 * 2.0));  // 1.2 N/h are 0.02 N a minute
+  CHECK(both[2] - in_time[2] == Approx(kRadius_m * -0.02 * 5.0 * 1.0));
   CHECK(drift(0.0, 5.0) == zeros);
 }
 
