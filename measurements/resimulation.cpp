@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "models/reference_conditions.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/recorded_road.h"
@@ -142,7 +144,7 @@ sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& ki
 }
 
 double find_tire_load_N(const rigs::VehicleFile& vehicle) {
-  return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.tires;
+  return vehicle.body.mass_kg * kStandardGravity_m_s2 / vehicle.count_wheels();
 }
 
 models::Context<double> make_context(const MeasurementSet& set) {
@@ -151,6 +153,14 @@ models::Context<double> make_context(const MeasurementSet& set) {
   if (vehicle.road_load.has_value()) {
     throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
                       "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
+  }
+  for (const rigs::VehicleAxle& axle : vehicle.axles) {
+    if (!axle.tire.has_value() && axle.pressure_Pa == 0.0) continue;
+    throw InputError(
+        {fmt::format("axle '{}' has a tire or a pressure of its own, and a set of the road has one of both "
+                     "for all wheels",
+                     axle.name),
+         vehicle.path, 0, "[[axle]]", "", "the tire of the set, the pressure of its runs", ""});
   }
   models::Context<double> context;
   context.machine = set.kind->traits;
@@ -197,7 +207,7 @@ template <class S>
 S calc_start_temperature_K(const MeasurementSet& set, const MeasuredRun& run, const models::Corner<S>& corner,
                            const rigs::RigStart<S>& start) {
   const bool begins_warm = run.started_warm && corner.context().tire.model().info.loss_follows_heat;
-  return begins_warm ? calc_warm_temperature_K(corner, set.vehicle->tires, start) : start.tire_temperature_K;
+  return begins_warm ? calc_warm_temperature_K(corner, set.vehicle->count_wheels(), start) : start.tire_temperature_K;
 }
 
 /// Effects of the port "trace", beside the recorded inputs that they may read.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "report/blocks.h"
-#include "report/time_panels.h"
 #include "rigs/vehicle_channels.h"
+#include "scenarios/common/vehicle_conditions.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -15,6 +15,7 @@ namespace quantities = models::quantities;
 using scenarios::RunSpec;
 using Column = std::vector<double>;
 using Recording = sim::Recording<double>;
+using Tire = models::TireParameters<double>;
 
 /// A recorded pose, or nothing.
 const Column* find_pose(const Recording& recording, const std::string& name) {
@@ -49,7 +50,7 @@ Column scaled(Column values, double factor) {
 
 /// The channel of the wheel at a position such as "front_left"; empty for the only wheel.
 std::string named(const std::string& channel, const std::string& position) {
-  return rigs::wheel_channel(channel, {position});
+  return rigs::wheel_channel(channel, position);
 }
 std::string named(const Quantity& quantity, const std::string& position) { return named(quantity.header(), position); }
 
@@ -63,8 +64,8 @@ class Scene {
     return json;
   }
 
-  Json make_tire() const {
-    const auto& geometry = spec_.tire.values.geometry;
+  static Json make_tire(const Tire& tire) {
+    const auto& geometry = tire.geometry;
     return {{"radius_m", geometry.outer_diameter_m / 2.0}, {"rim_radius_m", geometry.rim_diameter_m / 2.0}};
   }
 
@@ -79,12 +80,9 @@ class Scene {
   double surface_height_m() const { return is_belt() ? 0.0 : surface_radius_m(); }
 
   /// Height of an axle above the surface that carries it, from what the contact carries.
-  Column height_by_load(const Column& load_N) const {
-    const auto& tire = spec_.tire.values;
+  static Column height_by_load(const Tire& tire, const Column& load_N) {
     Column height_m;
-    for (const double load : load_N) {
-      height_m.push_back(tire.geometry.outer_diameter_m / 2.0 - load / tire.stiffness.vertical_N_per_m);
-    }
+    for (const double load : load_N) height_m.push_back(calc_loaded_radius_m(tire, load));
     return height_m;
   }
 
@@ -100,11 +98,12 @@ class Scene {
   }
 
   /// What every wheel has: load, temperature, angles; the height is the machine's to add.
-  Json make_wheel(const std::string& position, const std::string& surface_pose) const {
+  Json make_wheel(const Tire& tire, const std::string& position, const std::string& surface_pose) const {
     const Column& load_N = contact_load_N(position);
-    const double rolling_m = height_by_load({load_N[load_N.size() / 2]}).front();
+    const double rolling_m = calc_loaded_radius_m(tire, load_N[load_N.size() / 2]);
     Json wheel = {
         {"x_m", 0.0},
+        {"tire", make_tire(tire)},
         {"load_N", series(load_N, "load_N")},
         {"temperature_degC", series(recording_.channel(named(quantities::kLinerTemperature, position)), "x_degC")},
         {"angle_rad", series(angle_of(named("wheel_angle_rad", position), rolling_m), "angle_rad")}};
@@ -118,7 +117,8 @@ class Scene {
     double low = 1e9;
     double high = -1e9;
     for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
-      if (without_wheel(recording_.channels[i].name) != quantities::kLinerTemperature.header()) continue;
+      if (recording_.channels[i].name.rfind(name_without_unit(quantities::kLinerTemperature.header()), 0) != 0)
+        continue;
       const Column& values = recording_.values[i];
       low = std::min(low, *std::min_element(values.begin(), values.end()));
       high = std::max(high, *std::max_element(values.begin(), values.end()));
@@ -135,63 +135,76 @@ class Scene {
 };
 
 Json make_drum_wheel(const Scene& scene) {
-  Json wheel = scene.make_wheel("", "drum_angle_rad");
+  const Tire& tire = scene.spec().tire.values;
+  Json wheel = scene.make_wheel(tire, "", "drum_angle_rad");
   const Column* pose = find_pose(scene.recording(), "axle_height_m");
-  Column height_m = scene.height_by_load(scene.contact_load_N(""));
+  Column height_m = scene.height_by_load(tire, scene.contact_load_N(""));
   for (double& height : height_m) height += scene.surface_height_m();
   wheel["axle_height_m"] = scene.series(pose != nullptr ? *pose : height_m, "height_m");
   return wheel;
 }
 
+/// A wheel that is drawn, at its place forwards of the center of gravity.
+struct DrawnWheel {
+  std::string position;
+  double x_m = 0.0;
+  Tire tire;
+};
+
 /// Height of an axle: the body's heave and pitch and the axle's own travel on top of the static one.
-Column find_axle_height_m(const Scene& scene, const std::string& position, double axle_x_m, double static_load_N) {
+Column find_axle_height_m(const Scene& scene, const DrawnWheel& drawn) {
   const Recording& recording = scene.recording();
-  Column height_m = scene.height_by_load(scene.contact_load_N(position));
+  Column height_m = scene.height_by_load(drawn.tire, scene.contact_load_N(drawn.position));
   const Column* heave_m = find_pose(recording, "body_heave_m");
-  const Column* travel_m = find_pose(recording, named("axle_travel_m", position));
+  const Column* travel_m = find_pose(recording, named("axle_travel_m", drawn.position));
   if (heave_m == nullptr || travel_m == nullptr) return height_m;
   const Column* pitch_rad = find_pose(recording, "body_pitch_rad");
-  const double static_m = scene.height_by_load({static_load_N}).front();
+  const double static_load_N = recording.channel(named(quantities::kLoad, drawn.position)).front();
+  const double static_m = calc_loaded_radius_m(drawn.tire, static_load_N);
   for (std::size_t row = 0; row < height_m.size(); ++row) {
     height_m[row] = static_m + (*heave_m)[row] + (*travel_m)[row];
-    if (pitch_rad != nullptr) height_m[row] += axle_x_m * (*pitch_rad)[row];
+    if (pitch_rad != nullptr) height_m[row] += drawn.x_m * (*pitch_rad)[row];
   }
   return height_m;
 }
 
-Json make_vehicle_wheel(const Scene& scene, const std::string& position, double axle_x_m) {
+Json make_vehicle_wheel(const Scene& scene, const DrawnWheel& drawn) {
   const Recording& recording = scene.recording();
-  const double static_load_N = recording.channel(named(quantities::kLoad, position)).front();
-  Json wheel = scene.make_wheel(position, named("roller_angle_rad", position));
-  wheel["x_m"] = axle_x_m;
-  wheel["axle_height_m"] = scene.series(find_axle_height_m(scene, position, axle_x_m, static_load_N), "height_m");
-  wheel["force_N"] = scene.series(recording.channel(named(quantities::kLongitudinalForce, position)), "force_N");
+  Json wheel = scene.make_wheel(drawn.tire, drawn.position, named("roller_angle_rad", drawn.position));
+  wheel["x_m"] = drawn.x_m;
+  wheel["axle_height_m"] = scene.series(find_axle_height_m(scene, drawn), "height_m");
+  wheel["force_N"] = scene.series(recording.channel(named(quantities::kLongitudinalForce, drawn.position)), "force_N");
   return wheel;
 }
 
-/// The left side of the vehicle, or the one wheel with its share of it.
+/// The wheels on the left side of the vehicle, or the one wheel with its share of it.
+std::vector<DrawnWheel> list_drawn_wheels(const RunSpec& spec, bool is_whole) {
+  const rigs::VehicleFile& vehicle = *spec.vehicle;
+  std::vector<DrawnWheel> drawn;
+  for (const rigs::VehicleAxle& axle : vehicle.axles) {
+    const std::string position = is_whole ? rigs::name_wheels(vehicle, axle).front() : "";
+    drawn.push_back({position, is_whole ? vehicle.calc_x_m(axle) : 0.0, rigs::tire_of(axle, spec.tire).values});
+  }
+  if (!is_whole) drawn = {drawn[scenarios::VehicleConditions::find_axle(spec)]};
+  return drawn;
+}
+
 void add_vehicle(const Scene& scene, Block& block) {
   const Recording& recording = scene.recording();
-  const auto& geometry = scene.spec().vehicle->geometry;
-  const double front_x_m = geometry.wheelbase_m * (1.0 - geometry.front_load_share);
   const Column still(recording.row_count(), 0.0);
   const auto pose_or_still = [&](const char* name) {
     const Column* pose = find_pose(recording, name);
     return pose != nullptr ? *pose : still;
   };
-  Json body = {{"height_m", geometry.centre_of_gravity_height_m},
-               {"heave_m", scene.series(pose_or_still("body_heave_m"), "height_m")}};
-  if (find_channel(recording, named(quantities::kLoad, "")) != nullptr) {
-    block["wheels"].push_back(make_vehicle_wheel(scene, "", 0.0));
-  } else {
-    body["wheelbase_m"] = geometry.wheelbase_m;
-    body["front_x_m"] = front_x_m;
-    body["pitch_rad"] = scene.series(pose_or_still("body_pitch_rad"), "angle_rad");
-    for (const char* position : {"front_left", "rear_left"}) {
-      if (find_channel(recording, named(quantities::kLoad, position)) == nullptr) continue;  // its axle stands
-      const double x_m = std::string(position) == "front_left" ? front_x_m : front_x_m - geometry.wheelbase_m;
-      block["wheels"].push_back(make_vehicle_wheel(scene, position, x_m));
-    }
+  Json body = {{"height_m", scene.spec().vehicle->center_of_gravity_height_m},
+               {"heave_m", scene.series(pose_or_still("body_heave_m"), "height_m")},
+               {"axles_x_m", Json::array()}};
+  const bool is_whole = find_channel(recording, named(quantities::kLoad, "")) == nullptr;
+  if (is_whole) body["pitch_rad"] = scene.series(pose_or_still("body_pitch_rad"), "angle_rad");
+  for (const DrawnWheel& drawn : list_drawn_wheels(scene.spec(), is_whole)) {
+    if (is_whole) body["axles_x_m"].push_back(drawn.x_m);
+    if (find_channel(recording, named(quantities::kLoad, drawn.position)) == nullptr) continue;  // its axle stands
+    block["wheels"].push_back(make_vehicle_wheel(scene, drawn));
   }
   block["body"] = body;
   const Column* position_m = find_pose(recording, "position_m");
@@ -218,7 +231,6 @@ Block make_animation(const RunSpec& spec, const Recording& recording) {
                  {"machine", machine},
                  {"label", what + " at the slider's time; the tire is colored by its temperature"},
                  {"caption", std::string(of) + " The tire has the color of its liner temperature."},
-                 {"tire", scene.make_tire()},
                  {"temperature_degC", scene.temperature_range_degC()},
                  {"speed_km_h", scene.series(recording.channel(quantities::kSpeed), "speed_km_h")},
                  {"wheels", Json::array()}};

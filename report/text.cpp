@@ -46,7 +46,7 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
                                  spec.tire.designation, spec.rig.name, scenarios::name_of(spec.fidelity));
   if (spec.vehicle.has_value()) {
     text += wrap(fmt::format("vehicle {}: {:.0f} kg, driven axle {}", spec.vehicle->name, spec.vehicle->body.mass_kg,
-                             rigs::name_of(spec.vehicle->driven_axle)),
+                             rigs::list_driven_axles(*spec.vehicle)),
                  2);
   }
   if (!spec.effects.empty()) {

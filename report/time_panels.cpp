@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "models/quantities.h"
 #include "report/blocks.h"
+#include "rigs/vehicle_channels.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -33,7 +35,16 @@ constexpr Rule kRules[]{{"speed", "Speed"},
                         {"cavity_pressure", "Cavity pressure"}};
 constexpr std::size_t kRuleCount = std::size(kRules);
 
-constexpr const char* kWheels[]{"front_left", "front_right", "rear_left", "rear_right"};
+/// Positions of the wheels ("front_left"), of which each has a load of its own; none where there is one wheel.
+std::vector<std::string> list_positions(const sim::Recording<double>& recording) {
+  std::vector<std::string> positions;
+  for (const sim::Channel& channel : recording.channels) {
+    const std::string prefix = "load_";
+    const std::string quantity = name_without_unit(channel.name);
+    if (quantity.rfind(prefix, 0) == 0) positions.push_back(quantity.substr(prefix.size()));
+  }
+  return positions;
+}
 
 struct Place {
   std::size_t order = 0;
@@ -41,10 +52,18 @@ struct Place {
   std::string series;
 };
 
-/// Panel and name of a channel. With several wheels a panel holds one quantity, a line a wheel.
-Place find_place(const std::string& channel) {
-  const std::string quantity = name_without_unit(without_wheel(channel));
-  const std::string wheel = find_wheel(channel);
+/// Panel and name of a channel. With several wheels a panel holds one quantity, a line a wheel; their loads, which stay
+/// as they are on a vehicle, have none: what their contacts carry says more.
+std::optional<Place> find_place(const std::string& channel, const std::vector<std::string>& positions) {
+  std::string quantity = name_without_unit(channel);
+  std::string wheel;
+  for (const std::string& position : positions) {
+    const std::optional<std::string> name = rigs::without_position(channel, position);
+    if (!name.has_value()) continue;
+    quantity = name_without_unit(*name);
+    wheel = plain_name(position);
+  }
+  if (!wheel.empty() && quantity == name_without_unit(models::quantities::kLoad.header())) return std::nullopt;
   const std::string unit = unit_of_key(channel).symbol;
   Place place{kRuleCount, capitalized(plain_name(quantity)), plain_name(quantity)};
   for (std::size_t i = 0; i < kRuleCount; ++i) {
@@ -73,29 +92,9 @@ Panel& find_panel(std::vector<Panel>& panels, const Place& place, const std::str
   return panels.back();
 }
 
-/// The load that a wheel is given stays as it is on a vehicle: what its contact carries says more.
-bool says_nothing(const sim::Recording<double>& recording, std::size_t channel) {
-  return without_wheel(recording.channels[channel].name) == models::quantities::kLoad.header() &&
-         !find_wheel(recording.channels[channel].name).empty();
 }
 
 }  // namespace
-
-std::string find_wheel(const std::string& channel) {
-  for (const char* wheel : kWheels) {
-    if (channel.find(std::string("_") + wheel) != std::string::npos) return plain_name(wheel);
-  }
-  return "";
-}
-
-std::string without_wheel(const std::string& channel) {
-  for (const char* wheel : kWheels) {
-    const std::string mark = std::string("_") + wheel;
-    const std::size_t at = channel.find(mark);
-    if (at != std::string::npos) return channel.substr(0, at) + channel.substr(at + mark.size());
-  }
-  return channel;
-}
 
 Json make_phases(const std::vector<sim::PhaseSpan>& phases) {
   Json json = Json::array();
@@ -122,12 +121,13 @@ PageClock find_view(const sim::Recording<double>& recording) {
 
 Block make_times(const sim::Recording<double>& recording) {
   std::vector<Panel> panels;
+  const std::vector<std::string> positions = list_positions(recording);
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
-    if (says_nothing(recording, i)) continue;
     const std::string& channel = recording.channels[i].name;
-    const Place place = find_place(channel);
-    Panel& panel = find_panel(panels, place, shown_unit(channel));
-    panel.series.push_back(make_series(place.series, recording.time_s, in_unit_of(channel, recording.values[i])));
+    const std::optional<Place> place = find_place(channel, positions);
+    if (!place.has_value()) continue;
+    Panel& panel = find_panel(panels, *place, shown_unit(channel));
+    panel.series.push_back(make_series(place->series, recording.time_s, in_unit_of(channel, recording.values[i])));
   }
   std::stable_sort(panels.begin(), panels.end(), [](const Panel& a, const Panel& b) { return a.order < b.order; });
   const PageClock view = find_view(recording);

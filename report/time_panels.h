@@ -18,9 +18,4 @@ PageClock find_view(const sim::Recording<double>& recording);
 /// Speed, load, torque and forces, losses, temperatures, pressure, then everything else.
 Block make_times(const sim::Recording<double>& recording);
 
-/// The name of a channel's wheel ("front left"), empty where it is the vehicle's or the only one.
-std::string find_wheel(const std::string& channel);
-/// The channel without its wheel: "load_N" of "load_front_left_N".
-std::string without_wheel(const std::string& channel);
-
 }  // namespace rollrig::report

@@ -81,7 +81,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
   }
 
   void initialize(const sim::Segment& first, double time_s, double* y) override {
-    begin_run(first, time_s, {first.inputs[index_of(DrumInput::kLoad)].start});
+    begin_run(first, time_s, {first.inputs[index_of(DrumInput::kLoad)].start}, {0.0});
     set_equilibrium();
     copy_state(y);
   }

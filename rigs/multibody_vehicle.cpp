@@ -44,7 +44,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   Implementation(std::vector<Corner<double>>& corners, const VehicleLayout& layout, RigStart<double> start,
                  bool surface_recorded)
       : SimbodySystem({make_vehicle_integrals(layout), make_vehicle_stores(),
-                       make_vehicle_channels(layout, corners.front().states(), surface_recorded)},
+                       make_vehicle_channels(layout, corners, surface_recorded)},
                       list_corners(corners), std::move(start), surface_recorded),
         layout_(layout),
         contact_port_(find_contact_port(corners.front())) {
@@ -58,7 +58,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
       contacts.emplace_back(matter_,
                             models::WheelContact::Bodies{wheel.wheel.getMobilizedBodyIndex(), surface,
                                                          wheel.upright.getMobilizedBodyIndex()},
-                            corners[i], contact_port_.slip_compliance_per_N);
+                            corners[i], find_contact_port(corners[i]).slip_compliance_per_N);
     }
     drive_ = new VehicleDrive(forces_, std::move(contacts), bodies_, layout_, present_);
     add_forces(drive_);
@@ -91,7 +91,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     };
     if (bodies_.has_sled()) add("position_m", bodies_.sled);
     add("body_heave_m", bodies_.heave);
-    if (is_flat() && bodies_.wheels.size() > 1) add("body_pitch_rad", bodies_.body);
+    if (bodies_.pitches) add("body_pitch_rad", bodies_.body);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       add(wheel_channel("axle_travel_m", layout_.wheels[i]), bodies_.wheels[i].upright);
       add(wheel_channel("wheel_angle_rad", layout_.wheels[i]), bodies_.wheels[i].wheel);
@@ -102,8 +102,12 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
 
   void initialize(const sim::Segment& first, double time_s, double* y) override {
     std::vector<double> loads_N;
-    for (const WheelPlace& wheel : layout_.wheels) loads_N.push_back(wheel.static_load_N);
-    begin_run(first, time_s, loads_N);
+    std::vector<double> pressures_Pa;
+    for (const WheelPlace& wheel : layout_.wheels) {
+      loads_N.push_back(wheel.static_load_N);
+      pressures_Pa.push_back(wheel.pressure_Pa);
+    }
+    begin_run(first, time_s, loads_N, pressures_Pa);
     set_equilibrium();
     copy_state(y);
   }
@@ -174,20 +178,19 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     const DriveEvaluation drive = drive_->evaluation(state_);
     const double speed_m_s = drive.acting.speed_m_s;
     const double sinks_by_N = drive.wheels.front().on_body_N;  // the same at every wheel: the body does not pitch
-    const double heave_m = -sinks_by_N / layout_.suspension.stiffness_N_per_m - sinks_by_N / tire_N_per_m(0);
+    const double heave_m =
+        -sinks_by_N / layout_.wheels.front().suspension.stiffness_N_per_m - sinks_by_N / drive_->tire_N_per_m(0);
     bodies_.heave.setOneQ(state_, 0, heave_m);
     if (is_flat()) bodies_.sled.setOneU(state_, 0, speed_m_s);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const VehicleBodies::Wheel& wheel = bodies_.wheels[i];
-      wheel.upright.setOneQ(state_, 0, -heave_m - drive.wheels[i].restraint_N / tire_N_per_m(i));
+      wheel.upright.setOneQ(state_, 0, -heave_m - drive.wheels[i].restraint_N / drive_->tire_N_per_m(i));
       wheel.wheel.setOneU(state_, 0, speed_m_s / drive.wheels[i].radius_m);
       if (!is_flat()) wheel.roller.setOneU(state_, 0, speed_m_s / layout_.roller_radius_m);
     }
     set_driver_in_balance(drive.acting);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) set_slip_in_balance(i);
   }
-
-  double tire_N_per_m(std::size_t wheel) const { return corner(wheel).context().tire.stiffness.vertical_N_per_m; }
 
   void set_driver_in_balance(const models::InputPort<double>& acting) {
     system_.realize(state_, Stage::Velocity);

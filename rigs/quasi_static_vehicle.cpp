@@ -1,5 +1,6 @@
 #include "rigs/quasi_static_vehicle.h"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace rollrig::rigs {
@@ -18,7 +19,7 @@ template <class S>
 QuasiStaticVehicle<S>::QuasiStaticVehicle(std::vector<models::Corner<S>>& corners, const VehicleLayout& layout,
                                           RigStart<S> start, bool surface_recorded)
     : Base({make_vehicle_integrals(layout), make_vehicle_stores(),
-            make_vehicle_channels(layout, corners.front().states(), surface_recorded)},
+            make_vehicle_channels(layout, corners, surface_recorded)},
            list_corners(corners), 1, std::move(start), surface_recorded),
       layout_(layout),
       hubs_(layout.wheels.size()) {}
@@ -29,6 +30,7 @@ void QuasiStaticVehicle<S>::initialize(const sim::Segment& first, double time_s,
   present_.drive_on = true;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     this->begin_wheel(wheels_[i], S(layout_.wheels[i].static_load_N), state);
+    wheels_[i].now.inflation = this->start_.inflation(layout_.wheels[i].pressure_Pa);
   }
   find_motion(time_s, state);
   state[kSpeedState] = speed_m_s_;
@@ -130,7 +132,8 @@ void QuasiStaticVehicle<S>::find_motion(double time_s, const S* state) {
   find_balance();
   share_demand();
   const bool has_derivatives = !std::is_same_v<S, double>;  // slip's own derivative does not vanish with slip
-  if (has_derivatives || value_of(wheels_.front().now.contact.slip_compliance_per_N) > 0.0) {
+  const auto slips = [](const Wheel& wheel) { return value_of(wheel.now.contact.slip_compliance_per_N) > 0.0; };
+  if (has_derivatives || std::any_of(wheels_.begin(), wheels_.end(), slips)) {
     // From the forces without slip, which differ from those with it in the second order.
     for (Wheel& wheel : wheels_) wheel.slip = models::calc_slip(wheel.now);
     find_balance();

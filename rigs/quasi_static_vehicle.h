@@ -17,7 +17,7 @@ namespace rollrig::rigs {
 /// Symbols   m mass, m_rot equivalent mass of what turns [kg], a acceleration [m/s2]; what motors and brakes do of D:
 ///           models/vehicle/vehicle.h, blend_brakes
 /// Validity  slow against suspension, tie-downs and the driver's settling (a few seconds); loads are static,
-///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the flat the sum over both
+///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the flat the sum over all
 ///           axles counts; rollers make up for their own nominal parasitic loss and hold one speed
 /// Energy    kinetic energy jumps where the driver takes over: term "load_changes" of the mechanical audit
 /// Source    momentum of the vehicle and of what turns in it; (3.20)

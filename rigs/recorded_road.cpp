@@ -27,10 +27,10 @@ RecordedRoad<S>::RecordedRoad(models::Corner<S>& corner, const VehicleFile& vehi
                               const S& temperature_K, Detail detail)
     : RecordedWheel<S>(corner, std::move(start), false, make_road_channels(detail), detail),
       temperature_K_(temperature_K),
-      load_N_(body().mass_kg * S(kStandardGravity_m_s2 / vehicle.tires)),
+      load_N_(body().mass_kg * S(kStandardGravity_m_s2 / vehicle.count_wheels())),
       motor_limit_N_(body().mass_kg * S(vehicle.powertrain.regeneration_limit_m_s2)),
       fade_m_s_(vehicle.powertrain.regeneration_fade_m_s) {
-  this->wheels_alike_ = vehicle.tires;
+  this->wheels_alike_ = vehicle.count_wheels();
 }
 
 template <class S>

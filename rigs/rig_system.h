@@ -49,7 +49,11 @@ struct RigStart {
     return under;
   }
 
-  models::Inflation<S> inflation() const { return {cold_pressure_Pa, tire_temperature_K, ambient_pressure_Pa}; }
+  /// Of a tire with a pressure of its own, or 0.
+  models::Inflation<S> inflation(double own_pressure_Pa = 0.0) const {
+    const S pressure_Pa = own_pressure_Pa > 0.0 ? S(own_pressure_Pa) : cold_pressure_Pa;
+    return {pressure_Pa, tire_temperature_K, ambient_pressure_Pa};
+  }
 };
 
 /// What a run's program asks for at present.

@@ -62,13 +62,14 @@ void SimbodySystem::add_forces(RigForces* forces) {
   system_.realizeModel(state_);
 }
 
-void SimbodySystem::begin_run(const sim::Segment& first, double time_s, const std::vector<double>& loads_N) {
+void SimbodySystem::begin_run(const sim::Segment& first, double time_s, const std::vector<double>& loads_N,
+                              const std::vector<double>& pressures_Pa) {
   present_.take(first, time_s);
   present_.drive_on = true;
   SimTK::Vector& y = state_.updY();
   y = 0.0;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    rig_forces_->contacts()[i].set_inflation(start_.inflation());
+    rig_forces_->contacts()[i].set_inflation(start_.inflation(pressures_Pa[i]));
     corners_[i]->initialize(start_.tire_temperature_K, start_.history_under(loads_N[i]),
                             &y[static_cast<int>(slip_state(i)) + 1]);
   }

@@ -70,8 +70,10 @@ class SimbodySystem : public RigSystem<double> {
 
   /// Takes over all forces beside gravity; the system is complete then.
   void add_forces(RigForces* forces);
-  /// Everything at zero but the corners, whose tires are soaked and inflated; `loads_N` rest on them.
-  void begin_run(const sim::Segment& first, double time_s, const std::vector<double>& loads_N);
+  /// Everything at zero but the corners, whose tires are soaked and inflated, to pressures of their own where these are
+  /// not 0; `loads_N` rest on them.
+  void begin_run(const sim::Segment& first, double time_s, const std::vector<double>& loads_N,
+                 const std::vector<double>& pressures_Pa);
   void set_pressure(double pressure_Pa, double* y) override;
   void set_drive(bool on, double* y) override;
   std::size_t tire_temperature_state() const override;

@@ -51,8 +51,8 @@ void add_wheel(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layou
   VehicleBodies::Wheel& wheel = bodies.wheels[i];
   const double axle_x_m = layout.wheels[i].axle_x_m;
   const Vec3 hub_m(axle_x_m, wheel.loaded_radius_m - layout.body_height_m, 0);
-  wheel.upright =
-      MobilizedBody::Slider(bodies.body, upwards(hub_m), make_block(layout.suspension.unsprung_mass_kg), kUpwards);
+  wheel.upright = MobilizedBody::Slider(bodies.body, upwards(hub_m),
+                                        make_block(layout.wheels[i].suspension.unsprung_mass_kg), kUpwards);
   wheel.wheel = MobilizedBody::Pin(wheel.upright, kReversed, make_wheel(tire), kReversed);
   if (is_on_road(layout.machine)) return;
   const double radius_m = layout.roller_radius_m;
@@ -66,13 +66,10 @@ void add_wheel(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layou
 VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const VehicleLayout& layout, const Tires& tires,
                                  double mass_factor) {
   const bool flat = is_on_road(layout.machine);
-  const bool whole = layout.wheels.size() > 1;
   VehicleBodies bodies;
   bodies.wheels.resize(layout.wheels.size());
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
-    const auto& geometry = tires[i]->geometry;
-    const double unsprung_N =
-        kStandardGravity_m_s2 * (layout.suspension.unsprung_mass_kg + geometry.mass_kg + geometry.wheel_mass_kg);
+    const double unsprung_N = calc_unsprung_N(layout.wheels[i].suspension, *tires[i]);
     bodies.wheels[i].preload_N = layout.wheels[i].static_load_N - unsprung_N;
     bodies.wheels[i].loaded_radius_m = calc_loaded_radius_m(*tires[i], layout.wheels[i].static_load_N);
   }
@@ -83,17 +80,18 @@ VehicleBodies add_vehicle_bodies(SimTK::SimbodyMatterSubsystem& matter, const Ve
   const Vec3 height_m(0, layout.body_height_m, 0);
   const SimTK::Body::Rigid sprung = make_sprung_body(layout, bodies, flat ? std::max(0.0, -other_kg) : 0.0);
   MobilizedBody* base = &matter.Ground();
-  if (flat || whole) {
+  if (flat || layout.wheels.size() > 1) {
     bodies.sled = MobilizedBody::Slider(matter.Ground(), Transform(height_m),
                                         make_block(flat ? std::max(0.0, other_kg) : 0.0), Transform());
     base = &bodies.sled;
   }
   const Vec3 start_m = bodies.has_sled() ? Vec3(0) : height_m;
-  const bool pitches = flat && whole;
+  bodies.pitches = flat && layout.wheels.front().axle != layout.wheels.back().axle;
   const SimTK::Body massless = SimTK::Body::Massless();
-  bodies.heave = MobilizedBody::Slider(*base, upwards(start_m), pitches ? massless : SimTK::Body(sprung), kUpwards);
+  bodies.heave =
+      MobilizedBody::Slider(*base, upwards(start_m), bodies.pitches ? massless : SimTK::Body(sprung), kUpwards);
   bodies.body = bodies.heave;
-  if (pitches) bodies.body = MobilizedBody::Pin(bodies.heave, Transform(), sprung, Transform());
+  if (bodies.pitches) bodies.body = MobilizedBody::Pin(bodies.heave, Transform(), sprung, Transform());
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) add_wheel(matter, layout, *tires[i], i, bodies);
   return bodies;
 }

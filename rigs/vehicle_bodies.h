@@ -23,6 +23,7 @@ struct VehicleBodies {
   SimTK::MobilizedBody::Slider heave;
   SimTK::MobilizedBody body;  // the heave's, or on the road the pitch's
   std::vector<Wheel> wheels;
+  bool pitches = false;  // on the road, on more than one axle
 
   bool has_sled() const { return !sled.isEmptyHandle(); }
 };

@@ -1,5 +1,7 @@
 #include "rigs/vehicle_channels.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 #include "sim/core/units.h"
 #include "sim/energy_audit.h"
 
@@ -70,24 +72,30 @@ std::vector<sim::Store> make_vehicle_stores() {
           {"stored_heat", Role::kHeat}};
 }
 
-std::string wheel_channel(const std::string& name, const WheelPlace& wheel) {
-  if (wheel.position.empty()) return name;
+std::string wheel_channel(const std::string& name, const std::string& position) {
+  if (position.empty()) return name;
   const std::string quantity = name_without_unit(name);
-  return quantity + "_" + wheel.position + name.substr(quantity.size());
+  return quantity + "_" + position + name.substr(quantity.size());
+}
+
+std::optional<std::string> without_position(const std::string& channel, const std::string& position) {
+  const std::string quantity = name_without_unit(channel);
+  const std::string mark = "_" + position;
+  if (position.empty() || !boost::ends_with(quantity, mark)) return std::nullopt;
+  return quantity.substr(0, quantity.size() - mark.size()) + channel.substr(quantity.size());
 }
 
 std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel) {
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
-    const std::string mark = "_" + layout.wheels[i].position;
-    const std::size_t at = recorded.find(mark);
-    if (mark.size() == 1 || at == std::string::npos) continue;
-    return i == wheel ? recorded.substr(0, at) + recorded.substr(at + mark.size()) : std::string();
+    const std::optional<std::string> name = without_position(recorded, layout.wheels[i].position);
+    if (name.has_value()) return i == wheel ? *name : std::string();
   }
   return wheel == 0 ? recorded : std::string();
 }
 
 std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
-                                                const std::vector<models::CornerState>& states, bool surface_recorded) {
+                                                const std::vector<std::vector<models::CornerState>>& states,
+                                                bool surface_recorded) {
   std::vector<sim::Channel> channels{{"speed_km_h"}, {"ambient_degC"}};
   if (surface_recorded) channels.push_back({"surface_temperature_degC"});
   channels.push_back({"traction_force_N", index_of(VehicleIntegral::kTraction)});
@@ -104,8 +112,8 @@ std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
     mean("rolling_resistance_N", WheelIntegral::kRollingResistance);
     mean("parasitic_N", WheelIntegral::kParasitic);
     mean("contact_load_N", WheelIntegral::kContactLoad);
-    for (std::size_t k = 2; k < states.size(); ++k) {  // after rubber and gas
-      channels.push_back({wheel_channel(states[k].key, layout.wheels[i])});
+    for (std::size_t k = 2; k < states[i].size(); ++k) {  // after rubber and gas
+      channels.push_back({wheel_channel(states[i][k].key, layout.wheels[i])});
     }
   }
   return channels;

@@ -1,6 +1,7 @@
 #pragma once
 /// Inputs, channels, integrals and stores of a vehicle on rollers or on the road: one list for both fidelities.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,12 +68,27 @@ std::vector<sim::Integral> make_vehicle_integrals(const VehicleLayout& layout);
 std::vector<sim::Store> make_vehicle_stores();
 
 /// Recorded channels: given ones first, then measured ones, as in formats.md, wheel by wheel; then what only
-/// a simulation knows; then the states of further thermal nodes and of effects.
+/// a simulation knows; then the states of further thermal nodes and of effects. `states` are those of each wheel.
 std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
-                                                const std::vector<models::CornerState>& states, bool surface_recorded);
+                                                const std::vector<std::vector<models::CornerState>>& states,
+                                                bool surface_recorded);
+
+/// One corner a wheel.
+template <class S>
+std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
+                                                const std::vector<models::Corner<S>>& corners, bool surface_recorded) {
+  std::vector<std::vector<models::CornerState>> states;
+  for (const models::Corner<S>& corner : corners) states.push_back(corner.states());
+  return make_vehicle_channels(layout, states, surface_recorded);
+}
 
 /// A channel of one wheel: the position stands before the unit, "liner_temperature_front_left_degC".
-std::string wheel_channel(const std::string& name, const WheelPlace& wheel);
+std::string wheel_channel(const std::string& name, const std::string& position);
+inline std::string wheel_channel(const std::string& name, const WheelPlace& wheel) {
+  return wheel_channel(name, wheel.position);
+}
+/// The channel without a wheel's position; nothing where it is not of that wheel.
+std::optional<std::string> without_position(const std::string& channel, const std::string& position);
 
 /// The name of a recorded channel as one wheel's effects know it: without the wheel's position; the vehicle's own
 /// channels are the first wheel's; empty for those of other wheels.

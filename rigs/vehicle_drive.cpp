@@ -79,10 +79,11 @@ void VehicleDrive::find_demand(const State& state, DriveEvaluation& at) const {
 
 void VehicleDrive::find_suspension(const State& state, std::size_t i, DriveEvaluation& at) const {
   const SimTK::MobilizedBody& upright = bodies_.wheels[i].upright;
+  const VehicleSuspension& suspension = layout_.wheels[i].suspension;
   DriveEvaluation::Wheel& out = at.wheels[i];
   // The slider moves the upright upwards against the body; the spring pushes it downwards.
-  out.suspension_N = bodies_.wheels[i].preload_N + layout_.suspension.stiffness_N_per_m * upright.getOneQ(state, 0);
-  out.suspension_damper_N = layout_.suspension.damping_N_s_per_m * upright.getOneU(state, 0);
+  out.suspension_N = bodies_.wheels[i].preload_N + suspension.stiffness_N_per_m * upright.getOneQ(state, 0);
+  out.suspension_damper_N = suspension.damping_N_s_per_m * upright.getOneU(state, 0);
 }
 
 /// Body and uprights are pressed so that every contact at rest has its own restraint, though the body cannot pitch.
@@ -91,7 +92,7 @@ void VehicleDrive::share_restraint(DriveEvaluation& at) const {
   for (const DriveEvaluation::Wheel& wheel : at.wheels) mean_N += wheel.restraint_N;
   mean_N /= static_cast<double>(at.wheels.size());
   for (std::size_t i = 0; i < at.wheels.size(); ++i) {
-    const double give = layout_.suspension.stiffness_N_per_m / contacts()[i].tire().stiffness.vertical_N_per_m;
+    const double give = layout_.wheels[i].suspension.stiffness_N_per_m / tire_N_per_m(i);
     at.wheels[i].on_body_N = mean_N;
     at.wheels[i].on_upright_N = (at.wheels[i].restraint_N - mean_N) * (1.0 + give);
   }
@@ -250,9 +251,10 @@ VehiclePowers<double> VehicleDrive::find_powers(const State& state) const {
 
 double VehicleDrive::calc_own_springs_J(const State& state) const {
   double energy_J = 0.0;
-  for (const VehicleBodies::Wheel& wheel : bodies_.wheels) {
-    const double q_m = wheel.upright.getOneQ(state, 0);
-    energy_J += wheel.preload_N * q_m + models::calc_spring_J(layout_.suspension.stiffness_N_per_m, q_m);
+  for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
+    const double q_m = bodies_.wheels[i].upright.getOneQ(state, 0);
+    energy_J +=
+        bodies_.wheels[i].preload_N * q_m + models::calc_spring_J(layout_.wheels[i].suspension.stiffness_N_per_m, q_m);
   }
   if (is_flat() || !bodies_.has_sled()) return energy_J;
   return energy_J + models::calc_spring_J(layout_.tie_down.stiffness_N_per_m, bodies_.sled.getOneQ(state, 0));

@@ -54,6 +54,7 @@ class VehicleDrive : public RigForces {
   VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vector<models::WheelContact> contacts,
                const VehicleBodies& bodies, const VehicleLayout& layout, const PresentProgram& present);
 
+  double tire_N_per_m(std::size_t wheel) const { return contacts()[wheel].tire().stiffness.vertical_N_per_m; }
   SimTK::ZIndex integral_z() const { return own_z(); }
   /// Integral at which the driver asks for a force at steady speed.
   double find_integral_m(double force_N, const models::InputPort<double>& acting) const;

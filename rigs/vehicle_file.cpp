@@ -2,33 +2,135 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include "rigs/toml_group.h"
+#include "sim/core/assets.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
 
 namespace rollrig::rigs {
 namespace {
 
-const std::map<std::string, DrivenAxle> kDrivenAxles{
-    {"front", DrivenAxle::kFront}, {"rear", DrivenAxle::kRear}, {"all", DrivenAxle::kAll}};
+constexpr double kSumTolerance = 1e-6;  // of shares that are written with six digits
 
-/// Reads table [name]; every field has a default, so the table may be absent.
+/// The reader of table [name]; every field has a default, so the table may be absent.
+TableReader find_optional_table(TableReader& file, const std::string& name) {
+  static const ConfigTable empty;
+  const ConfigTable* table = file.table(name);
+  return {table != nullptr ? *table : empty, fmt::format("[{}]", name)};
+}
+
 template <class Group>
 void read_optional_table(TableReader& file, const std::string& name, Group& group) {
-  const ConfigTable* table = file.table(name);
-  const ConfigTable empty{{}, file.source().origin};
-  TableReader reader(table != nullptr ? *table : empty, fmt::format("[{}]", name));
+  TableReader reader = find_optional_table(file, name);
   read_fields(reader, group);
   reader.finish();
 }
 
-void read_powertrain(TableReader& file, VehicleFile& vehicle) {
-  const ConfigTable* table = file.table("powertrain");
-  const ConfigTable empty{{}, file.source().origin};
-  TableReader reader(table != nullptr ? *table : empty, "[powertrain]");
-  vehicle.driven_axle = kDrivenAxles.at(reader.text_or("driven_axle", "rear", {"front", "rear", "all"}));
-  read_fields(reader, vehicle.powertrain);
+/// Two axles with half of the tires each.
+void read_two_axles(TableReader& file, VehicleFile& vehicle) {
+  const int tires = file.count({"tires", between(1.0, 20.0), "Number of tires"});
+  TwoAxleGeometry geometry;
+  TwoAxleBrakes brakes;
+  VehicleAxle front;
+  read_optional_table(file, "geometry", geometry);
+  read_optional_table(file, "suspension", front.suspension);
+  TableReader powertrain = find_optional_table(file, "powertrain");
+  const std::string driven = powertrain.text_or("driven_axle", "rear", {"front", "rear", "all"});
+  read_fields(powertrain, vehicle.powertrain);
+  powertrain.finish();
+  read_optional_table(file, "brakes", brakes);
+  vehicle.center_of_gravity_height_m = geometry.center_of_gravity_height_m;
+  front.name = "front";
+  front.load_share = geometry.front_load_share;
+  front.drive_share = driven == "all" ? 0.5 : driven == "front" ? 1.0 : 0.0;
+  front.brake_share = brakes.front_share;
+  front.wheels = tires / 2;
+  VehicleAxle rear = front;
+  rear.name = "rear";
+  rear.position_m = geometry.wheelbase_m;
+  rear.load_share = 1.0 - front.load_share;
+  rear.drive_share = 1.0 - front.drive_share;
+  rear.brake_share = 1.0 - front.brake_share;
+  rear.wheels = tires - front.wheels;
+  vehicle.axles = {front, rear};
+  if (tires > 1) return;
+  rear.position_m = 0.0;
+  rear.load_share = rear.drive_share = rear.brake_share = 1.0;
+  vehicle.axles = {rear};
+}
+
+VehicleAxle read_axle(const ConfigTable& table, const std::string& default_name, const std::string& vehicle_path) {
+  TableReader reader(table, "[[axle]]");
+  VehicleAxle axle;
+  axle.name = reader.text_or("name", default_name);
+  const bool is_plain = std::all_of(axle.name.begin(), axle.name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (axle.name.empty() || !is_plain || name_without_unit("load_" + axle.name) != "load_" + axle.name) {
+    throw reader.problem("name", "channels are called by the axle's name",
+                         "lower-case letters, digits and '_', not a unit at the end");
+  }
+  read_fields(reader, axle);
+  read_optional_table(reader, "suspension", axle.suspension);
+  const std::string tire = reader.text_or("tire", "");
+  if (!tire.empty()) {
+    const std::string folder = std::filesystem::path(vehicle_path).parent_path().string();
+    const std::string path = find_asset_of(reader, "tire", folder, "tires", tire);
+    const std::string content = read_text_file(path);
+    axle.tire = models::read_tire(parse_config(content, path));
+    axle.tire->content = content;
+  }
   reader.finish();
+  return axle;
+}
+
+/// Throws InputError where shares do not add up, or axles do not follow one another.
+void check_axles(const TableReader& file, const std::vector<VehicleAxle>& axles) {
+  const auto require_sum = [&](const char* key, double VehicleAxle::*share) {
+    const double sum = std::accumulate(axles.begin(), axles.end(), 0.0,
+                                       [share](double all, const VehicleAxle& axle) { return all + axle.*share; });
+    if (std::abs(sum - 1.0) <= kSumTolerance) return;
+    throw file.problem("axle", fmt::format("the {} of all axles sum to {:.7g}", key, sum),
+                       fmt::format("a {} of each axle, 1 in all", key));
+  };
+  require_sum("load_share", &VehicleAxle::load_share);
+  require_sum("drive_share", &VehicleAxle::drive_share);
+  require_sum("brake_share", &VehicleAxle::brake_share);
+  for (std::size_t i = 0; i < axles.size(); ++i) {
+    const double before_m = i == 0 ? 0.0 : axles[i - 1].position_m;
+    if (i == 0 ? axles[i].position_m != 0.0 : axles[i].position_m <= before_m) {
+      throw file.problem(
+          "axle", fmt::format("axle '{}' is at position_m = {}", axles[i].name, axles[i].position_m),
+          i == 0 ? "0 for the first axle" : fmt::format("more than {}, of the axle before it", before_m));
+    }
+    for (std::size_t k = 0; k < axles.size(); ++k) {
+      if (i == k || !boost::ends_with("_" + axles[k].name, "_" + axles[i].name)) continue;
+      throw file.problem(
+          "axle", fmt::format("channels of axles '{}' and '{}' could not be told apart", axles[k].name, axles[i].name),
+          "names of which none ends as another");
+    }
+  }
+}
+
+void read_axles(TableReader& file, VehicleFile& vehicle) {
+  vehicle.center_of_gravity_height_m = file.number(make_center_height_field());
+  read_optional_table(file, "powertrain", vehicle.powertrain);
+  const std::vector<const ConfigTable*> tables = file.tables("axle");
+  if (tables.empty())
+    throw file.problem("axle", "the vehicle has no axles", "an [[axle]] table for each, from the front");
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    const std::string name = tables.size() != 2 ? fmt::format("axle_{}", i + 1) : i == 0 ? "front" : "rear";
+    vehicle.axles.push_back(read_axle(*tables[i], name, vehicle.path));
+  }
+  check_axles(file, vehicle.axles);
 }
 
 void read_road_load(TableReader& file, VehicleFile& vehicle) {
@@ -43,9 +145,20 @@ void read_road_load(TableReader& file, VehicleFile& vehicle) {
 
 }  // namespace
 
+int VehicleFile::count_wheels() const {
+  return std::accumulate(axles.begin(), axles.end(), 0,
+                         [](int count, const VehicleAxle& axle) { return count + axle.wheels; });
+}
+
+double VehicleFile::calc_x_m(const VehicleAxle& axle) const {
+  double x_m = 0.0;
+  for (const VehicleAxle& other : axles) x_m += other.load_share * (other.position_m - axle.position_m);
+  return x_m;
+}
+
 VehicleFile read_vehicle(const ConfigTable& config) {
   TableReader file(config, "");
-  check_format(file, "rollrig-vehicle", 1);
+  check_format(file, "rollrig-vehicle", 2);
   VehicleFile vehicle;
   vehicle.path = config.origin.file;
   vehicle.name = file.text("name");
@@ -55,34 +168,33 @@ VehicleFile read_vehicle(const ConfigTable& config) {
     member = file.number(field);
   });
   read_standard_uncertainties(file, vehicle.uncertainties);
-  vehicle.tires = file.count({"tires", between(1.0, 20.0), "Number of tires"});
-  read_optional_table(file, "geometry", vehicle.geometry);
-  read_optional_table(file, "suspension", vehicle.suspension);
-  read_powertrain(file, vehicle);
-  read_optional_table(file, "brakes", vehicle.brakes);
+  const bool has_two_axles = file.text("format") == "rollrig-vehicle/1";
+  has_two_axles ? read_two_axles(file, vehicle) : read_axles(file, vehicle);
   read_road_load(file, vehicle);
   file.finish();
   return vehicle;
 }
 
 std::string write_vehicle(const VehicleFile& vehicle) {
-  std::string text = fmt::format("format = \"rollrig-vehicle/1\"\nname = \"{}\"\n", vehicle.name);
+  std::string text = fmt::format("format = \"rollrig-vehicle/2\"\nname = \"{}\"\n", vehicle.name);
   text += write_fields(vehicle.body, &vehicle.uncertainties);
-  text += fmt::format("tires = {}\n", vehicle.tires);
-  text += write_group("geometry", vehicle.geometry);
-  text += write_group("suspension", vehicle.suspension);
+  text += fmt::format("center_of_gravity_height_m = {:.10g}\n", vehicle.center_of_gravity_height_m);
   text += write_group("powertrain", vehicle.powertrain);
-  text += fmt::format("driven_axle = \"{}\"\n", name_of(vehicle.driven_axle));
-  text += write_group("brakes", vehicle.brakes);
   if (vehicle.road_load.has_value()) text += write_group("road_load", *vehicle.road_load);
+  for (const VehicleAxle& axle : vehicle.axles) {
+    text += fmt::format("\n[[axle]]\nname = \"{}\"\n", axle.name) + write_fields(axle);
+    if (axle.tire.has_value()) text += fmt::format("tire = \"{}\"\n", axle.tire->path);
+    text += write_group("axle.suspension", axle.suspension);
+  }
   return text;
 }
 
-const char* name_of(DrivenAxle axle) {
-  for (const auto& [name, value] : kDrivenAxles) {
-    if (value == axle) return name.c_str();
+std::string list_driven_axles(const VehicleFile& vehicle) {
+  std::vector<std::string> names;
+  for (const VehicleAxle& axle : vehicle.axles) {
+    if (axle.drive_share > 0.0) names.push_back(axle.name);
   }
-  return "";
+  return names.size() == vehicle.axles.size() ? "all" : boost::algorithm::join(names, ", ");
 }
 
 }  // namespace rollrig::rigs

@@ -1,9 +1,11 @@
 #pragma once
-/// assets/vehicles/<name>.toml ("rollrig-vehicle/1"): reading, with every rule of formats.md.
+/// assets/vehicles/<name>.toml ("rollrig-vehicle/2", or "/1" of two axles): reading, with every rule of formats.md.
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "models/tire/tire_file.h"
 #include "models/vehicle/road_load.h"
 #include "models/vehicle/vehicle_body.h"
 #include "sim/core/schema.h"
@@ -11,21 +13,6 @@
 namespace rollrig::rigs {
 
 using VehicleBody = models::VehicleBody<double>;
-
-struct VehicleGeometry {
-  double wheelbase_m = 0.0;
-  double centre_of_gravity_height_m = 0.0;
-  double front_load_share = 0.0;
-
-  template <class Self, class Visit>
-  static void visit(Self& p, Visit&& visit) {
-    visit(Field{"wheelbase_m", positive(), "Between the axles. Assumed: 2.9 m", 2.9}, p.wheelbase_m);
-    visit(Field{"centre_of_gravity_height_m", positive(), "Above the road. Assumed: 0.6 m", 0.6},
-          p.centre_of_gravity_height_m);
-    visit(Field{"front_load_share", between(0.05, 0.95), "Share of the weight on the front axle. Assumed: 0.5", 0.5},
-          p.front_load_share);
-  }
-};
 
 /// Of one wheel.
 struct VehicleSuspension {
@@ -43,8 +30,6 @@ struct VehicleSuspension {
   }
 };
 
-enum class DrivenAxle { kFront, kRear, kAll };
-
 struct VehiclePowertrain {
   double efficiency = 0.0;
   double regeneration_limit_m_s2 = 0.0;
@@ -55,14 +40,75 @@ struct VehiclePowertrain {
     visit(Field{"efficiency", between(0.05, 1.0), "Battery to wheels, and back, constant. Assumed: 0.85", 0.85},
           p.efficiency);
     visit(Field{"regeneration_limit_m_s2", non_negative(),
-                "Deceleration up to which the driven axle brakes by its motor. Assumed: 1.5 m/s2", 1.5},
+                "Deceleration up to which the driven axles brake by their motor. Assumed: 1.5 m/s2", 1.5},
           p.regeneration_limit_m_s2);
     visit(Field{"regeneration_fade_km_h", positive(), "Speed below which it fades to nothing. Assumed: 10 km/h", 10.0},
           p.regeneration_fade_m_s);
   }
 };
 
-struct VehicleBrakes {
+/// An axle with its wheels. Shares are of all axles of the vehicle and sum to 1.
+struct VehicleAxle {
+  std::string name;
+  double position_m = 0.0;
+  double load_share = 0.0;
+  double drive_share = 0.0;
+  double brake_share = 0.0;
+  int wheels = 2;
+  double pressure_Pa = 0.0;  // 0: that of the run
+  VehicleSuspension suspension;
+  std::optional<models::TireFile> tire;  // where it is not that of the run
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"position_m", non_negative(), "Behind the first axle, which is at 0"}, p.position_m);
+    visit(Field{"load_share", Range{0.0, 1.0, true, false}, "Share of the weight at standstill"}, p.load_share);
+    visit(Field{"drive_share", between(0.0, 1.0), "Share of the motor's force; 0: not driven", 0.0}, p.drive_share);
+    visit(Field{"brake_share", between(0.0, 1.0), "Share of the friction brakes' force"}, p.brake_share);
+    visit(Field{"wheels", between(1.0, 20.0), "1, 2, or 4: dual tires, each of which is a wheel", 2.0}, p.wheels);
+    visit(Field{"pressure_kPa", non_negative(), "Of its soaked tires, gauge; 0: as the run says", 0.0}, p.pressure_Pa);
+  }
+};
+
+struct VehicleFile {
+  std::string path;
+  std::string content;  // as read, for the manifest's hash
+  std::string name;
+  VehicleBody body;
+  VehicleBody uncertainties;  // 0 where none was given
+  double center_of_gravity_height_m = 0.0;
+  std::vector<VehicleAxle> axles;  // from the front
+  VehiclePowertrain powertrain;
+  /// Road load given directly, instead of drag and tires (§3.4.3, (3.20)).
+  std::optional<models::RoadLoad<double>> road_load;
+
+  int count_wheels() const;
+  /// An axle's place forwards of the center of gravity, which the axles' loads decide.
+  double calc_x_m(const VehicleAxle& axle) const;
+};
+
+/// Height of the center of gravity, in both formats.
+inline Field make_center_height_field() {
+  return {"center_of_gravity_height_m", positive(), "Above the road. Assumed: 0.6 m", 0.6,
+          "centre_of_gravity_height_m"};
+}
+
+/// Tables of format /1, of a vehicle with a front and a rear axle.
+struct TwoAxleGeometry {
+  double wheelbase_m = 0.0;
+  double center_of_gravity_height_m = 0.0;
+  double front_load_share = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"wheelbase_m", positive(), "Between the axles. Assumed: 2.9 m", 2.9}, p.wheelbase_m);
+    visit(make_center_height_field(), p.center_of_gravity_height_m);
+    visit(Field{"front_load_share", between(0.05, 0.95), "Share of the weight on the front axle. Assumed: 0.5", 0.5},
+          p.front_load_share);
+  }
+};
+
+struct TwoAxleBrakes {
   double front_share = 0.0;
 
   template <class Self, class Visit>
@@ -73,29 +119,18 @@ struct VehicleBrakes {
   }
 };
 
-struct VehicleFile {
-  std::string path;
-  std::string content;  // as read, for the manifest's hash
-  std::string name;
-  VehicleBody body;
-  VehicleBody uncertainties;  // 0 where none was given
-  int tires = 4;
-  VehicleGeometry geometry;
-  VehicleSuspension suspension;
-  VehiclePowertrain powertrain;
-  DrivenAxle driven_axle = DrivenAxle::kRear;
-  VehicleBrakes brakes;
-  /// Road load given directly, instead of drag and tires (§3.4.3, (3.20)).
-  std::optional<models::RoadLoad<double>> road_load;
-};
-
 /// Reads a vehicle from parsed TOML. Throws InputError.
 VehicleFile read_vehicle(const ConfigTable& config);
 
-/// The file as TOML.
+/// The file as TOML of format /2; a tire's file is named, not written.
 std::string write_vehicle(const VehicleFile& vehicle);
 
-/// "front", "rear" or "all".
-const char* name_of(DrivenAxle axle);
+/// The tire of an axle's wheels.
+inline const models::TireFile& tire_of(const VehicleAxle& axle, const models::TireFile& of_run) {
+  return axle.tire.has_value() ? *axle.tire : of_run;
+}
+
+/// Names of the driven axles, or "all".
+std::string list_driven_axles(const VehicleFile& vehicle);
 
 }  // namespace rollrig::rigs

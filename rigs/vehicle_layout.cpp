@@ -1,5 +1,7 @@
 #include "rigs/vehicle_layout.h"
 
+#include <fmt/format.h>
+
 #include "models/vehicle/vehicle.h"
 
 namespace rollrig::rigs {
@@ -7,40 +9,39 @@ namespace {
 
 constexpr double kDriverBandwidth_rad_s = 3.0;  // Assumed: on the road
 
-bool is_driven(const VehicleFile& vehicle, bool front) {
-  return vehicle.driven_axle == DrivenAxle::kAll || (vehicle.driven_axle == DrivenAxle::kFront) == front;
+double calc_wheel_load_N(const VehicleFile& vehicle, const VehicleAxle& axle) {
+  return vehicle.body.mass_kg * kStandardGravity_m_s2 * axle.load_share / axle.wheels;
 }
 
-/// A wheel of the whole vehicle; both wheels of an axle are alike.
-WheelPlace make_wheel(const VehicleFile& vehicle, bool front, const std::string& position) {
-  const double axle_share = front ? vehicle.geometry.front_load_share : 1.0 - vehicle.geometry.front_load_share;
-  const double brake_share = front ? vehicle.brakes.front_share : 1.0 - vehicle.brakes.front_share;
-  const double driven_wheels = vehicle.driven_axle == DrivenAxle::kAll ? 4.0 : 2.0;
-  WheelPlace wheel;
-  wheel.position = position;
-  wheel.is_front = front;
-  wheel.is_driven = is_driven(vehicle, front);
-  wheel.static_load_N = vehicle.body.mass_kg * kStandardGravity_m_s2 * axle_share / 2.0;
-  wheel.motor_share = wheel.is_driven ? 1.0 / driven_wheels : 0.0;
-  wheel.friction_share = brake_share / 2.0;
-  wheel.axle_x_m = vehicle.geometry.wheelbase_m *
-                   (front ? 1.0 - vehicle.geometry.front_load_share : -vehicle.geometry.front_load_share);
-  return wheel;
-}
-
-/// Where one axle stands still, the other's friction brakes do it all.
-WheelPlace make_rolling_wheel(const VehicleFile& vehicle, const RigFile& rig, bool front, const std::string& position) {
-  WheelPlace wheel = make_wheel(vehicle, front, position);
-  if (!rolls(vehicle, rig, !front)) wheel.friction_share = 0.5;
-  return wheel;
-}
-
-double find_rolling_load_N(const VehicleFile& vehicle, const RigFile& rig) {
+/// What the axles that roll have together. Where others stand still, they do all the braking.
+struct RollingAxles {
   double load_N = 0.0;
-  for (const bool front : {true, false}) {
-    if (rolls(vehicle, rig, front)) load_N += 2.0 * make_wheel(vehicle, front, "").static_load_N;
+  double brake_share = 0.0;
+  double wheels = 0.0;
+
+  RollingAxles(const VehicleFile& vehicle, const RigFile& rig) {
+    for (const VehicleAxle& axle : vehicle.axles) {
+      if (!rolls(axle, rig)) continue;
+      load_N += axle.wheels * calc_wheel_load_N(vehicle, axle);
+      brake_share += axle.brake_share;
+      wheels += axle.wheels;
+    }
   }
-  return load_N;
+};
+
+/// A wheel of the whole vehicle; all wheels of an axle are alike.
+WheelPlace make_wheel(const VehicleFile& vehicle, std::size_t axle, const RollingAxles& rolling) {
+  const VehicleAxle& own = vehicle.axles[axle];
+  WheelPlace wheel;
+  wheel.axle = axle;
+  wheel.static_load_N = calc_wheel_load_N(vehicle, own);
+  wheel.motor_share = own.drive_share / own.wheels;
+  wheel.friction_share =
+      rolling.brake_share > 0.0 ? own.brake_share / rolling.brake_share / own.wheels : 1.0 / rolling.wheels;
+  wheel.axle_x_m = vehicle.calc_x_m(own);
+  wheel.pressure_Pa = own.pressure_Pa;
+  wheel.suspension = own.suspension;
+  return wheel;
 }
 
 models::RoadLoad<double> scale(const models::RoadLoad<double>& load, double factor) {
@@ -55,14 +56,13 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
   layout.share = share;
   layout.mass_kg = share * vehicle.body.mass_kg;
   layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;
-  layout.rolling_load_N = share * find_rolling_load_N(vehicle, rig);
+  layout.rolling_load_N = share * RollingAxles(vehicle, rig).load_N;
   layout.air_density_kg_per_m3 = models::calc_air_density_kg_per_m3(rig.environment.ambient_pressure_Pa, ambient_K);
   layout.motor_limit_N = layout.mass_kg * vehicle.powertrain.regeneration_limit_m_s2;
   layout.regeneration_fade_m_s = vehicle.powertrain.regeneration_fade_m_s;
   layout.driver_bandwidth_rad_s = is_on_road(layout.machine) ? kDriverBandwidth_rad_s : rig.drive.bandwidth_rad_s;
   layout.roller_radius_m = rig.drum.diameter_m / 2.0;
-  layout.body_height_m = vehicle.geometry.centre_of_gravity_height_m;
-  layout.suspension = vehicle.suspension;
+  layout.body_height_m = vehicle.center_of_gravity_height_m;
   layout.tie_down = rig.tie_down;
   if (is_tied_down(layout.machine)) {
     layout.resistance = scale(set_load, share);
@@ -76,24 +76,45 @@ VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double a
 
 }  // namespace
 
-bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front) {
-  return !rig.driven_wheels_only || is_driven(vehicle, front);
+std::vector<std::string> name_wheels(const VehicleFile& vehicle, const VehicleAxle& axle) {
+  const std::string left = axle.name + "_left";
+  const std::string right = axle.name + "_right";
+  if (axle.wheels == 1) return {axle.name};
+  if (axle.wheels == 2) return {left, right};
+  if (axle.wheels == 4) return {left + "_outer", left + "_inner", right + "_inner", right + "_outer"};
+  throw InputError({fmt::format("axle '{}' of vehicle '{}' has {} wheels", axle.name, vehicle.name, axle.wheels),
+                    vehicle.path, 0, "wheels", fmt::format("{}", axle.wheels),
+                    "1, 2 or 4 wheels on an axle; in format /1 half of the tires are on each", ""});
 }
 
-VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
-                               const models::RoadLoad<double>& set_load) {
+double calc_unsprung_N(const VehicleSuspension& suspension, const models::TireParameters<double>& tire) {
+  return kStandardGravity_m_s2 * (suspension.unsprung_mass_kg + tire.geometry.mass_kg + tire.geometry.wheel_mass_kg);
+}
+
+bool rolls(const VehicleAxle& axle, const RigFile& rig) {
+  return !rig.driven_wheels_only || axle.drive_share > 0.0;
+}
+
+VehicleLayout make_whole_vehicle(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                                 const models::RoadLoad<double>& set_load) {
   VehicleLayout layout = make_body(vehicle, rig, ambient_K, set_load, 1.0);
-  for (const char* position : {"front_left", "front_right", "rear_left", "rear_right"}) {
-    const bool front = position[0] == 'f';
-    if (rolls(vehicle, rig, front)) layout.wheels.push_back(make_rolling_wheel(vehicle, rig, front, position));
+  const RollingAxles rolling(vehicle, rig);
+  for (std::size_t axle = 0; axle < vehicle.axles.size(); ++axle) {
+    if (!rolls(vehicle.axles[axle], rig)) continue;
+    WheelPlace wheel = make_wheel(vehicle, axle, rolling);
+    for (const std::string& position : name_wheels(vehicle, vehicle.axles[axle])) {
+      wheel.position = position;
+      layout.wheels.push_back(wheel);
+    }
   }
   return layout;
 }
 
-VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
-                           const models::RoadLoad<double>& set_load, QuarterWheel which) {
-  WheelPlace wheel = make_rolling_wheel(vehicle, rig, which == QuarterWheel::kFront, "");
-  const double share = wheel.static_load_N / find_rolling_load_N(vehicle, rig);
+VehicleLayout make_one_wheel(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                             const models::RoadLoad<double>& set_load, std::size_t axle) {
+  const RollingAxles rolling(vehicle, rig);
+  WheelPlace wheel = make_wheel(vehicle, axle, rolling);
+  const double share = wheel.static_load_N / rolling.load_N;
   VehicleLayout layout = make_body(vehicle, rig, ambient_K, set_load, share);
   wheel.motor_share /= share;
   wheel.friction_share /= share;

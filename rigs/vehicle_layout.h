@@ -14,18 +14,17 @@ namespace rollrig::rigs {
 /// One simulated wheel. Shares are of the force that acts on all that is simulated.
 struct WheelPlace {
   std::string position;  // "front_left"; empty when it is the only one
-  bool is_front = true;
-  bool is_driven = false;
+  std::size_t axle = 0;  // index in the vehicle's file
   double static_load_N = 0.0;
   double motor_share = 0.0;     // of the motor's force
   double friction_share = 0.0;  // of the friction brakes' force
   double axle_x_m = 0.0;        // from the center of gravity, forwards
+  double pressure_Pa = 0.0;     // soaked, gauge; 0: as the run says
+  VehicleSuspension suspension;
 };
 
-/// The whole vehicle on its wheels, or a quarter: one wheel with its share of the mass (a half of it where only
-/// one axle rolls). What a quarter's
-/// own wheel does not drive or brake reaches it through the roller or the body, as the force of the other
-/// wheels would.
+/// The whole vehicle on its wheels, or one wheel with its share of mass and force. What that wheel does not drive or
+/// brake itself reaches it through the roller or the body, as the force of the other wheels would.
 struct VehicleLayout {
   models::MachineTraits machine = find_machine_kind("dyno").traits;
   double share = 1.0;  // of the vehicle that is simulated
@@ -39,7 +38,6 @@ struct VehicleLayout {
   double driver_bandwidth_rad_s = 0.0;  // of the rollers' common speed as well
   double roller_radius_m = 0.0;         // 0 on the flat
   double body_height_m = 0.0;           // of the center of gravity above rollers or road
-  VehicleSuspension suspension;
   TieDownParameters tie_down;
   /// Force of the rollers against the vehicle (§3.4.3, (3.20)); on the flat, the road load of a vehicle
   /// that is given by it alone.
@@ -47,18 +45,23 @@ struct VehicleLayout {
   std::vector<WheelPlace> wheels;
 };
 
-enum class QuarterWheel { kFront, kRear };
+/// Names of an axle's wheels from left to right: by its side, of dual tires also outer and inner; a single wheel has
+/// its axle's name. Throws InputError for any other number of wheels.
+std::vector<std::string> name_wheels(const VehicleFile& vehicle, const VehicleAxle& axle);
 
-/// Whether a wheel of an axle rolls: on a dynamometer with rollers under the driven wheels alone, the others stand.
-bool rolls(const VehicleFile& vehicle, const RigFile& rig, bool front);
+/// Weight of what a wheel's suspension does not carry.
+double calc_unsprung_N(const VehicleSuspension& suspension, const models::TireParameters<double>& tire);
 
-/// The layout of a vehicle with all its wheels that roll, or of one wheel with its share. On the flat, `resistance` is
-/// the vehicle's road load where it has one, else nothing: drag and tires act by themselves. On a dynamometer it is
-/// `set_load`.
-VehicleLayout make_four_wheels(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
-                               const models::RoadLoad<double>& set_load);
-VehicleLayout make_quarter(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
-                           const models::RoadLoad<double>& set_load, QuarterWheel wheel);
+/// Whether an axle rolls: on a dynamometer with rollers under the driven wheels alone, the others stand.
+bool rolls(const VehicleAxle& axle, const RigFile& rig);
+
+/// The layout of a vehicle with all its wheels that roll, or of one wheel of an axle with its share. On the flat,
+/// `resistance` is the vehicle's road load where it has one, else nothing: drag and tires act by themselves. On a
+/// dynamometer it is `set_load`.
+VehicleLayout make_whole_vehicle(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                                 const models::RoadLoad<double>& set_load);
+VehicleLayout make_one_wheel(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
+                             const models::RoadLoad<double>& set_load, std::size_t axle);
 
 /// What the equations take of a tire under a vehicle on a rig. A vehicle that is given by its road load rolls
 /// on the flat without any loss in its tires, since that load contains them. Throws InputError.

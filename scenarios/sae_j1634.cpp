@@ -152,9 +152,10 @@ Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
   section.distance_m = reader.common(VehicleIntegral::kDistance);
   section.rr_J = reader.wheel(WheelIntegral::kCountedRollingEnergy, 0);
   const bool tires_lose = is_indoors(spec.rig.kind->traits) || !spec.vehicle->road_load.has_value();
-  if (spec.tire.iso_28580.has_value() && tires_lose) {
-    section.rr_iso_J = spec.tire.iso_28580->rrc * layout.wheels.front().static_load_N *
-                       reader.common(VehicleIntegral::kCountedDistance);
+  const auto& iso_28580 = rigs::tire_of(spec.vehicle->axles[layout.wheels.front().axle], spec.tire).iso_28580;
+  if (iso_28580.has_value() && tires_lose) {
+    section.rr_iso_J =
+        iso_28580->rrc * layout.wheels.front().static_load_N * reader.common(VehicleIntegral::kCountedDistance);
   }
   const double counted_s = reader.common(VehicleIntegral::kCountedTime);
   if (counted_s > 0.0) section.mean_rrc = reader.wheel(WheelIntegral::kCountedRrc, 0) / counted_s;
@@ -196,8 +197,9 @@ Section add_up(const std::vector<Section>& sections) {
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const rigs::VehicleLayout layout = settings.conditions.make_layout(spec);
   Results results;
-  results.wheels = settings.conditions.wheels == 4 ? "4; the tire shown is the front left"
-                                                   : "a quarter, " + settings.conditions.quarter.value;
+  results.wheels = settings.conditions.wheels == 1 ? "one of axle " + settings.conditions.wheel_of.value
+                                                   : fmt::format("{}; the tire shown is the {}", layout.wheels.size(),
+                                                                 plain_name(layout.wheels.front().position));
   results.load_N = layout.wheels.front().static_load_N;
   results.count_from_m_s = settings.count_from();
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {

@@ -72,15 +72,8 @@ Procedures make_procedures(const FleetAssumptions& assumptions) {
   return made;
 }
 
-double find_front_share(rigs::DrivenAxle axle) {
-  switch (axle) {  // Assumed: usual of such cars
-    case rigs::DrivenAxle::kFront:
-      return 0.60;
-    case rigs::DrivenAxle::kRear:
-      return 0.52;
-    default:
-      return 0.55;
-  }
+double find_front_load(double front_drive) {  // Assumed: usual of such cars
+  return front_drive == 1.0 ? 0.60 : front_drive == 0.0 ? 0.52 : 0.55;
 }
 
 /// A procedure with the car in it. The wheels' inertia goes with the car's mass, so that it stays within the
@@ -93,8 +86,12 @@ scenarios::RunSpec put_car(const scenarios::RunSpec& procedure, const TestCar& c
   vehicle.name = car.make + " " + car.model;
   vehicle.body.mass_kg = car.mass_kg;
   vehicle.body.rotating_mass_kg = assumptions.rotating_share * car.mass_kg;
-  vehicle.driven_axle = find_driven_axle(car.drive);
-  vehicle.geometry.front_load_share = find_front_share(vehicle.driven_axle);
+  rigs::VehicleAxle& front = vehicle.axles.front();
+  rigs::VehicleAxle& rear = vehicle.axles.back();
+  front.drive_share = find_front_drive(car.drive);
+  front.load_share = find_front_load(front.drive_share);
+  rear.drive_share = 1.0 - front.drive_share;
+  rear.load_share = 1.0 - front.load_share;
   vehicle.road_load = car.target;
   return spec;
 }
@@ -127,7 +124,7 @@ Load find_set(const scenarios::RunSpec& spec, FleetResult& result) {
 
 FleetResult simulate(const Procedures& procedures, const TestCar& car, const FleetAssumptions& assumptions) {
   FleetResult result;
-  const bool driven_alone = find_driven_axle(car.drive) != rigs::DrivenAxle::kAll;
+  const bool driven_alone = find_front_drive(car.drive) != 0.5;
   try {
     refit(put_car(procedures.road, car, assumptions), car, result);
     result.set_all = find_set(put_car(procedures.all, car, assumptions), result);
@@ -158,7 +155,7 @@ std::vector<TestCar> read_test_cars(const std::string& path) {
                     target[i].C_N_s2_per_m2, set[i].A_N, set[i].B_N_s_per_m, set[i].C_N_s2_per_m2);
     if (!seen.insert(key).second) continue;
     try {
-      find_driven_axle(drive[i]);
+      find_front_drive(drive[i]);
     } catch (const std::out_of_range&) {
       throw InputError({"unknown drive system", path, table.line_of(i), kDrive, drive[i], "F, R, A, 4 or P", ""});
     }
@@ -173,13 +170,9 @@ std::vector<TestCar> thin_out(const std::vector<TestCar>& cars, std::size_t step
   return kept;
 }
 
-rigs::DrivenAxle find_driven_axle(const std::string& drive) {
-  static const std::map<std::string, rigs::DrivenAxle> axles{{"F", rigs::DrivenAxle::kFront},
-                                                             {"R", rigs::DrivenAxle::kRear},
-                                                             {"P", rigs::DrivenAxle::kRear},
-                                                             {"A", rigs::DrivenAxle::kAll},
-                                                             {"4", rigs::DrivenAxle::kAll}};
-  return axles.at(drive);
+double find_front_drive(const std::string& drive) {
+  static const std::map<std::string, double> shares{{"F", 1.0}, {"R", 0.0}, {"P", 0.0}, {"A", 0.5}, {"4", 0.5}};
+  return shares.at(drive);
 }
 
 std::vector<FleetResult> simulate_fleet(const std::vector<TestCar>& cars, const FleetAssumptions& assumptions,

@@ -53,8 +53,8 @@ struct FleetResult {
   std::string failure;                                    // why a part could not be done; empty
 };
 
-/// Front, rear or all; part-time four-wheel drive is taken as rear. Throws std::out_of_range.
-rigs::DrivenAxle find_driven_axle(const std::string& drive);
+/// Share of the drive on the front axle; part-time four-wheel drive is taken as rear. Throws std::out_of_range.
+double find_front_drive(const std::string& drive);
 
 /// Simulates every car, quasi-static, on up to `threads` threads (0: all). The result does not depend on them.
 std::vector<FleetResult> simulate_fleet(const std::vector<TestCar>& cars, const FleetAssumptions& assumptions,

@@ -147,16 +147,29 @@ std::string describe_rig_file() {
 
 std::string describe_vehicle_file() {
   std::string text =
-      "\n## Vehicle file\n\n`format = \"rollrig-vehicle/1\"`, `name`, `tires` (how many, 1 to 20), the keys of the "
-      "first table, of which each may have its\nstandard uncertainty beside it under its key with `_sd`, and the "
-      "tables below it, all of which may be left out.\n";
+      "\n## Vehicle file\n\n`format = \"rollrig-vehicle/2\"`, `name`, the keys of the first table, of which each may "
+      "have "
+      "its standard uncertainty beside it\nunder its key with `_sd`, `center_of_gravity_height_m` (above the road, "
+      "default 0.6), an `[[axle]]` for each axle from the front, and the tables\n`[powertrain]` and `[road_load]`, "
+      "which "
+      "may be left out.\n";
   text += describe_keys<rigs::VehicleBody>();
-  text += describe_table<rigs::VehicleGeometry>("geometry");
-  text += describe_table<rigs::VehicleSuspension>("suspension") + "\nOf one wheel.\n";
+  text +=
+      "\n`[[axle]]`: `name` (default `front` and `rear` of two axles, else `axle_1` and so on), `tire` (a name or a "
+      "path, default that of the run),\n`[axle.suspension]`, and the keys below. Each kind of share sums to 1 over all "
+      "axles.\n";
+  text += describe_keys<rigs::VehicleAxle>();
+  text += describe_table<rigs::VehicleSuspension>("axle.suspension") + "\nOf one wheel.\n";
   text += describe_table<rigs::VehiclePowertrain>("powertrain");
-  text += "\n`driven_axle`: `front`, `rear` (default) or `all`.\n" + describe_table<rigs::VehicleBrakes>("brakes");
   text += describe_table<models::RoadLoad<double>>("road_load");
-  return text + "\nIn place of drag and tires on the road. Then `drag_area_m2` may be left out.\n";
+  text +=
+      "\nIn place of drag and tires on the road. Then `drag_area_m2` may be left out.\n\nFormat `rollrig-vehicle/1` is "
+      "read as well: two axles, `front` and `rear`, with half of the `tires` (1 to 20) each. In place of\n`[[axle]]` "
+      "it "
+      "has `[suspension]`, `driven_axle` (`front`, `rear` (default) or `all`) in `[powertrain]`, and the tables "
+      "below.\n";
+  text += describe_table<rigs::TwoAxleGeometry>("geometry");
+  return text + describe_table<rigs::TwoAxleBrakes>("brakes");
 }
 
 }  // namespace

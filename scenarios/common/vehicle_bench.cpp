@@ -19,11 +19,17 @@ rigs::RigStart<double> make_start(const RunSpec& spec, const VehicleConditions& 
 
 }  // namespace
 
+models::Context<double> make_wheel_context(const RunSpec& spec, const rigs::VehicleAxle& axle) {
+  return rigs::make_vehicle_context(rigs::tire_of(axle, spec.tire), spec.rig, *spec.vehicle, spec.baseline);
+}
+
 void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, const VehicleProgram& program,
                       const sim::Progress& progress, Outcome& outcome) {
   const rigs::VehicleLayout layout = conditions.make_layout(spec);
-  const models::Context<double> context = rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
-  std::vector<models::Corner<double>> corners(layout.wheels.size(), models::Corner<double>(context, spec.effects));
+  std::vector<models::Corner<double>> corners;
+  for (const rigs::WheelPlace& wheel : layout.wheels) {
+    corners.emplace_back(make_wheel_context(spec, spec.vehicle->axles[wheel.axle]), spec.effects);
+  }
   const rigs::RigStart<double> start = make_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
     rigs::MultibodyVehicle vehicle(corners, layout, start, program.surface_recorded());

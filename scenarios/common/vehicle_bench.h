@@ -9,6 +9,9 @@ namespace rollrig::scenarios {
 /// Limit of the audits on a drive, where a hundred times the kinetic energy goes through the hubs.
 constexpr double kDriveAuditLimit = 1e-5;
 
+/// What the equations take of the wheels of an axle. Throws InputError.
+models::Context<double> make_wheel_context(const RunSpec& spec, const rigs::VehicleAxle& axle);
+
 /// Simulates `program` from soaked tires, checks both audits, applies trace effects, and puts recording and
 /// statistics into `outcome`.
 void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, const VehicleProgram& program,
@@ -39,7 +42,7 @@ Scenario make_vehicle_scenario(ScenarioText text, std::string default_rig,
                                VehicleProgram (*plan)(const Settings&, const RunSpec&),
                                Results (*evaluate)(const Settings&, const RunSpec&, Outcome&)) {
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_vehicle, [](const RunSpec& spec) {
-    rigs::make_vehicle_context(spec.tire, spec.rig, *spec.vehicle, spec.baseline);
+    for (const rigs::VehicleAxle& axle : spec.vehicle->axles) make_wheel_context(spec, axle);
   });
   scenario.runs_on = &models::is_of_vehicle;
   scenario.default_rig = std::move(default_rig);

@@ -7,31 +7,32 @@
 namespace rollrig::scenarios {
 namespace {
 
-/// Where the wheels' own inertia is above what the vehicle says of all that turns, one of the two is wrong.
-void check_rotating_mass(const RunSpec& spec) {
-  const double weight_N = spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
+/// Where the wheels' own inertia is above what the vehicle says of all that turns, one of the two is wrong; likewise
+/// where they weigh more than they bear.
+void check_wheels(const RunSpec& spec) {
+  const rigs::VehicleFile& vehicle = *spec.vehicle;
   double wheels_kg = 0.0;
-  for (const double share : {spec.vehicle->geometry.front_load_share, 1.0 - spec.vehicle->geometry.front_load_share}) {
-    const double loaded_radius_m = calc_loaded_radius_m(spec.tire.values, 0.5 * share * weight_N);
-    wheels_kg += 2.0 * models::calc_spin_mass_kg(spec.tire.values, loaded_radius_m);
+  for (const rigs::VehicleAxle& axle : vehicle.axles) {
+    const models::TireParameters<double>& tire = rigs::tire_of(axle, spec.tire).values;
+    rigs::name_wheels(vehicle, axle);  // throws where the rigs have no place for them
+    const double load_N = axle.load_share * vehicle.body.mass_kg * kStandardGravity_m_s2 / axle.wheels;
+    wheels_kg += axle.wheels * models::calc_spin_mass_kg(tire, calc_loaded_radius_m(tire, load_N));
+    const double unsprung_N = rigs::calc_unsprung_N(axle.suspension, tire);
+    if (load_N > unsprung_N) continue;
+    throw InputError({fmt::format("a wheel of axle '{}' weighs {:.0f} N with its unsprung parts and bears {:.0f} N",
+                                  axle.name, unsprung_N, load_N),
+                      vehicle.path, 0, "load_share", fmt::format("{}", axle.load_share),
+                      "a larger share, or a smaller unsprung_mass_kg", ""});
   }
-  if (spec.vehicle->body.rotating_mass_kg >= wheels_kg) return;
-  throw InputError({fmt::format("the four wheels of tire '{}' alone have an equivalent mass of {:.1f} kg",
-                                spec.tire.name, wheels_kg),
-                    spec.vehicle->path, 0, "rotating_mass_kg", fmt::format("{}", spec.vehicle->body.rotating_mass_kg),
-                    fmt::format("at least {:.1f} kg, or a smaller spin_inertia_kg_m2 of the tire", wheels_kg), ""});
-}
-
-/// A file may describe a vehicle with any number of tires; the rigs here have a place for four.
-void check_tires(const RunSpec& spec) {
-  if (spec.vehicle->tires == 4) return;
+  if (vehicle.body.rotating_mass_kg >= wheels_kg) return;
   throw InputError(
-      {fmt::format("vehicle '{}' has {} tires, the rigs take four", spec.vehicle->name, spec.vehicle->tires),
-       spec.vehicle->path, 0, "tires", fmt::format("{}", spec.vehicle->tires), "4", ""});
+      {fmt::format("the {} wheels alone have an equivalent mass of {:.1f} kg", vehicle.count_wheels(), wheels_kg),
+       vehicle.path, 0, "rotating_mass_kg", fmt::format("{}", vehicle.body.rotating_mass_kg),
+       fmt::format("at least {:.1f} kg, or a smaller spin_inertia_kg_m2 of the tire", wheels_kg), ""});
 }
 
 /// A setting that changes nothing here is a mistake.
-void check_settings_say_something(const RunSpec& spec, int wheels) {
+void check_settings_say_something(const RunSpec& spec) {
   if (is_on_road(spec.rig.kind->traits)) {
     for (const char* key : {"set_A_N", "set_B_N_per_km_h", "set_C_N_per_km_h2"}) {
       if (spec.settings.find(key) == nullptr) continue;
@@ -39,32 +40,45 @@ void check_settings_say_something(const RunSpec& spec, int wheels) {
           setting_problem(spec, key, "a road has no rollers whose force could be set", "a rig of kind \"dyno\""));
     }
   }
-  if (wheels == 4 && spec.settings.find("quarter") != nullptr) {
-    throw InputError(setting_problem(spec, "quarter", "the whole vehicle is simulated", "wheels = 1 beside it"));
-  }
 }
 
 }  // namespace
 
 void VehicleConditions::complete(const RunSpec& spec) {
-  check_settings_say_something(spec, wheels);
+  check_settings_say_something(spec);
   check_rest(spec, tire_state.value == "warm", rest_before_s);
   if (wheels != 1 && wheels != 4) {
-    throw InputError(setting_problem(spec, "wheels", "a vehicle is simulated whole or as a quarter", "4 or 1"));
+    throw InputError(setting_problem(spec, "wheels", "a vehicle is simulated whole or by one wheel", "4 or 1"));
   }
-  if (wheels == 1 && !rigs::rolls(*spec.vehicle, spec.rig, quarter.value == "front")) {
-    throw InputError(setting_problem(spec, "quarter",
-                                     fmt::format("rig '{}' has rollers under the driven wheels alone", spec.rig.name),
-                                     fmt::format("\"{}\"", rigs::name_of(spec.vehicle->driven_axle))));
+  if (!wheel_of.value.empty() && wheels == 4 && spec.settings.find("wheels") != nullptr) {
+    throw InputError(
+        setting_problem(spec, "wheels", "one wheel of an axle is asked for as well", "wheel_of or wheels = 4"));
   }
-  check_tires(spec);
-  check_rotating_mass(spec);
+  if (!wheel_of.value.empty()) wheels = 1;
+  if (wheels == 1) wheel_of.value = spec.vehicle->axles[find_axle(spec)].name;
+  check_wheels(spec);
   if (!ambient_K.has_value()) ambient_K = spec.rig.environment.ambient_K;
   if (!initial_tire_K.has_value()) initial_tire_K = ambient_K;
   const models::RoadLoad<double> by_default = find_default_set_load(spec);
   if (!set_A_N.has_value()) set_A_N = by_default.A_N;
   if (!set_B_N_s_per_m.has_value()) set_B_N_s_per_m = by_default.B_N_s_per_m;
   if (!set_C_N_s2_per_m2.has_value()) set_C_N_s2_per_m2 = by_default.C_N_s2_per_m2;
+}
+
+std::size_t VehicleConditions::find_axle(const RunSpec& spec) {
+  const std::vector<rigs::VehicleAxle>& axles = spec.vehicle->axles;
+  const char* key = spec.settings.find("quarter") != nullptr ? "quarter" : "wheel_of";
+  const ConfigValue* given = spec.settings.find(key);
+  const std::string name = given != nullptr ? std::get<std::string>(given->data) : axles.front().name;
+  std::vector<std::string> rolling;
+  for (std::size_t i = 0; i < axles.size(); ++i) {
+    if (!rigs::rolls(axles[i], spec.rig)) continue;
+    if (axles[i].name == name) return i;
+    rolling.push_back(axles[i].name);
+  }
+  throw InputError(setting_problem(
+      spec, key, fmt::format("no axle '{}' of vehicle '{}' rolls on rig '{}'", name, spec.vehicle->name, spec.rig.name),
+      fmt::format("{}", fmt::join(rolling, ", "))));
 }
 
 models::RoadLoad<double> VehicleConditions::find_default_set_load(const RunSpec& spec) {
@@ -83,9 +97,8 @@ models::RoadLoad<double> VehicleConditions::find_default_set_load(const RunSpec&
 
 rigs::VehicleLayout VehicleConditions::make_layout(const RunSpec& spec) const {
   const models::RoadLoad<double> set_load{*set_A_N, *set_B_N_s_per_m, *set_C_N_s2_per_m2};
-  if (wheels == 4) return rigs::make_four_wheels(*spec.vehicle, spec.rig, *ambient_K, set_load);
-  const auto wheel = quarter.value == "front" ? rigs::QuarterWheel::kFront : rigs::QuarterWheel::kRear;
-  return rigs::make_quarter(*spec.vehicle, spec.rig, *ambient_K, set_load, wheel);
+  if (wheels == 4) return rigs::make_whole_vehicle(*spec.vehicle, spec.rig, *ambient_K, set_load);
+  return rigs::make_one_wheel(*spec.vehicle, spec.rig, *ambient_K, set_load, find_axle(spec));
 }
 
 }  // namespace rollrig::scenarios

@@ -10,7 +10,7 @@ namespace rollrig::scenarios {
 
 struct VehicleConditions {
   int wheels = 4;
-  Choice quarter{"front", {"front", "rear"}};
+  Name wheel_of;
   double pressure_Pa = 0.0;
   std::optional<double> ambient_K;
   std::optional<double> surface_K;
@@ -23,10 +23,15 @@ struct VehicleConditions {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"wheels", between(1.0, 4.0), "4: the whole vehicle; 1: a quarter, one wheel with its share", 4.0},
+    visit(Field{"wheels", between(1.0, 4.0),
+                "4: the whole vehicle, on however many; 1: one wheel with its share, of the first axle unless wheel_of "
+                "names another",
+                4.0},
           p.wheels);
-    visit(Field{"quarter", any_number(), "Axle of the wheel of a quarter"}, p.quarter);
-    visit(Field{"pressure_kPa", between(50.0, 1000.0), "Gauge pressure of the soaked tires (§3.2.3.4: 280 kPa)", 280.0},
+    visit(Field{"wheel_of", any_number(), "Axle of which one wheel is simulated; default: all wheels", {}, "quarter"},
+          p.wheel_of);
+    visit(Field{"pressure_kPa", between(50.0, 1000.0),
+                "Gauge pressure of the soaked tires of axles that have none of their own (§3.2.3.4: 280 kPa)", 280.0},
           p.pressure_Pa);
     visit(Field{"ambient_degC", between(-60.0, 80.0), "Air at the tires; default: the rig's"}, p.ambient_K);
     visit(Field{"surface_temperature_degC", between(-60.0, 120.0), "Rollers or road; default: as the air"},
@@ -52,11 +57,15 @@ struct VehicleConditions {
   }
 
   /// Fills what rig and vehicle decide. Throws InputError when `wheels` is neither 1 nor 4, when settings are given
-  /// that say nothing on this rig, or when the wheels alone have more equivalent mass than all that turns.
+  /// that say nothing on this rig, when the wheels alone have more equivalent mass than all that turns, or when they
+  /// weigh more than their axle bears.
   void complete(const RunSpec& spec);
 
   /// Force of the rollers on the whole vehicle where none is set.
   static models::RoadLoad<double> find_default_set_load(const RunSpec& spec);
+  /// Index of the axle of the one wheel: the first unless the settings name another. Throws InputError where it is not
+  /// there or stands still.
+  static std::size_t find_axle(const RunSpec& spec);
   /// The vehicle as it is simulated.
   rigs::VehicleLayout make_layout(const RunSpec& spec) const;
 };

@@ -41,12 +41,16 @@ Json vehicle_to_json(const rigs::VehicleFile& vehicle) {
                {"file", vehicle.path},
                {"sha256", calc_sha256(vehicle.content)},
                {"body", parameters_to_json(vehicle.body)},
-               {"tires", vehicle.tires},
-               {"geometry", parameters_to_json(vehicle.geometry)},
-               {"suspension", parameters_to_json(vehicle.suspension)},
+               {"center_of_gravity_height_m", vehicle.center_of_gravity_height_m},
                {"powertrain", parameters_to_json(vehicle.powertrain)},
-               {"brakes", parameters_to_json(vehicle.brakes)}};
-  json["powertrain"]["driven_axle"] = rigs::name_of(vehicle.driven_axle);
+               {"axles", Json::array()}};
+  for (const rigs::VehicleAxle& axle : vehicle.axles) {
+    Json own = parameters_to_json(axle);
+    own["name"] = axle.name;
+    own["suspension"] = parameters_to_json(axle.suspension);
+    if (axle.tire.has_value()) own["tire"] = tire_to_json(*axle.tire, axle.tire->values);
+    json["axles"].push_back(own);
+  }
   if (vehicle.road_load.has_value()) json["road_load"] = parameters_to_json(*vehicle.road_load);
   return json;
 }

@@ -12,6 +12,11 @@ void read_member(TableReader& reader, const Field& field, FilePath& member) {
   member.path = (named_in.parent_path() / text).lexically_normal().string();
 }
 
+void read_member(TableReader& reader, const Field& field, Name& member) {
+  const std::string old = reader.text_or(field.output_key(), member.value);
+  member.value = reader.text_or(field.key, old);
+}
+
 std::string detail::show_default(const Json& value) {
   if (value.is_number()) return fmt::format("{:.6g}", value.get<double>());
   if (value.is_string() && value != "") return value.get<std::string>();

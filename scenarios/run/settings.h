@@ -18,8 +18,15 @@ struct FilePath {
 };
 void read_member(TableReader& reader, const Field& field, FilePath& member);
 
+/// A name that a file or another setting gives meaning to; empty where none is given. Read under the old key as well.
+struct Name {
+  std::string value;
+};
+void read_member(TableReader& reader, const Field& field, Name& member);
+
 namespace detail {
 
+inline Json to_json(const Field&, const Name& member) { return member.value; }
 inline Json to_json(const Field& field, double member) { return unit_of_key(field.key).from_si(member); }
 inline Json to_json(const Field&, int member) { return member; }
 inline Json to_json(const Field& field, const std::optional<double>& member) {
@@ -53,6 +60,7 @@ std::string show_range(const Field& field, const Member&) {
   return field.range.to_string();
 }
 inline std::string show_range(const Field&, const FilePath&) { return "path"; }
+inline std::string show_range(const Field&, const Name&) { return "name"; }
 inline std::string show_range(const Field&, const Choice& member) {
   return boost::algorithm::join(member.allowed, " or ");
 }

@@ -91,7 +91,7 @@ TEST_CASE("the real road set of the shared data is read where it is present", "[
   const measurements::MeasurementSet set = measurements::read_measurement_set(set_folder.string());
   CHECK(set.kind == tests::kRoad);
   CHECK(set.runs.size() == 20);
-  CHECK(set.vehicle->tires == 4);
+  CHECK(set.vehicle->count_wheels() == 4);
   CHECK(set.baseline == models::Baseline::kConstantRrc);
 }
 

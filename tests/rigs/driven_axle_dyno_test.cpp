@@ -4,6 +4,7 @@
 #include "rigs/vehicle_layout.h"
 #include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/uneven_machines.h"
 
 using namespace rollrig;
 
@@ -11,10 +12,10 @@ namespace {
 
 rigs::RigFile read_rig(const std::string& name) { return rigs::read_rig(read_config(find_asset("rigs", name))); }
 
-rigs::VehicleFile read_car(rigs::DrivenAxle axle) {
+rigs::VehicleFile read_car(double front_drive) {
   rigs::VehicleFile car = rigs::read_vehicle(read_config(find_asset("vehicles", "source_car")));
-  car.geometry.front_load_share = 0.6;
-  car.driven_axle = axle;
+  tests::set_front_load(car, 0.6);
+  tests::set_front_drive(car, front_drive);
   return car;
 }
 
@@ -38,14 +39,13 @@ double take_off_N(const std::string& rig, const std::string& fidelity, double sp
 TEST_CASE("rollers under the driven wheels: only these roll, and carry the vehicle's whole mass and force", "[fast]") {
   const rigs::RigFile rig = read_rig("dyno_48in_2wd");
   CHECK(rig.driven_wheels_only);
-  for (const auto axle : {rigs::DrivenAxle::kFront, rigs::DrivenAxle::kRear}) {
-    const rigs::VehicleFile car = read_car(axle);
-    const rigs::VehicleLayout layout = rigs::make_four_wheels(car, rig, 293.15, {100.0, 0.0, 0.0});
+  for (const std::size_t axle : {tests::kFront, tests::kRear}) {
+    const rigs::VehicleFile car = read_car(axle == tests::kFront ? 1.0 : 0.0);
+    const rigs::VehicleLayout layout = rigs::make_whole_vehicle(car, rig, 293.15, {100.0, 0.0, 0.0});
     REQUIRE(layout.wheels.size() == 2);
     double motor = 0.0, friction = 0.0, load_N = 0.0;
     for (const rigs::WheelPlace& wheel : layout.wheels) {
-      CHECK(wheel.is_driven);
-      CHECK(wheel.is_front == (axle == rigs::DrivenAxle::kFront));
+      CHECK(wheel.axle == axle);
       motor += wheel.motor_share;
       friction += wheel.friction_share;
       load_N += wheel.static_load_N;
@@ -56,15 +56,13 @@ TEST_CASE("rollers under the driven wheels: only these roll, and carry the vehic
     CHECK(layout.mass_kg == car.body.mass_kg);
     CHECK(layout.resistance.A_N == 100.0);
     // Half of it: one wheel with half of the mass
-    const auto which = axle == rigs::DrivenAxle::kFront ? rigs::QuarterWheel::kFront : rigs::QuarterWheel::kRear;
-    const rigs::VehicleLayout half = rigs::make_quarter(car, rig, 293.15, {100.0, 0.0, 0.0}, which);
+    const rigs::VehicleLayout half = rigs::make_one_wheel(car, rig, 293.15, {100.0, 0.0, 0.0}, axle);
     CHECK(half.share == Approx(0.5));
     CHECK(half.rolling_load_N == Approx(half.wheels.front().static_load_N));
     CHECK(half.wheels.front().motor_share == Approx(1.0));
   }
-  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kAll), rig, 293.15, {}).wheels.size() == 4);
-  CHECK(rigs::make_four_wheels(read_car(rigs::DrivenAxle::kRear), read_rig("dyno_48in"), 293.15, {}).wheels.size() ==
-        4);
+  CHECK(rigs::make_whole_vehicle(read_car(0.5), rig, 293.15, {}).wheels.size() == 4);
+  CHECK(rigs::make_whole_vehicle(read_car(0.0), read_rig("dyno_48in"), 293.15, {}).wheels.size() == 4);
 }
 
 TEST_CASE("the file of a rig keeps which wheels it rolls", "[fast]") {

@@ -91,10 +91,10 @@ constexpr double kDynoPressure_Pa = 230e3;  // other than the tire's reference p
 
 /// A driven quarter at the rear: 1.2 kN of drive and 1.6 kN of friction brake force at the wheel.
 VehicleFixture dyno_with(const Effects& effects, const std::string& model) {
-  VehicleFixture fixture("dyno_1m2", false, rigs::QuarterWheel::kRear);
+  VehicleFixture fixture("dyno_1m2", false, tests::kRear);
   choose_model(model, fixture);
-  fixture.vehicle.geometry.front_load_share = 1.0 - kLoadShare;
-  fixture.vehicle.brakes.front_share = 0.3;
+  tests::set_front_load(fixture.vehicle, 1.0 - kLoadShare);
+  tests::set_front_brakes(fixture.vehicle, 0.3);
   fixture.cold_pressure_Pa = kDynoPressure_Pa;
   fixture.effects = effects;
   return fixture;
@@ -114,10 +114,10 @@ sim::Program dyno_program() {
 
 /// A driven quarter at the front that hardly recuperates, so that moderate braking heats its brake.
 VehicleFixture road_with(const Effects& effects, const std::string& model) {
-  VehicleFixture fixture("road", false, rigs::QuarterWheel::kFront);
+  VehicleFixture fixture("road", false, tests::kFront);
   choose_model(model, fixture);
-  fixture.vehicle.driven_axle = rigs::DrivenAxle::kFront;
-  fixture.vehicle.geometry.front_load_share = kLoadShare;
+  tests::set_front_drive(fixture.vehicle, 1.0);
+  tests::set_front_load(fixture.vehicle, kLoadShare);
   fixture.vehicle.powertrain.regeneration_limit_m_s2 = 0.1;
   fixture.effects = effects;
   return fixture;

@@ -149,7 +149,7 @@ TEST_CASE("a coasting vehicle's record shows its speed by the same error, and it
 
 TEST_CASE("on rollers every wheel's true load is off by its own share", "[fast]") {
   VehicleFixture fixture("dyno_1m2", true);
-  fixture.vehicle.geometry.front_load_share = 0.6;
+  tests::set_front_load(fixture.vehicle, 0.6);
   fixture.effects = {switch_on("load_record", {5.0, 0.0})};
   for (const bool multibody : {false, true}) {
     const auto recording = fixture.run(multibody, make_program({driving("hold", 60.0, 20.0, 20.0)}));

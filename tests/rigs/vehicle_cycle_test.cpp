@@ -47,8 +47,8 @@ void check_city(const VehicleFixture& fixture, bool multibody) {
 
 TEST_CASE("on the city cycle a quarter's energy closes to 1e-5", "[fast]") {
   for (const bool multibody : {false, true}) {
-    check_city(VehicleFixture("dyno_1m2", false, rigs::QuarterWheel::kFront), multibody);
-    check_city(VehicleFixture("road", false, rigs::QuarterWheel::kRear), multibody);
+    check_city(VehicleFixture("dyno_1m2", false, tests::kFront), multibody);
+    check_city(VehicleFixture("road", false, tests::kRear), multibody);
   }
 }
 

@@ -7,6 +7,11 @@ namespace {
 
 rigs::RigFile read_asset(const std::string& name) { return rigs::read_rig(read_config(find_asset("rigs", name))); }
 
+void set_front(double rigs::VehicleAxle::*share, double value, rigs::VehicleFile& vehicle) {
+  vehicle.axles.front().*share = value;
+  vehicle.axles.back().*share = 1.0 - value;
+}
+
 }  // namespace
 
 rigs::RigFile make_uneven_drum() {
@@ -27,10 +32,20 @@ rigs::RigFile make_uneven_dyno() {
 
 rigs::VehicleFile make_uneven_vehicle() {
   rigs::VehicleFile vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "source_car")));
-  vehicle.geometry.front_load_share = 0.57;
-  vehicle.brakes.front_share = 0.68;
-  vehicle.driven_axle = rigs::DrivenAxle::kRear;
+  set_front_load(vehicle, 0.56);
+  set_front_brakes(vehicle, 0.68);
+  set_front_drive(vehicle, 0.0);
   return vehicle;
+}
+
+void set_front_load(rigs::VehicleFile& vehicle, double share) {
+  set_front(&rigs::VehicleAxle::load_share, share, vehicle);
+}
+void set_front_drive(rigs::VehicleFile& vehicle, double share) {
+  set_front(&rigs::VehicleAxle::drive_share, share, vehicle);
+}
+void set_front_brakes(rigs::VehicleFile& vehicle, double share) {
+  set_front(&rigs::VehicleAxle::brake_share, share, vehicle);
 }
 
 }  // namespace rollrig::tests

@@ -12,7 +12,16 @@ rigs::RigFile make_uneven_drum();
 /// Rollers of 1.2192 m, likewise.
 rigs::RigFile make_uneven_dyno();
 
-/// Load shares 0.57 in front and 0.43 behind, brake shares 0.68 and 0.32; driven at the rear.
+/// The source's car with load shares 0.56 in front and 0.44 behind, brake shares 0.68 and 0.32; driven at the rear.
 rigs::VehicleFile make_uneven_vehicle();
+
+/// Axles of a vehicle that has two.
+constexpr std::size_t kFront = 0;
+constexpr std::size_t kRear = 1;
+
+/// Shares of the front axle; the rear has the rest.
+void set_front_load(rigs::VehicleFile& vehicle, double share);
+void set_front_drive(rigs::VehicleFile& vehicle, double share);
+void set_front_brakes(rigs::VehicleFile& vehicle, double share);
 
 }  // namespace rollrig::tests

@@ -5,9 +5,7 @@
 
 namespace rollrig::tests {
 
-rigs::VehicleFile read_asset_vehicle() { return rigs::read_vehicle(read_config(find_asset("vehicles", "source_car"))); }
-
-VehicleFixture::VehicleFixture(const std::string& rig_name, bool is_whole, rigs::QuarterWheel quarter_wheel)
+VehicleFixture::VehicleFixture(const std::string& rig_name, bool is_whole, std::size_t quarter_wheel)
     : rig(rigs::read_rig(read_config(find_asset("rigs", rig_name)))), whole(is_whole), quarter(quarter_wheel) {}
 
 void VehicleFixture::take_losses_away() {
@@ -19,12 +17,16 @@ void VehicleFixture::take_losses_away() {
 
 rigs::VehicleLayout VehicleFixture::layout() const {
   const double ambient_K = rig.environment.ambient_K;
-  return whole ? rigs::make_four_wheels(vehicle, rig, ambient_K, set_load)
-               : rigs::make_quarter(vehicle, rig, ambient_K, set_load, quarter);
+  return whole ? rigs::make_whole_vehicle(vehicle, rig, ambient_K, set_load)
+               : rigs::make_one_wheel(vehicle, rig, ambient_K, set_load, quarter);
 }
 
 std::vector<models::Corner<double>> VehicleFixture::corners() const {
-  return {layout().wheels.size(), models::Corner<double>(context(), effects)};
+  std::vector<models::Corner<double>> list;
+  for (const rigs::WheelPlace& wheel : layout().wheels) {
+    list.emplace_back(context_of(vehicle.axles[wheel.axle]), effects);
+  }
+  return list;
 }
 
 rigs::RigStart<double> VehicleFixture::start() const {

@@ -9,24 +9,22 @@
 #include "sim/cvodes_integrator.h"
 #include "sim/program.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/uneven_machines.h"
 
 namespace rollrig::tests {
 
-/// Vehicle source_car of the assets.
-rigs::VehicleFile read_asset_vehicle();
-
-/// A run of a vehicle that a test may change before it runs: tire a50, soaked at the rig's ambient.
+/// A run of a vehicle that a test may change before it runs: source_car with uneven axles (0.56 and 0.44 of the load,
+/// 0.68 and 0.32 of the brakes) on tires a50, soaked at the rig's ambient.
 struct VehicleFixture {
   /// `rig_name` is dyno_1m2 or flat; a quarter stands on the axle named.
-  explicit VehicleFixture(const std::string& rig_name, bool is_whole = false,
-                          rigs::QuarterWheel quarter_wheel = rigs::QuarterWheel::kRear);
+  explicit VehicleFixture(const std::string& rig_name, bool is_whole = false, std::size_t quarter_wheel = kRear);
 
   models::TireFile tire = read_asset_tire();
   rigs::RigFile rig;
-  rigs::VehicleFile vehicle = read_asset_vehicle();
+  rigs::VehicleFile vehicle = make_uneven_vehicle();
   models::RoadLoad<double> set_load;  // of the rollers
   bool whole;
-  rigs::QuarterWheel quarter;
+  std::size_t quarter;
   models::Baseline baseline = models::Baseline::kCombined;
   std::vector<models::ActiveEffect> effects;
   double cold_pressure_Pa = 280e3;
@@ -37,7 +35,10 @@ struct VehicleFixture {
   double total_mass_kg() const { return vehicle.body.mass_kg + vehicle.body.rotating_mass_kg; }
 
   rigs::VehicleLayout layout() const;
-  models::Context<double> context() const { return rigs::make_vehicle_context(tire, rig, vehicle, baseline); }
+  models::Context<double> context() const { return context_of(vehicle.axles.front()); }
+  models::Context<double> context_of(const rigs::VehicleAxle& axle) const {
+    return rigs::make_vehicle_context(rigs::tire_of(axle, tire), rig, vehicle, baseline);
+  }
   std::vector<models::Corner<double>> corners() const;
   rigs::RigStart<double> start() const;
   sim::Recording<double> run_multibody(const sim::Program& program) const;

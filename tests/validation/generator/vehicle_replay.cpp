@@ -63,7 +63,7 @@ class Replay {
     now_.recorded.acceleration_m_s2 = (speed_m_s[row + 1] - speed_m_s[row]) / dt_s;
     now_.recorded.ambient_K = now_.recorded.surface_K = between("ambient_degC", row, part);
     now_.recorded.load_N = set_.kind == tests::kRoad
-                               ? set_.vehicle->body.mass_kg * kStandardGravity_m_s2 / set_.vehicle->tires
+                               ? set_.vehicle->body.mass_kg * kStandardGravity_m_s2 / set_.vehicle->count_wheels()
                                : run_.columns.at("load_N")[row];
     corner_.apply_inputs(state.data(), now_);
     now_.motion = {};
@@ -89,7 +89,7 @@ class Replay {
     const std::vector<double>& elevation_m = run_.columns.at("elevation_m");
     const double slope = way_m > 0.0 ? (elevation_m[row + 1] - elevation_m[row]) / way_m : 0.0;
     const double density = models::calc_air_density_kg_per_m3(kAmbient_Pa, now_.acting.ambient_K);
-    return set_.vehicle->tires * now_.rolling_resistance_N + models::calc_grade_N(body.mass_kg, slope) +
+    return set_.vehicle->count_wheels() * now_.rolling_resistance_N + models::calc_grade_N(body.mass_kg, slope) +
            models::calc_drag_N(density, body.drag_area_m2, now_.motion.speed_m_s, 0.0) +
            (body.mass_kg + body.rotating_mass_kg) * now_.motion.acceleration_m_s2;
   }

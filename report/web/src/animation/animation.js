@@ -1,6 +1,6 @@
 // The test rig as it moves, drawn from the recorded poses; the tire is colored by its temperature.
 //
-// {machine: drum | belt | rollers | road, label, caption, tire, wheels: [...], body, temperature_degC: [low, high], ...}
+// {machine: drum | belt | rollers | road, label, caption, wheels: [{tire, ...}], body, temperature_degC: [low, high], ...}
 // Series are {t, y}. Beside it stands what the channels of the section's time chart show at that time.
 import { h, svg } from '../dom.js';
 import { decimalsFor, fixed } from '../format.js';

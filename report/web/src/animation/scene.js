@@ -24,8 +24,8 @@ function makeBelt(r) {
 
 /// The drum, or the belt, with the carriage that presses the wheel on it from above.
 function makeDrumScene(block) {
-  const { tire } = block;
   const [wheel] = block.wheels;
+  const { tire } = wheel;
   const isBelt = block.machine === 'belt';
   const R = isBelt ? 0 : block.drum_radius_m;
   const highest = R + 2 * tire.radius_m + 0.62;
@@ -60,11 +60,15 @@ function makeDrumScene(block) {
   };
 }
 
-/// A plain saloon about its center of gravity.
-function makeShell({ wheelbase_m, front_x_m, height_m }) {
-  const middle = front_x_m - wheelbase_m / 2;
-  const a = wheelbase_m / 2;
-  const at = (x, y) => `${(middle + x).toFixed(3)} ${(height_m - y).toFixed(3)}`;
+/// A plain saloon about its center of gravity; on more than two axles a tractor's cab and frame.
+function makeShell({ axles_x_m, height_m }) {
+  const front_x_m = Math.max(...axles_x_m);
+  const a = (front_x_m - Math.min(...axles_x_m)) / 2;
+  const at = (x, y) => `${(front_x_m - a + x).toFixed(3)} ${(height_m - y).toFixed(3)}`;
+  if (axles_x_m.length > 2) {
+    return svg('path', { class: 'shell', d: `M${at(-a - 0.8, 0.8)} L${at(-a - 0.8, 1.1)} L${at(a - 1.0, 1.1)} L${at(a - 1.0, 3.2)} L${at(a + 1.1, 3.2)} `
+      + `L${at(a + 1.25, 1.9)} L${at(a + 1.25, 0.5)} L${at(a + 0.6, 0.5)} L${at(a - 1.0, 0.8)} Z` });
+  }
   return svg('path', { class: 'shell', d: `M${at(-a - 0.85, 0.24)} L${at(-a - 0.9, 0.62)} Q${at(-a - 0.85, 0.9)} ${at(-a - 0.5, 0.95)} L${at(-a - 0.1, 0.98)} `
     + `Q${at(-0.75, 1.45)} ${at(-0.2, 1.47)} L${at(0.35, 1.47)} Q${at(0.75, 1.43)} ${at(a - 0.3, 0.97)} Q${at(a + 0.55, 0.9)} ${at(a + 0.78, 0.7)} L${at(a + 0.82, 0.24)} Z` });
 }
@@ -76,17 +80,17 @@ const makeQuarter = ({ height_m }) => svg('g', null,
 
 /// A vehicle, or one wheel with its share of it, on rollers or on the road.
 function makeVehicleScene(block) {
-  const { tire, body } = block;
-  const isWhole = body.wheelbase_m !== undefined;
+  const { body } = block;
+  const isWhole = body.axles_x_m.length > 0;
   const R = block.drum_radius_m || 0;
   const share = makeHeat(block);
-  const xs = isWhole ? [body.front_x_m, body.front_x_m - body.wheelbase_m] : [0];
+  const xs = isWhole ? body.axles_x_m : [0];
   const left = Math.min(...xs) - (isWhole ? 1.5 : 1.15);
   const right = Math.max(...xs) + (isWhole ? 1.25 : 1.15);
-  const top = isWhole ? 1.78 : 1.32;
+  const top = xs.length > 2 ? 3.4 : isWhole ? 1.78 : 1.32;
   const depth = block.machine === 'road' ? 0.28 : isWhole ? 0.6 : 0.75;
   const scale = makeHeatScale({ x: left + 0.14, y: -top + 0.2, width: 0.09, height: 0.6, low: block.temperature_degC[0], high: block.temperature_degC[1] });
-  const wheels = block.wheels.map((wheel) => ({ ...wheel, drawn: makeWheel(tire), roller: block.machine === 'rollers' ? makeDrum(R) : null, force: makeArrow() }));
+  const wheels = block.wheels.map((wheel) => ({ ...wheel, drawn: makeWheel(wheel.tire), roller: block.machine === 'rollers' ? makeDrum(R) : null, force: makeArrow() }));
   const shell = svg('g', null, isWhole ? makeShell(body) : makeQuarter(body));
   const ticks = svg('g', { class: 'road' });
   const ground = block.machine === 'road'
