@@ -177,14 +177,11 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     system_.realize(state_, Stage::Velocity);
     const DriveEvaluation drive = drive_->evaluation(state_);
     const double speed_m_s = drive.acting.speed_m_s;
-    const double sinks_by_N = drive.wheels.front().on_body_N;  // the same at every wheel: the body does not pitch
-    const double heave_m =
-        -sinks_by_N / layout_.wheels.front().suspension.stiffness_N_per_m - sinks_by_N / drive_->tire_N_per_m(0);
-    bodies_.heave.setOneQ(state_, 0, heave_m);
+    bodies_.heave.setOneQ(state_, 0, -drive.sinks_m);
     if (is_flat()) bodies_.sled.setOneU(state_, 0, speed_m_s);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const VehicleBodies::Wheel& wheel = bodies_.wheels[i];
-      wheel.upright.setOneQ(state_, 0, -heave_m - drive.wheels[i].restraint_N / drive_->tire_N_per_m(i));
+      wheel.upright.setOneQ(state_, 0, drive.sinks_m - drive.wheels[i].restraint_N / drive_->tire_N_per_m(i));
       wheel.wheel.setOneU(state_, 0, speed_m_s / drive.wheels[i].radius_m);
       if (!is_flat()) wheel.roller.setOneU(state_, 0, speed_m_s / layout_.roller_radius_m);
     }

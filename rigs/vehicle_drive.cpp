@@ -86,15 +86,24 @@ void VehicleDrive::find_suspension(const State& state, std::size_t i, DriveEvalu
   out.suspension_damper_N = suspension.damping_N_s_per_m * upright.getOneU(state, 0);
 }
 
-/// Body and uprights are pressed so that every contact at rest has its own restraint, though the body cannot pitch.
+/// Body and uprights are pressed so that every contact at rest has its own restraint, though the body cannot pitch: it
+/// sinks by what its springs need to carry the body's part of the restraint over tires that are pressed in.
 void VehicleDrive::share_restraint(DriveEvaluation& at) const {
-  double mean_N = 0.0;
-  for (const DriveEvaluation::Wheel& wheel : at.wheels) mean_N += wheel.restraint_N;
-  mean_N /= static_cast<double>(at.wheels.size());
+  double on_body_N = 0.0;
+  double stiffness_N_per_m = 0.0;
+  double pressed_in_N = 0.0;
   for (std::size_t i = 0; i < at.wheels.size(); ++i) {
-    const double give = layout_.wheels[i].suspension.stiffness_N_per_m / tire_N_per_m(i);
-    at.wheels[i].on_body_N = mean_N;
-    at.wheels[i].on_upright_N = (at.wheels[i].restraint_N - mean_N) * (1.0 + give);
+    const double spring_N_per_m = layout_.wheels[i].suspension.stiffness_N_per_m;
+    on_body_N += at.wheels[i].restraint_N;
+    stiffness_N_per_m += spring_N_per_m;
+    pressed_in_N += spring_N_per_m * at.wheels[i].restraint_N / tire_N_per_m(i);
+  }
+  at.sinks_m = (on_body_N + pressed_in_N) / stiffness_N_per_m;
+  for (std::size_t i = 0; i < at.wheels.size(); ++i) {
+    DriveEvaluation::Wheel& wheel = at.wheels[i];
+    const double spring_m = at.sinks_m - wheel.restraint_N / tire_N_per_m(i);
+    wheel.on_body_N = on_body_N / static_cast<double>(at.wheels.size());
+    wheel.on_upright_N = wheel.restraint_N - layout_.wheels[i].suspension.stiffness_N_per_m * spring_m;
   }
 }
 

@@ -35,6 +35,7 @@ struct DriveEvaluation {
     double on_upright_N = 0.0;  // downwards on the upright, for the rest, and for what the suspension gives in to it
   };
   std::vector<Wheel> wheels;
+  double sinks_m = 0.0;     // of the body, by the restraint
   double tie_down_N = 0.0;  // along the vehicle
   double tie_down_damper_N = 0.0;
 };
