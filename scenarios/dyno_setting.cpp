@@ -80,7 +80,7 @@ struct Results {
                  "of all tires that roll, over both highway cycles"},
           highway_J);
     visit(Result{"highway_rr_energy_iso_Wh", "  by the ISO coefficient alone", ".0f",
-                 "the same by the tire's ISO coefficient; null where it has none"},
+                 "the same by the tires' ISO coefficients; null where one has none"},
           highway_iso_J);
   }
 };
@@ -166,8 +166,13 @@ void add_highway(const RunSpec& spec, const Settings& settings, const sim::Recor
     }
     distance_m += section.common(rigs::VehicleIntegral::kDistance);
   }
-  if (!spec.tire.iso_28580.has_value()) return;
-  results.highway_iso_J = spec.tire.iso_28580->rrc * layout.rolling_load_N / layout.share * distance_m;
+  double iso_N = 0.0;
+  for (const rigs::WheelPlace& wheel : layout.wheels) {
+    const auto& iso_28580 = rigs::tire_of(spec.vehicle->axles[wheel.axle], spec.tire).iso_28580;
+    if (!iso_28580.has_value()) return;
+    iso_N += iso_28580->rrc * wheel.static_load_N;
+  }
+  results.highway_iso_J = iso_N / layout.share * distance_m;
 }
 
 Results run(const RunSpec& spec, Settings settings, const VehicleProgram& program, const sim::Progress& progress,

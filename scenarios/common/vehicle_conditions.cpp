@@ -86,9 +86,12 @@ models::RoadLoad<double> VehicleConditions::find_default_set_load(const RunSpec&
   constexpr double kReference_Pa = 98.21e3;               // likewise
   if (spec.vehicle->road_load.has_value()) {
     models::RoadLoad<double> load = *spec.vehicle->road_load;
-    if (spec.tire.iso_28580.has_value()) {
-      load.A_N -= spec.tire.iso_28580->rrc * spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
+    double rrc = 0.0;
+    for (const rigs::VehicleAxle& axle : spec.vehicle->axles) {
+      const auto& iso_28580 = rigs::tire_of(axle, spec.tire).iso_28580;
+      if (iso_28580.has_value()) rrc += axle.load_share * iso_28580->rrc;
     }
+    load.A_N -= rrc * spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
     return load;
   }
   const double density_kg_per_m3 = models::calc_air_density_kg_per_m3(kReference_Pa, kReference_K);
