@@ -92,8 +92,6 @@ Panel& find_panel(std::vector<Panel>& panels, const Place& place, const std::str
   return panels.back();
 }
 
-}
-
 }  // namespace
 
 Json make_phases(const std::vector<sim::PhaseSpan>& phases) {

@@ -65,7 +65,7 @@ const char* name_of(bool multibody) { return multibody ? "multibody" : "quasi-st
 }  // namespace
 
 TEST_CASE("six wheels of a tractor bear its weight in its center of gravity, four of them drive", "[fast]") {
-  const VehicleFixture fixture = make_tractor("flat");
+  const VehicleFixture fixture = make_tractor("road");
   const rigs::VehicleLayout layout = fixture.layout();
   REQUIRE(layout.wheels.size() == 6);
   CHECK(layout.wheels[3].position == "drive_1_right");
@@ -84,7 +84,7 @@ TEST_CASE("six wheels of a tractor bear its weight in its center of gravity, fou
 
 TEST_CASE("a tractor's wheels bear at rest what its axles' shares say, though three axles could share otherwise",
           "[fast]") {
-  for (const char* rig : {"dyno_48in", "flat"}) {
+  for (const char* rig : {"dyno_48in", "road"}) {
     const VehicleFixture fixture = make_tractor(rig);
     const auto recording = fixture.run_multibody(make_program({driving("stand", 20.0, 0.0, 0.0)}));
     for (const rigs::WheelPlace& wheel : fixture.layout().wheels) {
@@ -112,7 +112,7 @@ TEST_CASE("rollers under a tractor's driven axles leave its front axle standing"
 
 TEST_CASE("a tractor coasts down alike in both fidelities, on the road and on rollers, and its energy closes",
           "[fast]") {
-  for (const char* rig : {"flat", "dyno_48in_2wd"}) {
+  for (const char* rig : {"road", "dyno_48in_2wd"}) {
     const VehicleFixture fixture = make_tractor(rig);
     double end_s[2] = {0.0, 0.0};
     for (const bool multibody : {false, true}) {
@@ -128,7 +128,7 @@ TEST_CASE("a tractor coasts down alike in both fidelities, on the road and on ro
 
 TEST_CASE("a tractor drives the city cycle on its driven axles' rollers and on the road; energies close and agree",
           "[slow]") {
-  for (const char* rig : {"flat", "dyno_48in_2wd"}) {
+  for (const char* rig : {"road", "dyno_48in_2wd"}) {
     const VehicleFixture fixture = make_tractor(rig);
     std::vector<sim::Recording<double>> runs;
     for (const bool multibody : {false, true}) {
@@ -139,7 +139,7 @@ TEST_CASE("a tractor drives the city cycle on its driven axles' rollers and on t
     }
     INFO(rig);
     // On the road a body that pitches lets the driver's demand swing across what the motor may brake.
-    const double share = std::string(rig) == "flat" ? 2e-3 : 5e-4;
+    const double share = std::string(rig) == "road" ? 2e-3 : 5e-4;
     const double drive_J = find_total(runs[0], VehicleIntegral::kDriveEnergy);
     for (const auto integral : {VehicleIntegral::kDriveEnergy, VehicleIntegral::kRecuperated}) {
       CHECK(find_total(runs[1], integral) == Approx(find_total(runs[0], integral)).margin(share * drive_J));
@@ -247,7 +247,7 @@ TEST_CASE("straps press every contact by their force, however the axles are spru
 
 TEST_CASE("dual tires carry as much as the single ones that they stand for, and a wheel in the middle as well",
           "[fast]") {
-  VehicleFixture fixture = make_tractor("flat");
+  VehicleFixture fixture = make_tractor("road");
   fixture.vehicle.axles[1].wheels = 4;
   fixture.vehicle.axles[2].wheels = 1;
   for (rigs::VehicleAxle& axle : fixture.vehicle.axles) axle.suspension.unsprung_mass_kg = 60.0;

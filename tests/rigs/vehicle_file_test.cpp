@@ -113,7 +113,7 @@ TEST_CASE("axles have names, tires, pressures and suspensions of their own", "[f
 TEST_CASE("a car in format /2 drives as in format /1, to the bit", "[fast]") {
   const auto program = tests::make_program(
       {driving("speed up", 10.0, 0.0, 20.0), driving("hold", 20.0, 20.0, 20.0), driving("brake", 5.0, 20.0, 2.0)});
-  for (const char* rig : {"dyno_1m2", "flat"}) {
+  for (const char* rig : {"dyno_1m2", "road"}) {
     VehicleFixture in_1(rig, true);
     VehicleFixture in_2(rig, true);
     in_1.vehicle = read("1", "tires = 4\n[geometry]\nfront_load_share = 0.5625\n[brakes]\nfront_share = 0.6875\n");
