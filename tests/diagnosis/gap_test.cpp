@@ -104,7 +104,8 @@ TEST_CASE("of a curve that nothing explains the gap is its size, before and afte
   REQUIRE(gap.channels.size() == 3);
   CHECK(gap.channels[kTorque].channel == "drum_torque_Nm");
   CHECK(gap.channels[kTorque].unit == "N");
-  CHECK(gap.channels[kTorque].before == Approx(kSize_Nm / (fitted.set.rig->drum.diameter_m / 2.0)).epsilon(0.06));
+  CHECK(gap.channels[kTorque].before ==
+        Approx(kSize_Nm / (fitted.set.source().rig->drum.diameter_m / 2.0)).epsilon(0.06));
   CHECK(gap.channels[1].unit == "degC");
   CHECK(gap.channels[1].before < 0.05);
   CHECK(gap.channels[2].unit == "kPa");

@@ -72,7 +72,7 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
   measurements::MeasuredRun run;
   run.time_s = {0.0, 1.0, 2.0};
   run.columns = {{"load_N", {0.0, 0.0, 0.0}}, {"ambient_degC", {298.15, 298.15, 298.15}}};
-  const double radius_m = study.set.rig->drum.diameter_m / 2.0;
+  const double radius_m = study.set.source().rig->drum.diameter_m / 2.0;
   run.columns["hung_torque_Nm"] = {0.0, 60.0 * radius_m, 600.0 * radius_m};
   sim::Recording<double> recording;
   recording.channels.push_back({"drum_torque_Nm"});
