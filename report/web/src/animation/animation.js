@@ -11,7 +11,7 @@ import { makeScene } from './scene.js';
 function findReadings(section) {
   const times = section.blocks.find((block) => block.type === 'times');
   return times.panels.flatMap((panel) => {
-    const isByWheel = panel.series.some((s) => /^(front|rear) (left|right)$/.test(s.name));
+    const isByWheel = panel.series.some((s) => / (left|right)( outer| inner)?$/.test(s.name));
     const name = (s) => (isByWheel ? `${panel.label}, ${s.name}` : s.name);
     return (isByWheel ? panel.series.slice(0, 1) : panel.series).map((s) => ({ name: name(s), unit: panel.unit, t: s.t, y: s.y }));
   });
