@@ -149,6 +149,9 @@ double find_tire_load_N(const rigs::VehicleFile& vehicle) {
 
 models::Context<double> make_context(const MeasurementSet& set) {
   if (is_indoors(set.kind->traits)) return rigs::make_context(set.tire, *set.rig, set.baseline);
+  if (!set.vehicle.has_value()) {
+    throw InputError({"a set of the road has no vehicle", set.path, 0, "vehicle", "", "a vehicle's name or path", ""});
+  }
   const rigs::VehicleFile& vehicle = *set.vehicle;
   if (vehicle.road_load.has_value()) {
     throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,

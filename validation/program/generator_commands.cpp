@@ -23,7 +23,7 @@ constexpr int kMostCases = 2000;
 /// Counts cases on a terminal.
 class CaseCounter {
  public:
-  Progress callback() {
+  generator::Progress callback() {
     return [this](std::size_t done, std::size_t of) { line_.show(fmt::format("{} of {} cases", done, of)); };
   }
 
