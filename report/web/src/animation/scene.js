@@ -28,6 +28,7 @@ function makeDrumScene(block) {
   const { tire } = wheel;
   const isBelt = block.machine === 'belt';
   const R = isBelt ? 0 : block.drum_radius_m;
+  const below = isBelt ? 2 * block.drum_radius_m + 0.02 : 0.5;  // of what is drawn under the tire
   const highest = R + 2 * tire.radius_m + 0.62;
   const width = (isBelt ? 6.4 : 2) * block.drum_radius_m + 1.1;
   const share = makeHeat(block);
@@ -41,8 +42,8 @@ function makeDrumScene(block) {
   const carriage = svg('g', null, svg('rect', { x: -0.24, y: -0.52, width: 0.48, height: 0.15, rx: 0.02, class: 'block' }),
     svg('rect', { x: -0.045, y: -0.4, width: 0.09, height: 0.44, class: 'block' }), svg('circle', { r: 0.06, class: 'hub' }));
   return {
-    viewBox: [-width / 2, -highest - 0.02, width, highest + 0.58],
-    element: svg('g', null, svg('clipPath', { id: 'below' }, svg('rect', { x: -width, y: -highest, width: 2 * width, height: highest + 0.5 })),
+    viewBox: [-width / 2, -highest - 0.02, width, highest + below + 0.08],
+    element: svg('g', null, svg('clipPath', { id: 'below' }, svg('rect', { x: -width, y: -highest, width: 2 * width, height: highest + below })),
       rail, turning.element, svg('g', { 'clip-path': 'url(#below)' }, drum.element), carriage, load.element, speed.element, scale.element),
     show(t) {
       const height = valueAt(wheel.axle_height_m, t);
