@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "build_paths.h"
 #include "tests/support/run_program.h"
 
 using Catch::Contains;

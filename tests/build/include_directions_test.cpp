@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "build_paths.h"
+
 namespace fs = std::filesystem;
 
 namespace {

@@ -3,6 +3,7 @@
 #include <regex>
 #include <sstream>
 
+#include "build_paths.h"
 #include "tests/support/temporary_folder.h"
 
 using Catch::Contains;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "build_paths.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;

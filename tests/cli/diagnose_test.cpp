@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "build_paths.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "build_paths.h"
 #include "tests/support/run_program.h"
 
 using Catch::Contains;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "build_paths.h"
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/base_parameters.h"
 #include "diagnosis/diagnosis.h"

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
+#include "build_paths.h"
 #include "sim/core/text.h"
 #include "tests/diagnosis/hand_made.h"
 #include "tests/support/temporary_folder.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tests/support/run_program.h"
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "build_paths.h"
 #include "estimation/road_load/coastdown_file.h"
 #include "estimation/road_load/road_load_checks.h"
 

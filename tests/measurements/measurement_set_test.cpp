@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "build_paths.h"
 #include "measurements/resimulation.h"
 #include "scenarios/common/written_set.h"
 #include "tests/support/drum_fixture.h"

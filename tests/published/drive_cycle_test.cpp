@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "build_paths.h"
 #include "models/tire/rolling_resistance.h"
 #include "sim/core/schema.h"
 #include "tests/support/drum_fixture.h"

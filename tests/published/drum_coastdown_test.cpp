@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "build_paths.h"
 #include "estimation/drum_deceleration/drum_coastdown.h"
 
 namespace fs = std::filesystem;

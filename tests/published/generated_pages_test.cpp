@@ -2,6 +2,7 @@
 
 #include <sstream>
 
+#include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tools/physics_page.h"
 #include "tools/published_tables.h"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tests/support/page_numbers.h"
 #include "tools/skim_question.h"

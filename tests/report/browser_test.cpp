@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "build_paths.h"
 #include "report/fit_pages.h"
 #include "sim/core/csv.h"
 #include "tests/support/coast_study.h"

@@ -1,6 +1,7 @@
 // Vehicles of any axles: a tractor on three of them, and cars whose axles have tires of their own.
 #include <catch2/catch.hpp>
 
+#include "build_paths.h"
 #include "scenarios/common/speed_trace.h"
 #include "scenarios/common/vehicle_bench.h"
 #include "sim/core/assets.h"

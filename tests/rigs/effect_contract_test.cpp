@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "build_paths.h"
 #include "tests/rigs/effect_campaigns.h"
 #include "tests/support/hand_fed_corner.h"
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "build_paths.h"
 #include "scenarios/run/scenario.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,5 @@
 #include "tests/support/run_program.h"
+#include "build_paths.h"
 
 #include <sstream>
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "build_paths.h"
 #include "measurements/measurement_set.h"
 #include "tests/support/run_program.h"
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "build_paths.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "tests/support/page_numbers.h"

@@ -1,6 +1,7 @@
 // Certificate of a multi-cycle test, predicted from A, B, C and one efficiency: README.md.
 #include <catch2/catch.hpp>
 
+#include "build_paths.h"
 #include "rigs/vehicle_file.h"
 #include "sim/core/assets.h"
 #include "sim/core/file_io.h"

@@ -1,6 +1,7 @@
 // A, B, C of a public test-car record, by the command line: README.md.
 #include <catch2/catch.hpp>
 
+#include "build_paths.h"
 #include "sim/core/json.h"
 #include "tests/support/run_program.h"
 

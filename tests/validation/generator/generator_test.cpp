@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tests/support/run_program.h"
 #include "tests/validation/generator/generated_set.h"

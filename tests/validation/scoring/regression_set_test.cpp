@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tests/support/run_program.h"
 
