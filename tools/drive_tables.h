@@ -1,14 +1,28 @@
 #pragma once
-/// The drive-cycle part of docs/published.md: Tables 4.2, 4.4, 4.5, 5.1, Figure 3.13, temperatures.
+/// The drive-cycle part of docs/published.md.
 
-#include <string>
+#include <map>
+
+#include "tools/pages.h"
+#include "tools/tire_drive.h"
 
 namespace rollrig::tools {
 
-/// Tables of energy. `folder`: tests/published, with the numbers of the source.
-std::string make_energy_tables(const std::string& folder);
+/// The source's test driven on each tire, by its name.
+using Drives = std::map<std::string, TireDrive>;
 
-/// What §4.3.1, §4.4.1 and §4.4.3 say in words of temperature and RRc, one by one: holds or not, by how much.
-std::string make_statement_table();
+struct DriveTables {
+  Rows sections;     // Tables 4.4 and 4.5
+  Rows figure_3_13;  // a50 with the coefficients of that figure
+  Rows figure_3_13_fits;
+  Rows table_5_1;
+  Rows table_4_2;
+  Rows statements;  // of §4.3.1, §4.4.1 and §4.4.3 in words on temperature and RRc: holds or not, by how much
+};
+
+DriveTables make_drive_tables();
+
+/// What the source says in words, against `drives`.
+Rows list_statements(const Drives& drives);
 
 }  // namespace rollrig::tools

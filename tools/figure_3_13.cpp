@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenarios/run/run_spec.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
@@ -13,11 +13,7 @@ constexpr double kLowSpeed_m_s = 80.0 / 3.6;
 constexpr double kHighSpeed_m_s = 120.0 / 3.6;
 
 scenarios::RunSpec make_spec(double heat_capacity_J_per_K) {
-  ConfigTable document = scenarios::make_run_document("sae_j1634");
-  set_config_value(document, "tire", "a50", "tools/figure_3_13");
-  set_config_value(document, "fidelity", "quasi_static", "tools/figure_3_13");
-  for (const char* setting : {"variant=source", "wheels=1"}) scenarios::set_run_value(document, setting);
-  scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
+  scenarios::RunSpec spec = make_source_drive("a50");
   auto& rr = spec.tire.values.rolling_resistance;
   rr.A1_N_s_per_m = (64.7752 - 55.1434) / (kHighSpeed_m_s - kLowSpeed_m_s);
   rr.A0_N = 55.1434 - rr.A1_N_s_per_m * kLowSpeed_m_s;

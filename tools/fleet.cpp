@@ -11,6 +11,7 @@
 #include "sim/core/csv.h"
 #include "sim/core/parallel.h"
 #include "tools/class_tire.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
@@ -60,11 +61,12 @@ Procedures make_procedures(const FleetAssumptions& assumptions) {
       fmt::format("effects.driveline_warming.time_constant_min={}", assumptions.driveline_time_min),
       fmt::format("effects.driveline_warming.fall={}", assumptions.driveline_fall)};
   // On the road the car is given by its coefficients alone: no warm-up changes it.
-  Procedures made{make_virtual_test("coastdown", "road", {"warm_up_min=0"}),
-                  make_virtual_test("dyno_setting", "dyno_48in", rollers),
-                  make_virtual_test("dyno_setting", "dyno_48in_2wd", rollers),
-                  make_virtual_test("dyno_setting", "dyno_48in", with_driveline),
-                  make_virtual_test("dyno_setting", "dyno_48in_2wd", with_driveline)};
+  const auto setting = [](const char* rig, const std::vector<std::string>& settings) {
+    return make_spec("dyno_setting", "a50", settings, {{"rig", rig}});
+  };
+  Procedures made{make_spec("coastdown", "a50", {"warm_up_min=0"}), setting("dyno_48in", rollers),
+                  setting("dyno_48in_2wd", rollers), setting("dyno_48in", with_driveline),
+                  setting("dyno_48in_2wd", with_driveline)};
   made.road.sample_interval_s = 0.1;
   for (scenarios::RunSpec* spec : {&made.road, &made.all, &made.driven, &made.all_driveline, &made.driven_driveline}) {
     scale_loss(spec->tire, factor);

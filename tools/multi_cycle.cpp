@@ -8,6 +8,7 @@
 #include "sim/core/assets.h"
 #include "sim/core/csv.h"
 #include "tools/class_tire.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
@@ -30,7 +31,7 @@ std::vector<std::string> make_settings(const std::vector<CertificateSection>& ce
 /// Settings of the rollers, with the tires, with which the vehicle coasts down by its road load.
 std::vector<std::string> find_roller_settings(const MultiCycleTest& test, const rigs::VehicleFile& vehicle,
                                               const std::vector<std::string>& tires, double loss_factor) {
-  scenarios::RunSpec setting = make_virtual_test("dyno_setting", "dyno_48in", tires);
+  scenarios::RunSpec setting = make_spec("dyno_setting", "a50", tires, {{"rig", "dyno_48in"}});
   scale_loss(setting.tire, loss_factor);
   setting.vehicle = vehicle;
   const Json result = scenarios::run_scenario(setting, {}).result;
@@ -77,7 +78,7 @@ std::vector<SimulatedSection> simulate_multi_cycle(const MultiCycleTest& test,
     const std::vector<std::string> rollers = find_roller_settings(test, vehicle, tires, loss_factor);
     settings.insert(settings.end(), rollers.begin(), rollers.end());
   }
-  scenarios::RunSpec spec = make_virtual_test("sae_j1634", tires_act ? "dyno_48in" : "road", settings);
+  scenarios::RunSpec spec = make_spec("sae_j1634", "a50", settings, {{"rig", tires_act ? "dyno_48in" : "road"}});
   scale_loss(spec.tire, loss_factor);
   spec.vehicle = vehicle;
   std::vector<SimulatedSection> sections;

@@ -43,7 +43,4 @@ std::vector<SimulatedSection> simulate_multi_cycle(const MultiCycleTest& test,
 double fit_efficiency(const std::vector<SimulatedSection>& simulated,
                       const std::vector<CertificateSection>& certificate, const std::vector<std::size_t>& fitted);
 
-/// docs/ex30.md.
-std::string make_ex30_page(const std::string& certificate_path);
-
 }  // namespace rollrig::tools

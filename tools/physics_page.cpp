@@ -1,16 +1,11 @@
-#include "tools/physics_page.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/algorithm/string.hpp>
 #include <filesystem>
 #include <regex>
 #include <sstream>
-#include <vector>
 
 #include "models/effect.h"
-#include "sim/core/file_io.h"
+#include "tools/pages.h"
 
 namespace rollrig::tools {
 namespace {
@@ -19,16 +14,18 @@ namespace fs = std::filesystem;
 namespace text = boost::algorithm;
 
 constexpr const char* kAssumed = "Assumed";
+const std::vector<std::string> kFolders{"models",     "rigs",      "sim",      "measurements",
+                                        "estimation", "scenarios", "diagnosis"};
 
 /// Files of some folders with one of the extensions, by name.
-std::vector<std::string> list_files(const std::string& root, const std::vector<std::string>& folders,
+std::vector<std::string> list_files(const std::vector<std::string>& folders,
                                     const std::vector<std::string>& extensions) {
   std::vector<std::string> files;
   for (const std::string& folder : folders) {
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(root) / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(kProjectFolder) / folder)) {
       const std::string extension = entry.path().extension().string();
       if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) continue;
-      files.push_back(fs::relative(entry.path(), root).generic_string());
+      files.push_back(fs::relative(entry.path(), kProjectFolder).generic_string());
     }
   }
   std::sort(files.begin(), files.end());
@@ -37,7 +34,7 @@ std::vector<std::string> list_files(const std::string& root, const std::vector<s
 
 std::vector<std::string> read_lines(const std::string& file) {
   std::vector<std::string> lines;
-  std::istringstream in(read_text_file(file));
+  std::istringstream in(read_text_file(fmt::format("{}/{}", kProjectFolder, file)));
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;
 }
@@ -54,8 +51,8 @@ std::string find_name(const std::vector<std::string>& lines, std::size_t line) {
 }
 
 /// Doc comments of a header that state an equation, each under the name of what it documents.
-std::string write_equations(const std::string& root, const std::string& file) {
-  const std::vector<std::string> lines = read_lines(root + "/" + file);
+std::string write_equations(const std::string& file) {
+  const std::vector<std::string> lines = read_lines(file);
   std::string page;
   std::string comment;
   bool has_equation = false;
@@ -106,7 +103,7 @@ std::string write_assumed_row(const std::string& file, const std::vector<std::st
     words += " " + text::trim_copy_if(more[2].str(), text::is_any_of(" \","));
   }
   const std::string shown = code.empty() ? "" : "`" + escape_cell(code) + "`";
-  return fmt::format("| {} | {} | {} |\n", file, shown, escape_cell(words));
+  return fmt::format("| {} | {} | {} |", file, shown, escape_cell(words));
 }
 
 bool is_in_words(const std::string& line) {
@@ -116,58 +113,41 @@ bool is_in_words(const std::string& line) {
 
 /// What their sources say that is assumed.
 template <class Registered>
-std::string write_declared_assumed(const std::string& folder, const std::vector<const Registered*>& all) {
-  std::string rows;
+void add_declared_assumed(const std::string& folder, const std::vector<const Registered*>& all, Rows& rows) {
   for (const Registered* one : all) {
     const std::size_t at = one->info.source.find("Assumed: ");
     if (at == std::string::npos) continue;
-    rows += fmt::format("| {0}/{1}.cpp | `{1}` | {2} |\n", folder, one->info.id,
-                        escape_cell(one->info.source.substr(at + 9)));
+    rows.push_back(fmt::format("| {0}/{1}.cpp | `{1}` | {2} |", folder, one->info.id,
+                               escape_cell(one->info.source.substr(at + 9))));
+  }
+}
+
+Rows list_assumed() {
+  Rows rows;
+  add_declared_assumed("models/tire", models::all_tire_models(), rows);
+  add_declared_assumed("models/effects", models::all_effects(), rows);
+  std::vector<std::string> files = list_files(kFolders, {".h", ".cpp"});
+  const std::vector<std::string> assets = list_files({"assets"}, {".toml"});
+  files.insert(files.end(), assets.begin(), assets.end());
+  for (const std::string& file : files) {
+    const bool is_declared = text::starts_with(file, "models/effects/") || text::starts_with(file, "models/tire/");
+    const std::vector<std::string> lines = read_lines(file);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].find(kAssumed) == std::string::npos || (is_declared && is_in_words(lines[i]))) continue;
+      rows.push_back(write_assumed_row(file, lines, i));
+    }
   }
   return rows;
 }
 
-std::string write_assumed(const std::string& root) {
-  std::string page = "| file | number | assumed |\n|---|---|---|\n";
-  page += write_declared_assumed("models/tire", models::all_tire_models());
-  page += write_declared_assumed("models/effects", models::all_effects());
-  const std::vector<std::string> folders{"models",     "rigs",      "sim",      "measurements",
-                                         "estimation", "scenarios", "diagnosis"};
-  std::vector<std::string> files = list_files(root, folders, {".h", ".cpp"});
-  const std::vector<std::string> assets = list_files(root, {"assets"}, {".toml"});
-  files.insert(files.end(), assets.begin(), assets.end());
-  for (const std::string& file : files) {
-    const bool is_declared = text::starts_with(file, "models/effects/") || text::starts_with(file, "models/tire/");
-    const std::vector<std::string> lines = read_lines(root + "/" + file);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (lines[i].find(kAssumed) == std::string::npos || (is_declared && is_in_words(lines[i]))) continue;
-      page += write_assumed_row(file, lines, i);
-    }
-  }
-  return page;
-}
-
 }  // namespace
 
-std::string make_physics_page(const std::string& root) {
-  std::string page =
-      "# Physics\n\nGenerated from the program's own comments and declarations (`ninja docs_pages`); a test holds the "
-      "page to them.\n\n\"The source\" is the thesis that rollrig implements ([CITATION.cff](../CITATION.cff)). What "
-      "follows \"Assumed:\" has no source. [baseline.md](baseline.md) says in one page what is simulated without "
-      "effects.\n\n[Equations](#equations), [tire "
-      "models](#tire-models), [effects](#effects), "
-      "[what is assumed](#what-is-assumed)\n\n"
-      "## Equations\n\n";
-  for (const std::string& file :
-       list_files(root, {"models", "rigs", "sim", "measurements", "estimation", "scenarios", "diagnosis"}, {".h"})) {
-    page += write_equations(root, file);
-  }
-  page += "## Tire models\n\nWhat `model` in a tire file may say.\n\n" + write_declared(models::all_tire_models());
-  page += "## Effects\n\nParameters, ranges and priors are in [reference.md](reference.md).\n\n" +
-          write_declared(models::all_effects());
-  page +=
-      "## What is assumed\n\nEvery number without a source, as it is marked where it stands.\n\n" + write_assumed(root);
-  return page;
+std::string make_physics_page() {
+  std::string equations;
+  for (const std::string& file : list_files(kFolders, {".h"})) equations += write_equations(file);
+  using fmt::literals::operator""_a;
+  return fill_page("physics", "equations"_a = equations, "tire_models"_a = write_declared(models::all_tire_models()),
+                   "effects"_a = write_declared(models::all_effects()), "assumed"_a = join(list_assumed()));
 }
 
 }  // namespace rollrig::tools

@@ -1,24 +1,18 @@
 #include "tools/published_numbers.h"
 
-#include "sim/core/schema.h"
-
 namespace rollrig::tools {
-namespace {
 
-/// Calls `read` with the reader of [tire] in a file of published numbers.
-template <class Read>
-void read_table(const std::string& path, const std::string& tire, const Read& read) {
+void read_published_table(const std::string& path, const std::string& name,
+                          const std::function<void(TableReader&)>& read) {
   const ConfigTable config = read_config(path);
   TableReader file(config, "");
   check_format(file, "rollrig-published", 1);
-  const ConfigTable* table = file.table(tire);
-  if (table == nullptr) throw file.problem(tire, "nothing is published of this tire");
-  TableReader reader(*table, "[" + tire + "]");
+  const ConfigTable* table = file.table(name);
+  if (table == nullptr) throw file.problem(name, "nothing is published of this tire");
+  TableReader reader(*table, "[" + name + "]");
   read(reader);
   reader.finish();
 }
-
-}  // namespace
 
 std::vector<double> PublishedTire::sections() const {
   std::vector<double> all;
@@ -30,7 +24,7 @@ std::vector<double> PublishedTire::sections() const {
 
 PublishedTire read_published_tire(const std::string& folder, const std::string& tire) {
   PublishedTire out;
-  read_table(folder + "/source.toml", tire, [&out](TableReader& reader) {
+  read_published_table(folder + "/source.toml", tire, [&out](TableReader& reader) {
     out.rrc_iso = reader.number({"rrc_iso_N_per_kN", positive(), ""});
     out.band_B_low_per_K = reader.number({"band_B_low_per_degC", positive(), ""});
     out.band_B_high_per_K = reader.number({"band_B_high_per_degC", positive(), ""});
@@ -38,7 +32,7 @@ PublishedTire read_published_tire(const std::string& folder, const std::string& 
     out.band_low_sd_N = reader.number_or_none({"band_low_N_sd", positive(), ""});
     out.city_3_fall_K = reader.number({"city_3_fall_K", positive(), ""});
   });
-  read_table(folder + "/table_4_4_and_4_5/expected.toml", tire, [&out](TableReader& reader) {
+  read_published_table(folder + "/table_4_4_and_4_5/expected.toml", tire, [&out](TableReader& reader) {
     out.city = reader.numbers_or({"city_percent", any_number(), ""}, {});
     out.highway = reader.numbers_or({"highway_percent", any_number(), ""}, {});
     out.constant_speed = reader.numbers_or({"constant_speed_percent", any_number(), ""}, {});

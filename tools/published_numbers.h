@@ -1,11 +1,19 @@
 #pragma once
 /// The published numbers of the source's tires, as kept in tests/published.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "sim/core/schema.h"
+
 namespace rollrig::tools {
+
+/// Calls `read` with the reader of [name] in a file of published numbers, all of which it has to read. Throws
+/// InputError.
+void read_published_table(const std::string& path, const std::string& name,
+                          const std::function<void(TableReader&)>& read);
 
 /// What the source says of one tire; fractions, not percent.
 struct PublishedTire {

@@ -1,7 +1,3 @@
-#include "tools/reference_page.h"
-
-#include <fmt/format.h>
-
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
 
@@ -10,15 +6,10 @@
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
 #include "scenarios/run/scenario.h"
+#include "tools/pages.h"
 
 namespace rollrig::tools {
 namespace {
-
-constexpr const char* kIntroduction =
-    "# Reference\n\n"
-    "Every scenario, setting, result and effect, and the keys of tire, rig, vehicle and sensor files; those of other "
-    "files are in\n[formats.md](formats.md). Written by `cmake --build build/release --target "
-    "docs_pages`\nfrom the declarations in the code; a test holds it to them.\n";
 
 /// A cell of a Markdown table.
 std::string cell(const std::string& text) { return boost::algorithm::replace_all_copy(text, "|", "\\|"); }
@@ -30,7 +21,7 @@ std::string list_or_none(const std::vector<std::string>& words) {
 std::string anchor_list(const std::vector<std::string>& names) {
   std::vector<std::string> links;
   for (const std::string& name : names) links.push_back(fmt::format("[`{0}`](#{0})", name));
-  return boost::algorithm::join(links, ", ") + "\n";
+  return boost::algorithm::join(links, ", ");
 }
 
 std::string describe(const scenarios::Scenario& scenario) {
@@ -70,13 +61,13 @@ std::string describe(const models::EffectInfo& effect) {
 }
 
 std::string describe_keys(const std::vector<Field>& fields) {
-  std::string text = "\n| key | allowed | default | meaning |\n|---|---|---|---|\n";
+  Rows rows{"| key | allowed | default | meaning |", "|---|---|---|---|"};
   for (const Field& field : fields) {
-    text +=
-        fmt::format("| `{}` | {} | {} | {} |\n", field.key, cell(field.range.to_string()),
-                    field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required", cell(field.doc));
+    rows.push_back(fmt::format("| `{}` | {} | {} | {} |", field.key, cell(field.range.to_string()),
+                               field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required",
+                               cell(field.doc)));
   }
-  return text;
+  return join(rows);
 }
 
 template <class Group>
@@ -84,110 +75,52 @@ std::string describe_keys() {
   return describe_keys(list_fields<Group>());
 }
 
-template <class Group>
-std::string describe_table(const std::string& name) {
-  return fmt::format("\n`[{}]`\n", name) + describe_keys<Group>();
-}
-
 /// The tire models, each with the table of its own numbers.
 std::string describe_tire_models() {
-  std::string text = "\n`model`, by default `" + models::default_tire_model().info.id + "`:\n";
+  std::string text;
   for (const models::TireModel* model : models::all_tire_models()) {
     const models::TireModelInfo& info = model->info;
     text += fmt::format("\n<a name=\"{0}\"></a>`{0}`: {1}. Needs `[{2}]`.\n", info.id, info.summary,
                         boost::algorithm::join(info.tables, "]`, `["));
     std::vector<Field> fields;
     for (const models::TireModelParameter& own : info.parameters) fields.push_back(own.field);
-    if (!fields.empty()) text += fmt::format("\n`[{}]`\n", info.id) + describe_keys(fields);
+    if (!fields.empty()) text += fmt::format("\n`[{}]`\n\n{}\n", info.id, describe_keys(fields));
   }
   return text;
-}
-
-std::string describe_tire_file() {
-  using Tire = models::TireParameters<double>;
-  std::string text =
-      "\n## Tire file\n\n`format = \"rollrig-tire/2\"`, `name`, `designation`, `model`, and the tables below. A "
-      "number of `[rolling_resistance]`, `[thermal]`,\n`[constant]` and a model's own may have its standard "
-      "uncertainty "
-      "beside it, under its key with `_sd`.\n";
-  text += describe_tire_models();
-  text += describe_table<decltype(Tire::geometry)>("geometry");
-  text += describe_table<decltype(Tire::stiffness)>("stiffness");
-  text += describe_table<decltype(Tire::rolling_resistance)>("rolling_resistance");
-  text += describe_table<models::LoadMapEntry<double>>("[rolling_resistance.load_map]");
-  text += describe_table<decltype(Tire::thermal)>("thermal");
-  text +=
-      "\n`[thermal.rig.<rig name>]`: `conductance_at_rest_W_per_K` and `conductance_per_speed_W_s_per_m_K` as "
-      "identified "
-      "on that rig, in place of the above.\n";
-  text += describe_table<decltype(Tire::constant)>("constant");
-  text +=
-      "\n`[iso_28580]` (`rrc_N_per_kN`, `load_N`, `pressure_kPa`): what the tire's own test says; load and pressure "
-      "are the\ndefaults of scenarios. `[load_sweep]` (`loads_N`): the loads of its load sweep.\n";
-  return text;
-}
-
-std::string describe_rig_file() {
-  std::string text =
-      "\n## Rig file\n\n`format = \"rollrig-rig/2\"`, `name`, `kind` (`drum`, `flat_belt`, `dyno` or `road`), "
-      "`conductances_of` (a rig on which tires cool alike; default: its own name), and the tables below. A flat belt has "
-      "`[belt]` in place of `[drum]`, a dyno `[roller]`, `[tie_down]`, and `rollers_under` (`all_wheels`, the "
-      "default, or `driven_wheels`: the other axle stands still); `[skim]` and `[carriage]` belong to a\ndrum or "
-      "belt, `[parasitic]` and `[drive]` to all but a road.\n";
-  text += describe_table<rigs::DrumParameters>("drum");
-  text += describe_table<rigs::BeltParameters>("belt");
-  text += describe_table<models::ParasiticParameters<double>>("parasitic");
-  text += describe_table<rigs::RigEnvironment>("environment");
-  text += describe_table<rigs::SkimParameters>("skim");
-  text += describe_table<rigs::CarriageParameters>("carriage");
-  text += describe_table<rigs::DriveParameters>("drive");
-  text += describe_table<rigs::TieDownParameters>("tie_down");
-  return text;
-}
-
-std::string describe_vehicle_file() {
-  std::string text =
-      "\n## Vehicle file\n\n`format = \"rollrig-vehicle/2\"`, `name`, the keys of the first table, of which each may "
-      "have "
-      "its standard uncertainty beside it\nunder its key with `_sd`, `center_of_gravity_height_m` (above the road, "
-      "default 0.6), an `[[axle]]` for each axle from the front, and the tables\n`[powertrain]` and `[road_load]`, "
-      "which "
-      "may be left out.\n";
-  text += describe_keys<rigs::VehicleBody>();
-  text +=
-      "\n`[[axle]]`: `name` (default `front` and `rear` of two axles, else `axle_1` and so on), `tire` (a name or a "
-      "path, default that of the run),\n`[axle.suspension]`, and the keys below. Each kind of share sums to 1 over all "
-      "axles.\n";
-  text += describe_keys<rigs::VehicleAxle>();
-  text += describe_table<rigs::VehicleSuspension>("axle.suspension") + "\nOf one wheel.\n";
-  text += describe_table<rigs::VehiclePowertrain>("powertrain");
-  text += describe_table<models::RoadLoad<double>>("road_load");
-  text +=
-      "\nIn place of drag and tires on the road. Then `drag_area_m2` may be left out.\n\nFormat `rollrig-vehicle/1` is "
-      "read as well: two axles, `front` and `rear`, with half of the `tires` (1 to 20) each. In place of\n`[[axle]]` "
-      "it "
-      "has `[suspension]`, `driven_axle` (`front`, `rear` (default) or `all`) in `[powertrain]`, and the tables "
-      "below.\n";
-  text += describe_table<rigs::TwoAxleGeometry>("geometry");
-  return text + describe_table<rigs::TwoAxleBrakes>("brakes");
 }
 
 }  // namespace
 
 std::string make_reference_page() {
-  std::vector<std::string> effects;
-  for (const models::Effect* effect : models::all_effects()) effects.push_back(effect->info.id);
-  std::string text = kIntroduction;
-  text += "\n## Scenarios\n\n" + anchor_list(scenarios::scenario_names());
-  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) text += describe(*scenario);
-  text += "\n## Effects\n\n" + anchor_list(effects);
-  for (const models::Effect* effect : models::all_effects()) text += describe(effect->info);
-  text += describe_tire_file() + describe_rig_file() + describe_vehicle_file();
-  text += "\n## Sensors\n\nA sensor measures one of " + list_or_none(rigs::all_measured_channels()) +
-          "\n(`[sensors.<channel>]` of a set or of a file `rollrig-sensors/1`, which has a `name` beside it: "
-          "`offset_sd`, `drift_sd`, `drift_time_s`, `noise_sd`, `resolution`, each with the "
-          "channel's unit).\n";
-  return text;
+  using Tire = models::TireParameters<double>;
+  using fmt::literals::operator""_a;
+  std::string scenario_texts, effect_texts;
+  std::vector<std::string> effect_ids;
+  for (const scenarios::Scenario* scenario : scenarios::all_scenarios()) scenario_texts += describe(*scenario);
+  for (const models::Effect* effect : models::all_effects()) {
+    effect_ids.push_back(effect->info.id);
+    effect_texts += describe(effect->info);
+  }
+  return fill_page(
+      "reference", "scenario_links"_a = anchor_list(scenarios::scenario_names()), "scenarios"_a = scenario_texts,
+      "effect_links"_a = anchor_list(effect_ids), "effects"_a = effect_texts,
+      "default_tire_model"_a = models::default_tire_model().info.id, "tire_models"_a = describe_tire_models(),
+      "geometry"_a = describe_keys<decltype(Tire::geometry)>(),
+      "stiffness"_a = describe_keys<decltype(Tire::stiffness)>(),
+      "rolling_resistance"_a = describe_keys<decltype(Tire::rolling_resistance)>(),
+      "load_map"_a = describe_keys<models::LoadMapEntry<double>>(),
+      "thermal"_a = describe_keys<decltype(Tire::thermal)>(), "constant"_a = describe_keys<decltype(Tire::constant)>(),
+      "drum"_a = describe_keys<rigs::DrumParameters>(), "belt"_a = describe_keys<rigs::BeltParameters>(),
+      "parasitic"_a = describe_keys<models::ParasiticParameters<double>>(),
+      "environment"_a = describe_keys<rigs::RigEnvironment>(), "skim"_a = describe_keys<rigs::SkimParameters>(),
+      "carriage"_a = describe_keys<rigs::CarriageParameters>(), "drive"_a = describe_keys<rigs::DriveParameters>(),
+      "tie_down"_a = describe_keys<rigs::TieDownParameters>(), "body"_a = describe_keys<rigs::VehicleBody>(),
+      "axle"_a = describe_keys<rigs::VehicleAxle>(), "suspension"_a = describe_keys<rigs::VehicleSuspension>(),
+      "powertrain"_a = describe_keys<rigs::VehiclePowertrain>(),
+      "road_load"_a = describe_keys<models::RoadLoad<double>>(),
+      "two_axle_geometry"_a = describe_keys<rigs::TwoAxleGeometry>(),
+      "two_axle_brakes"_a = describe_keys<rigs::TwoAxleBrakes>(),
+      "measured_channels"_a = list_or_none(rigs::all_measured_channels()));
 }
 
 }  // namespace rollrig::tools

@@ -8,10 +8,10 @@
 #include "diagnosis/output/diagnosis_json.h"
 #include "models/effect.h"
 #include "scenarios/common/written_set.h"
-#include "scenarios/run/run_spec.h"
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
@@ -39,15 +39,7 @@ class Scratch {
 };
 
 measurements::MeasurementSet measure(const std::string& tire, const std::string& assignment) {
-  ConfigTable document = scenarios::make_run_document("transient_skim");
-  const auto set = [&document](const char* key, const std::string& value) {
-    set_config_value(document, key, value, "tools/skim_question");
-  };
-  set("tire", tire);
-  set("fidelity", "quasi_static");
-  set("sensors", "source");
-  scenarios::set_run_value(document, assignment);
-  const scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
+  const scenarios::RunSpec spec = make_spec("transient_skim", tire, {assignment}, {{"sensors", "source"}});
   const Scratch scratch;
   for (const auto& [name, content] :
        scenarios::write_measurement_set(spec, scenarios::run_scenario(spec, {}), "transient")) {
@@ -85,13 +77,13 @@ SkimAnswer ask(const std::string& tire, const std::string& effect, const std::st
 
 std::vector<SkimAnswer> ask_all() {
   struct Question {
-    const char* tire;
+    std::string tire;
     const char* effect;
     double of_range;  // 0 the prior's lower end, 1 its upper end
   };
   std::vector<Question> questions;
   for (const char* effect : {"bearing_warmup", "tire_loss_in_skim"}) {
-    for (const char* tire : {"a40", "a50", "a60"}) questions.push_back({tire, effect, 0.5});
+    for (const std::string& tire : kTires) questions.push_back({tire, effect, 0.5});
     questions.push_back({"a50", effect, 0.0});
     questions.push_back({"a50", effect, 1.0});
   }
@@ -106,15 +98,13 @@ std::vector<SkimAnswer> ask_all() {
   return answers;
 }
 
-std::string make_skim_table(const std::vector<SkimAnswer>& answers) {
-  std::string text =
-      "| tire | at work | size | named | `bearing_warmup` | `tire_loss_in_skim` | next test |\n"
-      "|---|---|---|---|---|---|---|\n";
+Rows list_answers(const std::vector<SkimAnswer>& answers) {
+  Rows rows;
   for (const SkimAnswer& one : answers) {
-    text += fmt::format("| {} | `{}` | {:.3g} {} | {} | {:.2f} | {:.2f} | {} |\n", one.tire, one.truth, one.size,
-                        one.size_unit, one.named, one.bearing_warmup, one.tire_loss_in_skim, one.next_test);
+    rows.push_back(fmt::format("| {} | `{}` | {:.3g} {} | {} | {:.2f} | {:.2f} | {} |", one.tire, one.truth, one.size,
+                               one.size_unit, one.named, one.bearing_warmup, one.tire_loss_in_skim, one.next_test));
   }
-  return text;
+  return rows;
 }
 
 }  // namespace rollrig::tools

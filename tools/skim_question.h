@@ -1,8 +1,7 @@
 #pragma once
 /// The source's open question (§5.2): is the parasitic loss that falls in the warm-up the rig's or the tire's?
 
-#include <string>
-#include <vector>
+#include "tools/pages.h"
 
 namespace rollrig::tools {
 
@@ -25,7 +24,7 @@ SkimAnswer ask(const std::string& tire, const std::string& effect, const std::st
 /// Every tire at the middle of both priors, and a50 at both ends of each.
 std::vector<SkimAnswer> ask_all();
 
-/// The answers as a table.
-std::string make_skim_table(const std::vector<SkimAnswer>& answers);
+/// The answers as rows of a table.
+Rows list_answers(const std::vector<SkimAnswer>& answers);
 
 }  // namespace rollrig::tools

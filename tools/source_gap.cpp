@@ -9,12 +9,11 @@
 #include <map>
 
 #include "diagnosis/terms/hypothesis.h"
-#include "scenarios/run/run_spec.h"
 #include "sim/core/error.h"
 #include "sim/core/parallel.h"
-#include "sim/core/schema.h"
 #include "sim/core/units.h"
-#include "tools/skim_question.h"
+#include "tools/published_numbers.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
@@ -34,11 +33,7 @@ struct DrivenPower {
 };
 
 DrivenPower drive(const std::string& tire, const std::vector<models::ActiveEffect>& effects) {
-  ConfigTable document = scenarios::make_run_document("sae_j1634");
-  set_config_value(document, "tire", tire, "tools/source_gap");
-  set_config_value(document, "fidelity", "quasi_static", "tools/source_gap");
-  for (const char* setting : {"variant=source", "wheels=1"}) scenarios::set_run_value(document, setting);
-  scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
+  scenarios::RunSpec spec = make_source_drive(tire);
   spec.effects = effects;
   const sim::Recording<double> recording = scenarios::run_scenario(spec, {}).recording;
   DrivenPower driven;
@@ -210,17 +205,12 @@ bool acts(const GapCurve& curve) {
 }  // namespace
 
 PowerErrors read_table_4_3(const std::string& folder) {
-  const ConfigTable config = read_config(folder + "/table_4_3/expected.toml");
-  TableReader file(config, "");
-  check_format(file, "rollrig-published", 1);
   PowerErrors errors{};
   for (std::size_t t = 0; t < kTires.size(); ++t) {
-    const ConfigTable* table = file.table(kTires[t]);
-    if (table == nullptr) throw file.problem(kTires[t], "the table has a row for each tire");
-    TableReader reader(*table, fmt::format("[{}]", kTires[t]));
-    errors[t] = {reader.number({"city_percent", positive(), ""}), reader.number({"highway_percent", positive(), ""}),
-                 reader.number({"constant_speed_percent", positive(), ""})};
-    reader.finish();
+    read_published_table(folder + "/table_4_3/expected.toml", kTires[t], [&, t](TableReader& reader) {
+      errors[t] = {reader.number({"city_percent", positive(), ""}), reader.number({"highway_percent", positive(), ""}),
+                   reader.number({"constant_speed_percent", positive(), ""})};
+    });
   }
   return errors;
 }

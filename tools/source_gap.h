@@ -10,9 +10,6 @@
 
 namespace rollrig::tools {
 
-/// The tires of Table 4.3, in its order.
-inline constexpr std::array<const char*, 3> kTires{"a40", "a50", "a60"};
-
 /// An error of rolling power for each of three tires (a40, a50, a60) and kinds of section (city, highway, constant
 /// speed), fractions of the measured power.
 using PowerErrors = std::array<std::array<double, 3>, 3>;
@@ -59,8 +56,5 @@ std::vector<GapCurve> simulate_gap_curves(const std::vector<const models::Effect
 ///           drive misses the energies of Tables 4.4 and 4.5)
 /// `measured_above`: the table's unprinted sign. True where the measured power is above the model's
 std::vector<GapCandidate> rank_gap(const std::vector<GapCurve>& curves, const PowerErrors& table, bool measured_above);
-
-/// docs/source_gap.md.
-std::string make_source_gap_page(const std::string& published_folder);
 
 }  // namespace rollrig::tools

@@ -1,20 +1,15 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "models/tire/drum_curvature.h"
 #include "models/tire/rolling_resistance.h"
 #include "tools/drive_tables.h"
-#include "tools/tire_drive.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
 
-const std::vector<std::string> kTires{"a40", "a50", "a60"};
 using PerTire = std::map<std::string, double>;
-using Drives = std::map<std::string, TireDrive>;
 
 PerTire measure(const Drives& drives, double (*find)(const TireDrive&)) {
   PerTire values;
@@ -25,7 +20,7 @@ PerTire measure(const Drives& drives, double (*find)(const TireDrive&)) {
 class StatementTable {
  public:
   void add(const std::string& place, const std::string& statement, const std::string& found, bool holds) {
-    text_ += fmt::format("| {} | {} | {} | {} |\n", place, statement, found, holds ? "holds" : "does not hold");
+    rows_.push_back(fmt::format("| {} | {} | {} | {} |", place, statement, found, holds ? "holds" : "does not hold"));
   }
   /// a40 above a50 above a60.
   void add_order(const std::string& place, const std::string& statement, PerTire v, const char* unit, int digits = 1) {
@@ -39,10 +34,10 @@ class StatementTable {
   static std::string list(PerTire v, const char* unit, int digits) {
     return fmt::format("{:.{}f} / {:.{}f} / {:.{}f} {}", v["a40"], digits, v["a50"], digits, v["a60"], digits, unit);
   }
-  const std::string& text() const { return text_; }
+  const Rows& rows() const { return rows_; }
 
  private:
-  std::string text_;
+  Rows rows_;
 };
 
 double find_mean(const TireDrive& drive) {
@@ -124,9 +119,7 @@ void add_drive_cycle(StatementTable& table, const Drives& drives) {
 
 /// RRc on the dynamometer by the law alone, N/kN.
 double find_rrc(const std::string& tire, double speed_km_h, double degC) {
-  ConfigTable document = scenarios::make_run_document("sae_j1634");
-  set_config_value(document, "tire", tire, "tools/statement_table");
-  const auto& p = scenarios::read_run_spec(document, "").tire.values;
+  const models::TireParameters<double> p = make_source_drive(tire).tire.values;
   constexpr double kLoad_N = 5400.0, kPressure_Pa = 280e3, kRoller_per_m = 1.0 / 0.6;
   const double to_roller = models::calc_drum_correction(2.0 / p.rolling_resistance.reference_drum_diameter_m,
                                                         kRoller_per_m, p.geometry.outer_diameter_m / 2.0);
@@ -161,16 +154,12 @@ void add_city_comparison(StatementTable& table, const Drives& drives) {
 
 }  // namespace
 
-std::string make_statement_table() {
-  Drives drives;
-  for (const std::string& tire : kTires) drives[tire] = drive_source_test(tire);
+Rows list_statements(const Drives& drives) {
   StatementTable table;
   add_dyno_setting(table);
   add_drive_cycle(table, drives);
   add_city_comparison(table, drives);
-  return "\n## What the source says of temperatures and RRc in words\n\n"
-         "Three numbers: a40 / a50 / a60.\n\n| place | statement | virtual | |\n|---|---|---|---|\n" +
-         table.text();
+  return table.rows();
 }
 
 }  // namespace rollrig::tools

@@ -4,19 +4,12 @@
 #include <numeric>
 
 #include "scenarios/common/vehicle_bench.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
 
 using scenarios::VehicleConditions;
-
-scenarios::RunSpec make_spec(const std::string& tire) {
-  ConfigTable document = scenarios::make_run_document("sae_j1634");
-  set_config_value(document, "tire", tire, "tools/tire_drive");
-  set_config_value(document, "fidelity", "quasi_static", "tools/tire_drive");
-  for (const char* setting : {"variant=source", "wheels=1"}) scenarios::set_run_value(document, setting);
-  return scenarios::read_run_spec(document, "");
-}
 
 VehicleConditions make_conditions(const scenarios::RunSpec& spec) {
   VehicleConditions conditions;
@@ -78,13 +71,13 @@ double DriveSection::at_degC(double after_s) const {
 }
 
 TireDrive drive_source_test(const std::string& tire) {
-  const scenarios::RunSpec spec = make_spec(tire);
+  const scenarios::RunSpec spec = make_source_drive(tire);
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   return read_sections(spec, make_conditions(spec).make_layout(spec), outcome.recording);
 }
 
 TireDrive drive_dyno_setting(const std::string& tire) {
-  const scenarios::RunSpec spec = make_spec(tire);
+  const scenarios::RunSpec spec = make_source_drive(tire);
   const VehicleConditions conditions = make_conditions(spec);
   constexpr double kTrustedFrom_m_s = 20.0 / 3.6;  // §4.2.1
   scenarios::VehicleProgram program(conditions, spec.sample_interval_s, kTrustedFrom_m_s);

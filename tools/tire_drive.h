@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run/run_spec.h"
-
 namespace rollrig::tools {
 
 /// One section of a drive; energy counts above 20 km/h as in §4.4.2.

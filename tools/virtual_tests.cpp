@@ -1,7 +1,5 @@
 #include "tools/virtual_tests.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -34,23 +32,9 @@ constexpr double kLogCapacitySd = 0.2;              // Assumed: a tenth
 constexpr double kDrumZShare = 0.35;                // Assumed: order of the dynamometer's at 80 km/h
 constexpr double kDrumZShareSd = 0.15;              // Assumed
 
-scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire_path,
-                             const std::vector<std::string>& settings) {
-  ConfigTable document = scenarios::make_run_document(scenario);
-  set_config_value(document, "tire", "\"" + tire_path + "\"", "calibrate_tires");
-  set_config_value(document, "fidelity", "quasi_static", "calibrate_tires");
-  for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
-  return scenarios::read_run_spec(document, "");
-}
-
 Json run(scenarios::RunSpec spec, const Calibration& at) {
   at.put(spec.tire);
   return scenarios::run_scenario(spec, {}).result;
-}
-
-double number(const Json& result, const char* key) {
-  if (!result[key].is_number()) throw RunFailure(fmt::format("'{}' could not be read off the virtual test", key));
-  return result[key].get<double>();
 }
 
 Observation compare(std::string name, double published, double fitted, double sd) {
@@ -104,11 +88,11 @@ void Calibration::put(models::TireFile& tire) const {
 
 VirtualTests::VirtualTests(const std::string& tire_path, PublishedTire published)
     : published_(std::move(published)),
-      iso_(make_spec("iso_28580", tire_path, {})),
+      iso_(make_spec("iso_28580", tire_path)),
       warm_up_(make_spec("warm_up", tire_path, {"load_N=5400", "pressure_kPa=280"})),
-      warm_up_iso_(make_spec("warm_up", tire_path, {})),
-      speed_sweep_(make_spec("speed_sweep", tire_path, {})),
-      drive_(make_spec("sae_j1634", tire_path, {"variant=source", "wheels=1"})) {}
+      warm_up_iso_(make_spec("warm_up", tire_path)),
+      speed_sweep_(make_spec("speed_sweep", tire_path)),
+      drive_(make_source_drive(tire_path)) {}
 
 void VirtualTests::observe_drive(const Calibration& at, std::vector<Observation>& all) const {
   const Json result = run(drive_, at);

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scenarios/run/run_spec.h"
 #include "tools/published_numbers.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 

@@ -1,23 +1,20 @@
+/// Writes generated pages of docs/. usage: write_docs <page> ...
 #include <exception>
 #include <iostream>
+#include <map>
 #include <string>
 
-#include "sim/core/file_io.h"
-#include "tools/physics_page.h"
-#include "tools/published_tables.h"
-#include "tools/reference_page.h"
+#include "tools/pages.h"
 
-/// Writes the generated pages of docs/. usage: write_docs <docs folder>
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: write_docs <docs folder>\n";
-    return 2;
-  }
+  using namespace rollrig::tools;
+  const std::map<std::string, std::string (*)()> pages{
+      {"epa_fleet", make_epa_fleet_page}, {"ex30", make_ex30_page},           {"physics", make_physics_page},
+      {"published", make_published_page}, {"reference", make_reference_page}, {"source_gap", make_source_gap_page}};
   try {
-    const std::string folder = argv[1];
-    rollrig::write_output(folder + "/published.md", rollrig::tools::make_published_page());
-    rollrig::write_output(folder + "/physics.md", rollrig::tools::make_physics_page(ROLLRIG_SOURCE_DIR));
-    rollrig::write_output(folder + "/reference.md", rollrig::tools::make_reference_page());
+    for (int i = 1; i < argc; ++i) {
+      rollrig::write_output(fmt::format("{}/docs/{}.md", kProjectFolder, argv[i]), pages.at(argv[i])());
+    }
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 3;

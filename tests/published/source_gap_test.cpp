@@ -16,8 +16,6 @@ using tools::PowerErrors;
 
 namespace {
 
-const std::string kFolder = ROLLRIG_SOURCE_DIR "/tests/published";
-
 std::vector<GapCurve> curves_of(const std::string& id) {
   return tools::simulate_gap_curves({&models::find_effect(id)});
 }
@@ -57,5 +55,5 @@ TEST_CASE("an effect finds itself in the table that it makes", "[published]") {
 
 TEST_CASE("docs/source_gap.md says what the program gives (§4.5.1, §5.2)", "[slow]") {
   // Out of date? cmake --build build/release --target source_gap_page
-  tests::check_page(read_text_file(ROLLRIG_SOURCE_DIR "/docs/source_gap.md"), tools::make_source_gap_page(kFolder));
+  tests::check_page(read_text_file(ROLLRIG_SOURCE_DIR "/docs/source_gap.md"), tools::make_source_gap_page());
 }

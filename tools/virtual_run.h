@@ -1,0 +1,31 @@
+#pragma once
+/// Virtual tests as the tools run them.
+
+#include <array>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scenarios/run/run_spec.h"
+
+namespace rollrig::tools {
+
+/// The source's tires.
+inline const std::array<std::string, 3> kTires{"a40", "a50", "a60"};
+
+/// A quasi-static run of a scenario: `settings` as of --set, `more` further keys of a run document, such as "rig".
+scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire,
+                             const std::vector<std::string>& settings = {},
+                             const std::map<std::string, std::string>& more = {});
+
+/// The drive of §3.4.4: one undriven tire at 5400 N and 280 kPa.
+scenarios::RunSpec make_source_drive(const std::string& tire);
+
+/// A number of a result. Throws RunFailure where it could not be read off.
+double number(const Json& result, const char* key);
+
+/// Where `f` changes its sign between `low` and `high`.
+double find_root(const std::function<double(double)>& f, double low, double high);
+
+}  // namespace rollrig::tools
