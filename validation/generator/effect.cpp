@@ -29,6 +29,12 @@ const EffectKind* find_effect_kind(const std::string& id) {
   return nullptr;
 }
 
+Effect make_effect(const Form& form, double size, Draws& draws, const Specimen& specimen) {
+  Making making{size, draws, specimen};
+  form.make(making);
+  return std::move(making.effect);
+}
+
 const Form* find_form(const EffectKind& kind, const std::string& name) {
   for (const Form& form : kind.forms) {
     if (name == form.name) return &form;

@@ -5,22 +5,34 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "validation/generator/draws.h"
-#include "validation/generator/grounds.h"
 #include "validation/generator/specimen.h"
 
 namespace rollrig::generator {
 
 struct Wall;
 struct RunRecord;
-class Effect;
-using Effects = std::vector<std::unique_ptr<Effect>>;
+
+/// Where an effect is to be found: on which machine, and on the road against which law.
+using Grounds = unsigned;  // bits
+constexpr Grounds kDrumGround = 1;
+constexpr Grounds kDynoGround = 2;
+constexpr Grounds kRoadGround = 4;      // against the combined law
+constexpr Grounds kConstantGround = 8;  // road, against a constant coefficient
+constexpr Grounds kNowhere = 0;
+constexpr Grounds kRigGrounds = kDrumGround | kDynoGround;
+constexpr Grounds kRoadGrounds = kRoadGround | kConstantGround;
+constexpr Grounds kVehicleGrounds = kDynoGround | kRoadGrounds;
+constexpr Grounds kEveryGround = kRigGrounds | kRoadGrounds;
+
+/// As a message names them.
+std::string list_grounds(Grounds grounds);
 
 /// State of rig or vehicle at one instant; forces are those of one wheel. The first part is given, the second what
 /// enter() may change beside load and air, the third what act() may change, the last what rates() may read.
@@ -84,62 +96,54 @@ double warm_heating_W(const Specimen& specimen);
 
 using Shape = std::vector<std::pair<std::string, double>>;
 
-/// What an effect is made of.
+/// One hidden cause with its shape: what it does where, nothing where its law does not say.
+struct Effect {
+  using Acting = std::function<void(const double* state, Instant&)>;
+
+  Shape shape;  // everything drawn beside the size
+  std::size_t state_count = 0;
+  std::function<void(Wall&)> lay_out = [](Wall&) {};
+  std::function<void(const RunStart&, double* state)> start = [](const RunStart&, double*) {};
+  /// The speed that there is where a speed is recorded.
+  std::function<double(double recorded_m_s)> true_speed_m_s = [](double recorded_m_s) { return recorded_m_s; };
+  /// What really acts where load and air are recorded, and the cavity; before everything else.
+  Acting enter = [](const double*, Instant&) {};
+  Acting act = [](const double*, Instant&) {};
+  /// Of its states; they are 0 before.
+  std::function<void(const double* state, const Instant&, double* rates)> rates = [](const double*, const Instant&,
+                                                                                     double*) {};
+  /// What instruments and clocks do to the channels of a run.
+  std::function<void(RunRecord&)> trace = [](RunRecord&) {};
+};
+using Effects = std::vector<Effect>;
+
+/// An effect in the making. A law draws its shape in one order: validation sets that are published are made again.
 struct Making {
   double size;
   Draws& draws;
   const Specimen& specimen;
-};
+  Effect effect = {};
 
-/// One hidden cause with its size and shape. Members of a law are drawn where they are declared, so in that order.
-class Effect {
- public:
-  explicit Effect(const Making& of) : size_(of.size), draws_(of.draws), specimen_(of.specimen) {}
-  virtual ~Effect() = default;
-  virtual void lay_out(Wall&) const {}
-  virtual std::size_t state_count() const { return 0; }
-  virtual void start(const RunStart&, double* /*state*/) const {}
-  /// The speed that there is where `recorded_m_s` is recorded.
-  virtual double true_speed_m_s(double recorded_m_s) const { return recorded_m_s; }
-  /// What really acts where load and air are recorded, and the cavity; before everything else.
-  virtual void enter(const double* /*state*/, Instant&) const {}
-  virtual void act(const double* /*state*/, Instant&) const {}
-  /// Of its states; they are 0 before.
-  virtual void rates(const double* /*state*/, const Instant&, double* /*rates*/) const {}
-  /// What instruments and clocks do to the channels of a run.
-  virtual void trace(RunRecord&) const {}
-
-  Shape shape;  // everything drawn beside the size
-
- protected:
   /// Adds to the shape.
   double note(const char* name, double value) {
-    shape.emplace_back(name, value);
+    effect.shape.emplace_back(name, value);
     return value;
   }
-  /// The same of a time, in minutes.
-  double note_min(const char* name, double time_s) {
-    shape.emplace_back(name, time_s / 60.0);
+  double draw(const char* name, const Spread& spread) { return note(name, draws.from(spread)); }
+  /// A time drawn in minutes, in s.
+  double draw_min(const char* name, const Spread& spread) {
+    const double time_s = 60.0 * draws.from(spread);
+    note(name, time_s / 60.0);
     return time_s;
   }
-
-  // While it is made.
-  double size_;
-  Draws& draws_;
-  const Specimen& specimen_;
 };
 
 /// One functional form of an effect. In all forms of an effect the size means the same.
 struct Form {
   const char* name;
   const char* law;
-  std::unique_ptr<Effect> (*make)(const Making& of);
+  void (*make)(Making& of);
 };
-
-template <class Law>
-std::unique_ptr<Effect> make_law(const Making& of) {
-  return std::make_unique<Law>(of);
-}
 
 /// Sizes of an effect.
 struct EffectSize {
@@ -169,6 +173,7 @@ struct EffectKind {
 
 const std::vector<const EffectKind*>& effect_kinds();
 const EffectKind* find_effect_kind(const std::string& id);
+Effect make_effect(const Form& form, double size, Draws& draws, const Specimen& specimen);
 /// None where the effect has no form of that name.
 const Form* find_form(const EffectKind& kind, const std::string& name);
 double draw_size(const EffectKind& kind, Draws& draws);

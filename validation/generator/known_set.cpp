@@ -80,9 +80,8 @@ Eigen::MatrixXd KnownSet::signatures(const EffectKind& kind) const {
   std::vector<Eigen::VectorXd> columns;
   for (const auto& [form, size_class] : variants) {
     Draws shape(order_.seed, fmt::format("ceiling/{}/{}", kind.id, columns.size()));
-    Effects effects;
-    effects.push_back(form->make({typical_size(kind, size_class), shape, lab_.specimen}));
-    columns.push_back(whiten(drive(lab_.specimen, effects)));
+    columns.push_back(
+        whiten(drive(lab_.specimen, {make_effect(*form, typical_size(kind, size_class), shape, lab_.specimen)})));
   }
   return put_side_by_side(columns, rows_);
 }

@@ -47,10 +47,10 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* desc
     const double drawn = has_class ? draw_size(kind, order.size_classes[i], sizes) : draw_size(kind, sizes);
     const double size = order.sizes[i].value_or(drawn);
     const Form& form = choose_form(order, i);
-    effects.push_back(form.make({size, shapes, specimen}));
+    effects.push_back(make_effect(form, size, shapes, specimen));
     if (described == nullptr) continue;
     Json shape = Json::object();
-    for (const auto& [name, value] : effects.back()->shape) shape[name] = value;
+    for (const auto& [name, value] : effects.back().shape) shape[name] = value;
     described->push_back({{"id", kind.id},
                           {"size", size},
                           {"unit", kind.size.unit},

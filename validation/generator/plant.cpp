@@ -21,7 +21,7 @@ Plant::Plant(const Specimen& specimen, const Effects& effects, const RunPlan& ru
       run_(run),
       curvature_factor_(specimen.machine->calc_curvature_factor(specimen)),
       follows_law_(!specimen.constant_rrc) {
-  for (const auto& effect : effects_) effect->lay_out(wall_);
+  for (const Effect& effect : effects_) effect.lay_out(wall_);
   const auto layers = static_cast<double>(wall_.layers);
   for (std::size_t i = 0; i < wall_.layers; ++i) {
     const double depth = (static_cast<double>(i) + 0.5) / layers;  // 0 at the tread, 1 at the liner
@@ -31,9 +31,9 @@ Plant::Plant(const Specimen& specimen, const Effects& effects, const RunPlan& ru
   cavity_m3_ = gas_mol_ * kGasConstant_J_per_mol_K * (run.initial_degC + kZeroCelsius_K) /
                (1e3 * run.cold_pressure_kPa + kStandardAtmosphere_Pa);
   size_ = wall_.layers + 2;  // layers, energy of the gas, amount of the gas
-  for (const auto& effect : effects_) {
+  for (const Effect& effect : effects_) {
     effect_state_.push_back(size_);
-    size_ += effect->state_count();
+    size_ += effect.state_count;
   }
 }
 
@@ -45,7 +45,7 @@ std::vector<double> Plant::start() const {
   RunStart start{run_.initial_degC, run_.air.at(0.0), run_.cold_pressure_kPa, run_.rest_before_min, run_.index, 0.0};
   if (run_.started_warm) start.rest_before_min = 0.0;
   start.first_load_N = run_.legs.front().load_N;
-  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->start(start, state.data() + effect_state_[i]);
+  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i].start(start, state.data() + effect_state_[i]);
   return state;
 }
 
@@ -72,7 +72,7 @@ double Plant::recorded_speed_at(double time_s) const {
 
 double Plant::speed_at(double time_s) const {
   double speed_m_s = recorded_speed_at(time_s);
-  for (const auto& effect : effects_) speed_m_s = effect->true_speed_m_s(speed_m_s);
+  for (const Effect& effect : effects_) speed_m_s = effect.true_speed_m_s(speed_m_s);
   return speed_m_s;
 }
 
@@ -102,7 +102,7 @@ Instant Plant::find_instant(double time_s, const double* state) const {
   now.brake_N = specimen_.machine->has_vehicle() ? vehicle_friction_N(time_s) / specimen_.tires
                                                  : std::max(0.0, -now.longitudinal_N);
   now.distance_m = leg_.start_distance_m + 0.5 * (leg_.start_m_s + now.speed_m_s) * (time_s - leg_.start_s);
-  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->enter(state + effect_state_[i], now);
+  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i].enter(state + effect_state_[i], now);
   if (leg_.load_N <= 0.0) now.load_N = load_at(time_s);  // whatever a record or a strap says, a lifted tire is off
   now.pressure_kPa = 1e-3 * (gas_J / (kCvOverR * cavity_m3_ * now.volume_factor) - kStandardAtmosphere_Pa);
   return now;
@@ -136,7 +136,7 @@ double Plant::calc_vehicle_N(const Instant& now) const {
 
 /// Each layer loses by its own temperature; the mean of all is the rolling resistance.
 void Plant::find_losses(const double* state, Instant& now, std::vector<double>& layer_loss_N) const {
-  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i]->act(state + effect_state_[i], now);
+  for (std::size_t i = 0; i < effects_.size(); ++i) effects_[i].act(state + effect_state_[i], now);
   if (run_.surface_degC.has_value()) now.surface_rise_dK = *run_.surface_degC - now.ambient_degC;
   const double v = now.speed_m_s;
   const double fade = v / std::sqrt(v * v + kCreep_m_s * kCreep_m_s);
@@ -188,7 +188,7 @@ void Plant::calc_rates(double time_s, const double* state, double* rates) const 
   rates[n + 1] = -now.leak_mol_s;
   std::fill(rates + n + 2, rates + size_, 0.0);
   for (std::size_t i = 0; i < effects_.size(); ++i) {
-    effects_[i]->rates(state + effect_state_[i], now, rates + effect_state_[i]);
+    effects_[i].rates(state + effect_state_[i], now, rates + effect_state_[i]);
   }
 }
 

@@ -243,7 +243,7 @@ RunRecord record_run(const Specimen& specimen, const Effects& effects, const Run
     record.force[row] += run.find_hung_torque_Nm(record.time_s[row]);
   // Torque counts positive when it drives, so in reversed rotation the sensor has the other sign; its zero does not.
   if (run.reversed) turn_over(record.force);
-  for (const auto& effect : effects) effect->trace(record);
+  for (const Effect& effect : effects) effect.trace(record);
   if (run.reversed) turn_over(record.force);
   return record;
 }

@@ -6,57 +6,42 @@
 namespace rollrig::generator {
 namespace {
 
-class BrakeHeat : public Effect {
- public:
-  using Effect::Effect;
+/// Heat to bead and gas from the last store on the way, which empties within `delay_s`.
+void heat_tire(double stored_J, double delay_s, double gas_share, Instant& now) {
+  const double to_tire_W = stored_J / delay_s;
+  now.liner_heat_W += (1.0 - gas_share) * to_tire_W;
+  now.gas_heat_W += gas_share * to_tire_W;
+}
 
-  std::size_t state_count() const override { return 2; }
+double air_W_per_K(double speed_m_s) { return 4.0 + 14.0 * std::pow(speed_m_s / kSpeed80_m_s, 0.7); }
 
-  void act(const double* state, Instant& now) const override {
-    const double to_tire_W = state[1] / rim_s_;
-    now.liner_heat_W += (1.0 - gas_share_) * to_tire_W;
-    now.gas_heat_W += gas_share_ * to_tire_W;
-  }
-
-  void rates(const double* state, const Instant& now, double* rates) const override {
-    const double led_W = lead_W_per_K_ * state[0];
-    rates[0] = (now.brake_N * now.speed_m_s - led_W - air_W_per_K(now.speed_m_s) * state[0]) / disc_J_per_K_;
-    rates[1] = passed_ * led_W - state[1] / rim_s_;
-  }
-
- private:
-  static constexpr double kTown_m_s = 40.0 / 3.6;
-  static double air_W_per_K(double speed_m_s) { return 4.0 + 14.0 * std::pow(speed_m_s / kSpeed80_m_s, 0.7); }
-
-  double disc_J_per_K_ = note("disc_J_per_K", draws_.uniform(3000.0, 6000.0));
-  double lead_W_per_K_ = note("disc_to_rim_W_per_K", draws_.uniform(6.0, 14.0));
-  double rim_s_ = 60.0 * note("rim_min", draws_.from(log_normal(3.0, 30.0, 2.5, 30.0)));
-  double gas_share_ = note("gas_share", draws_.uniform(0.1, 0.5));
-  double passed_ = 0.01 * size_ * (lead_W_per_K_ + air_W_per_K(kTown_m_s)) / lead_W_per_K_;
-};
+void make_disc_and_rim(Making& of) {
+  constexpr double kTown_m_s = 40.0 / 3.6;
+  const double disc_J_per_K = of.draw("disc_J_per_K", uniform(3000.0, 6000.0));
+  const double lead_W_per_K = of.draw("disc_to_rim_W_per_K", uniform(6.0, 14.0));
+  const double rim_s = 60.0 * of.draw("rim_min", log_normal(3.0, 30.0, 2.5, 30.0));
+  const double gas_share = of.draw("gas_share", uniform(0.1, 0.5));
+  const double passed = 0.01 * of.size * (lead_W_per_K + air_W_per_K(kTown_m_s)) / lead_W_per_K;
+  of.effect.state_count = 2;
+  of.effect.act = [=](const double* state, Instant& now) { heat_tire(state[1], rim_s, gas_share, now); };
+  of.effect.rates = [=](const double* state, const Instant& now, double* rates) {
+    const double led_W = lead_W_per_K * state[0];
+    rates[0] = (now.brake_N * now.speed_m_s - led_W - air_W_per_K(now.speed_m_s) * state[0]) / disc_J_per_K;
+    rates[1] = passed * led_W - state[1] / rim_s;
+  };
+}
 
 /// A share of the brake's power, delayed by the rim alone.
-class ShareOfBrake : public Effect {
- public:
-  using Effect::Effect;
-
-  std::size_t state_count() const override { return 1; }
-
-  void act(const double* bound_J, Instant& now) const override {
-    const double to_tire_W = bound_J[0] / delay_s_;
-    now.liner_heat_W += (1.0 - gas_share_) * to_tire_W;
-    now.gas_heat_W += gas_share_ * to_tire_W;
-  }
-
-  void rates(const double* bound_J, const Instant& now, double* rates) const override {
-    rates[0] = share_ * now.brake_N * now.speed_m_s - bound_J[0] / delay_s_;
-  }
-
- private:
-  double share_ = 0.01 * size_;
-  double delay_s_ = 60.0 * note("delay_min", draws_.from(log_normal(3.0, 30.0, 2.5, 30.0)));
-  double gas_share_ = note("gas_share", draws_.uniform(0.1, 0.5));
-};
+void make_share(Making& of) {
+  const double share = 0.01 * of.size;
+  const double delay_s = 60.0 * of.draw("delay_min", log_normal(3.0, 30.0, 2.5, 30.0));
+  const double gas_share = of.draw("gas_share", uniform(0.1, 0.5));
+  of.effect.state_count = 1;
+  of.effect.act = [=](const double* bound_J, Instant& now) { heat_tire(bound_J[0], delay_s, gas_share, now); };
+  of.effect.rates = [=](const double* bound_J, const Instant& now, double* rates) {
+    rates[0] = share * now.brake_N * now.speed_m_s - bound_J[0] / delay_s;
+  };
+}
 
 }  // namespace
 
@@ -66,9 +51,8 @@ const EffectKind kind_brake_heat{
      100.0, log_normal(2.0, 15.0, 1.5, 20.0)},
     {{"disc_and_rim",
       "excess heat in a disc that loses to the air faster with speed, led to a rim and from there to bead and gas",
-      make_law<BrakeHeat>},
-     {"share", "a fixed share of the brake's power, late by one first-order delay, whatever the speed",
-      make_law<ShareOfBrake>}},
+      make_disc_and_rim},
+     {"share", "a fixed share of the brake's power, late by one first-order delay, whatever the speed", make_share}},
     kVehicleGrounds,
     kDynoGround};
 

@@ -7,44 +7,35 @@
 namespace rollrig::generator {
 namespace {
 
-class ClockShift : public Effect {
- public:
-  using Effect::Effect;
+void shift_row(RunRecord& record, std::size_t row, double shift_s) {
+  record.liner_degC[row] = record.sample(record.liner, row, shift_s);
+  record.pressure_kPa[row] = record.sample(record.pressure, row, shift_s);
+}
 
-  void trace(RunRecord& record) const override {
+void make_rate(Making& of) {
+  const double late_s = of.size;
+  const double rate = late_s == 0.0 ? 0.0 : 1e-6 * of.draw("rate_per_million", uniform(-60.0, 60.0));
+  of.effect.trace = [=](RunRecord& record) {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double shift_s = -late_s_ + rate_ * record.time_s[row];
-      record.liner_degC[row] = record.sample(record.liner, row, shift_s);
-      record.pressure_kPa[row] = record.sample(record.pressure, row, shift_s);
+      shift_row(record, row, -late_s + rate * record.time_s[row]);
     }
-  }
-
- private:
-  double late_s_ = size_;
-  double rate_ = size_ == 0.0 ? 0.0 : 1e-6 * note("rate_per_million", draws_.uniform(-60.0, 60.0));
-};
+  };
+}
 
 /// A clock that drifts and is set anew each some minutes: d (1 + a saw(t)), saw from -1 to 1.
-class SetAnewClock : public Effect {
- public:
-  using Effect::Effect;
-
-  void trace(RunRecord& record) const override {
+void make_set_anew(Making& of) {
+  const double late_s = of.size;
+  const double swing = of.draw("swing_over_size", uniform(0.04, 0.14));
+  const double period_s = of.draw_min("set_each_min", uniform(4.0, 20.0));
+  const double phase = of.draws.uniform();
+  of.effect.trace = [=](RunRecord& record) {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double turns = record.time_s[row] / period_s_ + phase_;
+      const double turns = record.time_s[row] / period_s + phase;
       const double saw = 2.0 * (turns - std::floor(turns)) - 1.0;
-      const double shift_s = -late_s_ * (1.0 + swing_ * saw);
-      record.liner_degC[row] = record.sample(record.liner, row, shift_s);
-      record.pressure_kPa[row] = record.sample(record.pressure, row, shift_s);
+      shift_row(record, row, -late_s * (1.0 + swing * saw));
     }
-  }
-
- private:
-  double late_s_ = size_;
-  double swing_ = note("swing_over_size", draws_.uniform(0.04, 0.14));
-  double period_s_ = note_min("set_each_min", 60.0 * draws_.uniform(4.0, 20.0));
-  double phase_ = draws_.uniform();
-};
+  };
+}
 
 }  // namespace
 
@@ -55,9 +46,9 @@ const EffectKind kind_clock_shift{
     {{"rate",
       "the logger of temperature and pressure starts late or early, and its clock runs up to 60 millionths fast or "
       "slow",
-      make_law<ClockShift>},
+      make_rate},
      {"set_anew",
       "the logger's clock runs fast or slow and is set anew time and again: the shift is a saw-tooth about the size",
-      make_law<SetAnewClock>}}};
+      make_set_anew}}};
 
 }  // namespace rollrig::generator

@@ -7,40 +7,30 @@ namespace rollrig::generator {
 namespace {
 
 /// Laminar and turbulent parts of the boundary layer.
-class BoundaryLayers : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_boundary_layers(Making& of) {
+  const double exponent = of.size;
+  of.effect.act = [=](const double*, Instant& now) {
     const double x = now.air_speed_m_s / kSpeed80_m_s;
-    now.air_speed_m_s = kSpeed80_m_s * ((2.0 * exponent_ - 1.0) * x + 2.0 * (1.0 - exponent_) * std::sqrt(x));
-  }
-
- private:
-  double exponent_ = size_;
-};
+    now.air_speed_m_s = kSpeed80_m_s * ((2.0 * exponent - 1.0) * x + 2.0 * (1.0 - exponent) * std::sqrt(x));
+  };
+}
 
 /// Speeds of fan and roller add by their squares; the file's f holds at 80 km/h.
-class Fan : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_fan(Making& of) {
+  const double exponent = of.size;
+  of.effect.act = [=](const double*, Instant& now) {
     const double x = now.air_speed_m_s / kSpeed80_m_s;
-    now.air_speed_m_s = kSpeed80_m_s * std::sqrt(exponent_ * x * x + 1.0 - exponent_);
-  }
-
- private:
-  double exponent_ = size_;
-};
+    now.air_speed_m_s = kSpeed80_m_s * std::sqrt(exponent * x * x + 1.0 - exponent);
+  };
+}
 
 }  // namespace
 
 const EffectKind kind_convection_law{
     "convection_law",
     {"1", "exponent of the speed-dependent cooling over speed at 80 km/h", 1.0, 0.5, 1.0, normal(0.6, 1.0, 0.52, 0.96)},
-    {{"boundary_layers", "a part with sqrt(v) beside one with v; f holds at 80 km/h", make_law<BoundaryLayers>},
-     {"fan", "a fan whose air speed adds by squares; f holds at 80 km/h", make_law<Fan>}},
+    {{"boundary_layers", "a part with sqrt(v) beside one with v; f holds at 80 km/h", make_boundary_layers},
+     {"fan", "a fan whose air speed adds by squares; f holds at 80 km/h", make_fan}},
     kEveryGround,
     kRigGrounds};
 

@@ -7,33 +7,23 @@
 namespace rollrig::generator {
 namespace {
 
-class CurvatureExponent : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_straight(Making& of) {
+  const double exponent = of.size;
+  const double load_power = of.draw("load_power", uniform(0.0, 0.5));
+  of.effect.act = [=](const double*, Instant& now) {
     const double load = std::max(1.0, now.load_N) / now.specimen->reference_load_N;
-    const double excess = (exponent_ - 1.0) * std::pow(load, load_power_);
+    const double excess = (exponent - 1.0) * std::pow(load, load_power);
     now.loss_factor *= 1.0 + excess * (now.curvature_factor - 1.0) / now.curvature_factor;
-  }
-
- private:
-  double exponent_ = size_;
-  double load_power_ = note("load_power", draws_.uniform(0.0, 0.5));
-};
+  };
+}
 
 /// K^n in place of K.
-class PowerOfFactor : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
-    now.loss_factor *= std::pow(now.curvature_factor, exponent_ - 1.0);
-  }
-
- private:
-  double exponent_ = size_;
-};
+void make_power(Making& of) {
+  const double exponent = of.size;
+  of.effect.act = [=](const double*, Instant& now) {
+    now.loss_factor *= std::pow(now.curvature_factor, exponent - 1.0);
+  };
+}
 
 }  // namespace
 
@@ -42,8 +32,8 @@ const EffectKind kind_curvature_exponent{
     {"1", "exponent of the correction factor near 1, at the reference load", 1.0, -1.0, 3.0, normal(0.6, 1.4, 0.3, 1.7),
      false, 0.08},
     {{"straight", "what the curvature adds counts n-fold, K -> 1 + n (K - 1), the more the higher the load",
-      make_law<CurvatureExponent>},
-     {"power", "the correction factor to the power n, at every load", make_law<PowerOfFactor>}},
+      make_straight},
+     {"power", "the correction factor to the power n, at every load", make_power}},
     kRigGrounds | kRoadGround,
     kDynoGround | kRoadGround};
 

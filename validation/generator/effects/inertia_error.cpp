@@ -6,45 +6,34 @@
 namespace rollrig::generator {
 namespace {
 
-class RigidInertia : public Effect {
- public:
-  explicit RigidInertia(const Making& of) : Effect(of) {
-    const double radius_m = 0.5 * of.specimen.drum_diameter_m;
-    on_road_ = of.specimen.machine->has_vehicle();
-    const double mass_kg = on_road_ ? of.specimen.truth(Base::kMass) + of.specimen.truth(Base::kRotatingMass)
-                                    : of.specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
-    excess_kg_ = 0.01 * of.size * mass_kg;
-  }
+/// Adds the force of what turns and is not reckoned with: on the road to that of the vehicle, else to that of the rig.
+auto find_excess(const Making& of) {
+  const double radius_m = 0.5 * of.specimen.drum_diameter_m;
+  const bool on_road = of.specimen.machine->has_vehicle();
+  const double mass_kg = on_road ? of.specimen.truth(Base::kMass) + of.specimen.truth(Base::kRotatingMass)
+                                 : of.specimen.drum_inertia_kg_m2 / (radius_m * radius_m);
+  const double excess_kg = 0.01 * of.size * mass_kg;
+  return [=](double acceleration_m_s2, Instant& now) {
+    (on_road ? now.body_force_N : now.rig_force_N) += excess_kg * acceleration_m_s2;
+  };
+}
 
-  void act(const double*, Instant& now) const override { add(now.acceleration_m_s2, now); }
-
- protected:
-  void add(double acceleration_m_s2, Instant& now) const {
-    (on_road_ ? now.body_force_N : now.rig_force_N) += excess_kg_ * acceleration_m_s2;
-  }
-
- private:
-  double excess_kg_ = 0.0;
-  bool on_road_ = false;
-};
+void make_rigid(Making& of) {
+  of.effect.act = [add = find_excess(of)](const double*, Instant& now) { add(now.acceleration_m_s2, now); };
+}
 
 /// Follows the speed with a lag of first order.
-class SoftInertia : public RigidInertia {
- public:
-  using RigidInertia::RigidInertia;
-
-  std::size_t state_count() const override { return 1; }
-
-  void act(const double* behind_m_s, Instant& now) const override { add(behind_m_s[0] / follows_s_, now); }
-
-  void rates(const double* behind_m_s, const Instant& now, double* rates) const override {
-    rates[0] = now.acceleration_m_s2 - behind_m_s[0] / follows_s_;
-  }
-
- private:
-  double follows_s_ =
-      note("follows_s", draws_.uniform(0.05, 0.4));  // Assumed: response of a rig's simulation of inertia
-};
+void make_soft(Making& of) {
+  // Assumed: response of a rig's simulation of inertia
+  const double follows_s = of.draw("follows_s", uniform(0.05, 0.4));
+  of.effect.state_count = 1;
+  of.effect.act = [follows_s, add = find_excess(of)](const double* behind_m_s, Instant& now) {
+    add(behind_m_s[0] / follows_s, now);
+  };
+  of.effect.rates = [=](const double* behind_m_s, const Instant& now, double* rates) {
+    rates[0] = now.acceleration_m_s2 - behind_m_s[0] / follows_s;
+  };
+}
 
 }  // namespace
 
@@ -52,9 +41,8 @@ const EffectKind kind_inertia_error{
     "inertia_error",
     {"percent", "true over reckoned inertia of drum, roller or vehicle, less one", 0.0, -30.0, 30.0,
      log_normal(0.3, 4.0, 0.25, 6.0), true},
-    {{"rigid", "a factor on the inertia", make_law<RigidInertia>},
-     {"soft", "hanging on through a soft coupling that follows the speed with a lag of first order",
-      make_law<SoftInertia>}},
+    {{"rigid", "a factor on the inertia", make_rigid},
+     {"soft", "hanging on through a soft coupling that follows the speed with a lag of first order", make_soft}},
     kEveryGround,
     kEveryGround};
 

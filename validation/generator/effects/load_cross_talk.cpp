@@ -9,38 +9,28 @@ namespace rollrig::generator {
 namespace {
 
 /// Angle d (1 - b + b sqrt(x)), x the load over the reference load: seats that close give way less and less.
-class LoadCrossTalk : public Effect {
- public:
-  using Effect::Effect;
-
-  void trace(RunRecord& record) const override {
+void make_bending(Making& of) {
+  const double fixed = 1e-3 * of.size;
+  const double bending = of.draw("bending_share", uniform(0.0, 0.5));
+  of.effect.trace = [=](RunRecord& record) {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
       const double load_N = record.load_N[row];
       const double gives_way = std::sqrt(std::max(0.0, load_N) / record.specimen->reference_load_N);
-      const double angle = angle_ * (1.0 - bending_ + bending_ * gives_way);
+      const double angle = fixed * (1.0 - bending + bending * gives_way);
       record.force[row] += record.lever * load_N * std::sin(angle);
     }
-  }
-
- private:
-  double angle_ = 1e-3 * size_;
-  double bending_ = note("bending_share", draws_.uniform(0.0, 0.5));
-};
+  };
+}
 
 /// One angle at every load.
-class FixedAngle : public Effect {
- public:
-  using Effect::Effect;
-
-  void trace(RunRecord& record) const override {
+void make_fixed(Making& of) {
+  const double sine = std::sin(1e-3 * of.size);
+  of.effect.trace = [=](RunRecord& record) {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      record.force[row] += record.lever * record.load_N[row] * sine_;
+      record.force[row] += record.lever * record.load_N[row] * sine;
     }
-  }
-
- private:
-  double sine_ = std::sin(1e-3 * size_);
-};
+  };
+}
 
 }  // namespace
 
@@ -49,8 +39,8 @@ const EffectKind kind_load_cross_talk{
     {"mrad", "angle of the load off the vertical at the reference load", 0.0, -5.0, 5.0,
      log_normal(0.08, 0.5, 0.05, 0.8), true},
     {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the root of the load",
-      make_law<LoadCrossTalk>},
-     {"fixed", "Fz sin(d) with a fixed angle", make_law<FixedAngle>}},
+      make_bending},
+     {"fixed", "Fz sin(d) with a fixed angle", make_fixed}},
     kRigGrounds,
     kDrumGround};
 

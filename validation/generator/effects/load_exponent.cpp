@@ -7,36 +7,25 @@
 namespace rollrig::generator {
 namespace {
 
-class LoadExponent : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_two_powers(Making& of) {
+  const double excess = of.size - 1.0;
+  const double spread = of.draw("spread_over_excess", uniform(0.2, 0.8));
+  of.effect.act = [=](const double*, Instant& now) {
     const double load = std::max(1.0, now.load_N) / now.specimen->reference_load_N;
-    const double apart = spread_ * excess_;
-    now.loss_factor *= 0.5 * (std::pow(load, excess_ + apart) + std::pow(load, excess_ - apart));
-  }
-
- private:
-  double excess_ = size_ - 1.0;
-  double spread_ = note("spread_over_excess", draws_.uniform(0.2, 0.8));
-};
+    const double apart = spread * excess;
+    now.loss_factor *= 0.5 * (std::pow(load, excess + apart) + std::pow(load, excess - apart));
+  };
+}
 
 /// Coefficient that is a straight line of the load, with the slope that the power b - 1 has at the reference load.
-class StraightCoefficient : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_straight(Making& of) {
+  const double excess = of.size - 1.0;
+  of.effect.act = [=](const double*, Instant& now) {
+    constexpr double kLeast = 0.1;  // out of reach of the sizes that are drawn
     const double load = std::max(0.0, now.load_N) / now.specimen->reference_load_N;
-    now.loss_factor *= std::max(kLeast, 1.0 + excess_ * (load - 1.0));
-  }
-
- private:
-  static constexpr double kLeast = 0.1;  // out of reach of the sizes that are drawn
-
-  double excess_ = size_ - 1.0;
-};
+    now.loss_factor *= std::max(kLeast, 1.0 + excess * (load - 1.0));
+  };
+}
 
 }  // namespace
 
@@ -46,9 +35,9 @@ const EffectKind kind_load_exponent{
      0.02},
     {{"two_powers",
       "mean of two powers of the load, b + d and b - d, so that the exponent moves with load and is b at the reference",
-      make_law<LoadExponent>},
+      make_two_powers},
      {"straight",
       "the coefficient is a straight line of the load, 1 + (b - 1)(x - 1), as in the regression of SAE J1269",
-      make_law<StraightCoefficient>}}};
+      make_straight}}};
 
 }  // namespace rollrig::generator

@@ -6,35 +6,25 @@
 namespace rollrig::generator {
 namespace {
 
-class PressureExponent : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_regression(Making& of) {
+  const double excess = of.size - of.specimen.pressure_exponent;
+  const double line = of.draw("share_of_the_line", uniform(0.0, 0.6));
+  of.effect.act = [=](const double*, Instant& now) {
     const double p = now.pressure_kPa / now.specimen->reference_pressure_kPa;
-    now.loss_factor *= 1.0 + excess_ * (line_ * (1.0 - p) + (1.0 - line_) * (1.0 / p - 1.0));
-  }
-
- private:
-  double excess_ = size_ - specimen_.pressure_exponent;
-  double line_ = note("share_of_the_line", draws_.uniform(0.0, 0.6));
-};
+    now.loss_factor *= 1.0 + excess * (line * (1.0 - p) + (1.0 - line) * (1.0 / p - 1.0));
+  };
+}
 
 /// Loss with a power of s + (1 - s) p/p_ref, the tire's vertical stiffness over that at the reference pressure.
-class StiffnessOfPressure : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_stiffness(Making& of) {
+  // Assumed: share of the stiffness without pressure
+  const double carcass = of.draw("carcass_share", uniform(0.1, 0.4));
+  const double power = (of.size - of.specimen.pressure_exponent) / (1.0 - carcass);
+  of.effect.act = [=](const double*, Instant& now) {
     const double p = now.pressure_kPa / now.specimen->reference_pressure_kPa;
-    now.loss_factor *= std::pow(carcass_ + (1.0 - carcass_) * p, -power_);
-  }
-
- private:
-  double carcass_ =
-      note("carcass_share", draws_.uniform(0.1, 0.4));  // Assumed: share of the stiffness without pressure
-  double power_ = (size_ - specimen_.pressure_exponent) / (1.0 - carcass_);
-};
+    now.loss_factor *= std::pow(carcass + (1.0 - carcass) * p, -power);
+  };
+}
 
 }  // namespace
 
@@ -45,10 +35,10 @@ const EffectKind kind_pressure_exponent{
     {{"regression",
       "what goes beyond the nominal exponent is a + b p + c/p, with the slope of the exponent at the reference "
       "pressure",
-      make_law<PressureExponent>},
+      make_regression},
      {"stiffness",
       "a power of the tire's vertical stiffness, a carcass share beside one in proportion to the pressure, with the "
       "slope of the exponent at the reference pressure",
-      make_law<StiffnessOfPressure>}}};
+      make_stiffness}}};
 
 }  // namespace rollrig::generator

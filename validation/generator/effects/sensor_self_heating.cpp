@@ -7,32 +7,27 @@
 namespace rollrig::generator {
 namespace {
 
-class SensorSelfHeating : public Effect {
- public:
-  using Effect::Effect;
-
-  void trace(RunRecord& record) const override {
+void make_sensor_self_heating(Making& of) {
+  const double rise_dK = of.size;
+  const double time_s = of.draw_min("time_constant_min", uniform(3.0, 15.0));
+  const double swept = of.draw("swept_share_at_80_km_h", uniform(0.2, 0.6));
+  of.effect.trace = [=](RunRecord& record) {
     double rise = 0.0;
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
       const double x = record.speed_km_h[row] / 80.0;
-      const double aim = 1.0 / (1.0 + swept_ / (1.0 - swept_) * std::sqrt(x));
-      if (row > 0) rise += (aim - rise) * -std::expm1(-(record.time_s[row] - record.time_s[row - 1]) / time_s_);
-      record.liner_degC[row] += rise_dK_ * rise;
+      const double aim = 1.0 / (1.0 + swept / (1.0 - swept) * std::sqrt(x));
+      if (row > 0) rise += (aim - rise) * -std::expm1(-(record.time_s[row] - record.time_s[row - 1]) / time_s);
+      record.liner_degC[row] += rise_dK * rise;
     }
-  }
-
- private:
-  double rise_dK_ = size_;
-  double time_s_ = note_min("time_constant_min", 60.0 * draws_.uniform(3.0, 15.0));
-  double swept_ = note("swept_share_at_80_km_h", draws_.uniform(0.2, 0.6));
-};
+  };
+}
 
 }  // namespace
 
 const EffectKind kind_sensor_self_heating{
     "sensor_self_heating",
     {"K", "excess of the reading at standstill", 0.0, 0.0, 50.0, log_normal(1.5, 6.0, 1.0, 9.0)},
-    {{"only", "first order from the start of each run, less in moving gas", make_law<SensorSelfHeating>}},
+    {{"only", "first order from the start of each run, less in moving gas", make_sensor_self_heating}},
     kRigGrounds,
     kRigGrounds,
     true};

@@ -7,44 +7,31 @@
 namespace rollrig::generator {
 namespace {
 
-class TireLossInSkim : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
-    const double stiffness = 1.0 / (1.0 + fall_per_K_ * std::max(-20.0, now.rubber_degC - 25.0));
-    now.heating_force_N += force_N_ * stiffness * saturation(std::max(0.0, now.load_N)) / in_skim_;
-  }
-
- private:
-  double saturation(double load_N) const { return load_N / (load_N + half_N_); }
-
-  double force_N_ = size_;
-  double half_N_ = note("half_load_N", draws_.from(log_normal(15.0, 60.0, 8.0, 100.0)));
-  double fall_per_K_ = note("fall_per_K_at_25_degC", draws_.from(log_normal(0.008, 0.03, 0.004, 0.045)));
-  double in_skim_ = saturation(specimen_.skim_load_N);
-};
+void make_hyperbola(Making& of) {
+  const double force_N = of.size;
+  const double half_N = of.draw("half_load_N", log_normal(15.0, 60.0, 8.0, 100.0));
+  const double fall_per_K = of.draw("fall_per_K_at_25_degC", log_normal(0.008, 0.03, 0.004, 0.045));
+  const auto saturation = [=](double load_N) { return load_N / (load_N + half_N); };
+  const double in_skim = saturation(of.specimen.skim_load_N);
+  of.effect.act = [=](const double*, Instant& now) {
+    const double stiffness = 1.0 / (1.0 + fall_per_K * std::max(-20.0, now.rubber_degC - 25.0));
+    now.heating_force_N += force_N * stiffness * saturation(std::max(0.0, now.load_N)) / in_skim;
+  };
+}
 
 /// F (Fz/F_skim)^m exp(-b (T - 25 degC)), which fades within some newtons of no load.
-class PowerInSkim : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_power(Making& of) {
+  constexpr double kTouch_N = 15.0;  // Assumed: below it the contact is lost
+  const double force_N = of.size;
+  const double power = of.draw("load_power", uniform(-0.15, 0.15));
+  const double fall_per_K = of.draw("fall_per_K", log_normal(0.008, 0.03, 0.004, 0.045));
+  of.effect.act = [=](const double*, Instant& now) {
     const double load_N = std::max(1e-3, now.load_N);
     const double touching = -std::expm1(-load_N / kTouch_N);
-    now.heating_force_N +=
-        force_N_ * touching * std::pow(load_N / skim_N_, power_) * std::exp(-fall_per_K_ * (now.rubber_degC - 25.0));
-  }
-
- private:
-  static constexpr double kTouch_N = 15.0;  // Assumed: below it the contact is lost
-
-  double force_N_ = size_;
-  double power_ = note("load_power", draws_.uniform(-0.15, 0.15));
-  double fall_per_K_ = note("fall_per_K", draws_.from(log_normal(0.008, 0.03, 0.004, 0.045)));
-  double skim_N_ = specimen_.skim_load_N;
-};
+    now.heating_force_N += force_N * touching * std::pow(load_N / now.specimen->skim_load_N, power) *
+                           std::exp(-fall_per_K * (now.rubber_degC - 25.0));
+  };
+}
 
 }  // namespace
 
@@ -54,10 +41,10 @@ const EffectKind kind_tire_loss_in_skim{
     {{"hyperbola",
       "Fz/(Fz + F_half) over its value in skim, so that it saturates with load; falls as 1/(1 + b (T - 25 degC)); "
       "heats the rubber",
-      make_law<TireLossInSkim>},
+      make_hyperbola},
      {"power",
       "a power of the load over that in skim, gone without load; falls exponentially from 25 degC on; heats the rubber",
-      make_law<PowerInSkim>}},
+      make_power}},
     kDrumGround,
     kDrumGround};
 

@@ -8,34 +8,24 @@
 namespace rollrig::generator {
 namespace {
 
-class TireTemperature : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
-    const double softer = std::max(0.2, 1.0 + fall_per_K_ * (now.rubber_degC - reference_degC_) / power_);
-    now.loss_factor *= std::pow(softer, -power_);
-  }
-
- private:
-  double fall_per_K_ = size_;
-  double reference_degC_ = note("reference_degC", draws_.uniform(28.0, 42.0));
-  double power_ = note("power", draws_.uniform(3.0, 8.0));
-};
+void make_power(Making& of) {
+  const double fall_per_K = of.size;
+  const double reference_degC = of.draw("reference_degC", uniform(28.0, 42.0));
+  const double power = of.draw("power", uniform(3.0, 8.0));
+  of.effect.act = [=](const double*, Instant& now) {
+    const double softer = std::max(0.2, 1.0 + fall_per_K * (now.rubber_degC - reference_degC) / power);
+    now.loss_factor *= std::pow(softer, -power);
+  };
+}
 
 /// Arrhenius' law with the fall of the size at the temperature where the coefficient holds.
-class ArrheniusLoss : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
-    now.loss_factor *= std::exp(activation_K_ * (1.0 / (now.rubber_degC + kZeroCelsius_K) - 1.0 / reference_K_));
-  }
-
- private:
-  double reference_K_ = note("reference_degC", draws_.uniform(28.0, 42.0)) + kZeroCelsius_K;
-  double activation_K_ = size_ * reference_K_ * reference_K_;
-};
+void make_arrhenius(Making& of) {
+  const double reference_K = of.draw("reference_degC", uniform(28.0, 42.0)) + kZeroCelsius_K;
+  const double activation_K = of.size * reference_K * reference_K;
+  of.effect.act = [=](const double*, Instant& now) {
+    now.loss_factor *= std::exp(activation_K * (1.0 / (now.rubber_degC + kZeroCelsius_K) - 1.0 / reference_K));
+  };
+}
 
 }  // namespace
 
@@ -46,11 +36,11 @@ const EffectKind kind_tire_temperature{
     {{"power",
       "power of a linear function of the temperature instead of an exponential; heated by the loss, cooled by air and "
       "road with the speed",
-      make_law<TireTemperature>},
+      make_power},
      {"arrhenius",
       "Arrhenius' law exp(E/R (1/T - 1/T_0)) instead of an exponential; heated by the loss, cooled by air and road "
       "with the speed",
-      make_law<ArrheniusLoss>}},
+      make_arrhenius}},
     kConstantGround,
     kConstantGround};
 

@@ -9,43 +9,33 @@ namespace {
 
 constexpr double kSpan_s = 1800.0;  // over which the size is a mean rate
 
-class TorqueZeroDrift : public Effect {
- public:
-  using Effect::Effect;
-
-  void trace(RunRecord& record) const override {
-    const double final_N = rate_N_per_10min_ * kSpan_s / 600.0 / (1.0 - std::exp(-kSpan_s / time_s_));
+void make_amplifier(Making& of) {
+  const double rate_N_per_10min = of.size;
+  const double time_s = of.draw_min("time_constant_min", log_normal(25.0, 120.0, 15.0, 240.0));
+  const double air = of.draw("N_per_K_of_air_over_size", uniform(-0.4, 0.4));
+  const double final_N = rate_N_per_10min * kSpan_s / 600.0 / (1.0 - std::exp(-kSpan_s / time_s));
+  of.effect.trace = [=](RunRecord& record) {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double amplifier_N = final_N * (1.0 - std::exp(-record.time_s[row] / time_s_));
-      const double air_N = air_ * rate_N_per_10min_ * (record.ambient_degC[row] - record.ambient_degC.front());
+      const double amplifier_N = final_N * (1.0 - std::exp(-record.time_s[row] / time_s));
+      const double air_N = air * rate_N_per_10min * (record.ambient_degC[row] - record.ambient_degC.front());
       record.force[row] += record.lever * (amplifier_N + air_N);
     }
-  }
-
- private:
-  double rate_N_per_10min_ = size_;
-  double time_s_ = note_min("time_constant_min", 60.0 * draws_.from(log_normal(25.0, 120.0, 15.0, 240.0)));
-  double air_ = note("N_per_K_of_air_over_size", draws_.uniform(-0.4, 0.4));
-};
+  };
+}
 
 /// Zero that creeps with ln(1 + t/tau), as strain gauges and their glue do.
-class GaugeCreep : public Effect {
- public:
-  using Effect::Effect;
-
-  void trace(RunRecord& record) const override {
-    const double scale_N = rate_N_per_10min_ * kSpan_s / 600.0 / std::log1p(kSpan_s / onset_s_);
+void make_creep(Making& of) {
+  const double rate_N_per_10min = of.size;
+  const double onset_s = of.draw_min("onset_min", uniform(3.0, 20.0));  // Assumed
+  const double air = of.draw("N_per_K_of_air_over_size", uniform(-0.4, 0.4));
+  const double scale_N = rate_N_per_10min * kSpan_s / 600.0 / std::log1p(kSpan_s / onset_s);
+  of.effect.trace = [=](RunRecord& record) {
     for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double air_N = air_ * rate_N_per_10min_ * (record.ambient_degC[row] - record.ambient_degC.front());
-      record.force[row] += record.lever * (scale_N * std::log1p(record.time_s[row] / onset_s_) + air_N);
+      const double air_N = air * rate_N_per_10min * (record.ambient_degC[row] - record.ambient_degC.front());
+      record.force[row] += record.lever * (scale_N * std::log1p(record.time_s[row] / onset_s) + air_N);
     }
-  }
-
- private:
-  double rate_N_per_10min_ = size_;
-  double onset_s_ = note_min("onset_min", 60.0 * draws_.uniform(3.0, 20.0));  // Assumed
-  double air_ = note("N_per_K_of_air_over_size", draws_.uniform(-0.4, 0.4));
-};
+  };
+}
 
 }  // namespace
 
@@ -56,9 +46,9 @@ const EffectKind kind_torque_zero_drift{
     {{"amplifier",
       "zeroed before each run; then an amplifier's exponential approach (25 to 120 min) and a part that follows the "
       "air",
-      make_law<TorqueZeroDrift>},
+      make_amplifier},
      {"creep",
       "zeroed before each run; then the gauge's creep with the logarithm of time, and a part that follows the air",
-      make_law<GaugeCreep>}}};
+      make_creep}}};
 
 }  // namespace rollrig::generator

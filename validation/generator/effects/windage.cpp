@@ -7,35 +7,25 @@
 namespace rollrig::generator {
 namespace {
 
-class Windage : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
+void make_disc_and_pump(Making& of) {
+  const double force_N = of.size;
+  const double pumped_share = of.draw("pumped_share", uniform(0.1, 0.9));
+  of.effect.act = [=](const double*, Instant& now) {
     const double x = now.speed_m_s / kSpeed80_m_s;
     const double density = 298.15 / (now.ambient_degC + kZeroCelsius_K);
     const double rubbed = std::pow(density, 0.8) * std::pow(x, 1.8);
-    now.rig_force_N += force_N_ * ((1.0 - pumped_share_) * rubbed + pumped_share_ * density * x * x * (0.8 + 0.2 * x));
-  }
-
- private:
-  double force_N_ = size_;
-  double pumped_share_ = note("pumped_share", draws_.uniform(0.1, 0.9));
-};
+    now.rig_force_N += force_N * ((1.0 - pumped_share) * rubbed + pumped_share * density * x * x * (0.8 + 0.2 * x));
+  };
+}
 
 /// F (v/v80)^n.
-class PowerOfSpeed : public Effect {
- public:
-  using Effect::Effect;
-
-  void act(const double*, Instant& now) const override {
-    now.rig_force_N += force_N_ * std::pow(now.speed_m_s / kSpeed80_m_s, power_);
-  }
-
- private:
-  double force_N_ = size_;
-  double power_ = note("speed_power", draws_.uniform(1.8, 2.2));
-};
+void make_power(Making& of) {
+  const double force_N = of.size;
+  const double power = of.draw("speed_power", uniform(1.8, 2.2));
+  of.effect.act = [=](const double*, Instant& now) {
+    now.rig_force_N += force_N * std::pow(now.speed_m_s / kSpeed80_m_s, power);
+  };
+}
 
 }  // namespace
 
@@ -45,7 +35,7 @@ const EffectKind kind_windage{
     {{"disc_and_pump",
       "friction of a turning disc in turbulent air, v^(9/5), and air pumped by spokes and lugs, between v^2 and v^3, "
       "both with the density of the air; no heat",
-      make_law<Windage>},
-     {"power", "a power of the speed, 1.8 to 2.2, in air of one density; no heat", make_law<PowerOfSpeed>}}};
+      make_disc_and_pump},
+     {"power", "a power of the speed, 1.8 to 2.2, in air of one density; no heat", make_power}}};
 
 }  // namespace rollrig::generator
