@@ -3,20 +3,165 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
+#include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "validation/files.h"
-#include "validation/generator/known_order.h"
 #include "validation/generator/laboratory.h"
-#include "validation/generator/planned_runs.h"
 
 namespace fs = std::filesystem;
 
 namespace rollrig::generator {
 namespace {
+
+/// The given columns of one planned run.
+class PlannedTable {
+ public:
+  PlannedTable(const std::string& file, const Machine& machine) : file_(file), table_(CsvTable::read(file)) {
+    std::vector<std::string> required;
+    for (const GivenColumn& column : machine.given_columns()) required.emplace_back(column.name);
+    for (const std::string& column : required) {
+      if (table_.has(column) && table_.row_count() >= 2) continue;
+      throw problem("no such column with two rows or more", column, "",
+                    fmt::format("the given columns of a {} set: {}", machine.name(), fmt::join(required, ", ")));
+    }
+    check_rows();
+  }
+
+  bool has(const std::string& column) const { return table_.has(column); }
+  std::size_t rows() const { return table_.row_count(); }
+
+  /// A column as it is written; zeros where it is not there.
+  std::vector<double> read(const std::string& column) const {
+    if (!table_.has(column)) return std::vector<double>(rows(), 0.0);
+    std::vector<double> values = table_.plain_numbers(column, {});
+    for (const double value : values) {
+      if (std::isnan(value)) throw problem("an empty cell", column, "", "a number in every cell");
+    }
+    return values;
+  }
+
+  /// A column that a test holds from its first row to its last.
+  double read_held(const std::string& column) const {
+    const std::vector<double> values = read(column);
+    for (const double value : values) {
+      if (value != values.front()) throw problem("not held", column, fmt::format("{:g}", value), "one value");
+    }
+    return values.front();
+  }
+
+ private:
+  InputError problem(const std::string& what, const std::string& column, const std::string& value,
+                     const std::string& allowed) const {
+    return InputError({what, file_, 0, column, value, allowed, ""});
+  }
+
+  void check_rows() const {
+    const std::vector<double> time_s = read("time_s");
+    for (std::size_t i = 0; i < rows(); ++i) {
+      const bool goes_on = i == 0 ? time_s[i] == 0.0 : time_s[i] > time_s[i - 1];
+      if (goes_on && time_s[i] == std::round(time_s[i])) continue;
+      throw problem("times do not go on", "time_s", fmt::format("{:g}", time_s[i]),
+                    "0 first, then whole seconds that increase");
+    }
+    for (const char* column : {"speed_km_h", "load_N"}) {
+      for (const double value : read(column)) {
+        if (value < 0.0) throw problem("less than nothing", column, fmt::format("{:g}", value), "0 or more");
+      }
+    }
+  }
+
+  std::string file_;
+  CsvTable table_;
+};
+
+/// Straight lines between rows, the load held, as legs; where the speed has knots a leg lasts one second.
+std::vector<Leg> make_legs(const PlannedTable& table, const Machine& machine, double road_load_N) {
+  const std::vector<double> time_s = table.read("time_s");
+  const std::vector<double> speed_km_h = table.read("speed_km_h");
+  const std::vector<double> load_N = table.read("load_N");
+  const std::vector<double> pull_N = table.read("longitudinal_force_N");
+  const std::vector<double> elevation_m = table.read("elevation_m");
+  std::vector<Leg> legs;
+  double way_m = 0.0;
+  for (std::size_t i = 0; i + 1 < time_s.size(); ++i) {
+    const double span_s = time_s[i + 1] - time_s[i];
+    const double step_s = machine.has_knots() ? 1.0 : span_s;
+    for (double from_s = 0.0; from_s < span_s; from_s += step_s) {
+      const auto between = [&](const std::vector<double>& values, double at_s) {
+        return values[i] + at_s / span_s * (values[i + 1] - values[i]);
+      };
+      const double to_s = from_s + step_s;
+      Leg leg{time_s[i] + from_s, step_s, between(speed_km_h, from_s) / 3.6, between(speed_km_h, to_s) / 3.6,
+              machine.has_vehicle() ? road_load_N : load_N[i]};
+      leg.start_longitudinal_N = between(pull_N, from_s);
+      leg.end_longitudinal_N = between(pull_N, to_s);
+      leg.start_elevation_m = between(elevation_m, from_s);
+      leg.end_elevation_m = between(elevation_m, to_s);
+      leg.start_distance_m = way_m;
+      way_m += leg.mean_m_s() * step_s;
+      legs.push_back(leg);
+    }
+  }
+  return legs;
+}
+
+RunPlan read_run(const fs::path& folder, const Json& json, const SetOrder& order, double road_load_N) {
+  const PlannedTable table((folder / json.at("file").get<std::string>()).string(), *order.machine);
+  RunPlan run;
+  run.id = json.at("id").get<std::string>();
+  run.session = json.at("session").get<std::string>();
+  run.cold_pressure_kPa = json.at("cold_pressure_kPa").get<double>();
+  run.reversed = json.value("reversed", false);
+  run.reads_zero = json.at("force_at_standstill").get<bool>();
+  for (const Json& span : json.at("not_read_s")) {
+    run.unread_s.emplace_back(span.at(0).get<double>(), span.at(1).get<double>());
+  }
+  if (table.has("surface_temperature_degC")) run.surface_degC = table.read_held("surface_temperature_degC");
+  const std::vector<double> time_s = table.read("time_s");
+  const std::vector<double> hung_Nm = table.read("hung_torque_Nm");
+  for (std::size_t i = 0; table.has("hung_torque_Nm") && i < time_s.size(); ++i) {
+    run.hung_Nm.emplace_back(time_s[i], hung_Nm[i]);
+  }
+  Draws own(order.seed, "run/" + run.id);
+  run.air = draw_air(own, table.read_held("ambient_degC"));
+  run.initial_degC = std::round(10.0 * run.air.at(0.0)) / 10.0;
+  run.legs = make_legs(table, *order.machine, road_load_N);
+  return run;
+}
+
+/// The plan of one set: plan.json (rollrig-blind-plan/1) and a CSV of given columns for each of its runs.
+struct TestPlan {
+  std::string set_sha256;  // of the files of the set that it is for
+  std::vector<RunPlan> runs;
+};
+
+/// Reads the plan in `folder`. What is not in a plan is drawn as for any run, by the seed of the set: the air swings
+/// about the planned temperature, and the tire starts at that of the air. Loads on the road are `road_load_N`.
+/// Errors  InputError: no plan, a plan of another kind of set, columns or rows that no run can have
+TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double road_load_N) {
+  const std::string file = (fs::path(folder) / "plan.json").string();
+  const auto require = [&file](const Json& json, const char* key, const char* value) {
+    if (json.at(key) == value) return;
+    throw InputError({"not a plan for this case", file, 0, key, json.at(key).dump(), value, ""});
+  };
+  TestPlan plan;
+  try {
+    const Json json = Json::parse(read_text_file(file));
+    require(json, "format", validation::kPlanFormat);
+    require(json, "kind", order.machine->name());
+    plan.set_sha256 = json.at("set_sha256").get<std::string>();
+    for (const Json& run : json.at("runs")) plan.runs.push_back(read_run(folder, run, order, road_load_N));
+  } catch (const Json::exception& error) {
+    throw InputError({fmt::format("not a plan: {}", error.what()), file, 0, "", "", validation::kPlanFormat, ""});
+  }
+  if (plan.runs.empty()) throw InputError({"a plan without runs", file, 0, "runs", "[]", "one run or more", ""});
+  return plan;
+}
 
 /// Cases that have a plan, sorted.
 std::vector<std::string> list_plans(const FollowUpOrder& order) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "validation/generator/progress.h"
+#include "validation/generator/validation_set.h"
 
 namespace rollrig::generator {
 

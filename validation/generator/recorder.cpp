@@ -23,16 +23,9 @@ using Matrix = boost::numeric::ublas::matrix<double>;
 constexpr double kStep_s = 0.5;  // of signals: half a sampling interval
 
 /// Right-hand side and its derivatives, by differences, for odeint.
-struct System {
-  const Plant& plant;
-
-  void operator()(const Vector& x, Vector& dxdt, double t) const { plant.calc_rates(t, &x[0], &dxdt[0]); }
-};
-
-struct SystemDerivatives {
-  const Plant& plant;
-
-  void operator()(const Vector& x, Matrix& jacobian, double t, Vector& dfdt) const {
+auto make_system(const Plant& plant) {
+  const auto rates = [&plant](const Vector& x, Vector& dxdt, double t) { plant.calc_rates(t, &x[0], &dxdt[0]); };
+  const auto derivatives = [&plant](const Vector& x, Matrix& jacobian, double t, Vector& dfdt) {
     constexpr double kTimeStep_s = 1e-4;
     const std::size_t n = plant.size();
     std::vector<double> at(x.begin(), x.end());
@@ -49,8 +42,9 @@ struct SystemDerivatives {
     }
     plant.calc_rates(t + kTimeStep_s, at.data(), moved.data());
     for (std::size_t i = 0; i < n; ++i) dfdt[i] = (moved[i] - base[i]) / kTimeStep_s;
-  }
-};
+  };
+  return std::make_pair(rates, derivatives);
+}
 
 /// What a leg is asked for: at each cell's start the temperature and pressure, at two points within it, by Gauss'
 /// rule, the force.
@@ -115,7 +109,7 @@ Vector integrate_leg(const Plant& plant, const Leg& leg, const LoadStep& step, V
   constexpr double kLongestStep_s = 30.0;
   odeint::rosenbrock4_dense_output<Controller> stepper(Controller(1e-7, 1e-8, kLongestStep_s));
   stepper.initialize(state, leg.start_s, kFirstStep_s);
-  const auto system = std::make_pair(System{plant}, SystemDerivatives{plant});
+  const auto system = make_system(plant);
   for (double reached_s = leg.start_s; reached_s < leg.end_s();) {
     const auto [from_s, to_s] = stepper.do_step(system);
     if (!(to_s > from_s)) throw RunFailure("the integration does not go on");
@@ -132,7 +126,7 @@ Vector integrate_leg(const Plant& plant, const Leg& leg, const LoadStep& step, V
 /// Marches over a leg in steps of one cell; within them the state is taken as linear.
 Vector march_leg(const Plant& plant, const Leg& leg, Vector state, Collector& collector) {
   odeint::rosenbrock4<double> stepper;
-  const auto system = std::make_pair(System{plant}, SystemDerivatives{plant});
+  const auto system = make_system(plant);
   const auto steps = static_cast<int>(std::lround(leg.duration_s / kStep_s));
   Vector next = state;
   Vector between = state;
@@ -234,13 +228,12 @@ RunRecord record_run(const Specimen& specimen, const Effects& effects, const Run
     const std::size_t after = 2 * row;  // cells of half a second
     const bool is_first = row == 0;
     const bool is_last = row + 1 == record.time_s.size();
-    record.force.push_back(is_first ? cells[after]
-                                    : (is_last ? cells[after - 1] : 0.5 * (cells[after - 1] + cells[after])));
+    const double mean =
+        is_first ? cells[after] : (is_last ? cells[after - 1] : 0.5 * (cells[after - 1] + cells[after]));
+    record.force.push_back(mean + run.find_hung_torque_Nm(record.time_s[row]));
     record.liner_degC.push_back(record.sample(record.liner, row));
     record.pressure_kPa.push_back(record.sample(record.pressure, row));
   }
-  for (std::size_t row = 0; row < record.time_s.size(); ++row)
-    record.force[row] += run.find_hung_torque_Nm(record.time_s[row]);
   // Torque counts positive when it drives, so in reversed rotation the sensor has the other sign; its zero does not.
   if (run.reversed) turn_over(record.force);
   for (const Effect& effect : effects) effect.trace(record);

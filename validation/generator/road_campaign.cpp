@@ -8,7 +8,6 @@
 
 #include "sim/core/units.h"
 #include "validation/generator/campaign.h"
-#include "validation/generator/speed_trace.h"
 
 namespace rollrig::generator {
 namespace {

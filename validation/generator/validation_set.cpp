@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <mutex>
 
+#include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
+#include "sim/core/parallel.h"
 #include "validation/files.h"
+
+namespace fs = std::filesystem;
 
 namespace rollrig::generator {
 namespace {
@@ -108,6 +114,31 @@ Json describe(const ValidationSetOrder& order) {
   return truth;
 }
 
+constexpr const char* kAllowed = "a validation set made by this version of rollrig_validation";
+
+InputError no_truth(const std::string& what) {
+  return InputError({"not the truth of a case: " + what, "", 0, "", "", kAllowed, ""});
+}
+
+DynoRuns read_dyno_runs(const Json& truth) {
+  const std::string name = truth.value("campaign_kind", "");
+  for (const CampaignChoice& campaign : mixed_campaigns()) {
+    if (name == campaign.name) return campaign.dyno_runs;
+  }
+  return DynoRuns::kAsUsual;
+}
+
+void read_effect(const Json& effect, SetOrder& order) {
+  const auto id = effect.at("id").get<std::string>();
+  const auto form = effect.at("form").get<std::string>();
+  const EffectKind* kind = find_effect_kind(id);
+  if (kind == nullptr) throw no_truth(fmt::format("no effect '{}'", id));
+  if (find_form(*kind, form) == nullptr) throw no_truth(fmt::format("{} has no form '{}'", id, form));
+  order.effects.push_back(id);
+  order.forms.push_back(form);
+  order.sizes.emplace_back(effect.at("size").get<double>());
+}
+
 }  // namespace
 
 std::vector<CampaignChoice> mixed_campaigns() {
@@ -155,6 +186,44 @@ void write_validation_set(const ValidationSetOrder& order, const std::function<v
   folder.add("truth.sha256", sha256 + "  truth.json\n");
   hashed(sha256);
   folder.commit();
+}
+
+SetOrder read_order(const Json& truth) {
+  SetOrder order;
+  try {
+    order.name = truth.at("name").get<std::string>();
+    order.seed = truth.at("seed").get<std::uint64_t>();
+    order.runs = truth.at("runs").get<int>();
+    order.noise_free = truth.at("noise_free").get<bool>();
+    order.machine = &find_machine(truth.value("kind", all_machines().front()->name()));
+    order.dyno_runs = read_dyno_runs(truth);
+    if (truth.contains("baseline")) order.constant_rrc = truth.at("baseline") == "constant_rrc";
+    for (const Json& effect : truth.at("effects")) read_effect(effect, order);
+  } catch (const Json::exception& error) {
+    throw no_truth(error.what());
+  }
+  return order;
+}
+
+void require_same_files(const std::string& folder, const SetOrder& order) {
+  for (const auto& [name, content] : make_set(order, false).files) {
+    const std::string file = (fs::path(folder) / name).string();
+    if (read_text_file(file) == content) continue;
+    throw InputError(
+        {fmt::format("'{}' is not what this program makes of its truth", file), file, 0, "", "", kAllowed, ""});
+  }
+}
+
+void work_on_all(std::size_t count, int threads, const Progress& progress,
+                 const std::function<void(std::size_t)>& work) {
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(count, threads, [&](std::size_t i) {
+    throw_if_interrupted();
+    work(i);
+    const std::lock_guard lock(mutex);
+    progress(++done, count);
+  });
 }
 
 }  // namespace rollrig::generator

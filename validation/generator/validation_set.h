@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "validation/generator/measurement_set.h"
-#include "validation/generator/progress.h"
 
 namespace rollrig::generator {
+
+/// Called after each piece of work.
+using Progress = std::function<void(std::size_t done, std::size_t of)>;
 
 /// A campaign that a case may have.
 struct CampaignChoice {
@@ -44,5 +46,17 @@ std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campai
 /// SHA-256 of truth.json before any of it stands at its place.
 void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
                           const Progress& progress);
+
+/// The order that makes a case of `truth` anew.
+/// Errors  InputError: no truth of this generator
+SetOrder read_order(const Json& truth);
+
+/// Errors  InputError: the files in `folder` are not those that the order makes
+void require_same_files(const std::string& folder, const SetOrder& order);
+
+/// Does `work` on 0 to `count` - 1 as parallel_for() does. `progress` is called by one thread at a time. Ctrl-C stops
+/// between two. Throws what `work` throws, and Interrupted.
+void work_on_all(std::size_t count, int threads, const Progress& progress,
+                 const std::function<void(std::size_t)>& work);
 
 }  // namespace rollrig::generator
