@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <memory>
 #include <set>
 
 #include "cli/comparison_options.h"
@@ -91,8 +90,8 @@ int known_cause_command(const RunOptions& options) {
   options.comparison.check();
   const bool is_alone = options.cause == "alone";
   if (is_alone && (options.confusable || !options.comparison.only.empty())) {
-    throw InputError({"the true effect is alone in the comparison", "command line", 0,
-                      options.confusable ? "--confusable" : "--only", "", "--cause left_out beside it", ""});
+    throw cli::usage_error("the true effect is alone in the comparison", options.confusable ? "--confusable" : "--only",
+                           "", "--cause left_out beside it");
   }
   const std::vector<Truth> truths = read_truths(options.set, options.hash);
   Twins twins = is_alone ? Twins{} : find_twins(truths, place_in(options.set, "answers"));
@@ -103,48 +102,28 @@ int known_cause_command(const RunOptions& options) {
       plan_known_cause(truths, is_alone ? KnownCause::kAlone : KnownCause::kLeftOut, options.comparison.only, twins));
 }
 
-/// A command that answers cases.
-struct Answering {
-  const char* name;
-  const char* what;
-  int (*answer)(const RunOptions&);
-};
-
-CLI::App* add_answering(CLI::App& app, cli::Action& action, const Answering& of, RunOptions*& options) {
-  auto shared = std::make_shared<RunOptions>();
-  options = shared.get();
-  CLI::App* command = add_set_command(app, of.name, of.what, options->set);
-  command->add_option("--threads", options->threads, "Cases at the same time [as many as the machine has cores]")
-      ->check(CLI::Range(1, kMostThreads));
-  command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([shared, of, &action] { action = [shared, of] { return of.answer(*shared); }; });
-  return command;
+void add_common(CLI::App& command, RunOptions& options) {
+  add_set_to(command, options.set);
+  add_threads_to(command, "Cases at the same time [as many as the machine has cores]", options.threads);
+  command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
-constexpr Answering kRun{
-    "run", "Diagnose the cases, the truth unopened; goes on where it was interrupted; under mpirun shared",
-    run_command};
-constexpr Answering kBaselines{
-    "baselines",
-    "Answer the cases, the truth unopened, by the methods that the diagnosis has to beat, into answers-<method> in the "
-    "validation set; goes on where it was interrupted; under mpirun shared",
-    baselines_command};
-constexpr Answering kKnownCause{
-    "known-cause",
-    "Open the truth and diagnose with it: the true effects alone in the comparison, or left out of it with what the "
-    "answers could not tell from them",
-    known_cause_command};
-
 void add_run(CLI::App& app, cli::Action& action) {
-  RunOptions* options = nullptr;
-  CLI::App* command = add_answering(app, action, kRun, options);
+  const auto [command, options] = cli::add_command<RunOptions>(
+      app, action, "run",
+      "Diagnose the cases, the truth unopened; goes on where it was interrupted; under mpirun shared", run_command);
+  add_common(*command, *options);
   command->add_option("--out", options->out, "Folder of the answers [answers in the validation set]");
   options->comparison.add_to(*command);
 }
 
 void add_baselines(CLI::App& app, cli::Action& action) {
-  RunOptions* options = nullptr;
-  CLI::App* command = add_answering(app, action, kBaselines, options);
+  const auto [command, options] = cli::add_command<RunOptions>(
+      app, action, "baselines",
+      "Answer the cases, the truth unopened, by the methods that the diagnosis has to beat, into answers-<method> in "
+      "the validation set; goes on where it was interrupted; under mpirun shared",
+      baselines_command);
+  add_common(*command, *options);
   std::set<std::string> ids;
   for (const BaselineMethod& method : all_baselines()) ids.insert(method.id);
   command->add_option("--methods", options->methods, "nearest, aic, bic, sparse, gp [all]")
@@ -154,8 +133,12 @@ void add_baselines(CLI::App& app, cli::Action& action) {
 }
 
 void add_known_cause(CLI::App& app, cli::Action& action) {
-  RunOptions* options = nullptr;
-  CLI::App* command = add_answering(app, action, kKnownCause, options);
+  const auto [command, options] = cli::add_command<RunOptions>(
+      app, action, "known-cause",
+      "Open the truth and diagnose with it: the true effects alone in the comparison, or left out of it with what the "
+      "answers could not tell from them",
+      known_cause_command);
+  add_common(*command, *options);
   command->alias("oracle");
   const CLI::IsMember causes({"alone", "left_out"});
   command->add_option("--cause", options->cause, "alone or left_out [alone]")->check(causes);

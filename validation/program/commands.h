@@ -18,10 +18,10 @@ void add_release_check_command(CLI::App& app, cli::Action& action);
 constexpr const char* kAloneFolder = "answers-alone";       // in a validation set: the true effect alone
 constexpr const char* kLeftOutFolder = "answers-left-out";  // likewise: without it
 
-constexpr int kMostThreads = 1024;
-
-/// A command with the validation set that it is for.
-CLI::App* add_set_command(CLI::App& app, const std::string& name, const std::string& what, std::string& set);
+/// The validation set that a command is for.
+void add_set_to(CLI::App& command, std::string& set);
+/// How many cases a command works on at a time.
+void add_threads_to(CLI::App& command, const std::string& what, int& threads);
 
 /// A place in a validation set, unless another is given.
 std::string place_in(const std::string& set, const std::string& name, const std::string& given = {});

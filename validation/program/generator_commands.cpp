@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 #include <optional>
 
 #include "cli/progress.h"
@@ -20,16 +19,12 @@ using namespace generator;
 
 constexpr int kMostCases = 2000;
 
-/// Counts cases on a terminal.
-class CaseCounter {
- public:
-  generator::Progress callback() {
-    return [this](std::size_t done, std::size_t of) { line_.show(fmt::format("{} of {} cases", done, of)); };
-  }
+constexpr const char* kThreads = "Cases at a time [as many as there are cores]";
 
- private:
-  cli::ProgressLine line_{"validation", false};
-};
+/// Counts cases on a terminal.
+generator::Progress count_cases(cli::ProgressLine& line) {
+  return [&line](std::size_t done, std::size_t of) { line.show(fmt::format("{} of {} cases", done, of)); };
+}
 
 struct CaseOptions {
   CaseWords words;
@@ -81,25 +76,25 @@ int make_command(MakeOptions options) {
   order.campaigns = read_campaigns(order.kind);
   order.effects = options.effects.empty() ? drawn_effects(order.campaigns, false) : read_effects(options.effects);
   check_drawn(order);
-  CaseCounter counter;
+  cli::ProgressLine line("validation", false);
   const auto hashed = [&order](const std::string& sha256) {
     std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
     if (!std::cout) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
   };
-  write_validation_set(order, hashed, counter.callback());
+  write_validation_set(order, hashed, count_cases(line));
   return cli::kDone;
 }
 
 int upper_bound_command(UpperBoundOrder order) {
-  CaseCounter counter;
-  const std::size_t cases = write_upper_bounds(order, counter.callback());
+  cli::ProgressLine line("validation", false);
+  const std::size_t cases = write_upper_bounds(order, count_cases(line));
   std::cout << fmt::format("upper bound of {} cases with effects written to {}\n", cases, order.out);
   return cli::kDone;
 }
 
 int follow_up_command(const FollowUpOrder& order) {
-  CaseCounter counter;
-  const std::size_t cases = write_follow_up(order, counter.callback());
+  cli::ProgressLine line("validation", false);
+  const std::size_t cases = write_follow_up(order, count_cases(line));
   std::cout << fmt::format("{} cases with their next test in {}/sets\n", cases, follow_up_folder(order));
   return cli::kDone;
 }
@@ -116,8 +111,8 @@ int list_command() {
 }
 
 void add_make_case(CLI::App& app, cli::Action& action) {
-  CLI::App* command = app.add_subcommand("make-case", "One case: a measurement set with a hidden cause");
-  auto options = std::make_shared<CaseOptions>();
+  const auto [command, options] = cli::add_command<CaseOptions>(
+      app, action, "make-case", "One case: a measurement set with a hidden cause", make_case_command);
   command->add_option("--kind", options->words.kind, "drum, dyno or road [drum]");
   command->add_option("--baseline", options->words.baseline, "Of a road set: combined or constant_rrc [drawn]");
   command->add_option("--effect", options->words.effects, "Effect, two as a,b, or none [none]");
@@ -131,16 +126,17 @@ void add_make_case(CLI::App& app, cli::Action& action) {
   command->add_option("--runs", options->order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
   command->add_flag("--noise-free", options->order.noise_free, "No errors of sensors, no drop-outs");
   command->add_flag("--nominal-base", options->order.nominal_base, "Base parameters as the files have them");
-  command->callback([options, &action] { action = [options] { return make_case_command(*options); }; });
 }
 
 CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const ValidationSetOrder& defaults) {
-  CLI::App* command =
-      app.add_subcommand(name, "A validation set: cases in shuffled order, and one truth whose SHA-256 is printed");
-  auto options = std::make_shared<MakeOptions>();
+  const auto made = cli::add_command<MakeOptions>(
+      app, action, name, "A validation set: cases in shuffled order, and one truth whose SHA-256 is printed",
+      make_command);
+  CLI::App* command = made.first;
+  MakeOptions* options = made.second.get();
   options->order = defaults;
   ValidationSetOrder& order = options->order;
-  const auto add_count = [&](const char* option, int& count, const char* what) {
+  const auto add_count = [command](const char* option, int& count, const char* what) {
     command->add_option(option, count, fmt::format("{} [{}]", what, count))->check(CLI::Range(0, kMostCases));
   };
   command->add_option("--kind", order.kind,
@@ -155,7 +151,6 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")->check(CLI::Range(1, kMostRuns));
   command->add_flag("--counterfactual", order.counterfactual, "Also each case without effect and without noise");
   command->add_option("--out", order.out, "Folder of the validation set, new or empty")->required();
-  command->callback([options, &action] { action = [options] { return make_command(*options); }; });
   return command;
 }
 
@@ -170,29 +165,26 @@ ValidationSetOrder make_old_defaults() {
 }
 
 void add_upper_bound(CLI::App& app, cli::Action& action) {
-  auto order = std::make_shared<UpperBoundOrder>();
-  CLI::App* command =
-      add_set_command(app, "upper-bound", "Open the truth: what an ideal observer makes of the cases", order->set);
+  const auto [command, order] = cli::add_command<UpperBoundOrder>(
+      app, action, "upper-bound", "Open the truth: what an ideal observer makes of the cases", upper_bound_command);
+  add_set_to(*command, order->set);
   command->alias("ceiling");
   command->add_option("--out", order->out, "File for the bound [upper_bound.json in the validation set]");
   command->add_option("--cases", order->cases, "Numbers of cases, as 0001,0002 [all]")->delimiter(',');
   command->add_option("--sets", order->cases)->delimiter(',')->group("");
   command->add_flag("--detection", order->detection_alone,
                     "Whether each is to be seen, and not what it can be told from: a tenth of the time");
-  command->add_option("--threads", order->threads, "Cases at a time [as many as there are cores]")
-      ->check(CLI::Range(1, kMostThreads));
-  command->callback([order, &action] { action = [order] { return upper_bound_command(*order); }; });
+  add_threads_to(*command, kThreads, order->threads);
 }
 
 void add_follow_up(CLI::App& app, cli::Action& action) {
-  auto order = std::make_shared<FollowUpOrder>();
-  CLI::App* command = add_set_command(
-      app, "follow-up", "Open the truth: its cases again, with the follow-up tests that plan wrote", order->set);
+  const auto [command, order] = cli::add_command<FollowUpOrder>(
+      app, action, "follow-up", "Open the truth: its cases again, with the follow-up tests that plan wrote",
+      follow_up_command);
+  add_set_to(*command, order->set);
   command->alias("followup");
   command->add_flag("--drawn", order->drawn, "The tests drawn from the menu, not those proposed");
-  command->add_option("--threads", order->threads, "Cases at a time [as many as there are cores]")
-      ->check(CLI::Range(1, kMostThreads));
-  command->callback([order, &action] { action = [order] { return follow_up_command(*order); }; });
+  add_threads_to(*command, kThreads, order->threads);
 }
 
 }  // namespace

@@ -8,10 +8,13 @@
 
 namespace rollrig::validation {
 
-CLI::App* add_set_command(CLI::App& app, const std::string& name, const std::string& what, std::string& set) {
-  CLI::App* command = app.add_subcommand(name, what);
-  command->add_option("set", set, "Folder made by rollrig_validation make")->required();
-  return command;
+void add_set_to(CLI::App& command, std::string& set) {
+  command.add_option("set", set, "Folder made by rollrig_validation make")->required();
+}
+
+void add_threads_to(CLI::App& command, const std::string& what, int& threads) {
+  constexpr int kMostThreads = 1024;
+  command.add_option("--threads", threads, what)->check(CLI::Range(1, kMostThreads));
 }
 
 std::string place_in(const std::string& set, const std::string& name, const std::string& given) {

@@ -2,7 +2,6 @@
 
 #include <iostream>
 #include <map>
-#include <memory>
 
 #include "cli/progress.h"
 #include "sim/core/text.h"
@@ -50,17 +49,16 @@ int plan_command(Options options) {
 }  // namespace
 
 void add_plan_command(CLI::App& app, cli::Action& action) {
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = cli::add_command<Options>(
+      app, action, "plan",
+      "Write the follow-up test of each case whose causes cannot be told apart, the truth unopened, for follow-up",
+      plan_command);
   PlanOrder& order = options->order;
-  CLI::App* command = add_set_command(app, "plan",
-                                      "Write the follow-up test of each case whose causes cannot be told apart, the "
-                                      "truth unopened, for follow-up",
-                                      order.set);
+  add_set_to(*command, order.set);
   command->add_option("--answers", order.answers, "Folder of the answers [answers in the validation set]");
   command->add_flag("--drawn", options->drawn, "A test drawn from the menu for each, instead of the proposed one");
   command->add_option("--seed", order.seed, "Of what is drawn [1]");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
-  command->callback([options, &action] { action = [options] { return plan_command(*options); }; });
 }
 
 }  // namespace rollrig::validation

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <memory>
 
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
@@ -41,12 +40,11 @@ int release_check_command(const Options& options) {
 }  // namespace
 
 void add_release_check_command(CLI::App& app, cli::Action& action) {
-  CLI::App* command = app.add_subcommand(
-      "release-check", "Compare what decides a diagnosis with what it was when a validation set was answered");
-  auto options = std::make_shared<Options>();
+  const auto [command, options] = cli::add_command<Options>(
+      app, action, "release-check",
+      "Compare what decides a diagnosis with what it was when a validation set was answered", release_check_command);
   command->add_option("record", options->record, "File with the settings of that validation set")->required();
   command->add_flag("--write", options->write, "Write the settings of this program to that file instead");
-  command->callback([options, &action] { action = [options] { return release_check_command(*options); }; });
 }
 
 }  // namespace rollrig::validation
