@@ -10,7 +10,7 @@
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 #include "validation/program/commands.h"
-#include "validation/scoring/baselines/comparison.h"
+#include "validation/scoring/baselines/baselines.h"
 #include "validation/scoring/report.h"
 
 namespace fs = std::filesystem;

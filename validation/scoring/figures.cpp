@@ -1,9 +1,8 @@
-#include "validation/scoring/figures.h"
-
 #include <algorithm>
 #include <functional>
 
 #include "validation/scoring/ideal_observer.h"
+#include "validation/scoring/score.h"
 
 namespace rollrig::validation {
 namespace {

@@ -102,82 +102,48 @@ PlannedTest draw_test(std::vector<PlannedTest> menu, std::uint64_t seed, const s
   return menu.at(static_cast<std::size_t>(draws.uniform() * static_cast<double>(menu.size())));
 }
 
-class Planning {
- public:
-  explicit Planning(const PlanOrder& order)
-      : order_(order), folder_((fs::path(order.set) / folder_of(order.choice)).string()), out_(folder_, true) {
-    require_new_folder(folder_, "plan");
+std::vector<Answer> read_answers(const PlanOrder& order) {
+  std::vector<Answer> answers;
+  const std::vector<std::string> numbers = list_cases(order.set);
+  for (const std::string& number : numbers) {
+    std::optional<Answer> answer = find_answer_to(order.set, order.answers, number);
+    if (answer.has_value()) answers.push_back(*std::move(answer));
   }
+  require_answers(numbers.size() - answers.size(), numbers.size(), order.answers,
+                  "rollrig_validation run " + order.set);
+  return answers;
+}
 
-  std::vector<FollowUpPlan> run() {
-    const std::vector<Answer> answers = read_answers();
-    for (const Answer& answer : answers) {
-      if (leaves_open(answer)) plan(answer);
-      if (order_.progress) order_.progress(++done_, answers.size());
-    }
-    Json sets = Json::array();
-    for (const FollowUpPlan& one : plans_) {
-      sets.push_back({{"set", one.number},
-                      {"set_sha256", one.set_sha256},
-                      {"named", one.named},
-                      {"test", one.test},
-                      {"not_made", one.not_made}});
-    }
-    const Json all = {{"format", kPlansFormat}, {"choice", folder_of(order_.choice)}, {"sets", sets}};
-    out_.add("plans.json", all.dump(1) + "\n");
-    out_.commit();
-    return plans_;
+void write_test(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test, OutputFolder& out) {
+  diagnosis::Diagnosis of;
+  of.next_test = {
+      {test.description, {}, 0.0, test.hours, test.soaked, test.extra.force_at_standstill, test.by_hand, test.runs}};
+  const std::string folder = "plans/" + plan.number + "/";
+  for (auto& [name, content] : diagnosis::write_plan(set, of)) {
+    if (fs::path(name).extension() == ".csv") out.add(folder + name, content);
   }
+  out.add(folder + "plan.json", make_plan_json(plan, set, test).dump(1) + "\n");
+}
 
- private:
-  std::vector<Answer> read_answers() const {
-    std::vector<Answer> answers;
-    const std::vector<std::string> numbers = list_cases(order_.set);
-    for (const std::string& number : numbers) {
-      std::optional<Answer> answer = find_answer_to(order_.set, order_.answers, number);
-      if (answer.has_value()) answers.push_back(*std::move(answer));
-    }
-    require_answers(numbers.size() - answers.size(), numbers.size(), order_.answers,
-                    "rollrig_validation run " + order_.set);
-    return answers;
+/// The next test of a case, written where it can be made.
+FollowUpPlan plan_case(const PlanOrder& order, const Answer& answer, OutputFolder& out) {
+  FollowUpPlan plan{answer.number, answer.set_sha256, list_named(answer.diagnosis), "", ""};
+  const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
+  const MeasurementSet set = measurements::read_measurement_set(case_folder(order.set, plan.number));
+  if (order.choice == Choice::kProposed && proposed.empty()) {
+    plan.not_made = "no test is proposed";
+    return plan;
   }
-
-  void plan(const Answer& answer) {
-    FollowUpPlan one{answer.number, answer.set_sha256, list_named(answer.diagnosis), "", ""};
-    const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
-    const MeasurementSet set = measurements::read_measurement_set(case_folder(order_.set, one.number));
-    if (order_.choice == Choice::kProposed && proposed.empty()) {
-      one.not_made = "no test is proposed";
-    } else {
-      std::vector<PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
-      if (order_.choice == Choice::kProposed) one.test = proposed.front().test;
-      const PlannedTest test = order_.choice == Choice::kDrawn
-                                   ? draw_test(std::move(menu), order_.seed, one.number)
-                                   : find_test(std::move(menu), one, answer_file(order_.answers, one.number));
-      one.test = test.description;
-      one.not_made = find_obstacle(test);
-      if (one.not_made.empty()) write(one, set, test);
-    }
-    plans_.push_back(std::move(one));
-  }
-
-  void write(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test) {
-    diagnosis::Diagnosis of;
-    of.next_test = {
-        {test.description, {}, 0.0, test.hours, test.soaked, test.extra.force_at_standstill, test.by_hand, test.runs}};
-    const std::string folder = "plans/" + plan.number + "/";
-    for (auto& [name, content] : diagnosis::write_plan(set, of)) {
-      if (fs::path(name).extension() == ".csv") out_.add(folder + name, content);
-    }
-    out_.add(folder + "plan.json", make_plan_json(plan, set, test).dump(1) + "\n");
-  }
-
-  const PlanOrder& order_;
-  std::string folder_;
-  OutputFolder out_;
-  std::vector<FollowUpPlan> plans_;
-  std::size_t done_ = 0;
-};
+  std::vector<PlannedTest> menu = make_test_menu(diagnosis::PreparedSet(set));
+  if (order.choice == Choice::kProposed) plan.test = proposed.front().test;
+  const PlannedTest test = order.choice == Choice::kDrawn
+                               ? draw_test(std::move(menu), order.seed, plan.number)
+                               : find_test(std::move(menu), plan, answer_file(order.answers, plan.number));
+  plan.test = test.description;
+  plan.not_made = find_obstacle(test);
+  if (plan.not_made.empty()) write_test(plan, set, test, out);
+  return plan;
+}
 
 std::vector<FollowUpPlan> read_plans(const std::string& folder) {
   const std::string file = (fs::path(folder) / "plans.json").string();
@@ -229,7 +195,29 @@ bool FollowUp::is_promised(const Answer& before) const {
   return said >= 2;
 }
 
-std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) { return Planning(order).run(); }
+std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) {
+  const std::string folder = (fs::path(order.set) / folder_of(order.choice)).string();
+  OutputFolder out(folder, true);
+  require_new_folder(folder, "plan");
+  const std::vector<Answer> answers = read_answers(order);
+  std::vector<FollowUpPlan> plans;
+  Json sets = Json::array();
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (leaves_open(answers[i])) {
+      const FollowUpPlan& plan = plans.emplace_back(plan_case(order, answers[i], out));
+      sets.push_back({{"set", plan.number},
+                      {"set_sha256", plan.set_sha256},
+                      {"named", plan.named},
+                      {"test", plan.test},
+                      {"not_made", plan.not_made}});
+    }
+    if (order.progress) order.progress(i + 1, answers.size());
+  }
+  const Json all = {{"format", kPlansFormat}, {"choice", folder_of(order.choice)}, {"sets", sets}};
+  out.add("plans.json", all.dump(1) + "\n");
+  out.commit();
+  return plans;
+}
 
 void read_follow_ups(const std::string& set, Choice choice, const std::string& folder, std::vector<Case>& cases) {
   if (folder.empty()) return;

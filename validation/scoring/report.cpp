@@ -110,15 +110,9 @@ std::string format_missed(const std::vector<Case>& missed) {
 
 std::string format_value(const Figure& figure, const std::optional<double>& value) {
   if (!value.has_value()) return "-";
-  switch (figure.unit) {
-    case Unit::kPercent:
-      return fmt::format("{:.4g}", std::round(1000.0 * *value) / 10.0);
-    case Unit::kSeconds:
-      return *value < 1.0 ? fmt::format("{:.2f} s", *value) : fmt::format("{:.3g} s", *value);
-    case Unit::kNumber:
-      break;
-  }
-  return fmt::format("{:.3g}", *value);
+  if (figure.unit == Unit::kPercent) return fmt::format("{:.4g}", std::round(1000.0 * *value) / 10.0);
+  if (figure.unit == Unit::kNumber) return fmt::format("{:.3g}", *value);
+  return *value < 1.0 ? fmt::format("{:.2f} s", *value) : fmt::format("{:.3g} s", *value);
 }
 
 std::string format_interval(const Figure& figure) {

@@ -10,15 +10,8 @@ Json number(const std::optional<double>& value) {
 }
 
 const char* name_of(Unit unit) {
-  switch (unit) {
-    case Unit::kPercent:
-      return "share";
-    case Unit::kSeconds:
-      return "s";
-    case Unit::kNumber:
-      break;
-  }
-  return "1";
+  if (unit == Unit::kNumber) return "1";
+  return unit == Unit::kPercent ? "share" : "s";
 }
 
 Json make_figure(const Figure& figure) {

@@ -2,7 +2,6 @@
 
 #include <ctime>
 
-#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <mutex>
@@ -50,57 +49,21 @@ void diagnose(const std::string& folder, const AnswerBy& answer_by, Answer& answ
   answer.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-class CaseRun {
- public:
-  explicit CaseRun(const RunOrder& order) : order_(order), program_(hash_program()) {
-    for (std::size_t i = order.rank; i < order.tasks.size(); i += order.ranks) own_.push_back(order.tasks[i]);
+/// The answer to a task, and whether it was there before: one that still holds, else one made and written now.
+std::pair<Answer, bool> answer_task(const RunOrder& order, const Task& task, const std::string& program) {
+  const std::string folder = case_folder(order.set, task.number);
+  Answer answer;
+  answer.number = task.number;
+  answer.set_sha256 = hash_case(folder);
+  answer.settings = {program, task.only, task.without};
+  std::optional<Answer> before = find_answer(order.out, task.number);
+  if (before && before->set_sha256 == answer.set_sha256 && before->settings == answer.settings) {
+    return {*std::move(before), true};
   }
-
-  RunTally run() {
-    try {
-      parallel_for(own_.size(), order_.threads, [this](std::size_t i) { answer(own_[i]); });
-    } catch (const Interrupted&) {
-      interrupted_ = true;
-    }
-    return {kept_, made_, failures_, interrupted_};
-  }
-
- private:
-  void answer(const Task& task) {
-    throw_if_interrupted();
-    const std::string folder = case_folder(order_.set, task.number);
-    Answer answer;
-    answer.number = task.number;
-    answer.set_sha256 = hash_case(folder);
-    answer.settings = {program_, task.only, task.without};
-    const std::optional<Answer> before = find_answer(order_.out, task.number);
-    if (before && before->set_sha256 == answer.set_sha256 && before->settings == answer.settings) {
-      ++kept_;
-      note_failure(*before);
-    } else {
-      diagnose(folder, order_.answer_by, answer);
-      write_answer(order_.out, answer);
-      ++made_;
-      note_failure(answer);
-    }
-    if (order_.progress) order_.progress(kept_ + made_, own_.size());
-  }
-
-  void note_failure(const Answer& answer) {
-    if (answer.failure.empty()) return;
-    const std::lock_guard<std::mutex> lock(failures_mutex_);
-    failures_[answer.number] = answer.failure;
-  }
-
-  const RunOrder& order_;
-  std::string program_;
-  std::vector<Task> own_;
-  std::atomic<std::size_t> kept_{0};
-  std::atomic<std::size_t> made_{0};
-  std::map<std::string, std::string> failures_;
-  std::mutex failures_mutex_;
-  bool interrupted_ = false;
-};
+  diagnose(folder, order.answer_by, answer);
+  write_answer(order.out, answer);
+  return {std::move(answer), false};
+}
 
 }  // namespace
 
@@ -121,7 +84,24 @@ std::vector<Task> plan_tasks(const std::string& set, const std::vector<std::stri
 
 RunTally run_cases(const RunOrder& order) {
   make_folder(order.out);
-  return CaseRun(order).run();
+  std::vector<Task> own;
+  for (std::size_t i = order.rank; i < order.tasks.size(); i += order.ranks) own.push_back(order.tasks[i]);
+  const std::string program = hash_program();
+  RunTally tally;
+  std::mutex mutex;
+  try {
+    parallel_for(own.size(), order.threads, [&](std::size_t i) {
+      throw_if_interrupted();
+      const auto [answer, was_there] = answer_task(order, own[i], program);
+      const std::lock_guard<std::mutex> lock(mutex);
+      ++(was_there ? tally.kept : tally.made);
+      if (!answer.failure.empty()) tally.failures[answer.number] = answer.failure;
+      if (order.progress) order.progress(tally.kept + tally.made, own.size());
+    });
+  } catch (const Interrupted&) {
+    tally.interrupted = true;
+  }
+  return tally;
 }
 
 }  // namespace rollrig::validation

@@ -10,7 +10,6 @@
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
 #include "validation/files.h"
-#include "validation/scoring/figures.h"
 
 namespace fs = std::filesystem;
 

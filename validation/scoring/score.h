@@ -51,6 +51,12 @@ struct ScoreOptions {
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
 };
 
+/// What the answers state, of the cases that could be diagnosed.
+std::vector<Stated> list_stated(const std::vector<Case>& cases);
+
+/// Source  docs/validation.md, "Figures"
+std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options);
+
 /// The same figures of a baseline's answers.
 struct BaselineScore {
   std::string id;

@@ -5,7 +5,6 @@
 
 #include "sim/core/random.h"
 #include "tests/validation/scoring/validation_set_folder.h"
-#include "validation/scoring/baselines/comparison.h"
 #include "validation/scoring/run_cases.h"
 
 using namespace rollrig;

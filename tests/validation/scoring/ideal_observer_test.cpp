@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/validation/scoring/hand_made_cases.h"
-#include "validation/scoring/figures.h"
+#include "validation/scoring/score.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;

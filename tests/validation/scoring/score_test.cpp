@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "tests/validation/scoring/hand_made_cases.h"
-#include "validation/scoring/baselines/comparison.h"
+#include "validation/scoring/baselines/baselines.h"
 #include "validation/scoring/report.h"
 
 using namespace rollrig;

@@ -45,21 +45,19 @@ struct Examples {
   std::vector<std::size_t> offsets;  // which offset of a sensor a value holds
   std::vector<double> offset_sds;    // of that, in noise floors
 
-  GaussianProcess learn() const;
-};
-
-GaussianProcess Examples::learn() const {
-  const Eigen::Index count = at(values.size());
-  Eigen::MatrixXd rows(count, kInputs);
-  Eigen::MatrixXd noise = Eigen::MatrixXd::Identity(count, count);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    rows.row(at(i)) = inputs[i];
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if (offsets[i] == offsets[k]) noise(at(i), at(k)) += offset_sds[i] * offset_sds[k];
+  GaussianProcess learn() const {
+    const Eigen::Index count = at(values.size());
+    Eigen::MatrixXd rows(count, kInputs);
+    Eigen::MatrixXd noise = Eigen::MatrixXd::Identity(count, count);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      rows.row(at(i)) = inputs[i];
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        if (offsets[i] == offsets[k]) noise(at(i), at(k)) += offset_sds[i] * offset_sds[k];
+      }
     }
+    return {std::move(rows), Eigen::Map<const Eigen::VectorXd>(values.data(), count), noise};
   }
-  return {std::move(rows), Eigen::Map<const Eigen::VectorXd>(values.data(), count), noise};
-}
+};
 
 /// Adds a series, so many blocks of one phase at a time as their mean.
 void add_means(const PreparedSet& set, const Series& series, const Eigen::VectorXd& difference, std::size_t blocks,
