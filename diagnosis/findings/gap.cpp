@@ -39,6 +39,12 @@ OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
 struct Stretch {
   double above = 0.0;
   double blocks = 0.0;
+
+  void add(const Stretch& other) {
+    above += other.above;
+    blocks += other.blocks;
+  }
+  double gap() const { return blocks > 0.0 ? std::sqrt(std::max(0.0, above / blocks)) : 0.0; }
 };
 
 /// What is left of some runs.
@@ -57,24 +63,16 @@ void add_run(const PreparedSet& set, std::size_t run, const Eigen::VectorXd& dif
       const double d = difference[at(series.first_residual + k)] - fit.offset;
       const double sd = series.whitener.standard_deviation(k);
       const double above = d * d - std::max(0.0, sd * sd - fit.offset_variance);
-      Stretch& stretch = measure.stretches[{run, series.phase[k]}];
-      stretch.above += above / (series.floor * series.floor);
-      stretch.blocks += 1.0;
-      measure.channels[series.channel].above += above;
-      measure.channels[series.channel].blocks += 1.0;
+      measure.stretches[{run, series.phase[k]}].add({above / (series.floor * series.floor), 1.0});
+      measure.channels[series.channel].add({above, 1.0});
     }
   }
 }
 
-double gap_of(double above, double blocks) { return blocks > 0.0 ? std::sqrt(std::max(0.0, above / blocks)) : 0.0; }
-
 double gap_of(const Measure& measure) {
   Stretch sum;
-  for (const auto& [where, stretch] : measure.stretches) {
-    sum.above += stretch.above;
-    sum.blocks += stretch.blocks;
-  }
-  return gap_of(sum.above, sum.blocks);
+  for (const auto& [where, stretch] : measure.stretches) sum.add(stretch);
+  return sum.gap();
 }
 
 /// What the cause changes in a run, whitened, in squares.
@@ -127,14 +125,12 @@ Shrinkage resample(const Measure& before, const Measure& after) {
     Stretch sum_after;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
       const auto drawn = static_cast<std::size_t>(random.uniform() * static_cast<double>(stretches.size()));
-      sum_before.above += stretches[drawn].first.above;
-      sum_before.blocks += stretches[drawn].first.blocks;
-      sum_after.above += stretches[drawn].second.above;
-      sum_after.blocks += stretches[drawn].second.blocks;
+      sum_before.add(stretches[drawn].first);
+      sum_after.add(stretches[drawn].second);
     }
-    const double was = gap_of(sum_before.above, sum_before.blocks);
+    const double was = sum_before.gap();
     if (was > 0.0) {
-      percents.push_back(shrink_percent(was, gap_of(sum_after.above, sum_after.blocks)));
+      percents.push_back(shrink_percent(was, sum_after.gap()));
     } else {
       ++not_above;
     }
@@ -203,7 +199,7 @@ std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& bef
     const ReportUnit unit = find_report_unit(set, set.channels()[c]);
     const auto in_unit = [&](const Measure& measure) {
       if (measure.channels.empty()) return 0.0;  // no run could be simulated
-      return unit.per_SI * gap_of(measure.channels[c].above, measure.channels[c].blocks);
+      return unit.per_SI * measure.channels[c].gap();
     };
     channels.push_back({set.channels()[c], unit.symbol, in_unit(before), in_unit(after)});
   }

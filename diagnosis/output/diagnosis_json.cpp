@@ -73,15 +73,8 @@ Json make_lone_run(const std::optional<LoneRun>& lone) {
 }  // namespace
 
 const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kNoGap:
-      return "no_gap";
-    case Verdict::kExplained:
-      return "explained";
-    case Verdict::kUnexplained:
-      return "unexplained";
-  }
-  return "";
+  if (verdict == Verdict::kNoGap) return "no_gap";
+  return verdict == Verdict::kExplained ? "explained" : "unexplained";
 }
 
 Json make_diagnosis_json(const Diagnosis& diagnosis) {

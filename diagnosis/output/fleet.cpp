@@ -66,15 +66,8 @@ std::string format_troubles(const Fleet& fleet) {
 }
 
 const char* word_of(Shared shared) {
-  switch (shared) {
-    case Shared::kMachine:
-      return "machine";
-    case Shared::kTire:
-      return "tire";
-    case Shared::kMachineAndTire:
-      return "machine or tire";
-  }
-  return "";
+  if (shared == Shared::kMachineAndTire) return "machine or tire";
+  return shared == Shared::kMachine ? "machine" : "tire";
 }
 
 std::string describe(const Recurrence& one) {

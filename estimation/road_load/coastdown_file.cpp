@@ -32,26 +32,6 @@ const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "r
                                            "use",      "heading",  "session", "start_time"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
 
-/// "+" and "-" as they are; degrees against the first heading of the file.
-class HeadingReader {
- public:
-  int read(const CsvTable& table, std::size_t row, const std::string& cell) {
-    std::string text = boost::algorithm::trim_copy(cell);
-    if (text == "\xE2\x88\x92") text = "-";  // the minus sign of typesetting
-    if (text == "+" || text == "+1") return +1;
-    if (text == "-" || text == "-1") return -1;
-    const std::optional<double> degrees = parse_number(text);
-    if (!degrees.has_value()) {
-      throw table.cell_error(row, "heading", "not a heading", "+ or -, or degrees");
-    }
-    if (!first_deg_.has_value()) first_deg_ = *degrees;
-    return std::cos((*degrees - *first_deg_) * boost::math::constants::degree<double>()) >= 0.0 ? +1 : -1;
-  }
-
- private:
-  std::optional<double> first_deg_;
-};
-
 /// "13:29:42.5" or seconds.
 std::optional<double> parse_clock_s(const std::string& text) {
   std::vector<std::string> parts;
@@ -116,7 +96,7 @@ class RunSorter {
     }
     CoastdownRun& run = data_.runs[it->second];
     if (!table_.has("heading")) return run;
-    const int heading = heading_.read(table_, row, headings_[row]);
+    const int heading = read_heading(row);
     if (!is_new && heading != run.heading) {
       throw table_.cell_error(row, "heading", fmt::format("run '{}' changes its heading", id), "one heading a run");
     }
@@ -125,11 +105,22 @@ class RunSorter {
   }
 
  private:
+  /// "+" and "-" as they are; degrees against the first heading of the file.
+  int read_heading(std::size_t row) {
+    const std::string text = boost::algorithm::trim_copy(headings_[row]);
+    if (text == "+" || text == "+1") return +1;
+    if (text == "-" || text == "-1" || text == "\xE2\x88\x92") return -1;  // the last is the minus sign of typesetting
+    const std::optional<double> degrees = parse_number(text);
+    if (!degrees.has_value()) throw table_.cell_error(row, "heading", "not a heading", "+ or -, or degrees");
+    if (!first_heading_deg_.has_value()) first_heading_deg_ = *degrees;
+    return std::cos((*degrees - *first_heading_deg_) * boost::math::constants::degree<double>()) >= 0.0 ? +1 : -1;
+  }
+
   const CsvTable& table_;
   CoastdownData& data_;
   std::vector<std::string> runs_, headings_, sessions_;
   std::map<std::pair<std::string, std::string>, std::size_t> index_;
-  HeadingReader heading_;
+  std::optional<double> first_heading_deg_;
   int unnamed_ = 0;
 };
 

@@ -41,15 +41,9 @@ void put_points(const CoastdownProblem& problem, const VectorXd& coefficients, c
       const FitBin& bin = run.bins[k];
       const CoastdownModel::Passage passage = problem.model.pass(run, bin, coefficients);
       const double impulse = problem.model.mass_kg() * (bin.high_m_s - bin.low_m_s);
-      RoadLoadPoint point{run.index,
-                          bin.high_m_s,
-                          bin.low_m_s,
-                          durations[k],
-                          passage.mean_speed_m_s,
-                          impulse / durations[k],
-                          impulse / passage.duration_s,
-                          0.0,
-                          0.0};
+      RoadLoadPoint point{run.index, bin.high_m_s, bin.low_m_s, durations[k], passage.mean_speed_m_s};
+      point.force_N = impulse / durations[k];
+      point.fit_N = impulse / passage.duration_s;
       point.residual_N = point.force_N - point.fit_N;
       double variance = 0.0;
       const auto row = static_cast<Index>(k);

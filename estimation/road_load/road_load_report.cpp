@@ -125,15 +125,8 @@ std::string road_load_key(int i, bool per_mass) {
 double road_load_in_file_unit(int i, double si_value) { return unit_of_key(road_load_key(i, false)).from_si(si_value); }
 
 const char* name_of(CheckStatus status) {
-  switch (status) {
-    case CheckStatus::kPass:
-      return "pass";
-    case CheckStatus::kFail:
-      return "fail";
-    case CheckStatus::kNotChecked:
-      break;
-  }
-  return "not checked";
+  if (status == CheckStatus::kNotChecked) return "not checked";
+  return status == CheckStatus::kPass ? "pass" : "fail";
 }
 
 Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& options, const RoadLoadFit& fit,
