@@ -30,9 +30,6 @@ void run_scenario(benchmark::State& state, const char* fidelity) {
   state.counters["peak_MB"] = find_peak_MB();
 }
 
-void quasi_static_iso_run(benchmark::State& state) { run_scenario(state, "quasi_static"); }
-void multibody_iso_run(benchmark::State& state) { run_scenario(state, "multibody"); }
-
 /// One evaluation of all rates, with the state moved so that nothing is cached.
 template <class System>
 void evaluate_rates(benchmark::State& state, System& system) {
@@ -69,8 +66,8 @@ void quasi_static_rates(benchmark::State& state) {
 
 BENCHMARK(quasi_static_rates);
 BENCHMARK(multibody_rates);
-BENCHMARK(quasi_static_iso_run)->Unit(benchmark::kMillisecond);
-BENCHMARK(multibody_iso_run)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_scenario, quasi_static, "quasi_static")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_scenario, multibody, "multibody")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

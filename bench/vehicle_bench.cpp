@@ -64,21 +64,14 @@ void coastdown(benchmark::State& state, const char* fidelity, const char* scenar
 
 const std::vector<std::string> kSource{"variant=source", "wheels=1"};
 
-void city_cycle_quarter_multibody(benchmark::State& state) { city_cycle(state, "multibody"); }
-void city_cycle_quarter_quasi_static(benchmark::State& state) { city_cycle(state, "quasi_static"); }
-void multi_cycle_quarter_multibody(benchmark::State& state) { run_scenario(state, "sae_j1634", "multibody", kSource); }
-void multi_cycle_quarter_quasi_static(benchmark::State& state) {
-  run_scenario(state, "sae_j1634", "quasi_static", kSource);
-}
-void coastdown_rollers_multibody(benchmark::State& state) { coastdown(state, "multibody", "dyno_setting"); }
-void coastdown_road_multibody(benchmark::State& state) { coastdown(state, "multibody", "coastdown"); }
-
-BENCHMARK(city_cycle_quarter_multibody)->Unit(benchmark::kMillisecond);
-BENCHMARK(city_cycle_quarter_quasi_static)->Unit(benchmark::kMillisecond);
-BENCHMARK(multi_cycle_quarter_multibody)->Unit(benchmark::kMillisecond);
-BENCHMARK(multi_cycle_quarter_quasi_static)->Unit(benchmark::kMillisecond);
-BENCHMARK(coastdown_rollers_multibody)->Unit(benchmark::kMillisecond);
-BENCHMARK(coastdown_road_multibody)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(city_cycle, quarter_multibody, "multibody")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(city_cycle, quarter_quasi_static, "quasi_static")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_scenario, multi_cycle_quarter_multibody, "sae_j1634", "multibody", kSource)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run_scenario, multi_cycle_quarter_quasi_static, "sae_j1634", "quasi_static", kSource)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(coastdown, rollers_multibody, "multibody", "dyno_setting")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(coastdown, road_multibody, "multibody", "coastdown")->Unit(benchmark::kMillisecond);
 
 }  // namespace
 
