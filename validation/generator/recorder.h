@@ -44,6 +44,14 @@ struct RunRecord {
   double sample(const Signal& signal, std::size_t row, double shift_s = 0.0) const;
 };
 
+/// Makes an effect that changes each row of a record by itself.
+template <class Law>
+void trace_rows(Making& of, Law law) {
+  of.effect.trace = [law](RunRecord& record) {
+    for (std::size_t row = 0; row < record.time_s.size(); ++row) law(record, row);
+  };
+}
+
 constexpr double kMargin_s = 30.0;
 
 /// Simulates a run by linearly implicit Rosenbrock steps of order 4: on a drum of free size, restarted at each event;

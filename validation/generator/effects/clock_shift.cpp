@@ -15,11 +15,8 @@ void shift_row(RunRecord& record, std::size_t row, double shift_s) {
 void make_rate(Making& of) {
   const double late_s = of.size;
   const double rate = late_s == 0.0 ? 0.0 : 1e-6 * of.draw("rate_per_million", uniform(-60.0, 60.0));
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      shift_row(record, row, -late_s + rate * record.time_s[row]);
-    }
-  };
+  trace_rows(of,
+             [=](RunRecord& record, std::size_t row) { shift_row(record, row, -late_s + rate * record.time_s[row]); });
 }
 
 /// A clock that drifts and is set anew each some minutes: d (1 + a saw(t)), saw from -1 to 1.
@@ -28,13 +25,11 @@ void make_set_anew(Making& of) {
   const double swing = of.draw("swing_over_size", uniform(0.04, 0.14));
   const double period_s = of.draw_min("set_each_min", uniform(4.0, 20.0));
   const double phase = of.draws.uniform();
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double turns = record.time_s[row] / period_s + phase;
-      const double saw = 2.0 * (turns - std::floor(turns)) - 1.0;
-      shift_row(record, row, -late_s * (1.0 + swing * saw));
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double turns = record.time_s[row] / period_s + phase;
+    const double saw = 2.0 * (turns - std::floor(turns)) - 1.0;
+    shift_row(record, row, -late_s * (1.0 + swing * saw));
+  });
 }
 
 }  // namespace

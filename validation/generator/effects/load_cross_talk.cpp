@@ -12,24 +12,19 @@ namespace {
 void make_bending(Making& of) {
   const double fixed = 1e-3 * of.size;
   const double bending = of.draw("bending_share", uniform(0.0, 0.5));
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double load_N = record.load_N[row];
-      const double gives_way = std::sqrt(std::max(0.0, load_N) / record.specimen->reference_load_N);
-      const double angle = fixed * (1.0 - bending + bending * gives_way);
-      record.force[row] += record.lever * load_N * std::sin(angle);
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double load_N = record.load_N[row];
+    const double gives_way = std::sqrt(std::max(0.0, load_N) / record.specimen->reference_load_N);
+    const double angle = fixed * (1.0 - bending + bending * gives_way);
+    record.force[row] += record.lever * load_N * std::sin(angle);
+  });
 }
 
 /// One angle at every load.
 void make_fixed(Making& of) {
   const double sine = std::sin(1e-3 * of.size);
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      record.force[row] += record.lever * record.load_N[row] * sine;
-    }
-  };
+  trace_rows(
+      of, [=](RunRecord& record, std::size_t row) { record.force[row] += record.lever * record.load_N[row] * sine; });
 }
 
 }  // namespace

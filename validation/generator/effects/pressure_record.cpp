@@ -9,23 +9,19 @@ namespace {
 void make_warming(Making& of) {
   const double offset_kPa = of.size;
   const double per_K = of.draw("share_per_K", uniform(-0.004, 0.004));
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      record.pressure_kPa[row] += offset_kPa * (1.0 + per_K * (record.liner_degC[row] - 35.0));
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    record.pressure_kPa[row] += offset_kPa * (1.0 + per_K * (record.liner_degC[row] - 35.0));
+  });
 }
 
 /// e x (1 + q (x - 1)), x the pressure over the reference pressure.
 void make_scale(Making& of) {
   const double offset_kPa = of.size;
   const double bend = of.draw("bend", uniform(-0.8, -0.2));
-  of.effect.trace = [=](RunRecord& record) {
-    for (double& pressure_kPa : record.pressure_kPa) {
-      const double x = pressure_kPa / record.specimen->reference_pressure_kPa;
-      pressure_kPa += offset_kPa * x * (1.0 + bend * (x - 1.0));
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double x = record.pressure_kPa[row] / record.specimen->reference_pressure_kPa;
+    record.pressure_kPa[row] += offset_kPa * x * (1.0 + bend * (x - 1.0));
+  });
 }
 
 }  // namespace

@@ -10,13 +10,11 @@ void make_speed_interference(Making& of) {
   const double peak_N = of.size;
   const double speed_km_h = of.draw("speed_km_h", of.draws.happens(0.6) ? uniform(70.0, 90.0) : uniform(45.0, 115.0));
   const double width_km_h = of.draw("width_km_h", uniform(4.0, 15.0));
-  of.effect.trace = [=](RunRecord& record) {
-    const double of_vehicle = record.specimen->machine->has_vehicle() ? 25.0 : 1.0;  // a motor's whole force
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double off = (record.speed_km_h[row] - speed_km_h) / width_km_h;
-      record.force[row] += of_vehicle * record.lever * peak_N * (1.0 - 0.6 * off) / (1.0 + off * off);
-    }
-  };
+  const double of_vehicle = of.specimen.machine->has_vehicle() ? 25.0 : 1.0;  // a motor's whole force
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double off = (record.speed_km_h[row] - speed_km_h) / width_km_h;
+    record.force[row] += of_vehicle * record.lever * peak_N * (1.0 - 0.6 * off) / (1.0 + off * off);
+  });
 }
 
 }  // namespace

@@ -12,23 +12,19 @@ constexpr double kReference_N = 60.0;
 void make_bent(Making& of) {
   const double gain = 0.01 * of.size;
   const double bend = of.draw("bend_at_60_N", uniform(0.0, 0.3));
-  of.effect.trace = [=](RunRecord& record) {
-    for (double& force : record.force) {
-      const double share = std::abs(force) / (record.lever * kReference_N);
-      force += gain * force * (1.0 + bend) / (1.0 + bend * share);
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double share = std::abs(record.force[row]) / (record.lever * kReference_N);
+    record.force[row] += gain * record.force[row] * (1.0 + bend) / (1.0 + bend * share);
+  });
 }
 
 /// Scale whose error moves with the air by up to 1 % of it per K (assumed).
 void make_with_air(Making& of) {
   const double gain = 0.01 * of.size;
   const double per_K = of.draw("share_per_K", uniform(-0.01, 0.01));
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.force.size(); ++row) {
-      record.force[row] += gain * (1.0 + per_K * (record.ambient_degC[row] - 25.0)) * record.force[row];
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    record.force[row] += gain * (1.0 + per_K * (record.ambient_degC[row] - 25.0)) * record.force[row];
+  });
 }
 
 }  // namespace

@@ -14,13 +14,11 @@ void make_amplifier(Making& of) {
   const double time_s = of.draw_min("time_constant_min", log_normal(25.0, 120.0, 15.0, 240.0));
   const double air = of.draw("N_per_K_of_air_over_size", uniform(-0.4, 0.4));
   const double final_N = rate_N_per_10min * kSpan_s / 600.0 / (1.0 - std::exp(-kSpan_s / time_s));
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double amplifier_N = final_N * (1.0 - std::exp(-record.time_s[row] / time_s));
-      const double air_N = air * rate_N_per_10min * (record.ambient_degC[row] - record.ambient_degC.front());
-      record.force[row] += record.lever * (amplifier_N + air_N);
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double amplifier_N = final_N * (1.0 - std::exp(-record.time_s[row] / time_s));
+    const double air_N = air * rate_N_per_10min * (record.ambient_degC[row] - record.ambient_degC.front());
+    record.force[row] += record.lever * (amplifier_N + air_N);
+  });
 }
 
 /// Zero that creeps with ln(1 + t/tau), as strain gauges and their glue do.
@@ -29,12 +27,10 @@ void make_creep(Making& of) {
   const double onset_s = of.draw_min("onset_min", uniform(3.0, 20.0));  // Assumed
   const double air = of.draw("N_per_K_of_air_over_size", uniform(-0.4, 0.4));
   const double scale_N = rate_N_per_10min * kSpan_s / 600.0 / std::log1p(kSpan_s / onset_s);
-  of.effect.trace = [=](RunRecord& record) {
-    for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-      const double air_N = air * rate_N_per_10min * (record.ambient_degC[row] - record.ambient_degC.front());
-      record.force[row] += record.lever * (scale_N * std::log1p(record.time_s[row] / onset_s) + air_N);
-    }
-  };
+  trace_rows(of, [=](RunRecord& record, std::size_t row) {
+    const double air_N = air * rate_N_per_10min * (record.ambient_degC[row] - record.ambient_degC.front());
+    record.force[row] += record.lever * (scale_N * std::log1p(record.time_s[row] / onset_s) + air_N);
+  });
 }
 
 }  // namespace
