@@ -33,7 +33,7 @@ std::string format_figures(const Score& score) {
   constexpr char kRow[] = "{:<33}{:>6} {:>13} {:>8} {:>9} {:>7}\n";
   std::string text = fmt::format(kRow, "figure", "value", "95 %", "cases", "target", "best b.");
   for (const Figure& figure : score.figures) {
-    text += fmt::format(kRow, figure.label, format_value(figure, figure.value), format_interval(figure),
+    text += fmt::format(kRow, figure.label, format_value(figure, figure.value), format_interval(figure.interval),
                         figure.value.has_value() ? format_cases(figure) : "", format_target(figure),
                         format_value(figure, figure.best_baseline));
     if (!figure.value.has_value()) text += wrap(figure.note, 4);
@@ -89,10 +89,9 @@ std::string format_reliability(const Reliability& reliability) {
   for (std::size_t i = 0; i < reliability.size(); ++i) {
     const ReliabilityBin& bin = reliability[i];
     if (bin.cases == 0) continue;
-    const Interval interval = calc_wilson_95(bin.right, bin.cases);
     text += fmt::format("{:<12}{:>6} {:>8.1f} % {:>6.1f} % {:>14}\n", fmt::format("{} to {} %", 10 * i, 10 * (i + 1)),
                         bin.cases, 100.0 * bin.mean_probability, 100.0 * bin.right_share(),
-                        fmt::format("{:.1f} to {:.1f}", 100.0 * interval.low, 100.0 * interval.high));
+                        format_interval(calc_wilson_95(bin.right, bin.cases)));
   }
   return text;
 }
@@ -115,9 +114,8 @@ std::string format_value(const Figure& figure, const std::optional<double>& valu
   return *value < 1.0 ? fmt::format("{:.2f} s", *value) : fmt::format("{:.3g} s", *value);
 }
 
-std::string format_interval(const Figure& figure) {
-  if (!figure.interval.has_value()) return "";
-  return fmt::format("{:.1f} to {:.1f}", 100.0 * figure.interval->low, 100.0 * figure.interval->high);
+std::string format_interval(const std::optional<Interval>& share) {
+  return share.has_value() ? fmt::format("{:.1f} to {:.1f}", 100.0 * share->low, 100.0 * share->high) : "";
 }
 
 std::optional<double> find_value(const BaselineScore& baseline, const Figure& figure) {

@@ -28,7 +28,7 @@ Json make_score_json(const Score& score);
 /// Value of a figure in its unit, "-" where there is none.
 std::string format_value(const Figure& figure, const std::optional<double>& value);
 /// Interval of a share in %, "" where there is none.
-std::string format_interval(const Figure& figure);
+std::string format_interval(const std::optional<Interval>& share);
 /// Value of a baseline's figure.
 std::optional<double> find_value(const BaselineScore& baseline, const Figure& figure);
 /// What a case's data and answer are, in one sentence each.

@@ -30,7 +30,8 @@ Table make_figures(const Score& score) {
     std::string baseline = format_value(figure, figure.best_baseline);
     if (figure.best_baseline.has_value()) baseline += fmt::format(" ({})", figure.best_baseline_id);
     table.rows.push_back(
-        {strip(figure.label), format_value(figure, figure.value) + (is_share ? " %" : ""), format_interval(figure),
+        {strip(figure.label), format_value(figure, figure.value) + (is_share ? " %" : ""),
+         format_interval(figure.interval),
          figure.interval.has_value() ? fmt::format("{} of {}", figure.k, figure.n) : fmt::format("{}", figure.n),
          show_bar(figure, figure.target), show_bar(figure, figure.floor), judge(figure), baseline,
          format_value(figure, figure.upper_bound)});
@@ -83,11 +84,10 @@ Table make_reliability(const Reliability& reliability) {
   for (std::size_t i = 0; i < reliability.size(); ++i) {
     const ReliabilityBin& bin = reliability[i];
     if (bin.cases == 0) continue;
-    const Interval interval = calc_wilson_95(bin.right, bin.cases);
     table.rows.push_back({fmt::format("{} to {} %", 10 * i, 10 * (i + 1)), fmt::format("{}", bin.cases),
                           fmt::format("{:.1f} %", 100.0 * bin.mean_probability),
                           fmt::format("{:.1f} %", 100.0 * bin.right_share()),
-                          fmt::format("{:.1f} to {:.1f}", 100.0 * interval.low, 100.0 * interval.high)});
+                          format_interval(calc_wilson_95(bin.right, bin.cases))});
   }
   return table;
 }
