@@ -71,9 +71,8 @@ std::string format_checks(const RoadLoadChecks& checks) {
   return text;
 }
 
-std::string format_fit(const std::string& path, const CoastdownFile& file,
-                       const estimation::RoadLoadFitOptions& options, const RoadLoadFit& fit,
-                       const RoadLoadChecks& checks) {
+std::string format_fit(const std::string& path, const CoastdownFile& file, const RoadLoadFitOptions& options,
+                       const RoadLoadFit& fit, const RoadLoadChecks& checks) {
   std::string text =
       wrap(fmt::format("fit road-load   {} ({})   {}, {}", path, file.is_trace ? "speed trace" : "times through bins",
                        format_count(file.data.runs.size(), "run"), format_count(fit.points.size(), "speed bin")),
@@ -111,8 +110,7 @@ void select_sessions(const std::vector<std::string>& wanted, CoastdownFile& file
 }
 
 /// The fit, its InputErrors with the file's name.
-RoadLoadFit fit_file(const std::string& path, const CoastdownFile& file,
-                     const estimation::RoadLoadFitOptions& options) {
+RoadLoadFit fit_file(const std::string& path, const CoastdownFile& file, const RoadLoadFitOptions& options) {
   try {
     return estimation::fit_road_load(file.data, options);
   } catch (const InputError& error) {
@@ -134,26 +132,10 @@ std::vector<ParameterEstimate> list_coefficients(const RoadLoadFit& fit) {
   return coefficients;
 }
 
-estimation::RoadLoadFitOptions make_options(const RoadLoadFitOptions& from) {
-  estimation::RoadLoadFitOptions to{from.mass_kg,
-                                    from.rotating_mass_kg,
-                                    from.drag_area_m2,
-                                    from.reference_temperature_K,
-                                    from.reference_pressure_Pa,
-                                    from.rolling_fall_per_K,
-                                    from.speed_from_m_s,
-                                    from.speed_to_m_s,
-                                    from.bin_width_m_s,
-                                    {}};
-  if (from.bounds.has_value()) to.bounds = estimation::RoadLoadBounds{from.bounds->lower, from.bounds->upper};
-  return to;
-}
-
 }  // namespace
 
-RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
+RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& options,
                        const std::vector<std::string>& sessions) {
-  const estimation::RoadLoadFitOptions options = make_options(given);
   const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path));
   select_sessions(sessions, *file);
   const auto fit = std::make_shared<RoadLoadFit>(fit_file(path, *file, options));

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "api/data.h"
 #include "diagnosis/checks/set_checks.h"
 #include "estimation/parameters.h"
@@ -55,7 +53,7 @@ std::string format_fit(const measurements::MeasurementSet& set, const estimation
 
 /// A fit follows whatever the columns say, so a suspicion that they say another thing is told beside its numbers, or
 /// beside the error that comes of it.
-estimation::TireFit fit_checked(const measurements::MeasurementSet& set, const estimation::FitOptions& options,
+estimation::TireFit fit_checked(const measurements::MeasurementSet& set, const TireFitOptions& options,
                                 const std::string& suspicion) {
   try {
     estimation::TireFit fit = estimation::fit_tire(set, options);
@@ -71,26 +69,13 @@ estimation::TireFit fit_checked(const measurements::MeasurementSet& set, const e
   }
 }
 
-estimation::FitOptions make_options(const TireFitOptions& options) {
-  estimation::FitOptions to;
-  to.load_map = options.load_map;
-  to.threads = options.threads;
-  if (options.free_H) to.free_H = true;
-  if (options.progress) {
-    to.progress = [show = options.progress](int iteration) {
-      show(std::nan(""), fmt::format("iteration {}", iteration));
-    };
-  }
-  return to;
-}
-
 }  // namespace
 
 TireFit fit_tire(const MeasurementSet& measured, const TireFitOptions& options) {
   const diagnosis::SetChecks checks = diagnosis::check_set(measured.data().set, options.threads);
   const auto set =
       std::make_shared<const measurements::MeasurementSet>(diagnosis::leave_out(measured.data().set, checks.left_out));
-  const auto fit = std::make_shared<estimation::TireFit>(fit_checked(*set, make_options(options), checks.suspicion));
+  const auto fit = std::make_shared<estimation::TireFit>(fit_checked(*set, options, checks.suspicion));
   if (!checks.left_out.empty()) {
     fit->warnings.emplace_back(
         "samples of stuck sensors or that stand alone were left out: rollrig validate tells which");

@@ -1,7 +1,11 @@
 #include "rollrig/measurement_set.h"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "api/data.h"
-#include "diagnosis/output/fleet.h"
+
+namespace fs = std::filesystem;
 
 namespace rollrig {
 
@@ -24,10 +28,27 @@ std::vector<MeasuredRun> MeasurementSet::list_runs() const {
   return runs;
 }
 
-std::vector<std::string> find_sets(const std::string& folder) { return diagnosis::find_sets(folder); }
+std::vector<std::string> find_sets(const std::string& folder) {
+  std::vector<std::string> sets;
+  if (!fs::is_directory(folder) || fs::exists(fs::path(folder) / "set.toml")) return sets;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (fs::exists(entry.path() / "set.toml")) sets.push_back(entry.path().string());
+  }
+  std::sort(sets.begin(), sets.end());
+  return sets;
+}
 
 std::vector<std::string> find_undescribed_folders(const std::string& folder) {
-  return diagnosis::find_undescribed_folders(folder);
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory() || fs::exists(entry.path() / "set.toml")) continue;
+    const fs::directory_iterator files(entry.path());
+    const bool has_csv =
+        std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() == ".csv"; });
+    if (has_csv) found.push_back(entry.path().string());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace rollrig

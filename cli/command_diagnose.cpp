@@ -53,7 +53,7 @@ int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
   for (const FleetMember& member : fleet.members) {
     if (member.failure.empty()) continue;
     if (options.output.is_silent()) std::cerr << "error: " << member.folder << ": " << member.failure << '\n';
-    if (status != kInputError) status = member.is_input ? kInputError : kRunFailed;
+    if (status != kInputError) status = member.problem.has_value() ? kInputError : kRunFailed;
   }
   return status;
 }

@@ -92,8 +92,10 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   report(0.8, "next test");
   if (!checks.is_implausible()) {
     const std::vector<OpenHypothesis> open = find_open_hypotheses(study, comparison);
-    diagnosis.next_test = propose_tests(study, open);
-    diagnosis.next_sensor = propose_sensors(study, open);
+    const std::vector<ProposedTest> tests = propose_tests(study, open);
+    if (!tests.empty()) diagnosis.plan = tests.front();
+    diagnosis.next_tests = {tests.begin(), tests.end()};
+    diagnosis.next_sensors = propose_sensors(study, open);
   }
   report(0.9, "runs left out");
   diagnosis.fitted.recalibrated = find_fitted(study, study.null.fit);
@@ -142,9 +144,9 @@ const ParameterEstimate* find_size(const Cause& cause, const std::string& effect
   return size == cause.parameters.end() ? nullptr : &*size;
 }
 
-double probability_of(const Diagnosis& diagnosis, const std::string& name) {
-  const auto at = diagnosis.probability.find(name);
-  return at == diagnosis.probability.end() ? 0.0 : at->second;
+double probability_of(const Findings& findings, const std::string& name) {
+  const auto at = findings.probability.find(name);
+  return at == findings.probability.end() ? 0.0 : at->second;
 }
 
 void require_known_effects(const DiagnosisOptions& options) {

@@ -16,9 +16,7 @@
 namespace rollrig::report {
 namespace {
 
-using diagnosis::Cause;
 using diagnosis::Diagnosis;
-using diagnosis::Verdict;
 
 /// The cause's effects at their fitted size; those without an estimate at the center of their prior.
 std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
@@ -29,7 +27,7 @@ std::vector<models::ActiveEffect> make_effects(const Cause& cause) {
     for (const models::EffectParameter& parameter : effect.info.parameters) {
       const std::string name = id + "." + parameter.key;
       const auto at = std::find_if(cause.parameters.begin(), cause.parameters.end(),
-                                   [&name](const diagnosis::ParameterEstimate& each) { return each.name == name; });
+                                   [&name](const ParameterEstimate& each) { return each.name == name; });
       const double value = at != cause.parameters.end() ? at->value : parameter.prior.center();
       one.parameters.push_back(unit_of_key(parameter.key).to_si(value));
     }

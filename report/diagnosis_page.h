@@ -12,7 +12,7 @@ namespace rollrig::report {
 Page make_diagnosis_page(const measurements::MeasurementSet& set, const diagnosis::Diagnosis& diagnosis);
 
 /// The verdict in one sentence: "Gap explained by bearing_warmup (probability 94 %), ...".
-std::string describe_verdict(const diagnosis::Diagnosis& diagnosis);
+std::string describe_verdict(const Findings& findings);
 
 /// A folder of sets: a row each, and what comes back.
 Page make_fleet_page(const diagnosis::Fleet& fleet);

@@ -14,10 +14,7 @@
 namespace rollrig::report {
 namespace {
 
-using diagnosis::Cause;
-using diagnosis::Diagnosis;
 using diagnosis::show_probability;
-using diagnosis::Verdict;
 
 constexpr double kListed = 0.005;  // probability from which an effect has a bar
 
@@ -30,12 +27,12 @@ std::string summary_of(const std::string& id) {
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
-std::string show_estimate(const diagnosis::ParameterEstimate& at) {
+std::string show_estimate(const ParameterEstimate& at) {
   const std::string unit = at.unit.empty() ? "" : " " + pretty_unit(at.unit);
   return fmt::format("{:.3g}{} (95 %: {:.3g} to {:.3g})", at.value, unit, at.low_95, at.high_95);
 }
 
-std::string describe_shrinkage(const diagnosis::Gap& gap) {
+std::string describe_shrinkage(const Gap& gap) {
   if (!gap.shrink_percent.has_value()) return "";
   return fmt::format(" It takes {:.0f} % of the gap ({:.0f} to {:.0f} %) on runs that the fit did not see.",
                      *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
@@ -45,16 +42,16 @@ Block make_parameter_table(const Cause& cause) {
   scenarios::ResultTable table{"Fitted size of " + fmt::format("{}", fmt::join(cause.effects, " and ")),
                                {"parameter", "value", "sd", "95 % from", "to", "unit"},
                                {}};
-  for (const diagnosis::ParameterEstimate& at : cause.parameters) {
+  for (const ParameterEstimate& at : cause.parameters) {
     table.rows.push_back({at.name, fmt::format("{:.4g}", at.value), fmt::format("{:.2g}", at.sd),
                           fmt::format("{:.4g}", at.low_95), fmt::format("{:.4g}", at.high_95), pretty_unit(at.unit)});
   }
   return make_table(table);
 }
 
-Block make_probabilities(const Diagnosis& diagnosis) {
+Block make_probabilities(const Findings& findings) {
   std::vector<std::pair<double, std::string>> ranked;
-  for (const auto& [name, probability] : diagnosis.probability) {
+  for (const auto& [name, probability] : findings.probability) {
     if (probability >= kListed || name == "none" || name == "unknown") ranked.emplace_back(probability, name);
   }
   std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -65,17 +62,17 @@ Block make_probabilities(const Diagnosis& diagnosis) {
                     {"share", rounded(probability)},
                     {"text", show_probability(probability)}});
   }
-  const std::size_t others = diagnosis.probability.size() - ranked.size();
+  const std::size_t others = findings.probability.size() - ranked.size();
   return {{"type", "shares"},
           {"caption", fmt::format("Probability of each effect; {} more are below {:.1f} %", others, 100.0 * kListed)},
           {"columns", {"effect", "probability"}},
           {"rows", rows}};
 }
 
-Block make_ranking(const Diagnosis& diagnosis) {
+Block make_ranking(const Findings& findings) {
   scenarios::ResultTable table{
       "Causes, the likeliest first", {"cause", "probability", "cannot be told from", "size", "adequate"}, {}};
-  for (const Cause& cause : diagnosis.causes) {
+  for (const Cause& cause : findings.causes) {
     const bool sized = !cause.parameters.empty();
     table.rows.push_back({fmt::format("{}", fmt::join(cause.effects, " + ")), show_probability(cause.probability),
                           cause.indistinguishable_from.empty() ? "-" : join(cause.indistinguishable_from),
@@ -84,10 +81,10 @@ Block make_ranking(const Diagnosis& diagnosis) {
   return make_table(table);
 }
 
-Block make_channel_gaps(const Diagnosis& diagnosis) {
+Block make_channel_gaps(const Findings& findings) {
   scenarios::ResultTable table{
       "Gap of each channel, without noise, on held-out runs", {"channel", "before", "after", "unit"}, {}};
-  for (const diagnosis::ChannelGap& at : diagnosis.gap.channels) {
+  for (const ChannelGap& at : findings.gap.channels) {
     table.rows.push_back({plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after),
                           pretty_unit(at.unit)});
   }
@@ -121,57 +118,57 @@ Block make_explanation(const models::EffectInfo& info) {
 
 }  // namespace
 
-std::string describe_verdict(const Diagnosis& diagnosis) {
-  const bool has_cause = !diagnosis.causes.empty();
-  if (diagnosis.verdict == Verdict::kNoGap) {
+std::string describe_verdict(const Findings& findings) {
+  const bool has_cause = !findings.causes.empty();
+  if (findings.verdict == Verdict::kNoGap) {
     return fmt::format(
         "No gap: the simulation meets the measurement within noise and the files' uncertainties "
         "(probability {}).",
-        show_probability(probability_of(diagnosis, "none")));
+        show_probability(diagnosis::probability_of(findings, "none")));
   }
-  if (!diagnosis.doubt.empty()) return "Unexplained: the files are in doubt, before any physics.";
-  if (diagnosis.verdict == Verdict::kUnexplained || !has_cause) {
+  if (!findings.doubt.empty()) return "Unexplained: the files are in doubt, before any physics.";
+  if (findings.verdict == Verdict::kUnexplained || !has_cause) {
     const std::string like = has_cause ? fmt::format("; it looks most like {}, but that does not explain it",
-                                                     fmt::join(diagnosis.causes.front().effects, " with "))
+                                                     fmt::join(findings.causes.front().effects, " with "))
                                        : "";
     return fmt::format("Unexplained: there is a gap that no effect of the catalog follows (probability {}){}.",
-                       show_probability(probability_of(diagnosis, "unknown")), like);
+                       show_probability(diagnosis::probability_of(findings, "unknown")), like);
   }
-  const Cause& cause = diagnosis.causes.front();
+  const Cause& cause = findings.causes.front();
   std::string text = fmt::format("Explained: the gap is {}", fmt::join(cause.effects, " with "));
   if (!cause.indistinguishable_from.empty()) text += " or, as well, " + join(cause.indistinguishable_from);
   return fmt::format("{} (probability {}).", text, show_probability(cause.probability));
 }
 
-Section make_verdict(const Diagnosis& diagnosis) {
+Section make_verdict(const Findings& findings) {
   Section section{"Verdict"};
-  const char* tone = diagnosis.verdict == Verdict::kUnexplained ? "bad" : "good";
-  std::string more = diagnosis.doubt;
-  if (diagnosis.verdict == Verdict::kExplained && !diagnosis.causes.empty()) {
-    const Cause& cause = diagnosis.causes.front();
+  const char* tone = findings.verdict == Verdict::kUnexplained ? "bad" : "good";
+  std::string more = findings.doubt;
+  if (findings.verdict == Verdict::kExplained && !findings.causes.empty()) {
+    const Cause& cause = findings.causes.front();
     std::string meaning = summary_of(cause.effects.front());
     if (!cause.parameters.empty()) {
       meaning += fmt::format("; {} {}", plain_name(last_part(cause.parameters.front().name)),
                              show_estimate(cause.parameters.front()));
     }
-    more = meaning + "." + describe_shrinkage(diagnosis.gap);
-    const std::string open = diagnosis::describe_unconfirmed(diagnosis);
+    more = meaning + "." + describe_shrinkage(findings.gap);
+    const std::string open = diagnosis::describe_unconfirmed(findings);
     if (!open.empty()) more += " But " + open + ".";
   }
-  section.blocks.push_back(make_lead(tone, describe_verdict(diagnosis), more));
-  if (!diagnosis.warnings.empty()) section.blocks.push_back(make_warnings(diagnosis.warnings));
+  section.blocks.push_back(make_lead(tone, describe_verdict(findings), more));
+  if (!findings.warnings.empty()) section.blocks.push_back(make_warnings(findings.warnings));
   return section;
 }
 
-Section make_causes(const Diagnosis& diagnosis) {
+Section make_causes(const Findings& findings) {
   Section section{"Causes"};
-  section.blocks.push_back(make_probabilities(diagnosis));
-  if (diagnosis.causes.empty()) return section;
-  section.blocks.push_back(make_ranking(diagnosis));
-  if (!diagnosis.causes.front().parameters.empty()) {
-    section.blocks.push_back(make_parameter_table(diagnosis.causes.front()));
+  section.blocks.push_back(make_probabilities(findings));
+  if (findings.causes.empty()) return section;
+  section.blocks.push_back(make_ranking(findings));
+  if (!findings.causes.front().parameters.empty()) {
+    section.blocks.push_back(make_parameter_table(findings.causes.front()));
   }
-  const std::vector<std::string>& objections = diagnosis.causes.front().objections;
+  const std::vector<std::string>& objections = findings.causes.front().objections;
   if (!objections.empty()) {
     section.blocks.push_back(
         {{"type", "text"}, {"paragraphs", Json::array({"Against the first cause speaks:"})}, {"items", objections}});
@@ -179,8 +176,8 @@ Section make_causes(const Diagnosis& diagnosis) {
   return section;
 }
 
-Section make_gap(const Diagnosis& diagnosis) {
-  const diagnosis::Gap& gap = diagnosis.gap;
+Section make_gap(const Findings& findings) {
+  const Gap& gap = findings.gap;
   const bool is_held_out = !gap.held_out.empty();
   Section section{"Before and after", is_held_out
                                           ? fmt::format("Judged on {}, each left out of the fit in turn: {}.",
@@ -201,13 +198,13 @@ Section make_gap(const Diagnosis& diagnosis) {
   section.blocks.push_back(make_lines({{"The cause takes from the recalibrated gap", shrinks},
                                        {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
                                        {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}));
-  if (!gap.channels.empty()) section.blocks.push_back(make_channel_gaps(diagnosis));
+  if (!gap.channels.empty()) section.blocks.push_back(make_channel_gaps(findings));
   return section;
 }
 
-Block make_balance(const Diagnosis& diagnosis) {
+Block make_balance(const Findings& findings) {
   Json rows = Json::array();
-  for (const diagnosis::BalanceShare& share : diagnosis.balance) {
+  for (const BalanceShare& share : findings.balance) {
     rows.push_back({{"label", share.name},
                     {"share", rounded(share.share_percent / 100.0)},
                     {"text", fmt::format("{:.0f} %", share.share_percent)}});
@@ -218,26 +215,26 @@ Block make_balance(const Diagnosis& diagnosis) {
           {"rows", rows}};
 }
 
-Section make_next(const Diagnosis& diagnosis) {
+Section make_next(const Findings& findings) {
   Section section{"What cannot be told apart, and the test that would"};
-  if (!diagnosis.causes.empty() && !diagnosis.causes.front().indistinguishable_from.empty()) {
-    const Cause& cause = diagnosis.causes.front();
+  if (!findings.causes.empty() && !findings.causes.front().indistinguishable_from.empty()) {
+    const Cause& cause = findings.causes.front();
     section.blocks.push_back(make_paragraph(
         fmt::format("This set cannot tell {} from {}.", join(cause.effects), join(cause.indistinguishable_from))));
   }
   section.blocks.push_back(
-      make_paragraph(diagnosis.not_excluded.empty()
+      make_paragraph(findings.not_excluded.empty()
                          ? std::string("Not excluded: nothing; each effect at its usual size would have shown.")
-                         : "Not excluded, since this set need not show them: " + join(diagnosis.not_excluded) + "."));
+                         : "Not excluded, since this set need not show them: " + join(findings.not_excluded) + "."));
   scenarios::ResultTable tests{
       "Next tests, the most telling first", {"test", "tells apart", "bits an hour", "hours"}, {}};
-  for (const diagnosis::NextTest& next : diagnosis.next_test) {
+  for (const NextTest& next : findings.next_tests) {
     tests.rows.push_back({next.test, next.splits.empty() ? "-" : join(next.splits),
                           fmt::format("{:.2f}", next.expected_bits_per_hour), fmt::format("{:.1f}", next.hours)});
   }
   if (!tests.rows.empty()) section.blocks.push_back(make_table(tests));
   scenarios::ResultTable sensors{"Sensors that the rig has not", {"sensor", "tells apart", "bits", "hours to fit"}, {}};
-  for (const diagnosis::NextSensor& next : diagnosis.next_sensor) {
+  for (const NextSensor& next : findings.next_sensors) {
     sensors.rows.push_back({next.sensor, next.splits.empty() ? "-" : join(next.splits),
                             fmt::format("{:.2f}", next.expected_bits), fmt::format("{:.2g}", next.hours)});
   }
@@ -245,10 +242,10 @@ Section make_next(const Diagnosis& diagnosis) {
   return section;
 }
 
-Section make_explanations(const Diagnosis& diagnosis) {
+Section make_explanations(const Findings& findings) {
   Section section{"The named cause: equation and source"};
-  if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return section;
-  const Cause& cause = diagnosis.causes.front();
+  if (findings.verdict == Verdict::kNoGap || findings.causes.empty()) return section;
+  const Cause& cause = findings.causes.front();
   std::vector<std::string> ids = cause.effects;
   ids.insert(ids.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
   for (const std::string& id : ids) {

@@ -14,7 +14,7 @@ namespace rollrig::report {
 Page make_tire_fit_page(const measurements::MeasurementSet& set, const estimation::TireFit& fit);
 
 /// A, B, C with their intervals, points and curve, residuals, checks of the standards.
-Page make_road_load_page(const estimation::CoastdownFile& file, const estimation::RoadLoadFitOptions& options,
+Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFitOptions& options,
                          const estimation::RoadLoadFit& fit, const estimation::RoadLoadChecks& checks);
 
 /// A, B, C with standard deviation and 95 % interval, or their bound.

@@ -11,7 +11,6 @@ namespace rollrig::report {
 namespace {
 
 using diagnosis::Fleet;
-using diagnosis::FleetMember;
 using diagnosis::Recurrence;
 using diagnosis::Shared;
 using diagnosis::show_probability;
@@ -21,11 +20,11 @@ Block make_members(const Fleet& fleet) {
       "", {"set", "machine", "tire", "verdict", "cause", "probability", "gap before", "after"}, {}};
   for (const FleetMember& member : fleet.members) {
     std::vector<std::string> row{member.folder, member.machine, member.tire};
-    if (!member.diagnosis.has_value()) {
+    if (!member.findings.has_value()) {
       row.insert(row.end(), {"failed", "-", "-", "-", "-"});
     } else {
-      const diagnosis::Diagnosis& one = *member.diagnosis;
-      const bool has_cause = one.verdict == diagnosis::Verdict::kExplained;
+      const Findings& one = *member.findings;
+      const bool has_cause = one.verdict == Verdict::kExplained;
       row.insert(row.end(), {one.doubt.empty() ? diagnosis::name_of(one.verdict) : "in doubt",
                              has_cause ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "-",
                              has_cause ? show_probability(one.causes.front().probability) : "-",
@@ -65,11 +64,11 @@ Block make_recurrences(const Fleet& fleet) {
 Block make_gaps(const Fleet& fleet) {
   Json names = Json::array(), before = Json::array(), after = Json::array();
   for (const FleetMember& member : fleet.members) {
-    if (!member.diagnosis.has_value()) continue;
+    if (!member.findings.has_value()) continue;
     names.push_back(last_part(member.folder, '/'));
-    before.push_back(rounded(member.diagnosis->gap.recalibrated.before));
-    const bool has_cause = member.diagnosis->verdict == diagnosis::Verdict::kExplained;
-    after.push_back(has_cause ? rounded(member.diagnosis->gap.recalibrated.after) : Json(nullptr));
+    before.push_back(rounded(member.findings->gap.recalibrated.before));
+    const bool has_cause = member.findings->verdict == Verdict::kExplained;
+    after.push_back(has_cause ? rounded(member.findings->gap.recalibrated.after) : Json(nullptr));
   }
   return make_bars({"Gap on held-out runs", "noise floors"}, names,
                    {{{"name", "before"}, {"values", before}}, {{"name", "with the cause"}, {"values", after}}});
@@ -78,7 +77,7 @@ Block make_gaps(const Fleet& fleet) {
 /// The verdict on a set in a sentence, or why there is none, and what is warned of.
 Section make_member(const FleetMember& member) {
   Section section{last_part(member.folder, '/')};
-  if (!member.diagnosis.has_value()) {
+  if (!member.findings.has_value()) {
     section.blocks.push_back(
         make_lead("bad", "Not diagnosed: " + (member.problem ? member.problem->what : member.failure)));
     if (!member.problem) return section;
@@ -87,9 +86,9 @@ Section make_member(const FleetMember& member) {
     }
     return section;
   }
-  const bool is_bad = member.diagnosis->verdict == diagnosis::Verdict::kUnexplained;
-  section.blocks.push_back(make_lead(is_bad ? "bad" : "good", describe_verdict(*member.diagnosis)));
-  if (!member.diagnosis->warnings.empty()) section.blocks.push_back(make_warnings(member.diagnosis->warnings));
+  const bool is_bad = member.findings->verdict == Verdict::kUnexplained;
+  section.blocks.push_back(make_lead(is_bad ? "bad" : "good", describe_verdict(*member.findings)));
+  if (!member.findings->warnings.empty()) section.blocks.push_back(make_warnings(member.findings->warnings));
   return section;
 }
 

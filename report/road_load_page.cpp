@@ -103,7 +103,7 @@ scenarios::ResultTable make_coefficient_table(const RoadLoadFit& fit, const std:
   return table;
 }
 
-Page make_road_load_page(const estimation::CoastdownFile& file, const estimation::RoadLoadFitOptions& options,
+Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFitOptions& options,
                          const RoadLoadFit& fit, const estimation::RoadLoadChecks& checks) {
   Page page{"fit road-load", "Road load from coastdowns",
             fmt::format("{}, {}, {}", format_count(file.data.runs.size(), "run"),

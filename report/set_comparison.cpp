@@ -90,10 +90,10 @@ double calc_mean_over(std::size_t phase, const Series& series, const SimulatedSe
 }
 
 /// The clearest stretch within a phase that the diagnosis lists.
-const diagnosis::Location* find_listed(const std::vector<diagnosis::Location>& where, const std::string& channel,
-                                       const std::string& run, const std::string& phase) {
-  const diagnosis::Location* found = nullptr;
-  for (const diagnosis::Location& at : where) {
+const Location* find_listed(const std::vector<Location>& where, const std::string& channel, const std::string& run,
+                            const std::string& phase) {
+  const Location* found = nullptr;
+  for (const Location& at : where) {
     const bool is_here = at.channel == channel && at.run == run && at.phase.rfind(phase, 0) == 0 &&
                          (at.phase.size() == phase.size() || at.phase[phase.size()] == ',');
     if (is_here && (found == nullptr || std::abs(at.z) > std::abs(found->z))) found = &at;
@@ -109,14 +109,14 @@ int find_shade(double z) {
 }
 
 Json make_cell(const PreparedSet& set, const Series& series, std::size_t phase, const SimulatedSet& simulated,
-               const std::vector<diagnosis::Location>& where) {
+               const std::vector<Location>& where) {
   const PreparedRun& run = set.runs()[series.run];
   const std::string& channel = set.channels()[series.channel];
   const double mean = calc_mean_over(phase, series, simulated);
   if (std::isnan(mean)) return nullptr;
   const diagnosis::ReportUnit unit = diagnosis::find_report_unit(set, channel);
   Json json = {{"text", fmt::format("{:+.2f}", unit.per_SI * mean)}, {"shade", 0}};
-  const diagnosis::Location* listed = find_listed(where, channel, run.measured.id, run.phases[phase].name);
+  const Location* listed = find_listed(where, channel, run.measured.id, run.phases[phase].name);
   if (listed == nullptr) return json;
   json["text"] = fmt::format("{:+.2f}", listed->size);
   json["shade"] = find_shade(listed->z);
@@ -155,8 +155,7 @@ Block make_comparison(const PreparedSet& set, std::size_t run, const std::vector
           {"caption", "Means over blocks of ten seconds."}};
 }
 
-Block make_gap_map(const PreparedSet& set, const SimulatedSet& simulated,
-                   const std::vector<diagnosis::Location>& where) {
+Block make_gap_map(const PreparedSet& set, const SimulatedSet& simulated, const std::vector<Location>& where) {
   Block block = {
       {"type", "map"},
       {"caption", "Measured less simulated, by run, phase and channel"},

@@ -25,6 +25,6 @@ Block make_comparison(const diagnosis::PreparedSet& set, std::size_t run, const 
 
 /// Measurement less simulation by run, phase and channel. Cells that `where` names are marked, with their z.
 Block make_gap_map(const diagnosis::PreparedSet& set, const SimulatedSet& simulated,
-                   const std::vector<diagnosis::Location>& where);
+                   const std::vector<Location>& where);
 
 }  // namespace rollrig::report

@@ -14,8 +14,8 @@ namespace fs = std::filesystem;
 namespace text = boost::algorithm;
 
 constexpr const char* kAssumed = "Assumed";
-const std::vector<std::string> kFolders{"models",     "rigs",      "sim",      "measurements",
-                                        "estimation", "scenarios", "diagnosis"};
+const std::vector<std::string> kFolders{"include",      "models",     "rigs",      "sim",
+                                        "measurements", "estimation", "scenarios", "diagnosis"};
 
 /// Files of some folders with one of the extensions, by name.
 std::vector<std::string> list_files(const std::vector<std::string>& folders,

@@ -72,7 +72,7 @@ SkimAnswer ask(const std::string& tire, const std::string& effect, const std::st
           find_named(found),
           found.probability.at("bearing_warmup"),
           found.probability.at("tire_loss_in_skim"),
-          found.next_test.empty() ? "" : found.next_test.front().test};
+          found.next_tests.empty() ? "" : found.next_tests.front().test};
 }
 
 std::vector<SkimAnswer> ask_all() {

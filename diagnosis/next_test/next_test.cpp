@@ -76,7 +76,7 @@ std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHy
   return judged;
 }
 
-std::vector<NextTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open) {
+std::vector<ProposedTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open) {
   constexpr std::size_t kProposed = 3;
   if (open.size() < 2) return {};
   std::vector<JudgedTest> judged = judge_tests(study, open);
@@ -84,12 +84,14 @@ std::vector<NextTest> propose_tests(const Study& study, const std::vector<OpenHy
     if (a.splits_likeliest != b.splits_likeliest) return a.splits_likeliest;
     return a.bits / a.test.hours > b.bits / b.test.hours;
   });
-  std::vector<NextTest> proposed;
+  std::vector<ProposedTest> proposed;
   for (const JudgedTest& one : judged) {
     if (proposed.size() == kProposed) break;
     if (one.bits < kWorthwhile_bits) continue;
-    proposed.push_back({one.test.description, one.splits, one.bits / one.test.hours, one.test.hours, one.test.soaked,
-                        one.test.extra.force_at_standstill, one.test.by_hand, one.test.runs});
+    proposed.push_back({{one.test.description, one.splits, one.bits / one.test.hours, one.test.hours, one.test.by_hand},
+                        one.test.soaked,
+                        one.test.extra.force_at_standstill,
+                        one.test.runs});
   }
   return proposed;
 }

@@ -23,7 +23,7 @@ std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHy
 /// of those apart come before all others. None where nothing is open.
 /// Source  design of the method, decision 9
 /// Checked tests/diagnosis/next_test_test.cpp
-std::vector<NextTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open);
+std::vector<ProposedTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open);
 
 /// Sensors that the rig could be given, by what they would add to an ordinary run (MeasurementKind::make_sensor_test)
 /// in bits an hour of fitting them, the best first. Left out: those that add less than 0.01 bits.

@@ -73,7 +73,7 @@ double find_sample_interval_s(const MeasurementSet& set) {
   return std::clamp(std::round(100.0 * mean_s) / 100.0, 0.01, 60.0);
 }
 
-std::string write_run_file(const MeasurementSet& set, const NextTest& test, std::size_t index) {
+std::string write_run_file(const MeasurementSet& set, const ProposedTest& test, std::size_t index) {
   const MeasuredRun& run = test.runs[index];
   const PlanWords words = find_words(*set.kind);
   const bool is_combined = set.baseline == models::Baseline::kCombined;
@@ -139,7 +139,7 @@ std::string describe_stage(const Stage& stage, const MachineKind& kind) {
   return fmt::format("     {:6.1f} min   {:<{}}{}\n", stage.duration_s / 60.0, speed, force.empty() ? 0 : 11, force);
 }
 
-std::string describe_run(const NextTest& test, std::size_t index, const MachineKind& kind) {
+std::string describe_run(const ProposedTest& test, std::size_t index, const MachineKind& kind) {
   const MeasuredRun& run = test.runs[index];
   const double ambient_degC = run.columns.at("ambient_degC").front() - kZeroCelsius_K;
   std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
@@ -153,7 +153,7 @@ std::string describe_run(const NextTest& test, std::size_t index, const MachineK
   return text;
 }
 
-std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
+std::string write_plan_text(const MeasurementSet& set, const ProposedTest& test) {
   const PlanWords words = find_words(*set.kind);
   std::string text = fmt::format("Next test for the set '{}'\n\n{}\n", set.name, wrap(test.test, 2));
   text += test.splits.empty() ? "  Splits: it narrows down what is open\n"
@@ -187,8 +187,8 @@ std::string write_plan_text(const MeasurementSet& set, const NextTest& test) {
 
 std::map<std::string, std::string> write_plan(const MeasurementSet& set, const Diagnosis& diagnosis) {
   std::map<std::string, std::string> files;
-  if (diagnosis.next_test.empty()) return files;
-  const NextTest& test = diagnosis.next_test.front();
+  if (!diagnosis.plan.has_value()) return files;
+  const ProposedTest& test = *diagnosis.plan;
   for (std::size_t i = 0; i < test.runs.size(); ++i) {
     files[fmt::format("run-{}.toml", i + 1)] = write_run_file(set, test, i);
     files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], *set.kind);

@@ -8,7 +8,7 @@
 
 namespace rollrig::diagnosis {
 
-/// For the first of diagnosis.next_test, by file name: run-1.toml (rollrig-run/1; scenario "follow_drum",
+/// For diagnosis.plan, by file name: run-1.toml (rollrig-run/1; scenario "follow_drum",
 /// "follow_roller" or "follow_road", by the set's kind) and a CSV of its inputs for each of its runs, tire.toml and
 /// rig.toml (of the road: vehicle.toml) of the set, plan.txt for a person. Nothing where no test is proposed.
 /// Rows of a CSV that lie on a straight line between their neighbors are left out.

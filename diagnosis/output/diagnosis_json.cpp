@@ -77,9 +77,9 @@ const char* name_of(Verdict verdict) {
   return verdict == Verdict::kExplained ? "explained" : "unexplained";
 }
 
-Json make_diagnosis_json(const Diagnosis& diagnosis) {
+Json make_diagnosis_json(const Findings& findings) {
   Json probability = Json::object();
-  for (const auto& [name, value] : diagnosis.probability) probability[name] = number(value);
+  for (const auto& [name, value] : findings.probability) probability[name] = number(value);
   const auto make_balance = [](const BalanceShare& share) -> Json {
     return {{"name", share.name}, {"share_percent", number(share.share_percent)}};
   };
@@ -96,18 +96,18 @@ Json make_diagnosis_json(const Diagnosis& diagnosis) {
             {"hours", number(next.hours)}};
   };
   return {{"format", "rollrig-diagnosis/1"},
-          {"set", diagnosis.set},
-          {"verdict", name_of(diagnosis.verdict)},
+          {"set", findings.set},
+          {"verdict", name_of(findings.verdict)},
           {"probability", probability},
-          {"causes", list(diagnosis.causes, make_cause)},
-          {"gap", make_gap(diagnosis.gap)},
-          {"where", list(diagnosis.where, make_location)},
-          {"balance", list(diagnosis.balance, make_balance)},
-          {"next_test", list(diagnosis.next_test, make_next_test)},
-          {"next_sensor", list(diagnosis.next_sensor, make_next_sensor)},
-          {"not_excluded", diagnosis.not_excluded},
-          {"without_run", make_lone_run(diagnosis.without_run)},
-          {"warnings", diagnosis.warnings}};
+          {"causes", list(findings.causes, make_cause)},
+          {"gap", make_gap(findings.gap)},
+          {"where", list(findings.where, make_location)},
+          {"balance", list(findings.balance, make_balance)},
+          {"next_test", list(findings.next_tests, make_next_test)},
+          {"next_sensor", list(findings.next_sensors, make_next_sensor)},
+          {"not_excluded", findings.not_excluded},
+          {"without_run", make_lone_run(findings.without_run)},
+          {"warnings", findings.warnings}};
 }
 
 }  // namespace rollrig::diagnosis

@@ -12,6 +12,6 @@ const char* name_of(Verdict verdict);
 /// A diagnosis as formats.md has it (rollrig-diagnosis/1). What does not exist is null: the shrinkage of a
 /// gap that is not above the noise, a number that is not finite.
 /// Checked tests/diagnosis/diagnosis_json_test.cpp
-Json make_diagnosis_json(const Diagnosis& diagnosis);
+Json make_diagnosis_json(const Findings& findings);
 
 }  // namespace rollrig::diagnosis

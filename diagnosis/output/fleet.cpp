@@ -16,9 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string gap_text(const Diagnosis& diagnosis) {
-  const Gap& gap = diagnosis.gap;
-  if (diagnosis.verdict != Verdict::kExplained) return fmt::format("{:.1f}", gap.recalibrated.before);
+std::string gap_text(const Findings& findings) {
+  const Gap& gap = findings.gap;
+  if (findings.verdict != Verdict::kExplained) return fmt::format("{:.1f}", gap.recalibrated.before);
   return fmt::format("{:.1f}->{:.1f}", gap.recalibrated.before, gap.recalibrated.after);
 }
 
@@ -48,13 +48,13 @@ std::string format_failure(const FleetMember& member) {
 std::string format_troubles(const Fleet& fleet) {
   std::string failed, doubtful, warned;
   for (const FleetMember& member : fleet.members) {
-    if (!member.diagnosis) {
+    if (!member.findings) {
       failed += format_failure(member);
       continue;
     }
-    const std::size_t others = member.diagnosis->warnings.size() - (member.diagnosis->doubt.empty() ? 0 : 1);
-    if (!member.diagnosis->doubt.empty()) {
-      doubtful += wrap(fmt::format("{}: {}", name_of(member), member.diagnosis->doubt), 2);
+    const std::size_t others = member.findings->warnings.size() - (member.findings->doubt.empty() ? 0 : 1);
+    if (!member.findings->doubt.empty()) {
+      doubtful += wrap(fmt::format("{}: {}", name_of(member), member.findings->doubt), 2);
     }
     if (others > 0) warned += fmt::format("{}{} {}", warned.empty() ? "" : ", ", name_of(member), others);
   }
@@ -85,29 +85,6 @@ std::string describe(const Recurrence& one) {
 
 }  // namespace
 
-std::vector<std::string> find_sets(const std::string& folder) {
-  std::vector<std::string> sets;
-  if (!fs::is_directory(folder) || fs::exists(fs::path(folder) / "set.toml")) return sets;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (fs::exists(entry.path() / "set.toml")) sets.push_back(entry.path().string());
-  }
-  std::sort(sets.begin(), sets.end());
-  return sets;
-}
-
-std::vector<std::string> find_undescribed_folders(const std::string& folder) {
-  std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (!entry.is_directory() || fs::exists(entry.path() / "set.toml")) continue;
-    const fs::directory_iterator files(entry.path());
-    const bool has_csv =
-        std::any_of(begin(files), end(files), [](const auto& file) { return file.path().extension() == ".csv"; });
-    if (has_csv) found.push_back(entry.path().string());
-  }
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
   require_known_effects(options);
   Fleet fleet;
@@ -126,7 +103,7 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
     one.threads = 1;
     one.progress = {};
     try {
-      if (sets[i].has_value()) fleet.members[i].diagnosis = diagnose(*sets[i], one);
+      if (sets[i].has_value()) fleet.members[i].findings = diagnose(*sets[i], one);
     } catch (const RunFailure& failure) {
       fleet.members[i].failure = failure.what();
     } catch (const InputError& error) {  // what a diagnosis cannot do with: a sensor without noise, say
@@ -158,11 +135,11 @@ std::string format_fleet(const Fleet& fleet) {
   std::string text = row("Set", "Verdict", "Cause", "Prob.", "Gap, floors");
   for (const FleetMember& member : fleet.members) {
     const std::string name = name_of(member);
-    if (!member.diagnosis) {
+    if (!member.findings) {
       text += row(name, "failed", "see below", "", "");
       continue;
     }
-    const Diagnosis& one = *member.diagnosis;
+    const Findings& one = *member.findings;
     const bool explained = one.verdict == Verdict::kExplained;
     const double probability = explained                        ? one.causes.front().probability
                                : one.verdict == Verdict::kNoGap ? one.probability.at("none")
@@ -184,7 +161,7 @@ Json make_fleet_json(const Fleet& fleet) {
                             {"machine", member.machine},
                             {"tire", member.tire},
                             {"failure", member.failure.empty() ? Json(nullptr) : Json(member.failure)},
-                            {"diagnosis", member.diagnosis ? make_diagnosis_json(*member.diagnosis) : Json(nullptr)}});
+                            {"diagnosis", member.findings ? make_diagnosis_json(*member.findings) : Json(nullptr)}});
   }
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
   for (const Recurrence& one : fleet.recurrences) {

@@ -16,8 +16,8 @@ constexpr double kRecurs = 0.8;
 constexpr double kCertain = 1e-6;  // a comparison is not surer than this
 
 bool names_cause(const FleetMember& member) {
-  return member.diagnosis.has_value() && member.diagnosis->verdict == Verdict::kExplained &&
-         !member.diagnosis->causes.empty();
+  return member.findings.has_value() && member.findings->verdict == Verdict::kExplained &&
+         !member.findings->causes.empty();
 }
 
 void average_sizes(const std::vector<ParameterEstimate>& sizes, Recurrence& recurrence) {
@@ -51,7 +51,7 @@ struct Group {
 std::vector<Group> make_groups(const std::vector<FleetMember>& members) {
   std::map<std::pair<Shared, std::string>, std::vector<const FleetMember*>> by_name;
   for (const FleetMember& member : members) {
-    if (!member.diagnosis.has_value() || !member.diagnosis->doubt.empty()) continue;
+    if (!member.findings.has_value() || !member.findings->doubt.empty()) continue;
     by_name[{Shared::kMachineAndTire, member.tire + " on " + member.machine}].push_back(&member);
     by_name[{Shared::kMachine, member.machine}].push_back(&member);
     by_name[{Shared::kTire, member.tire}].push_back(&member);
@@ -73,7 +73,7 @@ std::set<std::string> find_named(const std::vector<FleetMember>& members) {
   std::set<std::string> named;
   for (const FleetMember& member : members) {
     if (!names_cause(member)) continue;
-    for (const std::string& id : member.diagnosis->causes.front().effects) named.insert(id);
+    for (const std::string& id : member.findings->causes.front().effects) named.insert(id);
   }
   return named;
 }
@@ -86,11 +86,11 @@ Recurrence judge(const std::string& effect, const Group& group) {
   std::vector<double> in_sets;
   std::vector<ParameterEstimate> sizes;
   for (const FleetMember* member : group.members) {
-    const auto& probability = member->diagnosis->probability;
+    const auto& probability = member->findings->probability;
     const auto at = probability.find(effect);
     if (at != probability.end()) in_sets.push_back(at->second);
     if (!names_cause(*member)) continue;
-    if (const auto* size = find_size(member->diagnosis->causes.front(), effect)) sizes.push_back(*size);
+    if (const auto* size = find_size(member->findings->causes.front(), effect)) sizes.push_back(*size);
   }
   recurrence.sets = in_sets.size();
   recurrence.named_in = sizes.size();

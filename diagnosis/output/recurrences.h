@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace rollrig::diagnosis {
+#include "include/rollrig/findings.h"
 
-struct FleetMember;
+namespace rollrig::diagnosis {
 
 /// What sets share.
 enum class Shared { kMachine, kTire, kMachineAndTire };

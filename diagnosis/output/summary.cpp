@@ -52,22 +52,22 @@ std::string with_unit(const std::string& number, const std::string& unit) {
   return unit.empty() ? number : number + " " + unit;
 }
 
-std::string verdict_line(const Diagnosis& diagnosis) {
-  const std::string none = show_probability(probability_of(diagnosis, "none"));
-  const std::string unknown = show_probability(probability_of(diagnosis, "unknown"));
-  const bool named = !diagnosis.causes.empty();
-  switch (diagnosis.verdict) {
+std::string verdict_line(const Findings& findings) {
+  const std::string none = show_probability(probability_of(findings, "none"));
+  const std::string unknown = show_probability(probability_of(findings, "unknown"));
+  const bool named = !findings.causes.empty();
+  switch (findings.verdict) {
     case Verdict::kNoGap:
       return line("Verdict", "no gap beyond the noise, probability " + none);
     case Verdict::kExplained: {
-      const std::string own = named ? show_probability(diagnosis.causes.front().probability) : "0 %";
+      const std::string own = named ? show_probability(findings.causes.front().probability) : "0 %";
       const std::string text = fmt::format("explained, probability {} (none {}, unknown {})", own, none, unknown);
       if (count_characters(text) <= kTextColumns) return line("Verdict", text);
       return line("Verdict", fmt::format("explained, probability {} (unknown {})", own, unknown));
     }
     case Verdict::kUnexplained:
-      if (!diagnosis.doubt.empty()) return line("Verdict", "unexplained: the files are in doubt, before any physics");
-      if (named && !diagnosis.causes.front().adequate) {
+      if (!findings.doubt.empty()) return line("Verdict", "unexplained: the files are in doubt, before any physics");
+      if (named && !findings.causes.front().adequate) {
         return line("Verdict", "unexplained: looks like this cause, but something else is missing");
       }
       return line("Verdict", fmt::format("unexplained: outside the catalog, probability {}", unknown));
@@ -88,10 +88,10 @@ std::string describe_effect(const std::string& effect, const Cause& cause) {
   return fmt::format("{}: {} (95 %: {:.3g} to {:.3g})", effect, describe_size(*size), size->low_95, size->high_95);
 }
 
-std::string cause_line(const Diagnosis& diagnosis) {
-  if (diagnosis.verdict == Verdict::kNoGap) return line("Cause", "none needed");
-  if (diagnosis.causes.empty()) return line("Cause", "none of the catalog");
-  const Cause& cause = diagnosis.causes.front();
+std::string cause_line(const Findings& findings) {
+  if (findings.verdict == Verdict::kNoGap) return line("Cause", "none needed");
+  if (findings.causes.empty()) return line("Cause", "none of the catalog");
+  const Cause& cause = findings.causes.front();
   return line("Cause", describe_effect(cause.effects.front(), cause));
 }
 
@@ -101,17 +101,17 @@ std::string describe_alternatives(const Cause& cause) {
 }
 
 /// Why the files cannot be right, in full.
-std::string doubt_lines(const Diagnosis& diagnosis) {
-  return line("Cause", "none is named until this is mended:") + note("", diagnosis.doubt);
+std::string doubt_lines(const Findings& findings) {
+  return line("Cause", "none is named until this is mended:") + note("", findings.doubt);
 }
 
 /// What acts beside the first effect; else what may act in its place; else what it is.
-std::string second_line(const Diagnosis& diagnosis) {
-  if (diagnosis.verdict == Verdict::kNoGap) {
+std::string second_line(const Findings& findings) {
+  if (findings.verdict == Verdict::kNoGap) {
     return line("", "the simulation stands, within the uncertainty of its numbers");
   }
-  if (diagnosis.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
-  const Cause& cause = diagnosis.causes.front();
+  if (findings.causes.empty()) return line("", "see where the gap lies, and which equation misses something");
+  const Cause& cause = findings.causes.front();
   std::string more;
   for (std::size_t i = 1; i < cause.effects.size(); ++i) {
     more += line("  with", describe_effect(cause.effects[i], cause));
@@ -122,22 +122,22 @@ std::string second_line(const Diagnosis& diagnosis) {
   return line("", term != nullptr ? term->info().summary : cause.effects.front());
 }
 
-std::string where_line(const Diagnosis& diagnosis) {
-  if (diagnosis.where.empty()) {
-    return line("Where", diagnosis.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
+std::string where_line(const Findings& findings) {
+  if (findings.where.empty()) {
+    return line("Where", findings.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
   }
-  const Location& at = diagnosis.where.front();
+  const Location& at = findings.where.front();
   const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of gap",
                                        with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
   const std::string place = fmt::format("{} in {}, {}", short_name(at.channel), at.run, at.phase);
   return line("Where", clip(place, kTextColumns - count_characters(size)) + size);
 }
 
-std::string equation_line(const Diagnosis& diagnosis) {
-  if (diagnosis.balance.empty())
-    return line("Equation", diagnosis.verdict == Verdict::kNoGap ? "none needs a perturbation" : "none stands out");
+std::string equation_line(const Findings& findings) {
+  if (findings.balance.empty())
+    return line("Equation", findings.verdict == Verdict::kNoGap ? "none needs a perturbation" : "none stands out");
   std::vector<std::string> shares;
-  for (const BalanceShare& share : diagnosis.balance) {
+  for (const BalanceShare& share : findings.balance) {
     shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));
   }
   return line("Equation", join_to_fit(shares, ", ", kTextColumns));
@@ -151,11 +151,11 @@ std::string short_number(double value) {
 /// A whole number of percent, without a sign on zero.
 std::string whole(double percent) { return fmt::format("{:.0f}", std::round(percent) + 0.0); }
 
-std::string gap_lines(const Diagnosis& diagnosis) {
-  const Gap& gap = diagnosis.gap;
+std::string gap_lines(const Findings& findings) {
+  const Gap& gap = findings.gap;
   std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned", gap.as_calibrated.before,
                                    gap.recalibrated.before);
-  const bool is_caused = !diagnosis.causes.empty() && diagnosis.verdict != Verdict::kNoGap;
+  const bool is_caused = !findings.causes.empty() && findings.verdict != Verdict::kNoGap;
   if (is_caused) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
   std::vector<std::string> channels;
   for (const ChannelGap& at : gap.channels) {
@@ -167,25 +167,25 @@ std::string gap_lines(const Diagnosis& diagnosis) {
 }
 
 /// Whether the lines above say a torque in N.
-bool tells_torque_as_force(const Diagnosis& diagnosis) {
+bool tells_torque_as_force(const Findings& findings) {
   const auto is_told = [](const std::string& channel, const std::string& unit) {
     return short_name(channel) == "torque" && unit == "N";
   };
-  const std::vector<ChannelGap>& channels = diagnosis.gap.channels;
-  return (!diagnosis.where.empty() && is_told(diagnosis.where.front().channel, diagnosis.where.front().unit)) ||
+  const std::vector<ChannelGap>& channels = findings.gap.channels;
+  return (!findings.where.empty() && is_told(findings.where.front().channel, findings.where.front().unit)) ||
          std::any_of(channels.begin(), channels.end(),
                      [&is_told](const ChannelGap& at) { return is_told(at.channel, at.unit); });
 }
 
-std::string shrinkage_line(const Diagnosis& diagnosis) {
-  const Gap& gap = diagnosis.gap;
+std::string shrinkage_line(const Findings& findings) {
+  const Gap& gap = findings.gap;
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
     const std::size_t runs = gap.held_out.size();
     const std::string on = runs == 0 ? "the fitted data" : format_count(runs, "held-out run");
     parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
                                 whole(gap.shrink_ci95_percent[1]), on));
-  } else if (diagnosis.verdict == Verdict::kUnexplained && diagnosis.causes.empty()) {
+  } else if (findings.verdict == Verdict::kUnexplained && findings.causes.empty()) {
     parts.emplace_back("no cause to shrink it by");
   } else {
     parts.emplace_back("nothing above the noise to shrink");
@@ -197,9 +197,9 @@ std::string shrinkage_line(const Diagnosis& diagnosis) {
   return line("Shrinks by", join_to_fit(parts, ", ", kTextColumns));
 }
 
-std::string next_line(const Diagnosis& diagnosis) {
-  if (diagnosis.next_test.empty()) return line("Next test", "none would tell more");
-  const NextTest& next = diagnosis.next_test.front();
+std::string next_line(const Findings& findings) {
+  if (findings.next_tests.empty()) return line("Next test", "none would tell more");
+  const NextTest& next = findings.next_tests.front();
   const std::string gain = fmt::format(" ({:.1g} bits/h)", next.expected_bits_per_hour);
   return line("Next test", clip(next.test, kTextColumns - count_characters(gain)) + gain);
 }
@@ -220,43 +220,42 @@ std::string show_probability(double probability) {
   return fmt::format("{:.0f} %", 100.0 * probability);
 }
 
-std::string format_summary(const Diagnosis& diagnosis) {
-  const bool in_doubt = !diagnosis.doubt.empty();
-  std::string text =
-      verdict_line(diagnosis) + (in_doubt ? doubt_lines(diagnosis) : cause_line(diagnosis) + second_line(diagnosis)) +
-      where_line(diagnosis) + equation_line(diagnosis) + gap_lines(diagnosis) + shrinkage_line(diagnosis);
-  text +=
-      line("Not excluded", diagnosis.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
-                                                          : join_to_fit(diagnosis.not_excluded, ", ", kTextColumns));
-  text += next_line(diagnosis);
-  if (tells_torque_as_force(diagnosis)) text += note("Torque", "in N, as force at the drum's surface");
-  if (!diagnosis.causes.empty()) {
-    const Cause& first = diagnosis.causes.front();
+std::string format_summary(const Findings& findings) {
+  const bool in_doubt = !findings.doubt.empty();
+  std::string text = verdict_line(findings) +
+                     (in_doubt ? doubt_lines(findings) : cause_line(findings) + second_line(findings)) +
+                     where_line(findings) + equation_line(findings) + gap_lines(findings) + shrinkage_line(findings);
+  text += line("Not excluded", findings.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
+                                                             : join_to_fit(findings.not_excluded, ", ", kTextColumns));
+  text += next_line(findings);
+  if (tells_torque_as_force(findings)) text += note("Torque", "in N, as force at the drum's surface");
+  if (!findings.causes.empty()) {
+    const Cause& first = findings.causes.front();
     if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
       text += note("Or as well", describe_alternatives(first));
     }
-    if (const std::string open = describe_unconfirmed(diagnosis); !open.empty()) text += note("But", open);
-    for (const std::string& objection : diagnosis.causes.front().objections) text += note("But", objection);
+    if (const std::string open = describe_unconfirmed(findings); !open.empty()) text += note("But", open);
+    for (const std::string& objection : findings.causes.front().objections) text += note("But", objection);
   }
-  if (const auto& lone = diagnosis.without_run) {
+  if (const auto& lone = findings.without_run) {
     text += note("Without", fmt::format("run {}, which holds {:.0f} % of the gap: {}", lone->run, lone->share_percent,
                                         describe_rest(*lone)));
   }
-  if (!diagnosis.next_sensor.empty()) {
-    const NextSensor& next = diagnosis.next_sensor.front();
+  if (!findings.next_sensors.empty()) {
+    const NextSensor& next = findings.next_sensors.front();
     text += note("Sensor", fmt::format("{} ({:.1g} bits more on an ordinary run, {:.2g} h to fit)", next.sensor,
                                        next.expected_bits, next.hours));
   }
-  for (const std::string& warning : diagnosis.warnings) {
-    if (warning != diagnosis.doubt) text += note("Warning", warning);
+  for (const std::string& warning : findings.warnings) {
+    if (warning != findings.doubt) text += note("Warning", warning);
   }
   return text;
 }
 
-std::string describe_unconfirmed(const Diagnosis& diagnosis) {
-  const Gap& gap = diagnosis.gap;
+std::string describe_unconfirmed(const Findings& findings) {
+  const Gap& gap = findings.gap;
   const bool is_judged = gap.shrink_percent.has_value() && !gap.held_out.empty();
-  if (diagnosis.verdict != Verdict::kExplained || !is_judged || gap.shrink_ci95_percent[0] > 0.0) return {};
+  if (findings.verdict != Verdict::kExplained || !is_judged || gap.shrink_ci95_percent[0] > 0.0) return {};
   return "the runs left out do not confirm it: the interval holds 0 %";
 }
 

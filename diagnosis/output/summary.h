@@ -12,7 +12,7 @@ namespace rollrig::diagnosis {
 /// runs that the fit did not see; what is not excluded; the next test. Then what N of a torque are, objections and
 /// warnings. What is too long for its line ends in "..." and stands in full in the JSON.
 /// Checked tests/diagnosis/summary_test.cpp
-std::string format_summary(const Diagnosis& diagnosis);
+std::string format_summary(const Findings& findings);
 
 /// "94 %"; neither 0 nor 100 while some doubt is left.
 std::string show_probability(double probability);
@@ -21,6 +21,6 @@ std::string show_probability(double probability);
 /// 0. Empty where they confirm it, or where none could be left out. The verdict does not follow it: it is by
 /// probability.
 /// Checked tests/diagnosis/summary_test.cpp
-std::string describe_unconfirmed(const Diagnosis& diagnosis);
+std::string describe_unconfirmed(const Findings& findings);
 
 }  // namespace rollrig::diagnosis

@@ -32,7 +32,7 @@ BinConditions make_conditions(const CoastdownRun& run, const RoadLoadFitOptions&
   at.density = density / calc_reference_density_kg_m3(options);
   const double wind_m_s = given.wind_m_s.empty() ? 0.0 : h * mean_of(given.wind_m_s, first, end);
   const double slope = given.slope.empty() ? 0.0 : h * mean_of(given.slope, first, end);
-  at.offset_N = options.find_test_mass_kg(effective_mass_kg) * kStandardGravity_m_s2 * slope;
+  at.offset_N = find_test_mass_kg(options, effective_mass_kg) * kStandardGravity_m_s2 * slope;
   if (options.drag_area_m2.has_value()) {
     const double half = 0.5 * density * *options.drag_area_m2;
     at.offset_N += half * wind_m_s * wind_m_s;

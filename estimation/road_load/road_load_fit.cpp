@@ -83,7 +83,7 @@ void put_scatter(const CoastdownProblem& problem, const LinearEstimate& linear, 
 void put_wind_and_slope(const CoastdownProblem& problem, const RoadLoadFitOptions& options,
                         const LinearEstimate& linear, RoadLoadFit& fit) {
   if (problem.model.count() < 4) return;
-  const double weight_N = options.find_test_mass_kg(fit.effective_mass_kg) * kStandardGravity_m_s2;
+  const double weight_N = find_test_mass_kg(options, fit.effective_mass_kg) * kStandardGravity_m_s2;
   fit.slope = linear.coefficients(3) / weight_N;
   fit.slope_sd = std::sqrt(linear.covariance(3, 3)) / weight_N;
   const double drag = given_drag(options).value_or(fit.load.C_N_s2_per_m2);
@@ -186,11 +186,6 @@ void warn(const CoastdownProblem& problem, const CoastdownData& data, const Road
 }
 
 }  // namespace
-
-RoadLoadBounds not_negative_bounds() {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
-  return {{0.0, 0.0, 0.0}, {kNone, kNone, kNone}};
-}
 
 double RoadLoadEstimate::sd(int i) const { return std::sqrt(covariance(i, i)); }
 

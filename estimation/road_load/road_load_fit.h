@@ -2,7 +2,6 @@
 /// A, B, C of a vehicle from its coastdowns.
 
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,38 +9,20 @@
 #include <Eigen/Core>
 
 #include "estimation/road_load/coastdown_data.h"
+#include "include/rollrig/fit_options.h"
 #include "models/vehicle/road_load.h"
 
 namespace rollrig::estimation {
 
-/// Lower and upper bound of A, B, C in SI units; infinite where there is none.
-struct RoadLoadBounds {
-  std::array<double, 3> lower;
-  std::array<double, 3> upper;
-};
-/// A, B, C >= 0.
-RoadLoadBounds not_negative_bounds();
+using rollrig::RoadLoadBounds, rollrig::RoadLoadFitOptions;
 
 /// Effective mass over test mass where the rotating mass is not known. Source: SAE J2263, light-duty vehicles.
 constexpr double kDefaultEffectiveRatio = 1.03;
 
-struct RoadLoadFitOptions {
-  std::optional<double> mass_kg;            // test mass; absent: forces per unit of effective mass
-  std::optional<double> rotating_mass_kg;   // absent: 3 % of the test mass (SAE J2263: effective mass 1.03 M)
-  std::optional<double> drag_area_m2;       // for the wind; absent: all of C is drag
-  double reference_temperature_K = 293.15;  // 40 CFR 1066.305
-  double reference_pressure_Pa = 98.21e3;   // 40 CFR 1066.305
-  double rolling_fall_per_K = 8.6e-3;       // of A and B with ambient temperature; docs/fit_road_load.md
-  double speed_from_m_s = 15.0 / 3.6;       // SAE J2263, scope
-  double speed_to_m_s = std::numeric_limits<double>::infinity();
-  double bin_width_m_s = 5.0 / 3.6;  // of a trace. Assumed
-  std::optional<RoadLoadBounds> bounds;
-
-  /// Where it is not given, what belongs to that effective mass.
-  double find_test_mass_kg(double effective_mass_kg) const {
-    return mass_kg.value_or(effective_mass_kg / kDefaultEffectiveRatio);
-  }
-};
+/// The test mass; where it is not given, what belongs to that effective mass.
+inline double find_test_mass_kg(const RoadLoadFitOptions& options, double effective_mass_kg) {
+  return options.mass_kg.value_or(effective_mass_kg / kDefaultEffectiveRatio);
+}
 
 /// Air density at the reference conditions: p/(R T), 1.167 kg/m3 by default (40 CFR 1066.310: 1.17).
 double calc_reference_density_kg_m3(const RoadLoadFitOptions& options);

@@ -41,16 +41,16 @@ class ResidualFunction : public ceres::CostFunction {
 /// Tells the caller and the log of each iteration.
 class FollowIterations : public ceres::IterationCallback {
  public:
-  explicit FollowIterations(std::function<void(int)> progress) : progress_(std::move(progress)) {}
+  explicit FollowIterations(Progress progress) : progress_(std::move(progress)) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
     spdlog::debug("fit: iteration {}, half chi2 {:.6g}, largest gradient {:.2g}", at.iteration, at.cost,
                   at.gradient_max_norm);
-    if (progress_) progress_(at.iteration);
+    if (progress_) progress_(std::nan(""), fmt::format("iteration {}", at.iteration));
     return ceres::SOLVER_CONTINUE;
   }
 
  private:
-  std::function<void(int)> progress_;
+  Progress progress_;
 };
 
 void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& unknowns,
@@ -157,14 +157,14 @@ void require_drum_set(const measurements::MeasurementSet& set) {
 
 }  // namespace
 
-TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& options) {
+TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options) {
   require_drum_set(set);
   TireFit fit;
   fit.two_step = estimate_in_two_steps(set);
   const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {
     return run.has(models::quantities::kGasTemperature);
   });
-  const bool free_H = options.free_H.value_or(gas_measured);
+  const bool free_H = options.free_H || gas_measured;
   const FitUnknowns unknowns = choose_unknowns(set, fit.two_step, options.load_map, free_H);
   const DrumResiduals residuals(set, unknowns.start, unknowns.parameters, options.threads);
   std::vector<double> found = residuals.start();

@@ -1,24 +1,16 @@
 #pragma once
 /// A tire from a user's own warm-up data (`rollrig fit tire`).
 
-#include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "estimation/tire_fit/two_step.h"
+#include "include/rollrig/fit_options.h"
 #include "measurements/measurement_set.h"
 #include "sim/core/json.h"
 
 namespace rollrig::estimation {
-
-struct FitOptions {
-  bool load_map = false;       // A0, A1, B0, B1 at each load of the set (§3.3.1.3)
-  std::optional<bool> free_H;  // default: where the gas temperature was measured (3.16)
-  int threads = 0;
-  std::function<void(int iteration)> progress = {};  // called after each iteration
-};
 
 /// One fitted number, in the unit of its key.
 struct Estimate {
@@ -55,7 +47,7 @@ struct TireFit {
 /// Errors  InputError: not a drum set, fewer than two speeds; RunFailure: no convergence, or data that leave a
 ///         parameter undecided
 /// Checked tests/estimation/fit_tire_test.cpp, tests/estimation/fit_coverage_test.cpp
-TireFit fit_tire(const measurements::MeasurementSet& set, const FitOptions& options);
+TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options);
 
 /// The fit as JSON, with both the maximum-likelihood and the two-step numbers.
 Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit);

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "include/rollrig/assets.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 

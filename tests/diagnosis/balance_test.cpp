@@ -63,10 +63,10 @@ class Shares {
     }
     return 0.0;
   }
-  const std::vector<diagnosis::BalanceShare>& listed() const { return listed_; }
+  const std::vector<BalanceShare>& listed() const { return listed_; }
 
  private:
-  std::vector<diagnosis::BalanceShare> listed_;
+  std::vector<BalanceShare> listed_;
 };
 
 Shares find_shares(const models::Effect& effect, const std::vector<double>& values) {

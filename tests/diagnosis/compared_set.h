@@ -23,7 +23,7 @@ struct ComparedSet {
   ComparedSet(const measurements::MeasurementSet& measured, const std::vector<std::string>& terms);
 
   std::vector<diagnosis::OpenHypothesis> find_open() const { return find_open_hypotheses(study, comparison); }
-  std::vector<diagnosis::NextTest> propose() const { return propose_tests(study, find_open()); }
+  std::vector<diagnosis::ProposedTest> propose() const { return propose_tests(study, find_open()); }
 
   diagnosis::Study study;
   diagnosis::Comparison comparison;

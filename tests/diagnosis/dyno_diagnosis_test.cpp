@@ -19,6 +19,7 @@
 #include "tests/support/machines.h"
 
 using namespace rollrig;
+using diagnosis::diagnose;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 using tests::contains;

@@ -21,15 +21,15 @@ constexpr double kPrior = 0.02;
 /// A set that names warming bearings, with their fall and its standard deviation.
 FleetMember warms(const std::string& machine, const std::string& tire, double fall = 0.02, double sd = 0.002) {
   FleetMember member{"sets/" + tire + "-" + machine, machine, tire, tests::make_explained(), "", std::nullopt};
-  member.diagnosis->probability["bearing_warmup"] = 0.98;
-  member.diagnosis->causes.front().parameters.front().value = fall;
-  member.diagnosis->causes.front().parameters.front().sd = sd;
+  member.findings->probability["bearing_warmup"] = 0.98;
+  member.findings->causes.front().parameters.front().value = fall;
+  member.findings->causes.front().parameters.front().sd = sd;
   return member;
 }
 
 FleetMember is_clean(const std::string& machine, const std::string& tire) {
   FleetMember member{"sets/clean-" + tire + "-" + machine, machine, tire, tests::make_no_gap(), "", std::nullopt};
-  member.diagnosis->probability["bearing_warmup"] = 0.001;
+  member.findings->probability["bearing_warmup"] = 0.001;
   return member;
 }
 
@@ -90,8 +90,8 @@ TEST_CASE("what one set of three has does not come back", "[fast]") {
 
 TEST_CASE("a set whose files are in doubt says nothing of any effect", "[fast]") {
   FleetMember in_doubt = is_clean("drum-1", "a50");
-  in_doubt.diagnosis->probability["bearing_warmup"] = 0.0;
-  in_doubt.diagnosis->doubt = "speed_km_h may hold m/s";
+  in_doubt.findings->probability["bearing_warmup"] = 0.0;
+  in_doubt.findings->doubt = "speed_km_h may hold m/s";
   const auto found = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a60"), in_doubt});
   REQUIRE(found.size() == 1);
   CHECK(found[0].sets == 2);
@@ -99,7 +99,7 @@ TEST_CASE("a set whose files are in doubt says nothing of any effect", "[fast]")
 
 TEST_CASE("a set in which an effect cannot act says nothing of it", "[fast]") {
   FleetMember elsewhere = is_clean("drum-1", "a50");
-  elsewhere.diagnosis->probability.erase("bearing_warmup");
+  elsewhere.findings->probability.erase("bearing_warmup");
   CHECK(find_recurrences({warms("drum-1", "a40"), elsewhere}).empty());
   const auto found = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a60"), elsewhere});
   REQUIRE(found.size() == 1);
@@ -133,8 +133,8 @@ TEST_CASE("a fleet is a line a set in 80 columns, failures with their reason", "
                           ""};
   fleet.members.push_back({"sets/typo", "", "", std::nullopt, InputError(typo).what(), typo});
   fleet.members.push_back(is_clean("drum-1", "exchanged"));
-  fleet.members.back().diagnosis->doubt = "the liner temperature and the pressure may be exchanged";
-  fleet.members.back().diagnosis->warnings = {fleet.members.back().diagnosis->doubt, "few samples"};
+  fleet.members.back().findings->doubt = "the liner temperature and the pressure may be exchanged";
+  fleet.members.back().findings->warnings = {fleet.members.back().findings->doubt, "few samples"};
   fleet.recurrences = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a50")});
   std::istringstream text(diagnosis::format_fleet(fleet));
   std::vector<std::string> lines;

@@ -30,9 +30,9 @@ inline diagnosis::Diagnosis make_explained() {
   made.where = {{"drum_torque_Nm", "transient-skim", "skim 1", 41.0, 1.9, "N", 14.2, 300.0, 480.0},
                 {"drum_torque_Nm", "warm-up-80", "skim", 20.0, -0.6, "N", -6.1, 1800.0, 1980.0}};
   made.balance = {{"drum torque", 88.0}, {"tire heat", 12.0}};
-  made.next_test = {{"drum alone for 30 min, then a cold tire on the hot drum; torque at standstill before and after",
-                     {"bearing_warmup", "tire_loss_in_skim"},
-                     0.9}};
+  made.next_tests = {{"drum alone for 30 min, then a cold tire on the hot drum; torque at standstill before and after",
+                      {"bearing_warmup", "tire_loss_in_skim"},
+                      0.9}};
   made.not_excluded = {"windage", "torque_gain"};
   return made;
 }

@@ -71,7 +71,7 @@ TEST_CASE("warming bearings and a drifting zero are split by the torque at stand
   CHECK(open[0].hypothesis.names() == std::vector<std::string>{"bearing_warmup"});
   CHECK(open[1].hypothesis.names() == std::vector<std::string>{"torque_zero_drift"});
   CHECK(open[0].probability == Approx(open[1].probability));  // the set cannot tell them apart
-  const std::vector<NextTest> proposed = compared().propose();
+  const std::vector<diagnosis::ProposedTest> proposed = compared().propose();
   REQUIRE(!proposed.empty());
   std::vector<JudgedTest> judged = judge_tests(study, open);
   const std::string best = find_described(judged, proposed.front().test).test.id;
@@ -87,9 +87,9 @@ TEST_CASE("warming bearings and a drifting zero are split by the torque at stand
 TEST_CASE("a proposal does not depend on the number of threads", "[fast]") {
   tests::ComparedSet set = tests::bearings_or_zero();
   set.study.settings.threads = 1;
-  const std::vector<NextTest> one = set.propose();
+  const std::vector<diagnosis::ProposedTest> one = set.propose();
   set.study.settings.threads = 2;
-  const std::vector<NextTest> two = set.propose();
+  const std::vector<diagnosis::ProposedTest> two = set.propose();
   REQUIRE(one.size() == two.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
     CHECK(one[i].test == two[i].test);
@@ -131,7 +131,7 @@ TEST_CASE("without a gap the test is proposed that would show what is not exclud
   const std::vector<OpenHypothesis> open = compared.find_open();
   REQUIRE(open.size() == 2);
   CHECK(open[0].hypothesis.terms.empty());
-  const std::vector<NextTest> proposed = compared.propose();
+  const std::vector<diagnosis::ProposedTest> proposed = compared.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().test == find_judged(judge_tests(compared.study, open), "fast_steps").test.description);
 }
@@ -189,7 +189,7 @@ TEST_CASE("the proposed test, run, splits what it said it would", "[slow]") {
     return expected_log_bayes_factor(compared.study, find("tire_loss_in_skim"), find("load_exponent"));
   };
   REQUIRE(find_factor(before) < thresholds::kToldApart_nats);
-  const std::vector<NextTest> proposed = before.propose();
+  const std::vector<diagnosis::ProposedTest> proposed = before.propose();
   REQUIRE(!proposed.empty());
   CHECK(proposed.front().splits.size() >= 2);
   std::vector<measurements::MeasuredRun> runs{tests::plan_skim_run()};

@@ -48,14 +48,10 @@ measurements::MeasurementSet make_set() {
 
 Diagnosis propose(const PlannedTest& test) {
   Diagnosis made = tests::make_explained();
-  made.next_test = {{test.description,
-                     {"bearing_warmup"},
-                     0.4,
-                     test.hours,
-                     test.soaked,
-                     test.extra.force_at_standstill,
-                     test.by_hand,
-                     test.runs}};
+  made.plan = {{test.description, {"bearing_warmup"}, 0.4, test.hours, test.by_hand},
+               test.soaked,
+               test.extra.force_at_standstill,
+               test.runs};
   return made;
 }
 

@@ -19,7 +19,9 @@ constexpr int kSeeds = 400;
 void check_coverage(const measurements::MeasurementSet& truth_of,
                     const std::function<measurements::MeasurementSet(std::uint64_t seed)>& make_set) {
   std::vector<estimation::TireFit> fits(kSeeds);
-  parallel_for(kSeeds, 0, [&](std::size_t i) { fits[i] = estimation::fit_tire(make_set(i + 1), {false, {}, 1}); });
+  parallel_for(kSeeds, 0, [&](std::size_t i) {
+    fits[i] = estimation::fit_tire(make_set(i + 1), {"", false, false, 1});
+  });
   for (std::size_t p = 0; p < fits[0].estimates.size(); ++p) {
     const std::string& key = fits[0].estimates[p].key;
     const double truth = tests::find_truth(truth_of, key);

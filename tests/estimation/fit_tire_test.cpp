@@ -138,8 +138,8 @@ TEST_CASE("the more is uncertain, the less is known of everything", "[fast]") {
 
 TEST_CASE("the answer is the same to the bit from one or two threads", "[fast]") {
   const auto set = tests::add_noise(tests::make_warm_up_set("a50", "source"), 3);
-  const TireFit one = fit_tire(set, {false, {}, 1});
-  const TireFit two = fit_tire(set, {false, {}, 2});
+  const TireFit one = fit_tire(set, {"", false, false, 1});
+  const TireFit two = fit_tire(set, {"", false, false, 2});
   for (std::size_t i = 0; i < one.estimates.size(); ++i) {
     CHECK(one.estimates[i].value == two.estimates[i].value);
     CHECK(one.estimates[i].sd == two.estimates[i].sd);
@@ -193,7 +193,7 @@ TEST_CASE("a map over load is fitted where there are several loads at two speeds
   add_loads("80");
   add_loads("120");
   set.runs.erase(set.runs.begin());
-  const TireFit fit = fit_tire(set, {true, {}, 2});
+  const TireFit fit = fit_tire(set, {"", true, false, 2});
   REQUIRE(fit.tire.values.load_map.size() == 2);
   const auto& low = fit.tire.values.load_map[0];
   const auto& high = fit.tire.values.load_map[1];

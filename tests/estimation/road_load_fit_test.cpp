@@ -234,7 +234,7 @@ TEST_CASE("bounds are off unless asked for, and said when on", "[fast]") {
   const RoadLoadFit free_fit = fit_road_load(data, with_mass());
   CHECK(free_fit.load.B_N_s_per_m == Approx(-1.0).epsilon(1e-3));
   RoadLoadFitOptions options = with_mass();
-  options.bounds = estimation::not_negative_bounds();
+  options.bounds = estimation::RoadLoadBounds{};
   const RoadLoadFit bounded = fit_road_load(data, options);
   CHECK(bounded.load.B_N_s_per_m == 0.0);
   CHECK(bounded.on_bound[1]);

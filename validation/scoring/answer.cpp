@@ -58,8 +58,8 @@ diagnosis::Diagnosis read_diagnosis(const Json& json) {
   read.gap.recalibrated = read_view("recalibrated");
   if (gap.at("shrink_percent").is_number()) read.gap.shrink_percent = gap.at("shrink_percent").get<double>();
   for (const Json& of : json.at("next_test")) {
-    read.next_test.push_back({of.at("test").get<std::string>(), of.at("splits").get<std::vector<std::string>>(),
-                              read_number(of.at("expected_bits_per_hour")), read_number(of.at("hours"))});
+    read.next_tests.push_back({of.at("test").get<std::string>(), of.at("splits").get<std::vector<std::string>>(),
+                               read_number(of.at("expected_bits_per_hour")), read_number(of.at("hours"))});
   }
   return read;
 }

@@ -116,8 +116,8 @@ std::vector<Answer> read_answers(const PlanOrder& order) {
 
 void write_test(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test, OutputFolder& out) {
   diagnosis::Diagnosis of;
-  of.next_test = {
-      {test.description, {}, 0.0, test.hours, test.soaked, test.extra.force_at_standstill, test.by_hand, test.runs}};
+  of.plan = {
+      {test.description, {}, 0.0, test.hours, test.by_hand}, test.soaked, test.extra.force_at_standstill, test.runs};
   const std::string folder = "plans/" + plan.number + "/";
   for (auto& [name, content] : diagnosis::write_plan(set, of)) {
     if (fs::path(name).extension() == ".csv") out.add(folder + name, content);
@@ -128,7 +128,7 @@ void write_test(const FollowUpPlan& plan, const MeasurementSet& set, const Plann
 /// The next test of a case, written where it can be made.
 FollowUpPlan plan_case(const PlanOrder& order, const Answer& answer, OutputFolder& out) {
   FollowUpPlan plan{answer.number, answer.set_sha256, list_named(answer.diagnosis), "", ""};
-  const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
+  const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_tests;
   const MeasurementSet set = measurements::read_measurement_set(case_folder(order.set, plan.number));
   if (order.choice == Choice::kProposed && proposed.empty()) {
     plan.not_made = "no test is proposed";
@@ -168,7 +168,7 @@ std::vector<FollowUpPlan> read_plans(const std::string& folder) {
 
 /// Whether a plan was made for this answer.
 bool is_for(const FollowUpPlan& plan, const Answer& answer, Choice choice) {
-  const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_test;
+  const std::vector<diagnosis::NextTest>& proposed = answer.diagnosis.next_tests;
   const bool is_its_test =
       choice == Choice::kDrawn || plan.test == (proposed.empty() ? std::string() : proposed.front().test);
   return plan.set_sha256 == answer.set_sha256 && plan.named == list_named(answer.diagnosis) && is_its_test;
@@ -187,8 +187,8 @@ std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis) {
 }
 
 bool FollowUp::is_promised(const Answer& before) const {
-  if (before.diagnosis.next_test.empty()) return false;
-  const std::vector<std::string>& splits = before.diagnosis.next_test.front().splits;
+  if (before.diagnosis.next_tests.empty()) return false;
+  const std::vector<std::string>& splits = before.diagnosis.next_tests.front().splits;
   const auto said = std::count_if(plan.named.begin(), plan.named.end(), [&](const std::string& id) {
     return std::find(splits.begin(), splits.end(), id) != splits.end();
   });

@@ -42,7 +42,7 @@ struct OpenSet {
   validation::Answer answer(const std::string& set, const std::vector<std::string>& proposed) const {
     validation::Case one = say_cause(make_case(set, {}), {"torque_zero_drift"}, 0.95, {"windage"});
     one.answer.set_sha256 = validation::hash_case(validation::case_folder(root, set));
-    for (const std::string& test : proposed) one.answer.diagnosis.next_test.push_back({test, {"windage"}, 0.5, 2.0});
+    for (const std::string& test : proposed) one.answer.diagnosis.next_tests.push_back({test, {"windage"}, 0.5, 2.0});
     validation::write_answer(answers, one.answer);
     return one.answer;
   }
@@ -199,8 +199,8 @@ TEST_CASE("a test splits where fewer are named with its runs, and the truth amon
   cases[5].next_test = validation::FollowUp{{"6", "", cases[5].named_set(), "a test", "weights"}, {}};
   cases.push_back(follow(before("7", {"torque_gain"}), {"torque_gain"}));
   cases.back().next_test->answer = say_unexplained(cases.back()).answer;  // by now unexplained
-  for (validation::Case& one : cases) one.answer.diagnosis.next_test = {{"a test", {"torque_gain"}, 0.5, 2.0}};
-  cases[2].answer.diagnosis.next_test = {{"a test", {"windage", "torque_gain"}, 0.5, 2.0}};
+  for (validation::Case& one : cases) one.answer.diagnosis.next_tests = {{"a test", {"torque_gain"}, 0.5, 2.0}};
+  cases[2].answer.diagnosis.next_tests = {{"a test", {"windage", "torque_gain"}, 0.5, 2.0}};
   const validation::Score score = validation::score_cases(cases, {});
   const validation::Figure& figure = find_figure(score, "next_test");
   CHECK(figure.n == 5);

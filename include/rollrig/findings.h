@@ -1,0 +1,137 @@
+#pragma once
+/// What a diagnosis finds, and what it is asked.
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "error.h"
+#include "progress.h"
+#include "result.h"
+
+#pragma GCC visibility push(default)
+namespace rollrig {
+
+enum class Verdict { kNoGap, kExplained, kUnexplained };
+
+/// An effect, a pair of them, or effects that this set cannot tell apart.
+struct Cause {
+  std::vector<std::string> effects;  // of the hypothesis: one, or two that act together
+  double probability = 0.0;          // of it with all that it cannot be told from
+  std::vector<std::string> indistinguishable_from;
+  std::vector<ParameterEstimate> parameters;
+  bool adequate = true;
+  std::vector<std::string> objections;  // why not adequate, a sentence each
+};
+
+/// A gap in noise floors: rms of what is left without noise, in standard deviations of a mean over a
+/// block of ten seconds; the session's offset does not count.
+struct GapView {
+  double before = 0.0;
+  double after = 0.0;  // the first cause added
+};
+
+/// The gap of one channel, in its unit (a torque as force at the drum's surface).
+struct ChannelGap {
+  std::string channel;
+  std::string unit;
+  double before = 0.0;
+  double after = 0.0;
+};
+
+/// How far the gap shrinks, on runs that the fit did not see.
+struct Gap {
+  GapView as_calibrated;                 // base parameters as the files give them
+  GapView recalibrated;                  // base parameters moved within their uncertainty; each run left out in turn
+  std::optional<double> shrink_percent;  // of the recalibrated gap; none where that is not above the noise
+  std::array<double, 2> shrink_ci95_percent{};
+  std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
+  std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
+  std::vector<std::string> held_out;            // runs judged on
+  bool worse_where_certain = false;  // on runs of which the others say enough, the cause makes the gap larger
+  std::vector<ChannelGap> channels;
+};
+
+/// A stretch of one channel in which simulation and measurement differ.
+struct Location {
+  std::string channel;
+  std::string run;
+  std::string phase;
+  double share_percent = 0.0;  // of all that is above the noise
+  double size = 0.0;           // measured less simulated, mean over the stretch
+  std::string unit;
+  double z = 0.0;  // size over its standard deviation
+  double start_s = 0.0;
+  double end_s = 0.0;
+};
+
+/// An equation that needs a perturbation for the simulation to meet the measurement.
+struct BalanceShare {
+  std::string name;
+  double share_percent = 0.0;
+};
+
+/// A test that would tell more.
+struct NextTest {
+  std::string test;
+  std::vector<std::string> splits;  // effects that it tells apart
+  double expected_bits_per_hour = 0.0;
+  double hours = 0.0;                     // of the rig
+  std::vector<std::string> by_hand = {};  // what is done at the rig beside the runs, a sentence each
+};
+
+/// A sensor that the rig has not, and what it would add to an ordinary run.
+struct NextSensor {
+  std::string sensor;
+  std::vector<std::string> splits;  // beyond what the run splits without it
+  double expected_bits = 0.0;       // likewise
+  double hours = 0.0;               // to fit it
+};
+
+/// A run that holds most of the gap of an unexplained set, and what is found without it.
+struct LoneRun {
+  std::string run;
+  double share_percent = 0.0;  // of all that is above the noise
+  Verdict verdict = Verdict::kNoGap;
+  std::vector<std::string> effects;  // of the first cause, where there is one
+  double probability = 0.0;          // of the first cause, or of "none"
+};
+
+/// What a diagnosis finds, as its JSON has it.
+struct Findings {
+  std::string set;  // its name
+  Verdict verdict = Verdict::kNoGap;
+  std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the comparison
+  std::vector<Cause> causes;                  // the likeliest first
+  Gap gap;
+  std::vector<Location> where;  // the largest share first
+  std::vector<BalanceShare> balance;
+  std::vector<NextTest> next_tests;  // the best first
+  std::vector<NextSensor> next_sensors;
+  std::vector<std::string> not_excluded;  // effects that this set would not show
+  std::vector<std::string> warnings;      // about the data, a sentence each
+  std::string doubt;                      // of the warnings, the one for which no cause may be named; else empty
+  std::optional<LoneRun> without_run;     // of an unexplained set of three runs or more
+};
+
+/// One set of a folder of sets.
+struct FleetMember {
+  std::string folder;                   // as given
+  std::string machine;                  // name of its rig or vehicle; empty where the set cannot be read, as is
+  std::string tire;                     // its name
+  std::optional<Findings> findings;     // none where it failed
+  std::string failure;                  // why
+  std::optional<InputProblem> problem;  // of the input, where that is why
+};
+
+struct DiagnosisOptions {
+  std::vector<std::string> without;  // effects left out of the comparison
+  std::vector<std::string> only;     // where not empty, the effects in the comparison
+  int threads = 0;                   // 0: as many as the machine has
+  Progress progress = {};
+};
+
+}  // namespace rollrig
+#pragma GCC visibility pop
