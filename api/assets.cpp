@@ -54,17 +54,15 @@ std::string describe_effect(const models::EffectInfo& info) {
 /// A trace is read best in a plot; here what it comes to.
 std::string describe_cycle(const std::string& path) {
   const scenarios::SpeedTrace trace = scenarios::read_speed_trace(path);
-  double distance_m = 0.0;
   double standing_s = 0.0;
   for (std::size_t i = 1; i < trace.time_s.size(); ++i) {
-    const double step_s = trace.time_s[i] - trace.time_s[i - 1];
-    distance_m += 0.5 * (trace.speed_m_s[i] + trace.speed_m_s[i - 1]) * step_s;
-    if (trace.speed_m_s[i] == 0.0 && trace.speed_m_s[i - 1] == 0.0) standing_s += step_s;
+    if (trace.speed_m_s[i] > 0.0 || trace.speed_m_s[i - 1] > 0.0) continue;
+    standing_s += trace.time_s[i] - trace.time_s[i - 1];
   }
   const double fastest_m_s = *std::max_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
   return fmt::format("{}\n\n{}: drive cycle, {}, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill\n",
-                     path, trace.name, format_count(trace.time_s.size(), "row"), trace.duration_s(), distance_m / 1e3,
-                     3.6 * fastest_m_s, standing_s);
+                     path, trace.name, format_count(trace.time_s.size(), "row"), trace.duration_s(),
+                     scenarios::calc_distance_m(trace.time_s, trace.speed_m_s) / 1e3, 3.6 * fastest_m_s, standing_s);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace rollrig::scenarios {
 namespace {
 
 /// Conditions of which the file gives most.
-struct ProgramConditions : DrumConditions {
+struct FollowDrumConditions : DrumConditions {
   FilePath program;
   Choice tire_state{"soaked", {"soaked", "warm"}};
   Choice reads_force_at_standstill{"no", {"no", "yes"}};
@@ -54,7 +54,7 @@ struct ProgramConditions : DrumConditions {
   }
 };
 
-using Settings = OnlyConditions<ProgramConditions>;
+using Settings = OnlyConditions<FollowDrumConditions>;
 
 struct Stretch {
   Reading reading;
@@ -95,7 +95,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
 }
 
 /// Every stretch of constant load and speed that is long enough to be averaged.
-std::vector<Stretch> read_stretches(const ProgramConditions& conditions, const RunSpec& spec,
+std::vector<Stretch> read_stretches(const FollowDrumConditions& conditions, const RunSpec& spec,
                                     const sim::Recording<double>& recording) {
   std::vector<Stretch> stretches;
   for (const LoadRange& range : find_test_ranges(recording, spec)) {
@@ -108,7 +108,7 @@ std::vector<Stretch> read_stretches(const ProgramConditions& conditions, const R
 }
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
-  const ProgramConditions& conditions = settings.conditions;
+  const FollowDrumConditions& conditions = settings.conditions;
   return {measure_rows(conditions.run), read_tire_course(outcome.recording, *conditions.pressure_Pa),
           read_stretches(conditions, spec, outcome.recording)};
 }

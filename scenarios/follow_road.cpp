@@ -1,10 +1,10 @@
 /// A vehicle on the road through rows that a file gives: speed, height and air.
-#include "scenarios/common/wheel_bench.h"
+#include "scenarios/common/follow_bench.h"
 
 namespace rollrig::scenarios {
 namespace {
 
-struct DriveConditions : RecordedInputs {
+struct FollowRoadConditions : RecordedInputs {
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"program", any_number(),
@@ -19,7 +19,7 @@ struct DriveConditions : RecordedInputs {
   }
 };
 
-using Settings = OnlyConditions<DriveConditions>;
+using Settings = OnlyConditions<FollowRoadConditions>;
 
 /// Says where numbers of a class of tires stand in for those of the file.
 void warn_of_class_values(const models::TireFile& tire, Outcome& outcome) {
@@ -62,7 +62,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 }  // namespace
 
 Scenario scenario_follow_road() {
-  return make_wheel_scenario(
+  return make_follow_scenario(
       {"follow_road", "A vehicle on the road, through speed, height and air that a file gives, row by row",
        "Run-up to the first row's speed, then speed, height and air as the file has them; its first row is 0 s. All "
        "tires alike, each under its share of the weight; air of 101.325 kPa; no rig. What the motor does not brake, "

@@ -1,10 +1,10 @@
 /// One wheel on its roller through rows that a file gives: speed, load, drive and brake force, air.
-#include "scenarios/common/wheel_bench.h"
+#include "scenarios/common/follow_bench.h"
 
 namespace rollrig::scenarios {
 namespace {
 
-struct WheelConditions : RecordedInputs {
+struct FollowRollerConditions : RecordedInputs {
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"program", any_number(),
@@ -19,7 +19,7 @@ struct WheelConditions : RecordedInputs {
   }
 };
 
-using Settings = OnlyConditions<WheelConditions>;
+using Settings = OnlyConditions<FollowRollerConditions>;
 
 struct Results {
   FollowedRows rows;
@@ -54,7 +54,7 @@ Results evaluate(const Settings& settings, const RunSpec&, Outcome& outcome) {
 }  // namespace
 
 Scenario scenario_follow_roller() {
-  return make_wheel_scenario(
+  return make_follow_scenario(
       {"follow_roller", "One wheel on its roller, through speed, load and force that a file gives, row by row",
        "Run-up to the first row's speed, then speed, load, longitudinal force and air as the file has them; its first "
        "row is 0 s. Quasi-static only. The steps are those of the diagnosis, which simulates a set that --write-set "

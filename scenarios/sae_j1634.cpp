@@ -47,8 +47,8 @@ struct Settings {
   }
 
   bool is_source() const { return variant.value == "source"; }
-  double end_speed() const { return end_speed_m_s.value_or(is_source() ? 80.0 / 3.6 : mid_speed_m_s); }
-  double count_from() const { return count_from_m_s.value_or(is_source() ? 20.0 / 3.6 : 0.0); }
+  double calc_end_speed_m_s() const { return end_speed_m_s.value_or(is_source() ? 80.0 / 3.6 : mid_speed_m_s); }
+  double calc_count_from_m_s() const { return count_from_m_s.value_or(is_source() ? 20.0 / 3.6 : 0.0); }
 };
 
 /// One section, or all of them together: of one tire (the first that is simulated), and of the whole vehicle.
@@ -117,7 +117,7 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
   const bool source = settings.is_source();
   const double pause_s = source ? 0.0 : settings.pause_s;
   const double constant_soak_s = source ? 0.0 : settings.constant_soak_s;
-  VehicleProgram program(settings.conditions, spec.sample_interval_s, settings.count_from());
+  VehicleProgram program(settings.conditions, spec.sample_interval_s, settings.calc_count_from_m_s());
   const auto half = [&](int n) {
     program.drive(city, fmt::format("city {}", 2 * n - 1));
     program.rest(fmt::format("pause {}", n), pause_s);
@@ -131,9 +131,9 @@ VehicleProgram plan(const Settings& settings, const RunSpec& spec) {
                    settings.mid_s, settings.ramp_s);
   program.rest("soak after constant speed 1", constant_soak_s);
   half(2);
-  const std::string last = fmt::format("constant speed {:.0f} km/h", 3.6 * settings.end_speed());
-  program.drive_at(last + (settings.end_speed() == settings.mid_speed_m_s ? ", end" : ""), settings.end_speed(),
-                   settings.end_s, settings.ramp_s);
+  const std::string last = fmt::format("constant speed {:.0f} km/h", 3.6 * settings.calc_end_speed_m_s());
+  program.drive_at(last + (settings.calc_end_speed_m_s() == settings.mid_speed_m_s ? ", end" : ""),
+                   settings.calc_end_speed_m_s(), settings.end_s, settings.ramp_s);
   return program;
 }
 
@@ -201,7 +201,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
                                                    : fmt::format("{}; the tire shown is the {}", layout.wheels.size(),
                                                                  plain_name(layout.wheels.front().position));
   results.load_N = layout.wheels.front().static_load_N;
-  results.count_from_m_s = settings.count_from();
+  results.count_from_m_s = settings.calc_count_from_m_s();
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (!is_section(outcome.recording.phases[i].name)) continue;
     results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));

@@ -40,12 +40,9 @@ Results evaluate(const CycleSettings& settings, const RunSpec& spec, Outcome& ou
   const sim::Recording<double>& recording = outcome.recording;
   Results results;
   results.cycle = find_cycles(recording, spec, settings.conditions).back();
-  const auto mean = [&](const Quantity& quantity) {
-    return calc_window_mean(recording.time_s, recording.channel(quantity), results.cycle.skim.window,
-                            spec.sample_interval_s);
-  };
-  results.rig_alone_N = mean(quantities::kParasiticLoss);
-  results.tire_share_N = mean(quantities::kRollingResistance);
+  const Window& window = results.cycle.skim.window;
+  results.rig_alone_N = calc_mean(recording, spec, window, quantities::kParasiticLoss);
+  results.tire_share_N = calc_mean(recording, spec, window, quantities::kRollingResistance);
   return results;
 }
 

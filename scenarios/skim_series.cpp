@@ -22,12 +22,11 @@ struct Settings : CycleSettings {
 
 struct Point {
   Reading reading;
-  double force_N = 0.0;
   double tire_N = 0.0;
 
   void visit(ResultSheet& visit) const {
     visit(Result{"load_N", "load", ".0f", "mean load"}, reading.load_N);
-    visit(Result{"force_N", "force", ".3f", "motor torque over drum radius"}, force_N);
+    visit(Result{"force_N", "force", ".3f", "motor torque over drum radius"}, reading.force_N);
     visit(Remark{"tire N (simulated)"}, fmt::format("{:.3f}", tire_N));
     visit(Remark{"tire degC"}, fmt::format("{:.1f}", reading.liner_temperature_K - kZeroCelsius_K));
   }
@@ -90,7 +89,7 @@ Extrapolation extrapolate(const std::vector<Point>& points, double force_sd_N) {
   for (Eigen::Index i = 0; i < n; ++i) {
     const Point& point = points[static_cast<std::size_t>(i)];
     design.row(i) << 1.0, point.reading.load_N;
-    force_N[i] = point.force_N;
+    force_N[i] = point.reading.force_N;
   }
   const Eigen::Vector2d line = design.colPivHouseholderQr().solve(force_N);
   const Eigen::Matrix2d normal = design.transpose() * design;
@@ -108,12 +107,9 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   Results results;
   for (std::size_t i = 1; i < ranges.size(); ++i) {
     const Window window = find_last_window(ranges[i], settings.conditions.window_s, settings.conditions.margin_s);
-    const auto mean = [&](const Quantity& quantity) {
-      return calc_window_mean(recording.time_s, recording.channel(quantity), window, spec.sample_interval_s);
-    };
-    const Reading reading = take_reading(recording, spec, window);
-    results.points.push_back({reading, reading.force_N, mean(quantities::kRollingResistance)});
-    results.rig_alone_N = mean(quantities::kParasiticLoss);
+    results.points.push_back(
+        {take_reading(recording, spec, window), calc_mean(recording, spec, window, quantities::kRollingResistance)});
+    results.rig_alone_N = calc_mean(recording, spec, window, quantities::kParasiticLoss);
   }
   const models::SensorParameters sensor = find_force_sensor(spec);
   const int samples = results.points.front().reading.samples;

@@ -3,7 +3,6 @@
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
 #include "rigs/trace_effects.h"
-#include "scenarios/common/virtual_sensors.h"
 #include "scenarios/run/fidelity.h"
 
 namespace rollrig::scenarios {

@@ -20,15 +20,17 @@ double calc_force_method_N(const Reading& reading, const RunSpec& spec) {
 
 }  // namespace
 
+double calc_mean(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window,
+                 const Quantity& quantity) {
+  return calc_window_mean(recording.time_s, recording.channel(quantity), window, spec.sample_interval_s);
+}
+
 Reading take_reading(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window) {
   const Quantity& force = spec.rig.kind->traits.force;
-  const double interval_s = spec.sample_interval_s;
-  const auto mean = [&](const Quantity& quantity) {
-    return calc_window_mean(recording.time_s, recording.channel(quantity), window, interval_s);
-  };
+  const auto mean = [&](const Quantity& quantity) { return calc_mean(recording, spec, window, quantity); };
   Reading reading;
   reading.window = window;
-  reading.samples = count_window_samples(recording.time_s, recording.channel(force), window, interval_s);
+  reading.samples = count_window_samples(recording.time_s, recording.channel(force), window, spec.sample_interval_s);
   reading.load_N = mean(quantities::kLoad);
   reading.speed_m_s = mean(quantities::kSpeed);
   reading.ambient_K = mean(quantities::kAmbient);

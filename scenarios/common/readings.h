@@ -25,6 +25,9 @@ struct Reading {
   double pressure_Pa = 0.0;
 };
 
+/// Mean of a channel over a window.
+double calc_mean(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window,
+                 const Quantity& quantity);
 Reading take_reading(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window);
 
 /// A load followed by a skim test.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scenarios/common/drum_conditions.h"
+#include "scenarios/common/speed_trace.h"
 
 namespace rollrig::scenarios {
 
@@ -90,12 +91,7 @@ measurements::MeasuredRun RecordedInputs::make_rows(const RunSpec& spec) const {
 }
 
 FollowedRows measure_rows(const measurements::MeasuredRun& run) {
-  const std::vector<double>& speed_m_s = run.column(quantities::kSpeed);
-  FollowedRows rows{run.id, run.time_s.back() - run.time_s.front(), 0.0};
-  for (std::size_t i = 0; i + 1 < speed_m_s.size(); ++i) {
-    rows.distance_m += 0.5 * (speed_m_s[i] + speed_m_s[i + 1]) * (run.time_s[i + 1] - run.time_s[i]);
-  }
-  return rows;
+  return {run.id, run.time_s.back() - run.time_s.front(), calc_distance_m(run.time_s, run.column(quantities::kSpeed))};
 }
 
 TireCourse read_tire_course(const sim::Recording<double>& recording, double pressure_set_Pa) {

@@ -7,6 +7,14 @@
 
 namespace rollrig::scenarios {
 
+double calc_distance_m(const std::vector<double>& time_s, const std::vector<double>& speed_m_s) {
+  double distance_m = 0.0;
+  for (std::size_t i = 1; i < time_s.size(); ++i) {
+    distance_m += 0.5 * (speed_m_s[i - 1] + speed_m_s[i]) * (time_s[i] - time_s[i - 1]);
+  }
+  return distance_m;
+}
+
 SpeedTrace read_speed_trace(const std::string& name_or_path) {
   const std::string path = find_asset("cycles", name_or_path);
   const CsvTable csv = CsvTable::read(path);

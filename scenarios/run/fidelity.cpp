@@ -30,4 +30,11 @@ sim::Recording<double> run_quasi_static(sim::OdeSystem<double>& rig, const sim::
   return sim::simulate<double>(rig, integrator, on_grid, progress);
 }
 
+void apply_sensors(const RunSpec& spec, sim::Recording<double>& recording) {
+  if (!spec.sensors.has_value()) return;
+  for (const auto& [channel, sensor] : *spec.sensors) {
+    models::apply_sensor(sensor, channel, {spec.seed, "session", "run"}, recording.time_s, recording.channel(channel));
+  }
+}
+
 }  // namespace rollrig::scenarios

@@ -20,4 +20,7 @@ sim::Recording<double> run_multibody(sim::OdeSystem<double>& rig, const sim::Pro
 sim::Recording<double> run_quasi_static(sim::OdeSystem<double>& rig, const sim::Program& program,
                                         std::size_t speed_input, const RunSpec& spec, const sim::Progress& progress);
 
+/// Adds to every channel that has a sensor what that sensor errs, from the run's seed. Nothing without sensors.
+void apply_sensors(const RunSpec& spec, sim::Recording<double>& recording);
+
 }  // namespace rollrig::scenarios

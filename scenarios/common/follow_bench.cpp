@@ -1,9 +1,9 @@
-#include "scenarios/common/wheel_bench.h"
+#include "scenarios/common/follow_bench.h"
 
 #include <algorithm>
 
 #include "measurements/resimulation.h"
-#include "scenarios/common/virtual_sensors.h"
+#include "scenarios/run/fidelity.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -56,7 +56,7 @@ void name_phases(sim::Recording<double>& recording) {
 
 }  // namespace
 
-models::Context<double> make_wheel_context(const RunSpec& spec, const measurements::MeasuredRun& rows) {
+models::Context<double> make_follow_context(const RunSpec& spec, const measurements::MeasuredRun& rows) {
   return measurements::make_context(make_set(spec, rows));
 }
 
