@@ -72,13 +72,17 @@ std::string make_csv(const SweepResult& sweep) {
   return csv.take();
 }
 
+void require_known(const std::vector<std::string>& asked, const std::vector<std::string>& results) {
+  for (const std::string& key : asked) {
+    if (std::find(results.begin(), results.end(), key) != results.end()) continue;
+    throw InputError(unknown_name("result", key, results));
+  }
+}
+
 /// Results shown in the terminal: as asked for, else the first of those that change, as many as fit 80 columns.
 std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json,
                                       const SweepResult& sweep) {
-  for (const std::string& key : asked) {
-    if (std::find(sweep.results.begin(), sweep.results.end(), key) != sweep.results.end()) continue;
-    throw InputError(unknown_name("result", key, sweep.results));
-  }
+  require_known(asked, sweep.results);
   if (!asked.empty()) return asked;
   std::size_t width = 2;
   for (const std::string& axis : sweep.axes) width += axis.size() + 1;
@@ -124,7 +128,11 @@ Sweep::Sweep(const SweepInput& input) {
     RunInput run = input.run;
     for (std::size_t i = 0; i < point.size(); ++i) run.settings.push_back(input.axes[i].key + "=" + point[i]);
     data->specs.push_back(api::read_run(run));
+    scenarios::prepare_run(data->specs.back());  // says what is wrong before the first is carried out
   }
+  std::vector<std::string> declared;
+  for (const scenarios::ResultInfo& info : data->specs.front().scenario->results) declared.push_back(info.key);
+  require_known(input.shown, declared);
   data_ = data;
 }
 

@@ -37,9 +37,9 @@ struct SweepResult : Report {
 /// A sweep whose runs are all read and checked. Copies share it; any number of threads may use it.
 class Sweep {
  public:
-  /// Throws InputError.
+  /// Throws InputError, also for a result to be shown that the scenario does not have.
   explicit Sweep(const SweepInput& input);
-  /// Runs all points, several at a time. Throws InputError for a result to be shown that there is not, RunFailure,
+  /// Runs all points, several at a time. Throws InputError for a result to be shown that no point has, RunFailure,
   /// Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
 
