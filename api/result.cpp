@@ -1,10 +1,13 @@
 #include "rollrig/result.h"
 
 #include "api/data.h"
+#include "rollrig/version.h"
 #include "sim/core/file_io.h"
 #include "sim/core/units.h"
 
 namespace rollrig {
+
+const char* library_version() { return ROLLRIG_VERSION; }
 
 Channel make_channel(const std::string& name, std::vector<double> values_SI) {
   const Unit unit = unit_of_key(name);

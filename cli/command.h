@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "rollrig/run.h"
 #include "sim/core/error.h"
 
 namespace rollrig::cli {
@@ -43,10 +44,10 @@ void add_list_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_fit_command(CLI::App& app, Action& action);
+/// Options that describe a run, of run and sweep.
+void add_run_options(CLI::App& command, RunInput& input);
 /// Below `fit`.
 void add_fit_road_load(CLI::App& fit, Action& action);
-/// Under `fit`.
-void add_fit_drum_coastdown_command(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_export_command(CLI::App& app, Action& action);

@@ -19,36 +19,50 @@
 namespace rollrig::cli {
 namespace {
 
-/// As given, in the units of the options.
-struct Side {
-  std::string drum;
-  std::optional<double> tire_diameter_m, pressure_kPa, ambient_degC, load_N;
+/// A loss as force, as RRc, or as both where the load is known.
+struct Loss {
+  std::optional<double> force_N, rrc_N_per_kN;
 };
 
 struct Options {
-  std::optional<double> force_N, rrc_N_per_kN;
+  Loss given;
   std::string tire;
-  Side from, to;
+  estimation::LossConditions from, to;
   estimation::ConversionExponents exponents;
   std::string json;
 };
 
-void require_in(const Range& range, const std::optional<double>& value, const std::string& option,
-                const std::string& unit) {
-  if (!value.has_value() || (std::isfinite(*value) && range.contains(*value))) return;
-  throw usage_error(option + " is out of range", option, fmt::format("{:g}", *value),
-                    fmt::format("a number {} in {}", range.to_string(), unit));
+/// How a number is given: what is allowed, the unit, and that unit in SI.
+struct Given {
+  Range range;
+  const char* unit;
+  double factor = 1.0;
+  double offset_SI = 0.0;
+};
+
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& option, Number& number_SI, const Given& given,
+                        const char* doc) {
+  const auto set = [&number_SI, option, given](const double& value) {
+    if (!std::isfinite(value) || !given.range.contains(value)) {
+      throw usage_error(option + " is out of range", option, fmt::format("{:g}", value),
+                        fmt::format("a number {} in {}", given.range.to_string(), given.unit));
+    }
+    number_SI = given.factor * value + given.offset_SI;
+  };
+  return command.add_option_function<double>(option, set, doc);
 }
 
 /// 1/R of a diameter in m, 0 of "flat".
-std::optional<double> read_curvature(const std::string& text, const std::string& option) {
-  if (text.empty()) return std::nullopt;
-  if (text == "flat") return 0.0;
-  const std::optional<double> diameter_m = parse_number(text);
-  if (!diameter_m.has_value() || *diameter_m <= 0.0) {
-    throw usage_error(fmt::format("'{}' is not a drum", text), option, text, "a diameter in m, > 0, or flat");
-  }
-  return 2.0 / *diameter_m;
+void add_drum(CLI::App& command, const std::string& option, std::optional<double>& curvature_per_m, const char* doc) {
+  const auto set = [&curvature_per_m, option](const std::string& text) {
+    const std::optional<double> diameter_m = parse_number(text);
+    if (text != "flat" && !(diameter_m.has_value() && *diameter_m > 0.0)) {
+      throw usage_error(fmt::format("'{}' is not a drum", text), option, text, "a diameter in m, > 0, or flat");
+    }
+    curvature_per_m = text == "flat" ? 0.0 : 2.0 / *diameter_m;
+  };
+  command.add_option_function<std::string>(option, set, doc);
 }
 
 void require_both(bool from_given, bool to_given, const std::string& from, const std::string& to) {
@@ -69,53 +83,26 @@ void apply_tire(Options& options, bool exponent_given) {
 }
 
 void check(const Options& options) {
-  if (options.force_N.has_value() == options.rrc_N_per_kN.has_value()) {
+  if (options.given.force_N.has_value() == options.given.rrc_N_per_kN.has_value()) {
     throw usage_error("a loss is given once", "--force", "", "either --force <N> or --rrc <N/kN>");
   }
-  require_in(positive(), options.force_N, "--force", "N");
-  require_in(positive(), options.rrc_N_per_kN, "--rrc", "N/kN");
-  require_in(between(-1.0, 3.0), options.exponents.pressure, "--pressure-exponent", "-");
-  require_in(between(0.0, 3.0), options.exponents.load, "--load-exponent", "-");
-  require_in(positive(), options.from.tire_diameter_m, "--tire-diameter", "m");
-  require_in(positive(), options.to.tire_diameter_m, "--to-tire-diameter", "m");
-  for (const auto& [side, name] : {std::pair(&options.from, "from"), std::pair(&options.to, "to")}) {
-    const std::string prefix = std::string("--") + name + "-";
-    require_in(positive(), side->pressure_kPa, prefix + "pressure", "kPa, gauge");
-    require_in(between(-60.0, 80.0), side->ambient_degC, prefix + "ambient", "degC");
-    require_in(positive(), side->load_N, std::string(name) == "to" ? "--to-load" : "--load", "N");
-  }
-  const Side& from = options.from;
-  const Side& to = options.to;
-  require_both(!from.drum.empty(), !to.drum.empty(), "--from-drum", "--to-drum");
-  require_both(from.pressure_kPa.has_value(), to.pressure_kPa.has_value(), "--from-pressure", "--to-pressure");
-  require_both(from.ambient_degC.has_value(), to.ambient_degC.has_value(), "--from-ambient", "--to-ambient");
+  const estimation::LossConditions& from = options.from;
+  const estimation::LossConditions& to = options.to;
+  require_both(from.drum_curvature_per_m.has_value(), to.drum_curvature_per_m.has_value(), "--from-drum", "--to-drum");
+  require_both(from.pressure_Pa.has_value(), to.pressure_Pa.has_value(), "--from-pressure", "--to-pressure");
+  require_both(from.ambient_K.has_value(), to.ambient_K.has_value(), "--from-ambient", "--to-ambient");
   if (to.load_N.has_value()) require_both(from.load_N.has_value(), true, "--load", "--to-load");
   if (to.tire_diameter_m.has_value()) {
     require_both(from.tire_diameter_m.has_value(), true, "--tire-diameter", "--to-tire-diameter");
   }
 }
 
-estimation::LossConditions make_conditions(const Side& side, const std::string& drum_option) {
-  estimation::LossConditions conditions;
-  conditions.drum_curvature_per_m = read_curvature(side.drum, drum_option);
-  conditions.tire_diameter_m = side.tire_diameter_m;
-  if (side.pressure_kPa.has_value()) conditions.pressure_Pa = 1e3 * *side.pressure_kPa;
-  if (side.ambient_degC.has_value()) conditions.ambient_K = *side.ambient_degC + kZeroCelsius_K;
-  conditions.load_N = side.load_N;
-  return conditions;
-}
-
-/// A loss as force, as RRc, or as both where the load is known.
-struct Loss {
-  std::optional<double> force_N, rrc_N_per_kN;
-};
-
 /// The loss before and after. RRc goes with the force over the load.
 std::pair<Loss, Loss> apply_conversion(const Options& options, double force_factor) {
   const std::optional<double> load_N = options.from.load_N;
   const std::optional<double> to_load_N = options.to.load_N.has_value() ? options.to.load_N : load_N;
   const double rrc_factor = load_N.has_value() ? force_factor * *load_N / *to_load_N : force_factor;
-  Loss from{options.force_N, options.rrc_N_per_kN};
+  Loss from = options.given;
   if (load_N.has_value() && from.force_N.has_value()) from.rrc_N_per_kN = 1e3 * *from.force_N / *load_N;
   if (load_N.has_value() && !from.force_N.has_value()) from.force_N = 1e-3 * *from.rrc_N_per_kN * *load_N;
   Loss to;
@@ -170,12 +157,10 @@ std::string format_conversion(const estimation::LossConversion& conversion, cons
 int convert_command(Options options, bool exponent_given) {
   apply_tire(options, exponent_given);
   check(options);
-  estimation::LossConditions from = make_conditions(options.from, "--from-drum");
-  estimation::LossConditions to = make_conditions(options.to, "--to-drum");
   const OutputFiles files({{"--json", options.json}});
-  const estimation::LossConversion conversion = estimation::convert_loss(from, to, options.exponents);
+  const estimation::LossConversion conversion = estimation::convert_loss(options.from, options.to, options.exponents);
   const auto [given, result] = apply_conversion(options, conversion.force_factor);
-  if (!options.json.empty()) write_output(options.json, make_json(conversion, given, result).dump(2) + "\n");
+  if (!options.json.empty()) write_output(options.json, to_text(make_json(conversion, given, result)));
   if (options.json != "-") std::cout << format_conversion(conversion, given, result);
   return kDone;
 }
@@ -186,24 +171,28 @@ void add_convert_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
       "convert", "Take a measured loss to another drum, tire diameter, pressure, temperature of the air or load");
   auto options = std::make_shared<Options>();
-  Side& from = options->from;
-  Side& to = options->to;
-  command->add_option("--force", options->force_N, "Measured loss in N");
-  command->add_option("--rrc", options->rrc_N_per_kN, "Measured loss in N/kN");
-  command->add_option("--load", from.load_N, "Load in N, to give both force and RRc");
-  command->add_option("--to-load", to.load_N, "Load to convert to in N; needs --load");
-  command->add_option("--from-drum", from.drum, "Diameter of the drum in m, or flat");
-  command->add_option("--to-drum", to.drum, "Diameter of the drum to convert to in m, or flat");
+  estimation::LossConditions& from = options->from;
+  estimation::LossConditions& to = options->to;
+  const Given newtons{positive(), "N"}, meters{positive(), "m"}, gauge{positive(), "kPa, gauge", 1e3};
+  const Given air{between(-60.0, 80.0), "degC", 1.0, kZeroCelsius_K};
+  add_number(*command, "--force", options->given.force_N, newtons, "Measured loss in N");
+  add_number(*command, "--rrc", options->given.rrc_N_per_kN, {positive(), "N/kN"}, "Measured loss in N/kN");
+  add_number(*command, "--load", from.load_N, newtons, "Load in N, to give both force and RRc");
+  add_number(*command, "--to-load", to.load_N, newtons, "Load to convert to in N; needs --load");
+  add_drum(*command, "--from-drum", from.drum_curvature_per_m, "Diameter of the drum in m, or flat");
+  add_drum(*command, "--to-drum", to.drum_curvature_per_m, "Diameter of the drum to convert to in m, or flat");
   command->add_option("--tire", options->tire, "Name under assets/tires, or a path: its diameter, pressure exponent");
-  command->add_option("--tire-diameter", from.tire_diameter_m, "Outer diameter of the tire in m");
-  command->add_option("--to-tire-diameter", to.tire_diameter_m, "Outer diameter of the tire to convert to in m");
-  command->add_option("--from-pressure", from.pressure_kPa, "Gauge pressure in kPa");
-  command->add_option("--to-pressure", to.pressure_kPa, "Gauge pressure to convert to in kPa");
-  command->add_option("--from-ambient", from.ambient_degC, "Temperature of the air in degC");
-  command->add_option("--to-ambient", to.ambient_degC, "Temperature of the air to convert to in degC");
-  CLI::Option* exponent = command->add_option("--pressure-exponent", options->exponents.pressure,
-                                              "a of (p/p_ref)^-a [the tire's, else 0.4]");
-  command->add_option("--load-exponent", options->exponents.load, "Exponent of the force over load [1]");
+  add_number(*command, "--tire-diameter", from.tire_diameter_m, meters, "Outer diameter of the tire in m");
+  add_number(*command, "--to-tire-diameter", to.tire_diameter_m, meters,
+             "Outer diameter of the tire to convert to in m");
+  add_number(*command, "--from-pressure", from.pressure_Pa, gauge, "Gauge pressure in kPa");
+  add_number(*command, "--to-pressure", to.pressure_Pa, gauge, "Gauge pressure to convert to in kPa");
+  add_number(*command, "--from-ambient", from.ambient_K, air, "Temperature of the air in degC");
+  add_number(*command, "--to-ambient", to.ambient_K, air, "Temperature of the air to convert to in degC");
+  CLI::Option* exponent = add_number(*command, "--pressure-exponent", options->exponents.pressure,
+                                     {between(-1.0, 3.0), "-"}, "a of (p/p_ref)^-a [the tire's, else 0.4]");
+  add_number(*command, "--load-exponent", options->exponents.load, {between(0.0, 3.0), "-"},
+             "Exponent of the force over load [1]");
   command->add_option("--json", options->json, "File for the result, - for standard output");
   command->callback([options, exponent, &action] {
     const bool exponent_given = exponent->count() > 0;

@@ -12,6 +12,12 @@ struct Options {
   TireFitOptions fit;
 };
 
+struct CoastdownOptions {
+  std::string set;
+  std::string data;
+  OutputOptions output;
+};
+
 int fit_tire_command(const Options& options) {
   const MeasurementSet set(options.set);
   Output output(options.output);
@@ -24,6 +30,24 @@ int fit_tire_command(const Options& options) {
   return fit.suspicion.empty() ? kDone : kDiffers;  // as of validate
 }
 
+int fit_drum_coastdown_command(const CoastdownOptions& options) {
+  Output output(options.output);
+  const Report fit = fit_drum_coastdown(options.set, options.data);
+  output.write(fit);
+  output.print(fit.text);
+  return kDone;
+}
+
+void add_fit_drum_coastdown(CLI::App& fit, Action& action) {
+  const auto [command, options] = add_command<CoastdownOptions>(
+      fit, action, "drum-coastdown", "Rolling resistance from coast-downs of a drum, tire loaded and lifted",
+      &fit_drum_coastdown_command);
+  command->add_option("set", options->set, "Set of coast-downs (.toml)")->required();
+  command->add_option("--data", options->data, "Folder of the set's CSV files [that of the set]");
+  options->output.add_to(*command, "File for fit.json, - for standard output",
+                         "Folder for fit.json, decelerations.csv, residuals.csv");
+}
+
 }  // namespace
 
 void add_fit_command(CLI::App& app, Action& action) {
@@ -32,7 +56,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   add_fit_road_load(*command, action);
   const auto [tire, options] = add_command<Options>(
       *command, action, "tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds", &fit_tire_command);
-  add_fit_drum_coastdown_command(*command, action);
+  add_fit_drum_coastdown(*command, action);
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();
   tire->add_option("--name", options->fit.name, "Name of the fitted tire [<tire>_fit]");
   options->output.add_to(*tire, "File for fit.json, - for standard output", "Folder for the tire file and fit.json");

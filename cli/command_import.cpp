@@ -90,8 +90,7 @@ int import_command(const Options& options) {
   files.require_no_input();
   for (auto& [name, content] : measurements::make_set_files(mapping, imported)) out.add(name, content);
   out.commit();
-  if (!options.json.empty())
-    write_output(options.json, measurements::make_import_json(mapping, imported).dump(2) + "\n");
+  if (!options.json.empty()) write_output(options.json, to_text(measurements::make_import_json(mapping, imported)));
   if (options.quiet || options.json == "-") return kDone;
   std::cout << format_import(mapping, imported);
   std::cout << format_checks(options.out)

@@ -1,7 +1,6 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "cli/run_options.h"
 #include "rollrig/sweep.h"
 
 namespace rollrig::cli {

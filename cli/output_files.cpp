@@ -50,10 +50,18 @@ void OutputFiles::require_no_input() const {
   }
 }
 
+void add_html_option(CLI::App& command, std::string& path) {
+  command.add_option("--html", path, "File for a page with charts, for any browser; - for standard output");
+}
+
+std::string note_page(const std::string& path) {
+  return path.empty() || path == "-" ? "" : fmt::format("  page written to {}\n", path);
+}
+
 void OutputOptions::add_to(CLI::App& command, const char* json_doc, const char* folder_doc) {
   if (folder_doc != nullptr) command.add_option("--out", folder, folder_doc);
   command.add_option("--json", json, json_doc);
-  html.add_to(command);
+  add_html_option(command, html);
   if (folder_doc != nullptr) command.add_flag("--force", force, "Write into a folder that holds files");
   command.add_flag("--quiet", quiet, "Print nothing but errors");
 }
@@ -62,7 +70,7 @@ Output::Output(const OutputOptions& options)
     : options_(options),
       folder_(options.folder.empty() ? std::nullopt
                                      : std::optional<OutputFolder>(std::in_place, options.folder, options.force)),
-      files_({{"--json", options.json}, {"--html", options.html.path}}) {}
+      files_({{"--json", options.json}, {"--html", options.html}}) {}
 
 void Output::write(const Report& report) {
   files_.require_no_input();
@@ -75,12 +83,12 @@ void Output::write(const Report& report) {
     folder_->commit();
   }
   if (!options_.json.empty()) write_output(options_.json, report.json);
-  if (options_.html.is_wanted()) options_.html.write(report.make_page());
+  if (!options_.html.empty()) write_output(options_.html, report.make_page());
 }
 
 void Output::print(const std::string& text) const {
   if (options_.is_silent()) return;
-  std::cout << text << options_.html.note();
+  std::cout << text << note_page(options_.html);
   if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 /// What a command writes: --out, --json, --html and their like.
 
+#include <CLI/CLI.hpp>
+
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cli/html_option.h"
 #include "rollrig/result.h"
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
@@ -37,18 +38,23 @@ class OutputFiles {
   std::vector<OutputFile> files_;
 };
 
+/// --html: the result as a page, one file that needs nothing else.
+void add_html_option(CLI::App& command, std::string& path);
+/// A line that says where the page is; empty where there is none, or where it went to standard output.
+std::string note_page(const std::string& path);
+
 /// --json, --html and --quiet of a command, with --out and --force where it fills a folder.
 struct OutputOptions {
   std::string folder;
   std::string json;
-  HtmlOption html;
+  std::string html;
   bool force = false;
   bool quiet = false;
 
   /// `folder_doc` says what --out is for; without it there is no such option.
   void add_to(CLI::App& command, const char* json_doc, const char* folder_doc = nullptr);
   /// Whether nothing is to be printed, since that was asked for or standard output is taken.
-  bool is_silent() const { return quiet || json == "-" || html.is_standard_output(); }
+  bool is_silent() const { return quiet || json == "-" || html == "-"; }
 };
 
 /// The output of one command. To be made before the work, so that what cannot be written is refused before it.

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "exports/names.h"
 #include "sim/core/units.h"
 
 namespace rollrig::exports {
@@ -141,9 +140,9 @@ struct ValueWriter {
 };
 
 void write_members(hid_t place, const Group& group) {
-  Names names;
+  std::set<std::string> taken;
   for (const auto& [key, node] : group.members) {
-    const std::string link = names.make_unique(make_link(key));
+    const std::string link = take_name(make_link(key), taken);
     std::visit(ValueWriter{place, link, key}, node.value);
   }
 }

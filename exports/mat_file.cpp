@@ -11,7 +11,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "exports/names.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
@@ -83,12 +82,12 @@ Variable make_struct(Fields fields) {
 Variable make_value(const Node& node);
 
 Fields make_fields(const Group& group) {
-  Names names;
-  if (group.is_table) names.make_unique(kUnits);
+  std::set<std::string> taken;
+  if (group.is_table) taken.insert(kUnits);
   Fields fields;
   Fields units;
   for (const auto& [name, node] : group.members) {
-    const std::string field = names.make_unique(make_identifier(name));
+    const std::string field = take_name(make_identifier(name), taken);
     const std::string unit = unit_of_key(name).symbol;
     if (!unit.empty()) units.emplace_back(field, make_text(unit));
     fields.emplace_back(field, make_value(node));

@@ -95,4 +95,10 @@ Node make_node(const Json& json) {
 
 Node make_node(const ConfigTable& table) { return make_node(to_json(ConfigValue{table, {}, ""})); }
 
+std::string take_name(const std::string& name, std::set<std::string>& taken) {
+  std::string unique = name;
+  for (int i = 2; !taken.insert(unique).second; ++i) unique = name + "_" + std::to_string(i);
+  return unique;
+}
+
 }  // namespace rollrig::exports

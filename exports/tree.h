@@ -2,6 +2,7 @@
 /// What is exported, whatever the file: named things in groups. Units stand in the names and are told beside them by
 /// the files (unit_of_key).
 
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -42,5 +43,8 @@ Node make_node(const Json& json);
 
 /// A TOML table likewise.
 Node make_node(const ConfigTable& table);
+
+/// For names that a file's format allows: `name`, or where it is taken the first free of name_2, name_3, ...; taken now.
+std::string take_name(const std::string& name, std::set<std::string>& taken);
 
 }  // namespace rollrig::exports

@@ -166,12 +166,6 @@ std::vector<TestCar> read_test_cars(const std::string& path) {
   return cars;
 }
 
-std::vector<TestCar> thin_out(const std::vector<TestCar>& cars, std::size_t step) {
-  std::vector<TestCar> kept;
-  for (std::size_t i = 0; i < cars.size(); i += std::max<std::size_t>(step, 1)) kept.push_back(cars[i]);
-  return kept;
-}
-
 double find_front_drive(const std::string& drive) {
   static const std::map<std::string, double> shares{{"F", 1.0}, {"R", 0.0}, {"P", 0.0}, {"A", 0.5}, {"4", 0.5}};
   return shares.at(drive);

@@ -28,9 +28,6 @@ struct TestCar {
 /// Throws InputError.
 std::vector<TestCar> read_test_cars(const std::string& path);
 
-/// Every `step`-th car.
-std::vector<TestCar> thin_out(const std::vector<TestCar>& cars, std::size_t step);
-
 /// What the list does not say.
 struct FleetAssumptions {
   double rrc_N_per_kN = 9.0;         // of every tire in the ISO test. Assumed: tires of the United States' market

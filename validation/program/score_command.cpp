@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/html_option.h"
 #include "cli/output_files.h"
 #include "report/blocks.h"
 #include "sim/core/file_io.h"
@@ -98,7 +97,7 @@ struct Options {
   ScoreOptions how;
   std::string json;
   std::string markdown;
-  cli::HtmlOption html;
+  std::string html;
   bool quiet = false;
 };
 
@@ -120,17 +119,16 @@ void fill_places(ScoreOrder& order) {
 }
 
 int score_command(Options options) {
-  const cli::OutputFiles files(
-      {{"--json", options.json}, {"--markdown", options.markdown}, {"--html", options.html.path}});
+  const cli::OutputFiles files({{"--json", options.json}, {"--markdown", options.markdown}, {"--html", options.html}});
   fill_places(options.order);
   Score score = score_cases(read_cases(options.order), options.how);
   put_beside(score_baselines(options.order, options.how), score);
   files.require_no_input();
   if (!options.json.empty()) write_output(options.json, make_score_json(score).dump(1) + "\n");
   if (!options.markdown.empty()) write_output(options.markdown, format_score_markdown(score));
-  if (options.html.is_wanted()) options.html.write(report::make_html(make_score_page(score, options.order.set)));
-  const bool is_output_taken = options.json == "-" || options.markdown == "-" || options.html.is_standard_output();
-  if (!options.quiet && !is_output_taken) std::cout << format_score(score) << options.html.note();
+  if (!options.html.empty()) write_output(options.html, report::make_html(make_score_page(score, options.order.set)));
+  const bool is_output_taken = options.json == "-" || options.markdown == "-" || options.html == "-";
+  if (!options.quiet && !is_output_taken) std::cout << format_score(score) << cli::note_page(options.html);
   return cli::kDone;
 }
 
@@ -154,7 +152,7 @@ void add_score_command(CLI::App& app, cli::Action& action) {
   command->add_option("--detectable-floors", options->how.detectable_floors,
                       "Signal from which an effect is to be found where no d' is known, in noise floors [1]");
   command->add_option("--json", options->json, "File for everything, - for standard output");
-  options->html.add_to(*command);
+  cli::add_html_option(*command, options->html);
   command->add_option("--markdown", options->markdown, "File for the tables of a page, - for standard output");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }

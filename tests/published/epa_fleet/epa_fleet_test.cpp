@@ -44,7 +44,9 @@ void check_car(const TestCar& car, const FleetResult& result) {
 }  // namespace
 
 TEST_CASE("test cars of a list: road load given back within 0.5 %, rollers set, every 40th car", "[published]") {
-  const std::vector<TestCar> cars = thin_out(read_test_cars(kList), 40);
+  const std::vector<TestCar> all = read_test_cars(kList);
+  std::vector<TestCar> cars;
+  for (std::size_t i = 0; i < all.size(); i += 40) cars.push_back(all[i]);
   REQUIRE(cars.size() > 30);
   const std::vector<FleetResult> results = simulate_fleet(cars, {}, 0);
   for (std::size_t i = 0; i < cars.size(); ++i) check_car(cars[i], results[i]);
