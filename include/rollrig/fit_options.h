@@ -34,7 +34,7 @@ struct RoadLoadFitOptions {
   double reference_pressure_Pa = 98.21e3;   // 40 CFR 1066.305
   double rolling_fall_per_K = 8.6e-3;       // of A and B with ambient temperature; docs/fit_road_load.md
   double speed_from_m_s = 15.0 / 3.6;       // SAE J2263, scope
-  double speed_to_m_s = 1e9;
+  double speed_to_m_s = std::numeric_limits<double>::infinity();
   double bin_width_m_s = 5.0 / 3.6;  // of a trace. Assumed
   std::optional<RoadLoadBounds> bounds;
 };

@@ -92,7 +92,6 @@ estimation::RoadLoadFit fit_coastdowns(const sim::Recording<double>& recording, 
   options.mass_kg = spec.vehicle->body.mass_kg;
   options.rotating_mass_kg = spec.vehicle->body.rotating_mass_kg;
   options.drag_area_m2 = spec.vehicle->body.drag_area_m2;
-  options.speed_to_m_s = RoadLoadBounds::kNone;
   // Where a tail wind is faster than the vehicle, drag drives it, and (v + w)^2 is not its law.
   // Assumed: a margin of 10 %.
   options.speed_from_m_s = std::max(options.speed_from_m_s, 1.1 * std::abs(coastdowns.wind_m_s));
