@@ -28,36 +28,21 @@ bool ProgressLine::is_due() {
   return true;
 }
 
-void ProgressLine::print(const std::string& text) {
-  shown_ = true;
-  fmt::print(stderr, "\r\033[K{}  {}", label_, text);
-  std::fflush(stderr);
-}
-
-void ProgressLine::update(double done) {
+void ProgressLine::update(double done, const std::string& stage) {
   if (!active_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
-  const double left_s = done > 0.0 ? elapsed_s * (1.0 - done) / done : 0.0;
-  print(fmt::format("{:3.0f} %  about {:.0f} s left", 100.0 * done, left_s));
-}
-
-void ProgressLine::show(const std::string& stage) {
-  if (!active_) return;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (is_due()) print(stage);
+  const std::string left = fmt::format("about {:.0f} s left", done > 0.0 ? elapsed_s * (1.0 - done) / done : 0.0);
+  const std::string share = std::isnan(done) ? "" : fmt::format("{:3.0f} %  ", 100.0 * done);
+  shown_ = true;
+  fmt::print(stderr, "\r\033[K{}  {}{}", label_, share, stage.empty() ? left : stage);
+  std::fflush(stderr);
 }
 
 Progress ProgressLine::callback() {
   if (!active_) return {};
-  return [this](double done, const std::string& stage) {
-    if (stage.empty()) {
-      update(done);
-    } else {
-      show(std::isnan(done) ? stage : fmt::format("{:3.0f} %  {}", 100.0 * done, stage));
-    }
-  };
+  return [this](double done, const std::string& stage) { update(done, stage); };
 }
 
 }  // namespace rollrig::cli

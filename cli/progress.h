@@ -17,10 +17,9 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// `done` from 0 to 1. May be called from several threads.
-  void update(double done);
-  /// For work whose length is not known: `stage` says how far it is.
-  void show(const std::string& stage);
+  /// Shows `stage` and how far the work is: `done` from 0 to 1, NaN where its length is not known; without a stage also
+  /// how long it will take. May be called from several threads.
+  void update(double done, const std::string& stage = "");
   /// A callback for calls of the API.
   Progress callback();
 
@@ -29,7 +28,6 @@ class ProgressLine {
 
   /// Whether it is time for another update; notes that one was made.
   bool is_due();
-  void print(const std::string& text);
 
   std::string label_;
   bool active_;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <set>
 
@@ -40,7 +41,8 @@ int run_tasks(const Ranks& ranks, const RunOptions& options, const std::string& 
   order.ranks = ranks.count();
   cli::ProgressLine progress("validation", options.quiet || !ranks.is_first());
   order.progress = [&progress, &order](std::size_t done, std::size_t of) {
-    progress.show(fmt::format("{} of {} cases{}", done, of, order.ranks > 1 ? " of the first process" : ""));
+    progress.update(std::nan(""),
+                    fmt::format("{} of {} cases{}", done, of, order.ranks > 1 ? " of the first process" : ""));
   };
   const RunTally own = run_cases(order);
   const auto sums = ranks.sum({own.kept, own.made, own.failures.size(), own.interrupted ? 1U : 0U});

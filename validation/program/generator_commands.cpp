@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <optional>
 
@@ -23,7 +24,8 @@ constexpr const char* kThreads = "Cases at a time [as many as there are cores]";
 
 /// Counts cases on a terminal.
 generator::Progress count_cases(cli::ProgressLine& line) {
-  return [&line](std::size_t done, std::size_t of) { line.show(fmt::format("{} of {} cases", done, of)); };
+  return
+      [&line](std::size_t done, std::size_t of) { line.update(std::nan(""), fmt::format("{} of {} cases", done, of)); };
 }
 
 struct CaseOptions {
