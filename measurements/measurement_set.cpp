@@ -38,7 +38,7 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, 
     throw InputError(missing);
   }
   run.session = reader.text("session");
-  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", rigs::kSetTemperatureRange, ""});
+  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", models::kTemperatureRange, ""});
   run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
   run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
   run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
@@ -57,7 +57,7 @@ void read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) {
   form.hint = "rollrig import reads logs of other forms, names and units, and writes such files";
   const CsvTable csv = CsvTable::read(run.file, form);
   std::vector<std::string> known{"time_s"};
-  for (const Field& field : columns.all()) known.push_back(field.key);
+  for (const rigs::Column& column : columns.all()) known.push_back(column.quantity.header());
   csv.require_known(known);
   run.time_s = csv.increasing_times("time_s");
   if (run.time_s.size() < 2) {
@@ -69,13 +69,16 @@ void read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) {
                       fmt::format("{:.10g}", run.time_s.back()),
                       "seconds, not milliseconds; of a longer test, several runs", ""});
   }
-  for (const Field& field : columns.given) run.columns[field.key] = csv.numbers(field);
-  for (const Field& field : columns.optional_given) {
-    if (csv.has(field.key)) run.columns[field.key] = csv.numbers(field);
-  }
-  for (const Field& field : columns.measured) {
-    if (csv.has(field.key)) run.columns[field.key] = csv.numbers(field, true);
-  }
+  const auto read = [&](const std::vector<rigs::Column>& some, bool may_lack_column, bool may_lack_sample) {
+    for (const rigs::Column& column : some) {
+      const std::string heading = column.quantity.header();
+      if (may_lack_column && !csv.has(heading)) continue;
+      run.columns[heading] = csv.numbers({heading.c_str(), column.range, column.doc}, may_lack_sample);
+    }
+  };
+  read(columns.given, false, false);
+  read(columns.optional_given, true, false);
+  read(columns.measured, true, true);
 }
 
 void check_runs(const MeasurementSet& set) {

@@ -8,8 +8,6 @@ namespace {
 // Errors that do not matter, for the integrator's control: of a mean over one second a few 1e-5 of its
 // usual size, of an energy a few 1e-9 of a test's motor work (1e6 J).
 constexpr double kForceTime_N_s = 1e-3;
-constexpr double kTemperatureTime_K_s = 1e-3;
-constexpr double kPressureTime_Pa_s = 10.0;
 constexpr double kEnergy_J = 5e-3;
 constexpr double kYardstick_J = 1e3;  // has a kink where the motor turns to braking; wanted to a few digits
 
@@ -17,11 +15,10 @@ constexpr double kYardstick_J = 1e3;  // has a kink where the motor turns to bra
 
 std::vector<sim::Integral> make_drum_integrals(Detail detail) {
   using Role = sim::Integral::Role;
-  std::vector<sim::Integral> integrals{
-      {"force_reading", Role::kChannel, kForceTime_N_s},
-      {"liner_temperature", Role::kChannel, kTemperatureTime_K_s},
-      {"cavity_pressure", Role::kChannel, kPressureTime_Pa_s},
-      {"gas_temperature", Role::kChannel, kTemperatureTime_K_s},
+  std::vector<sim::Integral> integrals{{"force_reading", Role::kChannel, kForceTime_N_s}};
+  add_tire_integrals(integrals);
+  if (detail == Detail::kMeasured) return integrals;
+  const std::vector<sim::Integral> further{
       {"rolling_resistance", Role::kChannel, kForceTime_N_s},
       {"parasitic", Role::kChannel, kForceTime_N_s},
       {"spindle_force", Role::kChannel, kForceTime_N_s},
@@ -39,7 +36,7 @@ std::vector<sim::Integral> make_drum_integrals(Detail detail) {
       {"heat_to_air", Role::kHeatOut, kEnergy_J},
       {"heat_to_road", Role::kHeatOut, kEnergy_J},
   };
-  if (detail == Detail::kMeasured) integrals.resize(index_of(DrumIntegral::kRollingResistance));
+  integrals.insert(integrals.end(), further.begin(), further.end());
   return integrals;
 }
 
@@ -63,9 +60,8 @@ std::vector<sim::Channel> make_drum_channels(const models::MachineTraits& machin
     if (surface_recorded) channels.push_back({"surface_temperature_degC"});
   }
   channels.push_back({machine.force.header(), index_of(DrumIntegral::kForceReading)});
-  channels.push_back(mean("liner_temperature_degC", DrumIntegral::kLinerTemperature));
-  channels.push_back(mean("cavity_pressure_kPa", DrumIntegral::kCavityPressure));
-  channels.push_back(mean("gas_temperature_degC", DrumIntegral::kGasTemperature));
+  std::size_t reading = index_of(DrumIntegral::kTireReadings);
+  for (const models::TireChannel& tire : models::kTireChannels) channels.push_back({tire.quantity.header(), reading++});
   if (detail == Detail::kMeasured) return channels;
   channels.push_back(mean("rolling_resistance_N", DrumIntegral::kRollingResistance));
   channels.push_back(mean("parasitic_N", DrumIntegral::kParasitic));

@@ -17,10 +17,8 @@ constexpr std::size_t kDrumInputCount = 4;
 /// Integrals, in this order: means of measured channels, means of others, energies.
 enum class DrumIntegral : std::size_t {
   kForceReading,
-  kLinerTemperature,
-  kCavityPressure,
-  kGasTemperature,
-  kRollingResistance,
+  kTireReadings,  // one each of models::kTireChannels
+  kRollingResistance = kTireReadings + models::kTireChannels.size(),
   kParasitic,
   kSpindleForce,
   kContactLoad,
@@ -89,7 +87,7 @@ struct DrumPowers {
 template <class S>
 void put_drum_readings(const models::Instant<S>& now, const S& force_reading, S* integrands) {
   integrands[index_of(DrumIntegral::kForceReading)] = force_reading;
-  put_tire_readings(now, &integrands[index_of(DrumIntegral::kLinerTemperature)]);
+  put_tire_readings(now, &integrands[index_of(DrumIntegral::kTireReadings)]);
 }
 
 /// All further integrands.

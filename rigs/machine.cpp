@@ -41,16 +41,26 @@ std::vector<std::string> list_headings(const std::vector<models::Reading>& readi
 
 }  // namespace
 
-std::vector<Field> RunColumns::all_given() const {
-  std::vector<Field> fields = given;
-  fields.insert(fields.end(), optional_given.begin(), optional_given.end());
-  return fields;
+std::vector<Column> RunColumns::all_given() const {
+  std::vector<Column> columns = given;
+  columns.insert(columns.end(), optional_given.begin(), optional_given.end());
+  return columns;
 }
 
-std::vector<Field> RunColumns::all() const {
-  std::vector<Field> fields = all_given();
-  fields.insert(fields.end(), measured.begin(), measured.end());
-  return fields;
+std::vector<Column> RunColumns::all() const {
+  std::vector<Column> columns = all_given();
+  columns.insert(columns.end(), measured.begin(), measured.end());
+  return columns;
+}
+
+Column columns::measure(const Quantity& tire_channel) {
+  const models::TireChannel& channel = models::get_tire_channel(tire_channel);
+  return {channel.quantity, channel.family.range, channel.doc};
+}
+
+models::SensorSet::value_type columns::make_usual_sensor(const Quantity& tire_channel) {
+  const models::TireChannel& channel = models::get_tire_channel(tire_channel);
+  return {channel.quantity.header(), channel.usual_sensor};
 }
 
 const std::vector<const MachineKind*>& machine_kinds() {
@@ -83,7 +93,7 @@ bool is_force(const std::string& heading) {
 
 std::vector<std::string> measured_channels(const MachineKind& kind) {
   std::vector<std::string> names;
-  for (const Field& field : kind.columns.measured) names.emplace_back(field.key);
+  for (const Column& column : kind.columns.measured) names.push_back(column.quantity.header());
   return names;
 }
 

@@ -6,36 +6,37 @@
 #include <vector>
 
 #include "models/effect.h"
-#include "models/machine_traits.h"
-#include "models/sensor.h"
+#include "models/tire_channels.h"
 
 namespace rollrig::rigs {
 
-/// Temperatures that a set may hold, in degC. Assumed: wider than any tire or test cell.
-constexpr Range kSetTemperatureRange = between(-80.0, 250.0);
+/// A column of a run's file.
+struct Column {
+  Quantity quantity;
+  Range range;  // of its numbers, in the unit of the file
+  const char* doc;
+};
 
 /// Columns of the runs that are measured on a machine.
 struct RunColumns {
-  std::vector<Field> given;           // required in every row
-  std::vector<Field> optional_given;  // required in every row where the column is there
-  std::vector<Field> measured;        // may be absent, and empty in a row
+  std::vector<Column> given;           // required in every row
+  std::vector<Column> optional_given;  // required in every row where the column is there
+  std::vector<Column> measured;        // may be absent, and empty in a row
 
-  std::vector<Field> all_given() const;
+  std::vector<Column> all_given() const;
   /// The given ones first.
-  std::vector<Field> all() const;
+  std::vector<Column> all() const;
 };
 
 /// Columns that several kinds have.
 namespace columns {
-inline constexpr Field kSurfaceSpeed{"speed_km_h", between(0.0, 400.0), "surface speed"};
-inline constexpr Field kLoad{"load_N", between(0.0, 200000.0), "load as the rig reports it"};
-inline constexpr Field kAmbient{"ambient_degC", kSetTemperatureRange, "air at the tire"};
-inline constexpr Field kLinerTemperature{"liner_temperature_degC", kSetTemperatureRange,
-                                         "temperature of the inner liner"};
-inline constexpr Field kCavityPressure{"cavity_pressure_kPa", between(-100.0, 3000.0), "gauge pressure"};
-/// Beyond the format's list: where the gas temperature was measured, H can be fitted (3.16).
-inline constexpr Field kGasTemperature{"gas_temperature_degC", kSetTemperatureRange,
-                                       "temperature of the inflation gas"};
+using models::kTemperatureRange;
+inline constexpr Column kSurfaceSpeed{models::quantities::kSpeed, between(0.0, 400.0), "surface speed"};
+inline constexpr Column kLoad{models::quantities::kLoad, between(0.0, 200000.0), "load as the rig reports it"};
+inline constexpr Column kAmbient{models::quantities::kAmbient, kTemperatureRange, "air at the tire"};
+/// Of a sensor in models::kTireChannels, and that sensor as it usually is.
+Column measure(const Quantity& tire_channel);
+models::SensorSet::value_type make_usual_sensor(const Quantity& tire_channel);
 }  // namespace columns
 
 /// No member has a default, so that a kind which leaves an answer out does not compile.

@@ -15,8 +15,8 @@ std::vector<sim::Channel> make_road_channels(Detail detail) {
   return {traction,
           make_mean_channel(quantities::kRollingResistance, RecordedIntegral::kRollingResistance),
           make_mean_channel(quantities::kParasiticLoss, RecordedIntegral::kParasitic),
-          make_mean_channel(quantities::kLinerTemperature, RecordedIntegral::kLinerTemperature),
-          make_mean_channel(quantities::kCavityPressure, RecordedIntegral::kCavityPressure),
+          make_tire_channel(quantities::kLinerTemperature),
+          make_tire_channel(quantities::kCavityPressure),
           make_mean_channel(quantities::kFrictionBrake, RecordedIntegral::kFrictionBrake)};
 }
 

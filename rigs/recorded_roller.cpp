@@ -9,11 +9,8 @@ namespace {
 namespace quantities = models::quantities;
 
 std::vector<sim::Channel> make_roller_channels(bool has_rim, Detail detail) {
-  std::vector<sim::Channel> channels{
-      make_mean_channel(quantities::kLossForce, RecordedIntegral::kForce),
-      make_mean_channel(quantities::kLinerTemperature, RecordedIntegral::kLinerTemperature),
-      make_mean_channel(quantities::kCavityPressure, RecordedIntegral::kCavityPressure),
-      make_mean_channel(quantities::kGasTemperature, RecordedIntegral::kGasTemperature)};
+  std::vector<sim::Channel> channels{make_mean_channel(quantities::kLossForce, RecordedIntegral::kForce)};
+  for (const models::TireChannel& tire : models::kTireChannels) channels.push_back(make_tire_channel(tire.quantity));
   if (has_rim) channels.push_back(make_mean_channel(quantities::kRimTemperature, RecordedIntegral::kRimTemperature));
   if (detail == Detail::kMeasured) return channels;
   channels.push_back(make_mean_channel(quantities::kRollingResistance, RecordedIntegral::kRollingResistance));

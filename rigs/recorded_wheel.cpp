@@ -10,26 +10,25 @@ namespace {
 
 std::vector<sim::Integral> make_integrals(const std::vector<sim::Channel>& channels, Detail detail) {
   using Role = sim::Integral::Role;
-  std::vector<sim::Integral> integrals{{"force"},
-                                       {"liner_temperature"},
-                                       {"cavity_pressure"},
-                                       {"gas_temperature"},
-                                       {"rim_temperature"},
-                                       {"rolling_resistance"},
-                                       {"parasitic"},
-                                       {"friction_brake"},
-                                       {sim::kMotorWork, Role::kWorkIn},
-                                       {"rollers", Role::kWorkIn},
-                                       {"gravity", Role::kWorkIn},
-                                       {"load_changes", Role::kWorkIn},
-                                       {"throughput", Role::kThroughput},
-                                       {"tire_loss", Role::kDissipated},
-                                       {"slip_loss", Role::kDissipated},
-                                       {"bearing_loss", Role::kDissipated},
-                                       {"drag_loss", Role::kDissipated},
-                                       {"heat_generated", Role::kHeatIn},
-                                       {"heat_to_air", Role::kHeatOut},
-                                       {"heat_to_road", Role::kHeatOut}};
+  std::vector<sim::Integral> integrals{{"force"}};
+  add_tire_integrals(integrals);
+  const std::vector<sim::Integral> further{{"rim_temperature"},
+                                           {"rolling_resistance"},
+                                           {"parasitic"},
+                                           {"friction_brake"},
+                                           {sim::kMotorWork, Role::kWorkIn},
+                                           {"rollers", Role::kWorkIn},
+                                           {"gravity", Role::kWorkIn},
+                                           {"load_changes", Role::kWorkIn},
+                                           {"throughput", Role::kThroughput},
+                                           {"tire_loss", Role::kDissipated},
+                                           {"slip_loss", Role::kDissipated},
+                                           {"bearing_loss", Role::kDissipated},
+                                           {"drag_loss", Role::kDissipated},
+                                           {"heat_generated", Role::kHeatIn},
+                                           {"heat_to_air", Role::kHeatOut},
+                                           {"heat_to_road", Role::kHeatOut}};
+  integrals.insert(integrals.end(), further.begin(), further.end());
   if (detail == Detail::kFull) return integrals;
   std::size_t last = 0;
   for (const sim::Channel& channel : channels) last = std::max(last, channel.integral);
@@ -109,8 +108,8 @@ void RecordedWheel<S>::evaluate(double time_s, const S* state, S* rates, S* inte
   const models::Instant<S>& now = wheel().now;
   const auto is_integrated = [count](RecordedIntegral integral) { return index_of(integral) < count; };
   integrands[index_of(RecordedIntegral::kForce)] = force_N_;
-  if (is_integrated(RecordedIntegral::kLinerTemperature)) {
-    put_tire_readings(now, &integrands[index_of(RecordedIntegral::kLinerTemperature)]);
+  if (is_integrated(RecordedIntegral::kTireReadings)) {
+    put_tire_readings(now, &integrands[index_of(RecordedIntegral::kTireReadings)]);
   }
   if (is_integrated(RecordedIntegral::kRimTemperature)) {
     integrands[index_of(RecordedIntegral::kRimTemperature)] =

@@ -11,10 +11,8 @@ namespace rollrig::rigs {
 /// Integrals, in this order: means of channels that sensors can show, means of others, energies of all wheels.
 enum class RecordedIntegral : std::size_t {
   kForce,
-  kLinerTemperature,
-  kCavityPressure,
-  kGasTemperature,
-  kRimTemperature,
+  kTireReadings,  // one each of models::kTireChannels
+  kRimTemperature = kTireReadings + models::kTireChannels.size(),
   kRollingResistance,
   kParasitic,
   kFrictionBrake,
@@ -36,6 +34,9 @@ constexpr std::size_t index_of(RecordedIntegral integral) { return static_cast<s
 /// A channel under its heading in files.
 inline sim::Channel make_mean_channel(const Quantity& quantity, RecordedIntegral integral) {
   return {quantity.header(), index_of(integral)};
+}
+inline sim::Channel make_tire_channel(const Quantity& quantity) {
+  return {quantity.header(), index_of(RecordedIntegral::kTireReadings) + models::index_of_tire_channel(quantity)};
 }
 
 /// Power of all wheels at an instant, and what moves with the surface.

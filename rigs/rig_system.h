@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "models/ports.h"
+#include "models/tire_channels.h"
 #include "sim/ode_system.h"
 
 namespace rollrig::rigs {
@@ -119,12 +119,20 @@ class RigSystem : public sim::OdeSystem<S> {
   Lists lists_;
 };
 
-/// Temperature of the liner, pressure and temperature of the gas, as their sensors read them.
+/// Integrals of what a tire's sensors read, in the order of models::kTireChannels.
+inline void add_tire_integrals(std::vector<sim::Integral>& integrals) {
+  for (const models::TireChannel& channel : models::kTireChannels) {
+    integrals.push_back(
+        {std::string(channel.quantity.name()), sim::Integral::Role::kChannel, channel.family.mean_tolerance_SI});
+  }
+}
+
+/// Their integrands.
 template <class S>
 void put_tire_readings(const models::Instant<S>& now, S* readings) {
-  readings[0] = now.thermal.temperature_K[models::index_of(models::Node::kLiner)];
-  readings[1] = now.pressure_Pa;
-  readings[2] = now.thermal.temperature_K[models::index_of(models::Node::kGas)];
+  for (const models::TireChannel& channel : models::kTireChannels) {
+    *readings++ = std::get<models::TireReading<S>>(channel.read)(now);
+  }
 }
 
 /// Heat generated, given to the air and to the road.

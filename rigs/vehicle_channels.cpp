@@ -11,8 +11,6 @@ namespace {
 // Errors that do not matter, for the integrator's control: see drum_channels.cpp. A drive cycle moves a
 // few 1e6 J in stretches of a second.
 constexpr double kForceTime_N_s = 0.1;
-constexpr double kTemperatureTime_K_s = 1e-3;
-constexpr double kPressureTime_Pa_s = 10.0;
 constexpr double kDistance_m = 1e-3;
 constexpr double kTime_s = 1e-3;
 constexpr double kEnergy_J = 0.002;  // of one step; a multi-cycle test has 1e5
@@ -44,14 +42,12 @@ std::vector<sim::Integral> make_vehicle_integrals(const VehicleLayout& layout) {
       {"heat_to_air", Role::kHeatOut, kEnergy_J},
       {"heat_to_road", Role::kHeatOut, kEnergy_J},
   };
-  for (const WheelPlace& wheel : layout.wheels) {
+  for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
     const auto add = [&](const char* name, double tolerance) {
-      integrals.push_back({wheel_channel(name, wheel), Role::kChannel, tolerance});
+      integrals.push_back({name, Role::kChannel, tolerance});
     };
     add("loss_force", kForceTime_N_s);
-    add("liner_temperature", kTemperatureTime_K_s);
-    add("cavity_pressure", kPressureTime_Pa_s);
-    add("gas_temperature", kTemperatureTime_K_s);
+    add_tire_integrals(integrals);
     add("rolling_resistance", kForceTime_N_s);
     add("parasitic", kForceTime_N_s);
     add("longitudinal_force", kForceTime_N_s);
@@ -106,9 +102,10 @@ std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
     channels.push_back({wheel_channel("load_N", layout.wheels[i])});
     mean("longitudinal_force_N", WheelIntegral::kLongitudinalForce);
     mean("loss_force_N", WheelIntegral::kLossForce);
-    mean("liner_temperature_degC", WheelIntegral::kLinerTemperature);
-    mean("cavity_pressure_kPa", WheelIntegral::kCavityPressure);
-    mean("gas_temperature_degC", WheelIntegral::kGasTemperature);
+    std::size_t reading = index_of(WheelIntegral::kTireReadings, i);
+    for (const models::TireChannel& tire : models::kTireChannels) {
+      channels.push_back({wheel_channel(tire.quantity.header(), layout.wheels[i]), reading++});
+    }
     mean("rolling_resistance_N", WheelIntegral::kRollingResistance);
     mean("parasitic_N", WheelIntegral::kParasitic);
     mean("contact_load_N", WheelIntegral::kContactLoad);

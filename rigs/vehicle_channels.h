@@ -44,10 +44,8 @@ enum class VehicleIntegral : std::size_t {
 /// Integrals of each wheel, which follow wheel by wheel.
 enum class WheelIntegral : std::size_t {
   kLossForce,
-  kLinerTemperature,
-  kCavityPressure,
-  kGasTemperature,
-  kRollingResistance,
+  kTireReadings,  // one each of models::kTireChannels
+  kRollingResistance = kTireReadings + models::kTireChannels.size(),
   kParasitic,
   kLongitudinalForce,
   kContactLoad,
@@ -178,7 +176,7 @@ void put_wheel_integrands(const PresentProgram& present, const models::Instant<S
   const S rolling_W = now.rolling_resistance_N * now.motion.rolling_speed_m_s;
   const bool touches = value_of(now.motion.load_N) > 0.0;
   put(WheelIntegral::kLossForce, loss_force_N);
-  put_tire_readings(now, first + static_cast<std::size_t>(WheelIntegral::kLinerTemperature));
+  put_tire_readings(now, first + static_cast<std::size_t>(WheelIntegral::kTireReadings));
   put(WheelIntegral::kRollingResistance, now.rolling_resistance_N);
   put(WheelIntegral::kParasitic, now.parasitic_N);
   put(WheelIntegral::kLongitudinalForce, now.recorded.longitudinal_force_N);

@@ -17,21 +17,16 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-// Assumed, see RunMisfit.
-constexpr double kTemperature_K = 5.0;
-constexpr double kRiseShare = 0.4;
-constexpr double kPressure_Pa = 15e3;
-constexpr double kPressureShare = 0.4;
 constexpr double kUncompared = 1.05;  // just outside
 
 double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel, std::size_t row,
                       double simulated) {
   const MeasurementKind& kind = kind_of(set);
   if (channel == kind.force_channel(set).name) return kind.calc_force_tolerance(set, simulated);
-  if (channel == "cavity_pressure_kPa") {
-    return kPressure_Pa + kPressureShare * std::abs(simulated - run.cold_pressure_Pa);
-  }
-  return kTemperature_K + kRiseShare * std::abs(simulated - run.columns.at("ambient_degC")[row]);
+  const models::ChannelFamily& family = models::get_tire_channel(intern_quantity(channel)).family;
+  const bool is_pressure = family.rest == models::ChannelFamily::Rest::kColdPressure;
+  const double rest = is_pressure ? run.cold_pressure_Pa : run.column(models::quantities::kAmbient)[row];
+  return family.tolerance_SI + family.share_of_rise * std::abs(simulated - rest);
 }
 
 /// Of one sample, what its sensor makes of its own.

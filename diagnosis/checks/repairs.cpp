@@ -16,17 +16,17 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-bool is_given(const MeasurementSet& set, const std::string& column) {
-  for (const Field& field : set.kind->columns.measured) {
-    if (field.key == column) return false;
-  }
-  return true;
+bool is_given(const MeasurementSet& set, const Quantity& quantity) {
+  const std::vector<rigs::Column>& measured = set.kind->columns.measured;
+  return std::none_of(measured.begin(), measured.end(),
+                      [&](const rigs::Column& column) { return column.quantity == quantity; });
 }
 
 /// The numbers of a file under another heading, in SI units; empty where one is out of that column's range.
 /// An input is needed in every row: gaps take the sample before (or the first).
-std::vector<double> read_as(const std::vector<double>& values, const Unit& from, const Field& field, bool given) {
-  const Unit unit = unit_of_key(field.key);
+std::vector<double> read_as(const std::vector<double>& values, const Unit& from, const rigs::Column& column,
+                            bool given) {
+  const Unit unit = column.quantity.file_unit();
   std::vector<double> out;
   double last = std::nan("");
   for (const double value : values) {
@@ -36,23 +36,23 @@ std::vector<double> read_as(const std::vector<double>& values, const Unit& from,
     const double number = from.from_si(value);
     if (!std::isnan(number)) last = number;
     const double read = given ? last : number;
-    if (std::isnan(read) ? given : !field.range.contains(read)) return {};
+    if (std::isnan(read) ? given : !column.range.contains(read)) return {};
     out.push_back(unit.to_si(read));
   }
   return out;
 }
 
-Repair exchange(const MeasurementSet& set, const Field& a, const Field& b) {
-  const auto undo = [a, b, a_given = is_given(set, a.key), b_given = is_given(set, b.key)](MeasuredRun& run) {
-    if (!run.has(a.key) || !run.has(b.key)) return false;
-    std::vector<double> as_a = read_as(run.columns.at(b.key), unit_of_key(b.key), a, a_given);
-    std::vector<double> as_b = read_as(run.columns.at(a.key), unit_of_key(a.key), b, b_given);
+Repair exchange(const MeasurementSet& set, const rigs::Column& a, const rigs::Column& b) {
+  const auto undo = [a, b, a_given = is_given(set, a.quantity), b_given = is_given(set, b.quantity)](MeasuredRun& run) {
+    if (!run.has(a.quantity) || !run.has(b.quantity)) return false;
+    std::vector<double> as_a = read_as(run.column(b.quantity), b.quantity.file_unit(), a, a_given);
+    std::vector<double> as_b = read_as(run.column(a.quantity), a.quantity.file_unit(), b, b_given);
     if (as_a.empty() || as_b.empty()) return false;
-    run.columns[a.key] = std::move(as_a);
-    run.columns[b.key] = std::move(as_b);
+    run.column(a.quantity) = std::move(as_a);
+    run.column(b.quantity) = std::move(as_b);
     return true;
   };
-  return {fmt::format("the columns {} and {} are exchanged", a.key, b.key), undo};
+  return {fmt::format("the columns {} and {} are exchanged", a.quantity.header(), b.quantity.header()), undo};
 }
 
 Repair wrong_unit(const WrongUnit& wrong) {
@@ -72,7 +72,7 @@ std::vector<Repair> list_mistakes(const MeasurementSet& set, Mistakes which) {
   if (which == Mistakes::kAll) {
     for (const WrongUnit& wrong : kind_of(set).list_wrong_units()) mistakes.push_back(wrong_unit(wrong));
   }
-  const std::vector<Field> columns = set.kind->columns.all();
+  const std::vector<rigs::Column> columns = set.kind->columns.all();
   for (std::size_t a = 0; a < columns.size(); ++a) {
     for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
   }

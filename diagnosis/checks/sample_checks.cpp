@@ -187,7 +187,8 @@ std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
     if (!without.empty()) {
       sentences.push_back(fmt::format("{} has no sample in {}", channel, name_runs(set, without)));
     }
-    if (!anywhere && without.empty() && channel != "gas_temperature_degC") {
+    const models::TireChannel* of_tire = models::find_tire_channel(intern_quantity(channel));
+    if (!anywhere && without.empty() && (of_tire == nullptr || of_tire->is_expected)) {
       sentences.push_back(fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel));
     }
   }

@@ -1,11 +1,11 @@
 #include "diagnosis/findings/perturbations.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "diagnosis/kinds/measurement_kind.h"
 #include "models/reference_conditions.h"
+#include "models/tire_channels.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::diagnosis {
@@ -257,14 +257,9 @@ std::vector<PerturbationFamily> calc_perturbations(const Study& study) {
   });
   std::vector<std::vector<double>> knots_s;
   for (const PreparedRun& run : set.runs()) knots_s.push_back(find_perturbation_knots(run));
-  constexpr std::array<std::pair<const char*, const char*>, 3> kSensors{
-      {{"liner_temperature_degC", "temperature sensor"},
-       {"cavity_pressure_kPa", "pressure sensor"},
-       {"gas_temperature_degC", "gas temperature sensor"}}};
   for (std::size_t channel = 0; channel < set.channels().size(); ++channel) {
-    for (const auto& [key, name] : kSensors) {
-      if (set.channels()[channel] == key) families.push_back(perturb_sensor(set, channel, name, knots_s));
-    }
+    const auto* of_tire = models::find_tire_channel(intern_quantity(set.channels()[channel]));
+    if (of_tire != nullptr) families.push_back(perturb_sensor(set, channel, of_tire->sensor, knots_s));
   }
   return families;
 }

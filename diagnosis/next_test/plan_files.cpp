@@ -33,8 +33,8 @@ PlanWords find_words(const MachineKind& kind) {
 /// Given columns of a run of the kind, as far as it has them.
 std::vector<std::string> find_given_columns(const MeasuredRun& run, const MachineKind& kind) {
   std::vector<std::string> columns;
-  for (const Field& field : kind.columns.all_given()) {
-    if (run.has(field.key)) columns.emplace_back(field.key);
+  for (const rigs::Column& column : kind.columns.all_given()) {
+    if (run.has(column.quantity)) columns.push_back(column.quantity.header());
   }
   return columns;
 }

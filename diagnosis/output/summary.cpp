@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/erase.hpp>
 #include <cmath>
 
 #include "diagnosis/output/explain.h"
@@ -42,10 +43,7 @@ std::string join_to_fit(const std::vector<std::string>& items, const char* separ
 
 /// A channel in one word: the last of its name, or what has the temperature.
 std::string short_name(const std::string& channel) {
-  if (channel == "liner_temperature_degC") return "liner";
-  if (channel == "gas_temperature_degC") return "gas";
-  const std::string name = plain_name(channel);
-  return last_part(name, ' ');
+  return last_part(boost::erase_last_copy(plain_name(channel), " temperature"), ' ');
 }
 
 std::string with_unit(const std::string& number, const std::string& unit) {

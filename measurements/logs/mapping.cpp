@@ -34,31 +34,31 @@ Unit read_unit(TableReader& reader, const std::string& target) {
   return unit;
 }
 
-LogColumn read_column(const ConfigTable& columns, const Field& field, const std::string& table_name) {
+LogColumn read_column(const ConfigTable& columns, const rigs::Column& of_set, const std::string& table_name) {
   LogColumn column;
-  column.target = field.key;
-  column.allowed = field.range;
-  column.unit = unit_of_key(field.key);
-  const ConfigValue& value = *columns.find(field.key);
+  column.target = of_set.quantity.header();
+  column.allowed = of_set.range;
+  column.unit = of_set.quantity.file_unit();
+  const ConfigValue& value = *columns.find(column.target);
   if (const auto* name = std::get_if<std::string>(&value.data)) {
     column.column = *name;
     return column;
   }
   TableReader parent(columns, table_name);
-  TableReader reader(*parent.table(field.key), fmt::format("{} {}", table_name, field.key));
+  TableReader reader(*parent.table(column.target), fmt::format("{} {}", table_name, column.target));
   if (reader.has("value")) {
-    const Field constant{"value", field.range, "constant"};
-    column.constant_SI = unit_of_key(field.key).to_si(reader.number(constant));
+    const Field constant{"value", of_set.range, "constant"};
+    column.constant_SI = column.unit.to_si(reader.number(constant));
     reader.finish();
     return column;
   }
   column.column = reader.text("column");
-  column.unit = read_unit(reader, field.key);
+  column.unit = read_unit(reader, column.target);
   column.factor = reader.number({"factor", any_number(), "", 1.0});
   if (column.factor == 0.0) throw reader.problem("factor", "a factor of 0 leaves nothing", "any number but 0");
   column.offset = reader.number({"offset", any_number(), "", 0.0});
-  column.allowed.lower = reader.number({"lowest", field.range, "", field.range.lower});
-  column.allowed.upper = reader.number({"highest", field.range, "", field.range.upper});
+  column.allowed.lower = reader.number({"lowest", of_set.range, "", of_set.range.lower});
+  column.allowed.upper = reader.number({"highest", of_set.range, "", of_set.range.upper});
   column.dead_band = reader.number({"dead_band", non_negative(), "", 0.0});
   reader.finish();
   return column;
@@ -69,12 +69,12 @@ void read_columns(TableReader& log, const MachineKind& kind, LogForm& form) {
   const std::string name = fmt::format("[{}.columns]", form.name);
   if (table == nullptr)
     throw log.problem("columns", "the log has no columns", name + " with <column of the set> = ...");
-  const std::vector<Field> fields = kind.columns.all();
   TableReader reader(*table, name);
-  for (const Field& field : fields) reader.accept(field.key);
+  const std::vector<rigs::Column> columns = kind.columns.all();
+  for (const rigs::Column& column : columns) reader.accept(column.quantity.header());
   reader.finish();
-  for (const Field& field : fields) {
-    if (table->find(field.key) != nullptr) form.columns.push_back(read_column(*table, field, name));
+  for (const rigs::Column& column : columns) {
+    if (table->find(column.quantity.header()) != nullptr) form.columns.push_back(read_column(*table, column, name));
   }
 }
 
@@ -214,26 +214,28 @@ bool maps(const LogForm& form, const std::string& target) {
 /// Each given column must come from somewhere, each measured one from one log only and with a sensor.
 void check_columns(const TableReader& reader, const Mapping& mapping) {
   const rigs::RunColumns& columns = mapping.set.kind->columns;
-  for (const Field& field : columns.given) {
-    if (maps(mapping.torque_log, field.key) || (mapping.tire_log.has_value() && maps(*mapping.tire_log, field.key))) {
+  for (const rigs::Column& column : columns.given) {
+    const std::string heading = column.quantity.header();
+    if (maps(mapping.torque_log, heading) || (mapping.tire_log.has_value() && maps(*mapping.tire_log, heading))) {
       continue;
     }
-    throw reader.problem("torque_log", fmt::format("no log gives '{}', which every row of the set needs", field.key),
-                         fmt::format("{} = \"<column>\" or {{ value = ... }} under [torque_log.columns]", field.key));
+    throw reader.problem("torque_log", fmt::format("no log gives '{}', which every row of the set needs", heading),
+                         fmt::format("{} = \"<column>\" or {{ value = ... }} under [torque_log.columns]", heading));
   }
   bool any = false;
-  for (const Field& field : columns.measured) {
-    const bool in_torque = maps(mapping.torque_log, field.key);
-    const bool in_tire = mapping.tire_log.has_value() && maps(*mapping.tire_log, field.key);
+  for (const rigs::Column& column : columns.measured) {
+    const std::string heading = column.quantity.header();
+    const bool in_torque = maps(mapping.torque_log, heading);
+    const bool in_tire = mapping.tire_log.has_value() && maps(*mapping.tire_log, heading);
     any = any || in_torque || in_tire;
     if (in_torque && in_tire) {
-      throw reader.problem("tire_log", fmt::format("both logs give '{}'", field.key),
+      throw reader.problem("tire_log", fmt::format("both logs give '{}'", heading),
                            "a measured column from one log only");
     }
-    if ((in_torque || in_tire) && mapping.set.sensors.count(field.key) == 0) {
+    if ((in_torque || in_tire) && mapping.set.sensors.count(heading) == 0) {
       throw reader.problem(
-          "sensors", fmt::format("'{}' is measured, and no sensor is given for it", field.key),
-          fmt::format("[sensors.{}] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution", field.key));
+          "sensors", fmt::format("'{}' is measured, and no sensor is given for it", heading),
+          fmt::format("[sensors.{}] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution", heading));
     }
   }
   if (!any) throw reader.problem("torque_log", "no log gives a measured column", "drum_torque_Nm = \"<column>\", ...");

@@ -184,9 +184,9 @@ InputError missing_input(const Log& log, const std::string& column, double from_
 std::vector<double> add_given(const Mapping& mapping, const RunSources& sources, const std::vector<double>& grid,
                               double interval_s, ResampledRun& run) {
   std::vector<std::pair<std::string, Source>> given;
-  for (const Field& field : mapping.set.kind->columns.all_given()) {
-    const Source source = find_source(mapping, sources, field.key);
-    if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(field.key, source);
+  for (const rigs::Column& column : mapping.set.kind->columns.all_given()) {
+    const Source source = find_source(mapping, sources, column.quantity.header());
+    if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(column.quantity.header(), source);
   }
   std::vector<double> kept;
   for (const double time_s : grid) {

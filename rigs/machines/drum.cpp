@@ -11,12 +11,12 @@ const MachineKind& machine_drum() {
       "drum",
       {Surface::kDrum, Specimen::kTire, Restraint::kCarriage, quantities::kDrumTorque},
       {{kSurfaceSpeed, kLoad, kAmbient},
-       {{"surface_temperature_degC", kSetTemperatureRange, "drum surface"},
-        {"hung_torque_Nm", any_number(), "known torque on the sensor, by weights on a lever"}},
-       {{"drum_torque_Nm", any_number(), "motor torque at the drum axle"},
-        kLinerTemperature,
-        kCavityPressure,
-        kGasTemperature}},
+       {{quantities::kSurfaceTemperature, kTemperatureRange, "drum surface"},
+        {quantities::kHungTorque, any_number(), "known torque on the sensor, by weights on a lever"}},
+       {{quantities::kDrumTorque, any_number(), "motor torque at the drum axle"},
+        measure(quantities::kLinerTemperature),
+        measure(quantities::kCavityPressure),
+        measure(quantities::kGasTemperature)}},
       {},
       "follow_drum"};
   return kind;

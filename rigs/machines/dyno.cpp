@@ -8,23 +8,24 @@ namespace rollrig::rigs {
 const MachineKind& machine_dyno() {
   using namespace columns;
   using namespace models;
-  static const MachineKind kind{"dyno",
-                                "dyno",
-                                {Surface::kRoller, Specimen::kWheel, Restraint::kTieDowns, quantities::kLossForce},
-                                {{kSurfaceSpeed,
-                                  kLoad,
-                                  {"longitudinal_force_N", any_number(), "wheel on roller, positive when it drives"},
-                                  kAmbient},
-                                 {{"surface_temperature_degC", kSetTemperatureRange, "roller surface"}},
-                                 {{"loss_force_N", any_number(), "loss between hub and roller over surface speed"},
-                                  kLinerTemperature,
-                                  kCavityPressure,
-                                  kGasTemperature}},
-                                {{"loss_force_N", {2.0, 1.0, 60.0, 2.0, 0.0}},
-                                 {"liner_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
-                                 {"gas_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
-                                 {"cavity_pressure_kPa", {250.0, 100.0, 120.0, 50.0, 100.0}}},
-                                "follow_roller"};
+  static const MachineKind kind{
+      "dyno",
+      "dyno",
+      {Surface::kRoller, Specimen::kWheel, Restraint::kTieDowns, quantities::kLossForce},
+      {{kSurfaceSpeed,
+        kLoad,
+        {quantities::kLongitudinalForce, any_number(), "wheel on roller, positive when it drives"},
+        kAmbient},
+       {{quantities::kSurfaceTemperature, kTemperatureRange, "roller surface"}},
+       {{quantities::kLossForce, any_number(), "loss between hub and roller over surface speed"},
+        measure(quantities::kLinerTemperature),
+        measure(quantities::kCavityPressure),
+        measure(quantities::kGasTemperature)}},
+      {{quantities::kLossForce.header(), {2.0, 1.0, 60.0, 2.0, 0.0}},
+       make_usual_sensor(quantities::kLinerTemperature),
+       make_usual_sensor(quantities::kGasTemperature),
+       make_usual_sensor(quantities::kCavityPressure)},
+      "follow_roller"};
   return kind;
 }
 

@@ -11,14 +11,14 @@ const MachineKind& machine_flat_belt() {
                                 "",
                                 {Surface::kBelt, Specimen::kTire, Restraint::kCarriage, quantities::kBeltForce},
                                 {{kSurfaceSpeed, kLoad, kAmbient},
-                                 {{"surface_temperature_degC", kSetTemperatureRange, "belt surface"}},
-                                 {{"belt_force_N", any_number(), "force that drives the belt, at its surface"},
-                                  kLinerTemperature,
-                                  kCavityPressure,
-                                  kGasTemperature}},
-                                {{"belt_force_N", {0.45, 0.1, 60.0, 0.25, 0.0}},
-                                 {"liner_temperature_degC", {0.25, 0.05, 60.0, 0.1, 0.1}},
-                                 {"cavity_pressure_kPa", {250.0, 100.0, 120.0, 50.0, 100.0}}},
+                                 {{quantities::kSurfaceTemperature, kTemperatureRange, "belt surface"}},
+                                 {{quantities::kBeltForce, any_number(), "force that drives the belt, at its surface"},
+                                  measure(quantities::kLinerTemperature),
+                                  measure(quantities::kCavityPressure),
+                                  measure(quantities::kGasTemperature)}},
+                                {{quantities::kBeltForce.header(), {0.45, 0.1, 60.0, 0.25, 0.0}},
+                                 make_usual_sensor(quantities::kLinerTemperature),
+                                 make_usual_sensor(quantities::kCavityPressure)},
                                 "follow_drum"};
   return kind;
 }

@@ -10,12 +10,12 @@ const MachineKind& machine_road() {
   static const MachineKind kind{"road",
                                 "flat",
                                 {Surface::kRoad, Specimen::kVehicle, Restraint::kNone, quantities::kTractionForce},
-                                {{{"speed_km_h", columns::kSurfaceSpeed.range, "vehicle speed"},
-                                  {"elevation_m", any_number(), "height of the road"},
-                                  {"ambient_degC", kSetTemperatureRange, "air"}},
+                                {{{quantities::kSpeed, columns::kSurfaceSpeed.range, "vehicle speed"},
+                                  {quantities::kElevation, any_number(), "height of the road"},
+                                  {quantities::kAmbient, kTemperatureRange, "air"}},
                                  {},
-                                 {{"traction_force_N", any_number(), "force at the wheels"}}},
-                                {{"traction_force_N", {10.0, 215.0, 13.0, 140.0, 0.0}}},
+                                 {{quantities::kTractionForce, any_number(), "force at the wheels"}}},
+                                {{quantities::kTractionForce.header(), {10.0, 215.0, 13.0, 140.0, 0.0}}},
                                 "follow_road"};
   return kind;
 }

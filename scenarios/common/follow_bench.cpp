@@ -34,8 +34,8 @@ void put_given_first(const measurements::MeasuredRun& rows, const rigs::MachineK
     channels.push_back({name});
     values.push_back(column);
   };
-  for (const Field& field : kind.columns.all_given()) {
-    if (rows.has(field.key)) add(field.key, rows.columns.at(field.key));
+  for (const rigs::Column& column : kind.columns.all_given()) {
+    if (rows.has(column.quantity)) add(column.quantity.header(), rows.column(column.quantity));
   }
   for (std::size_t i = 0; i < recording.channels.size(); ++i) add(recording.channels[i].name, recording.values[i]);
   recording.channels = std::move(channels);

@@ -15,8 +15,9 @@ namespace rollrig::scenarios {
 
 namespace {
 
-bool holds(const std::vector<Field>& fields, const std::string& name) {
-  return std::any_of(fields.begin(), fields.end(), [&](const Field& field) { return field.key == name; });
+bool holds(const std::vector<rigs::Column>& columns, const std::string& heading) {
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const rigs::Column& column) { return column.quantity.header() == heading; });
 }
 
 /// Whether a set has no sample where the recording has one.
@@ -56,7 +57,7 @@ std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<do
 /// Given columns that were recorded, and measured ones that have a sensor.
 std::vector<std::string> find_columns(const rigs::MachineKind& kind, const sim::Recording<double>& recording,
                                       const models::SensorSet& sensors) {
-  const std::vector<Field> given = kind.columns.all_given();
+  const std::vector<rigs::Column> given = kind.columns.all_given();
   std::vector<std::string> columns;
   for (const sim::Channel& channel : recording.channels) {
     const bool is_input = holds(given, channel.name);
