@@ -8,19 +8,19 @@ namespace rollrig::measurements {
 bool is_load_change(const MeasuredRun& run, std::size_t row) {
   constexpr double kSameLoad = 0.01;  // Assumed: load control holds to 1 %
   if (row == 0) return false;
-  const std::vector<double>& load_N = run.columns.at("load_N");
+  const std::vector<double>& load_N = run.column(models::quantities::kLoad);
   return std::abs(load_N[row] - load_N[row - 1]) > kSameLoad * std::max(load_N[row], load_N[row - 1]);
 }
 
 double find_acceleration(const MeasuredRun& run, std::size_t row) {
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
   const std::size_t first = std::min(row, run.time_s.size() - 2);
   return (speed_m_s[first + 1] - speed_m_s[first]) / (run.time_s[first + 1] - run.time_s[first]);
 }
 
 std::vector<bool> find_settled_rows(const MeasuredRun& run) {
   constexpr double kKink_m_s2 = 0.1;  // Assumed: change of acceleration that disturbs the torque
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
   const std::size_t n = run.time_s.size();
   std::vector<bool> settled(n, true);
   double disturbed_s = run.time_s.front() - kSettling_s;  // a run starts in equilibrium

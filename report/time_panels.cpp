@@ -12,28 +12,34 @@
 namespace rollrig::report {
 namespace {
 
-/// Which quantities share a panel, in the order of the panels.
-struct Rule {
-  const char* quantity;
-  const char* panel;
-};
-constexpr Rule kRules[]{{"speed", "Speed"},
-                        {"load", "Load"},
-                        {"contact_load", "Load"},
-                        {"drum_torque", "Drum torque"},
-                        {"belt_force", "Belt force"},
-                        {"traction_force", "Traction force"},
-                        {"longitudinal_force", "Longitudinal force"},
-                        {"loss_force", "Loss"},
-                        {"rolling_resistance", "Loss"},
-                        {"parasitic", "Loss"},
-                        {"spindle_force", "Spindle force"},
-                        {"liner_temperature", "Temperature"},
-                        {"gas_temperature", "Temperature"},
-                        {"surface_temperature", "Temperature"},
-                        {"ambient", "Temperature"},
-                        {"cavity_pressure", "Cavity pressure"}};
-constexpr std::size_t kRuleCount = std::size(kRules);
+namespace quantities = models::quantities;
+
+/// In the order of their panels; what is not listed comes last, further temperatures beside the others.
+constexpr Quantity kOrder[]{quantities::kSpeed,
+                            quantities::kLoad,
+                            quantities::kContactLoad,
+                            quantities::kDrumTorque,
+                            quantities::kBeltForce,
+                            quantities::kTractionForce,
+                            quantities::kLongitudinalForce,
+                            quantities::kLossForce,
+                            quantities::kRollingResistance,
+                            quantities::kParasiticLoss,
+                            quantities::kSpindleForce,
+                            quantities::kLinerTemperature,
+                            quantities::kGasTemperature,
+                            quantities::kSurfaceTemperature,
+                            quantities::kAmbient,
+                            quantities::kCavityPressure};
+
+/// Most quantities have a panel of their own.
+std::string find_panel_name(const Quantity& quantity) {
+  if (quantity == quantities::kContactLoad) return "Load";
+  for (const Quantity& loss : {quantities::kLossForce, quantities::kRollingResistance, quantities::kParasiticLoss}) {
+    if (quantity == loss) return "Loss";
+  }
+  return quantity.unit_suffix() == "degC" ? "Temperature" : capitalized(plain_name(quantity.header()));
+}
 
 /// Positions of the wheels ("front_left"), of which each has a load of its own; none where there is one wheel.
 std::vector<std::string> list_positions(const sim::Recording<double>& recording) {
@@ -47,7 +53,7 @@ std::vector<std::string> list_positions(const sim::Recording<double>& recording)
 }
 
 struct Place {
-  std::size_t order = 0;
+  const Quantity* order;  // in kOrder
   std::string panel;
   std::string series;
 };
@@ -55,30 +61,24 @@ struct Place {
 /// Panel and name of a channel. With several wheels a panel holds one quantity, a line a wheel; their loads, which stay
 /// as they are on a vehicle, have none: what their contacts carry says more.
 std::optional<Place> find_place(const std::string& channel, const std::vector<std::string>& positions) {
-  std::string quantity = name_without_unit(channel);
-  std::string wheel;
+  const auto find_order = [](const Quantity& quantity) {
+    return std::find(std::begin(kOrder), std::end(kOrder), quantity);
+  };
   for (const std::string& position : positions) {
     const std::optional<std::string> name = rigs::without_position(channel, position);
     if (!name.has_value()) continue;
-    quantity = name_without_unit(*name);
-    wheel = plain_name(position);
+    const Quantity quantity = intern_quantity(*name);
+    if (quantity == quantities::kLoad) return std::nullopt;
+    return Place{find_order(quantity), capitalized(plain_name(*name)), plain_name(position)};
   }
-  if (!wheel.empty() && quantity == name_without_unit(models::quantities::kLoad.header())) return std::nullopt;
-  const std::string unit = unit_of_key(channel).symbol;
-  Place place{kRuleCount, capitalized(plain_name(quantity)), plain_name(quantity)};
-  for (std::size_t i = 0; i < kRuleCount; ++i) {
-    if (quantity != kRules[i].quantity) continue;
-    place.order = i;
-    if (wheel.empty()) place.panel = kRules[i].panel;
-  }
-  const bool is_further_temperature = place.order == kRuleCount && unit == "degC" && wheel.empty();
-  if (is_further_temperature) place = {kRuleCount - 2, "Temperature", place.series};
-  if (!wheel.empty()) place.series = wheel;
-  return place;
+  const Quantity quantity = intern_quantity(channel);
+  const bool is_further_temperature = find_order(quantity) == std::end(kOrder) && quantity.unit_suffix() == "degC";
+  return Place{is_further_temperature ? find_order(quantities::kAmbient) : find_order(quantity),
+               find_panel_name(quantity), plain_name(channel)};
 }
 
 struct Panel {
-  std::size_t order = 0;
+  const Quantity* order;
   std::string label;
   std::string unit;
   Json series = Json::array();
@@ -107,7 +107,7 @@ PageClock find_view(const sim::Recording<double>& recording) {
   constexpr double kBefore_s = 60.0;
   constexpr double kNow = 0.5;  // of what is shown: where the slider stands at first
   PageClock view{recording.time_s.front(), recording.time_s.back(), 0.0};
-  const std::vector<double>& speed_m_s = recording.channel(models::quantities::kSpeed);
+  const std::vector<double>& speed_m_s = recording.channel(quantities::kSpeed);
   for (std::size_t row = 0; row < speed_m_s.size(); ++row) {
     if (!(std::abs(speed_m_s[row]) > kRolls_m_s)) continue;
     view.start_s = std::max(view.start_s, recording.time_s[row] - kBefore_s);

@@ -29,8 +29,8 @@ void check_conditions(const MeasurementSet& set, std::vector<std::string>& warni
   for (std::size_t r = 0; r < set.runs.size() && set.tire.has_rolling_resistance; ++r) {
     const double pressure = set.runs[r].cold_pressure_Pa / reference.reference_pressure_Pa;
     if (pressure > kOddPressure || pressure < 1.0 / kOddPressure) odd_pressure.push_back(r);
-    if (!set.runs[r].has("load_N")) continue;
-    const std::vector<double>& load_N = set.runs[r].columns.at("load_N");
+    if (!set.runs[r].has(models::quantities::kLoad)) continue;
+    const std::vector<double>& load_N = set.runs[r].column(models::quantities::kLoad);
     const double load = *std::max_element(load_N.begin(), load_N.end()) / reference.reference_load_N;
     if (load > kOddLoad || (load < 1.0 / kOddLoad && load > measurements::kLoadedShare)) odd_load.push_back(r);
   }
@@ -57,10 +57,10 @@ void add_level(const MeasurementSet& set, const MeasuredRun& run, const sim::Rec
   const MeasurementKind& kind = kind_of(set);
   const std::string force = kind.force_channel(set).name;
   const double loaded_N = measurements::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N;
-  if (!run.has("load_N")) return;
+  if (!run.has(models::quantities::kLoad)) return;
   for (const std::size_t row : find_compared_rows(set, run, force)) {
     const bool steady = std::abs(measurements::find_acceleration(run, row)) <= measurements::kSteadyAcceleration_m_s2;
-    if (!steady || run.columns.at("load_N")[row] <= loaded_N) continue;
+    if (!steady || run.column(models::quantities::kLoad)[row] <= loaded_N) continue;
     const auto measured_N = kind.find_tire_force_N(set, run, row, run.columns.at(force)[row]);
     const auto simulated_N = kind.find_tire_force_N(set, run, row, simulated.channel(force)[row]);
     if (!measured_N.has_value() || !simulated_N.has_value()) return;

@@ -93,8 +93,8 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
     const auto mean = [&](const std::vector<double>& values) {
       return series.mean_over(series.blocks[k], [&](std::size_t row) { return values[row]; });
     };
-    const double speed_km_h = 3.6 * mean(run.measured.columns.at("speed_km_h"));
-    const double load_share = mean(run.measured.columns.at("load_N")) / tire.reference_load_N;
+    const double speed_km_h = 3.6 * mean(run.measured.column(models::quantities::kSpeed));
+    const double load_share = mean(run.measured.column(models::quantities::kLoad)) / tire.reference_load_N;
     const double acceleration_m_s2 = series.mean_over(
         series.blocks[k], [&](std::size_t r) { return measurements::find_acceleration(run.measured, r); });
     Eigen::RowVectorXd row(columns);
@@ -109,7 +109,7 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
     put(mean(since_load_s), kSinceLoad_s);
     row.tail(kSingles) << 1.0, load_share * speed_km_h / 80.0, acceleration_m_s2 / 0.5,
         (run.measured.cold_pressure_Pa - tire.reference_pressure_Pa) / 5e4,
-        (run.measured.initial_tire_temperature_K - run.measured.columns.at("ambient_degC").front()) / 10.0;
+        (run.measured.initial_tire_temperature_K - run.measured.column(models::quantities::kAmbient).front()) / 10.0;
     basis.row(at(k)) = row;
   }
   return basis / std::sqrt(kConditions);

@@ -15,7 +15,7 @@ constexpr double kSlack_s = 1e-6;
 
 /// Whether the surface stands still over a row and its neighbors.
 bool stands(const measurements::MeasuredRun& run, std::size_t row) {
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
   const std::size_t last = std::min(row + 1, speed_m_s.size() - 1);
   for (std::size_t i = row > 0 ? row - 1 : 0; i <= last; ++i) {
     if (speed_m_s[i] != 0.0) return false;

@@ -19,7 +19,7 @@ Motion motion_at(const measurements::MeasuredRun& run, std::size_t row) {
   if (std::abs(measurements::find_acceleration(run, row)) > measurements::kSteadyAcceleration_m_s2) {
     return Motion::kChanging;
   }
-  return run.columns.at("speed_km_h")[row] < kStandstill_m_s ? Motion::kStandstill : Motion::kSteady;
+  return run.column(models::quantities::kSpeed)[row] < kStandstill_m_s ? Motion::kStandstill : Motion::kSteady;
 }
 
 struct Stretch {
@@ -77,8 +77,8 @@ std::vector<RunPhase> find_phases(const measurements::MeasuredRun& run, double s
   std::vector<RunPhase> phases;
   std::map<std::string, int> seen;
   for (const Stretch& at : join_short(run, find_stretches(run))) {
-    const double load_N = mean_of(run.columns.at("load_N"), at.first, at.last);
-    const double last_speed_km_h = 3.6 * run.columns.at("speed_km_h")[at.last - 1];
+    const double load_N = mean_of(run.column(models::quantities::kLoad), at.first, at.last);
+    const double last_speed_km_h = 3.6 * run.column(models::quantities::kSpeed)[at.last - 1];
     std::string name = fmt::format("{:.0f} km/h {:.1f} kN", last_speed_km_h, load_N / 1e3);
     const bool numbered = load_N <= skim_limit_N || at.motion != Motion::kSteady;
     if (load_N <= skim_limit_N) name = "skim";

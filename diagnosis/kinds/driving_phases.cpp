@@ -27,7 +27,7 @@ struct Window {
 
 /// Windows of two minutes, and of what is left before a change of load.
 std::vector<Window> cut_windows(const measurements::MeasuredRun& run) {
-  const bool has_load = run.has("load_N");
+  const bool has_load = run.has(models::quantities::kLoad);
   std::vector<Window> windows{{0, 0}};
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
     const bool load_begins = has_load && measurements::is_load_change(run, row);
@@ -40,7 +40,7 @@ std::vector<Window> cut_windows(const measurements::MeasuredRun& run) {
 
 double find_mean_km_h(const measurements::MeasuredRun& run, const Window& window) {
   double sum_m_s = 0.0;
-  for (std::size_t row = window.first; row < window.last; ++row) sum_m_s += run.columns.at("speed_km_h")[row];
+  for (std::size_t row = window.first; row < window.last; ++row) sum_m_s += run.column(models::quantities::kSpeed)[row];
   return 3.6 * sum_m_s / static_cast<double>(window.last - window.first);
 }
 

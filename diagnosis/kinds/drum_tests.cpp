@@ -11,7 +11,7 @@ namespace {
 
 bool records_surface(const PreparedSet& set) {
   return std::any_of(set.runs().begin(), set.runs().end(),
-                     [](const PreparedRun& run) { return run.measured.has("surface_temperature_degC"); });
+                     [](const PreparedRun& run) { return run.measured.has(models::quantities::kSurfaceTemperature); });
 }
 
 PlannedTest skim_at_loads(const TestConditions& at) {

@@ -23,7 +23,7 @@ class DynoKind : public KindWithRig {
   /// it does not.
   std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
     const std::vector<double>& values = run.columns.at(channel);
-    const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+    const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
     std::vector<std::size_t> rows;
     double settled_s = run.time_s.front();
     for (std::size_t row = 0; row < values.size(); ++row) {
@@ -66,7 +66,7 @@ class DynoKind : public KindWithRig {
 
   std::optional<double> find_tire_force_N(const MeasurementSet& set, const MeasuredRun& run, std::size_t row,
                                           double loss_N) const override {
-    return loss_N - models::calc_parasitic_N(set.rig->parasitic, run.columns.at("speed_km_h")[row]);
+    return loss_N - models::calc_parasitic_N(set.rig->parasitic, run.column(models::quantities::kSpeed)[row]);
   }
 };
 

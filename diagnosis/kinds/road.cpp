@@ -25,7 +25,7 @@ class RoadKind : public MeasurementKind {
 
   std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
     const std::vector<double>& values = run.columns.at(channel);
-    const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+    const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < values.size(); ++row) {
       if (!std::isnan(values[row]) && speed_m_s[row] >= measurements::kTrustedSpeed_m_s) rows.push_back(row);
@@ -57,7 +57,7 @@ class RoadKind : public MeasurementKind {
   /// That in which the runs began, on average.
   double usual_ambient_K(const MeasurementSet& set) const override {
     double sum_K = 0.0;
-    for (const MeasuredRun& run : set.runs) sum_K += run.columns.at("ambient_degC").front();
+    for (const MeasuredRun& run : set.runs) sum_K += run.column(models::quantities::kAmbient).front();
     return sum_K / static_cast<double>(set.runs.size());
   }
 
