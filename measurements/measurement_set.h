@@ -48,7 +48,7 @@ struct MeasurementSet {
   const MachineKind* kind = &rigs::find_machine_kind("drum");
   models::Baseline baseline = models::Baseline::kCombined;
   models::TireFile tire;
-  std::optional<rigs::RigFile> rig;          // drum and dyno
+  std::optional<rigs::RigFile> rig;          // all kinds but road
   std::optional<rigs::VehicleFile> vehicle;  // road
   models::SensorSet sensors;
   std::vector<std::string> assumed_sensors;  // channels of which the set says nothing: those of its kind

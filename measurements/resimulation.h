@@ -28,7 +28,7 @@ sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& ki
 
 /// A run made ready to be simulated, as often as wanted.
 ///
-/// Machine   drum: rigs/quasi_static_drum.h on the fixed grid; dyno: rigs/recorded_roller.h, and road:
+/// Machine   drum and flat belt: rigs/quasi_static_drum.h on the fixed grid; dyno: rigs/recorded_roller.h, and road:
 ///           rigs/recorded_road.h, by the lagged midpoint rule. A drive right after another (tire_state = "warm")
 ///           begins at the temperature of steady driving at 80 km/h (Assumed)
 /// Checked   tests/measurements/resimulation_test.cpp

@@ -110,7 +110,7 @@ struct RigFile {
   std::string conductances_of;  // the rig at which a tire's conductances hold here as well; empty: its own
   DrumParameters drum;          // of each roller on a dyno
   BeltParameters belt;
-  bool driven_wheels_only = false;  // of a dyno: the other axle stands still, its tires lose nothing
+  bool driven_wheels_only = false;  // of a dyno: axles without a drive share stand still, their tires lose nothing
   models::ParasiticParameters<double> parasitic;
   models::ParasiticParameters<double> parasitic_uncertainties;  // 0 where none was given
   RigEnvironment environment;

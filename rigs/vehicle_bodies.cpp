@@ -15,8 +15,8 @@ namespace {
 
 Transform upwards(const Vec3& at_m) { return {kUpwards.R(), at_m}; }
 
-/// The sprung mass: its center where the suspensions' preloads balance, its pitch inertia that of masses
-/// over the axles (m a b, usual of passenger cars). Assumed.
+/// The sprung mass: its center where the suspensions' preloads balance. Assumed: its pitch inertia is its mass times
+/// the square of the distance from the vehicle's center to its farthest axle (m a b where two axles are equally far).
 SimTK::Body::Rigid make_sprung_body(const VehicleLayout& layout, VehicleBodies& bodies, double missing_kg) {
   double weight_N = 0.0;
   double moment_Nm = 0.0;

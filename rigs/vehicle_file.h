@@ -65,7 +65,9 @@ struct VehicleAxle {
     visit(Field{"load_share", Range{0.0, 1.0, true, false}, "Share of the weight at standstill"}, p.load_share);
     visit(Field{"drive_share", between(0.0, 1.0), "Share of the motor's force; 0: not driven", 0.0}, p.drive_share);
     visit(Field{"brake_share", between(0.0, 1.0), "Share of the friction brakes' force"}, p.brake_share);
-    visit(Field{"wheels", between(1.0, 20.0), "1, 2, or 4: dual tires, each of which is a wheel", 2.0}, p.wheels);
+    visit(Field{"wheels", between(1.0, 20.0), "1, 2, or 4: dual tires, each a wheel; in sets of the road any number",
+                2.0},
+          p.wheels);
     visit(Field{"pressure_kPa", non_negative(), "Of its soaked tires, gauge; 0: as the run says", 0.0}, p.pressure_Pa);
   }
 };

@@ -16,8 +16,8 @@ struct Ramp {
   double at(double elapsed_s) const { return start + slope_per_s * elapsed_s; }
 };
 
-/// A stretch without a knot in any input. A system is told which segment it is in; it never finds out
-/// from the time, so that a knot belongs to one side for sure.
+/// A stretch in which every input is one straight line. Two segments meet at a knot. A system is told which segment it
+/// is in; it never finds out from the time, so that a knot belongs to one side for sure.
 struct Segment {
   double duration_s = 0.0;
   std::vector<Ramp> inputs;  // in the order that the system declares

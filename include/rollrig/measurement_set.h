@@ -37,7 +37,7 @@ class MeasurementSet {
   explicit MeasurementSet(const std::string& folder);
 
   const std::string& name() const;
-  /// The kind as files have it: "drum", "dyno", "road".
+  /// The kind of machine as files have it, for example "drum", "flat_belt", "roller", "road".
   std::string kind() const;
   /// Name of its tire.
   const std::string& tire() const;

@@ -23,7 +23,7 @@ class SectionReader {
   SectionReader(const sim::Recording<double>& recording, const rigs::VehicleLayout& layout, std::size_t phase)
       : integrals_(recording.phase_integrals[phase]), layout_(layout) {}
 
-  /// Of the whole vehicle, where a quarter was simulated as well.
+  /// Of the whole vehicle, also where one wheel with its share was simulated.
   double vehicle(rigs::VehicleIntegral integral) const { return integrals_[rigs::index_of(integral)] / layout_.share; }
   /// Of what does not go with the vehicle's size: distance, time.
   double common(rigs::VehicleIntegral integral) const { return integrals_[rigs::index_of(integral)]; }

@@ -24,7 +24,8 @@ struct VehicleConditions {
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"wheels", between(1.0, 4.0),
-                "4: the whole vehicle, on however many; 1: one wheel with its share, of the first axle unless wheel_of "
+                "4: the whole vehicle, however many wheels it has; 1: one wheel with its share, of the first axle "
+                "unless wheel_of "
                 "names another",
                 4.0},
           p.wheels);

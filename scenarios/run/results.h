@@ -39,7 +39,7 @@ enum class Column { kFirst, kSecond, kBoth };
 /// Declaration of one result. Its unit is read off the key's suffix; the value that goes with it is SI.
 struct Result {
   const char* key;
-  const char* label;   // before its value, or over its column, where the unit follows
+  const char* label;   // before its value, or over its column, where the unit follows; "": in no line of its own
   const char* digits;  // as fmt writes them: ".2f", or "+.1f" with the sign; "" for what is no measure
   const char* doc;
   Column column = Column::kFirst;
