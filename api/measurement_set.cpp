@@ -13,7 +13,7 @@ MeasurementSet::MeasurementSet(const std::string& folder)
     : data_(std::make_shared<const Data>(Data{measurements::read_measurement_set(folder)})) {}
 
 const std::string& MeasurementSet::name() const { return data_->set.name; }
-std::string MeasurementSet::kind() const { return data_->set.kind->word; }
+std::string MeasurementSet::kind() const { return data_->set.kind->set_word; }
 const std::string& MeasurementSet::tire() const { return data_->set.tire.name; }
 
 std::vector<MeasuredRun> MeasurementSet::list_runs() const {

@@ -119,8 +119,9 @@ MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind) {
 }
 
 std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
-  const std::string word = reader.text_or("kind", "", rigs::machine_words());
-  set.kind = &rigs::find_machine_kind(!word.empty() ? word : reader.has("vehicle") ? "road" : "drum");
+  const std::string word = reader.text_or("kind", "");
+  set.kind = rigs::find_machine_kind_if_any(!word.empty() ? word : reader.has("vehicle") ? "road" : "drum");
+  if (set.kind == nullptr) reader.text("kind", rigs::set_words());  // throws
   if (is_on_road(set.kind->traits)) {
     const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
     set.vehicle = rigs::read_vehicle(read_config(path));

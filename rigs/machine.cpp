@@ -74,9 +74,15 @@ const std::vector<const MachineKind*>& machine_kinds() {
 
 std::vector<std::string> machine_words() { return list_machines(&models::is_any); }
 
+std::vector<std::string> set_words() {
+  std::vector<std::string> words;
+  for (const MachineKind* kind : machine_kinds()) words.emplace_back(kind->set_word);
+  return words;
+}
+
 const MachineKind* find_machine_kind_if_any(const std::string& word) {
   for (const MachineKind* kind : machine_kinds()) {
-    if (!word.empty() && (word == kind->word || word == kind->former_word)) return kind;
+    if (!word.empty() && (word == kind->word || word == kind->former_word || word == kind->set_word)) return kind;
   }
   return nullptr;
 }

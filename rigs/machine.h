@@ -43,6 +43,7 @@ models::SensorSet::value_type make_usual_sensor(const Quantity& tire_channel);
 struct MachineKind {
   const char* word;         // in files and messages
   const char* former_word;  // in files of format /1, which stay readable; empty where that knows no such kind
+  const char* set_word;  // in measurement sets, where `word` is read as well: a dyno's set is of one wheel on a roller
   models::MachineTraits traits;
   RunColumns columns;
   models::SensorSet default_sensors;  // where a set gives none; empty where it has to
@@ -52,7 +53,8 @@ struct MachineKind {
 /// All kinds, in the order of machines.def.
 const std::vector<const MachineKind*>& machine_kinds();
 std::vector<std::string> machine_words();
-/// By its word or its former one; nullptr where there is none.
+std::vector<std::string> set_words();
+/// By any of its words; nullptr where there is none.
 const MachineKind* find_machine_kind_if_any(const std::string& word);
 /// The same, of a word that is known. Throws std::invalid_argument.
 const MachineKind& find_machine_kind(const std::string& word);

@@ -9,6 +9,7 @@ const MachineKind& machine_drum() {
   static const MachineKind kind{
       "drum",
       "drum",
+      "drum",
       {Surface::kDrum, Specimen::kTire, Restraint::kCarriage, quantities::kDrumTorque},
       {{kSurfaceSpeed, kLoad, kAmbient},
        {{quantities::kSurfaceTemperature, kTemperatureRange, "drum surface"},

@@ -11,6 +11,7 @@ const MachineKind& machine_dyno() {
   static const MachineKind kind{
       "dyno",
       "dyno",
+      "roller",
       {Surface::kRoller, Specimen::kWheel, Restraint::kTieDowns, quantities::kLossForce},
       {{kSurfaceSpeed,
         kLoad,

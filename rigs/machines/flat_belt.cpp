@@ -9,6 +9,7 @@ const MachineKind& machine_flat_belt() {
   using namespace models;
   static const MachineKind kind{"flat_belt",
                                 "",
+                                "flat_belt",
                                 {Surface::kBelt, Specimen::kTire, Restraint::kCarriage, quantities::kBeltForce},
                                 {{kSurfaceSpeed, kLoad, kAmbient},
                                  {{quantities::kSurfaceTemperature, kTemperatureRange, "belt surface"}},

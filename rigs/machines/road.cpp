@@ -9,6 +9,7 @@ const MachineKind& machine_road() {
   using namespace models;
   static const MachineKind kind{"road",
                                 "flat",
+                                "road",
                                 {Surface::kRoad, Specimen::kVehicle, Restraint::kNone, quantities::kTractionForce},
                                 {{{quantities::kSpeed, columns::kSurfaceSpeed.range, "vehicle speed"},
                                   {quantities::kElevation, any_number(), "height of the road"},

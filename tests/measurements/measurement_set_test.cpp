@@ -7,6 +7,8 @@
 #include "build_paths.h"
 #include "measurements/resimulation.h"
 #include "scenarios/common/written_set.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/machines.h"
 #include "tests/support/temporary_folder.h"
@@ -123,6 +125,18 @@ cold_pressure_kPa = 280.0
   CHECK(set.sensors.at("loss_force_N").noise_sd > 0.0);
   CHECK(set.sensors.at("cavity_pressure_kPa").noise_sd == Approx(500.0));
   CHECK(set.sensors.count("liner_temperature_degC") == 0);  // not measured
+
+  const std::string text = read_text_file(folder.file("set.toml"));
+  const auto read_as = [&](const std::string& kind) {
+    std::string with_kind = text;
+    with_kind.insert(with_kind.find("[sensors"), "kind = \"" + kind + "\"\n");
+    tests::write_file(folder.file("set.toml"), with_kind);
+    return measurements::read_measurement_set(folder.path()).kind;
+  };
+  CHECK(read_as("roller") == set.kind);
+  CHECK(read_as("dyno") == set.kind);  // its former word
+  CHECK_THROWS_AS(read_as("drum"), InputError);
+  CHECK_THROWS_WITH(read_as("rollers"), Catch::Contains("roller"));
 }
 
 TEST_CASE("a drum run may be reversed and have weights on its sensor; no other may", "[fast]") {
