@@ -149,16 +149,22 @@ Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vecto
   return scaled * scaled.transpose();
 }
 
-void require_drum_set(const measurements::MeasurementSet& set) {
-  if (!is_of_vehicle(set.kind->traits)) return;
-  throw InputError({"a tire is fitted to a set of a drum or belt", set.path, 0, "rig", "",
-                    "a rig whose carriage presses the tire", ""});
+void require_fittable_set(const measurements::MeasurementSet& set) {
+  if (is_of_vehicle(set.kind->traits)) {
+    throw InputError({"a tire is fitted to a set of a drum or belt", set.path, 0, "rig", "",
+                      "a rig whose carriage presses the tire", ""});
+  }
+  const models::TireModelInfo& model = set.tire.values.model().info;
+  if (!model.uses("rolling_resistance")) {
+    throw InputError({"the loss of this tire's model has no A0 to B1, which are what is fitted", set.tire.path, 0,
+                      "model", model.id, "a model that uses [rolling_resistance]", ""});
+  }
 }
 
 }  // namespace
 
 TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options) {
-  require_drum_set(set);
+  require_fittable_set(set);
   TireFit fit;
   fit.two_step = estimate_in_two_steps(set);
   const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {

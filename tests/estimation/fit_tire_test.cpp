@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "models/tire/tire_model.h"
 #include "sim/core/error.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
@@ -203,6 +204,12 @@ TEST_CASE("a map over load is fitted where there are several loads at two speeds
   const double v = 100.0 / 3.6;
   const double ratio = (high.A0_N + high.A1_N_s_per_m * v) / (low.A0_N + low.A1_N_s_per_m * v);
   CHECK(std::log(ratio) / std::log(7000.0 / 4000.0) == Approx(1.1).margin(0.01));
+}
+
+TEST_CASE("a tire whose law has none of the numbers that are fitted is refused", "[fast]") {
+  auto set = tests::make_warm_up_set("a50", "source", "quasi_static");
+  set.tire.values.own.model = &models::find_tire_model("constant_rrc");
+  CHECK_THROWS_AS(fit_tire(set, {}), InputError);
 }
 
 TEST_CASE("one speed is refused, and a model that lacks something is warned of", "[fast]") {
