@@ -6,6 +6,7 @@
 #include "diagnosis/output/explain.h"
 #include "diagnosis/output/fleet.h"
 #include "diagnosis/output/summary.h"
+#include "diagnosis/terms/term.h"
 #include "report/diagnosis_page.h"
 
 namespace rollrig {
@@ -37,5 +38,7 @@ FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const Dia
 std::string explain_effect(const std::string& name) { return diagnosis::explain_effect(name); }
 
 std::vector<std::string> explainable_names() { return diagnosis::explainable_names(); }
+
+std::vector<std::string> comparable_names() { return diagnosis::term_names(); }
 
 }  // namespace rollrig

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "cli/command.h"
-#include "rollrig/assets.h"
+#include "rollrig/diagnose.h"
 
 namespace rollrig::cli {
 namespace {
 
 void require_effects(const char* option, const std::vector<std::string>& names) {
-  const std::vector<std::string> ids = names_of(list_effects());
+  const std::vector<std::string> ids = comparable_names();
   for (const std::string& name : names) {
     if (std::find(ids.begin(), ids.end(), name) != ids.end()) continue;
     InputProblem problem = unknown_name("effect", name, ids);

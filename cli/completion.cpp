@@ -22,13 +22,13 @@ std::string words_after(const std::string& what) {
   if (what == "--fidelity") words = {"multibody", "quasi_static"};
   if (what == "--baseline") words = {"combined", "constant_rrc"};
   if (what == "run" || what == "sweep") words = names_of(list_scenarios());
-  if (what == "--without" || what == "--only") words = names_of(list_effects());
+  if (what == "--without" || what == "--only") words = comparable_names();
   if (what == "--explain") words = explainable_names();
   if (what == "completion") words = {"bash", "zsh", "fish"};
   if (what == "describe") {
     words = names_of(list_scenarios());
     for (const std::string& id : names_of(list_effects())) words.push_back(id);
-    for (const char* folder : {"tires", "rigs", "sensors"}) {
+    for (const char* folder : {"tires", "rigs", "vehicles", "sensors"}) {
       for (const std::string& name : list_assets(folder)) words.push_back(name);
     }
   }

@@ -87,8 +87,7 @@ std::string describe(const models::EffectInfo& info) {
 }  // namespace
 
 std::vector<std::string> explainable_names() {
-  std::vector<std::string> names;
-  for (const Term* term : all_terms()) names.push_back(term->name());
+  std::vector<std::string> names = term_names();
   names.insert(names.end(), {"none", "unknown"});
   return names;
 }

@@ -34,6 +34,12 @@ std::vector<const Term*> choose_terms(const models::MachineTraits& machine, cons
   return terms;
 }
 
+std::vector<std::string> term_names() {
+  std::vector<std::string> names;
+  for (const Term* term : all_terms()) names.push_back(term->name());
+  return names;
+}
+
 const Term* look_up_term(const std::string& name) {
   const auto of_name =
       std::find_if(all_terms().begin(), all_terms().end(), [&](const Term* term) { return term->name() == name; });
@@ -43,9 +49,7 @@ const Term* look_up_term(const std::string& name) {
 const Term& find_term(const std::string& name) {
   const Term* term = look_up_term(name);
   if (term != nullptr) return *term;
-  std::vector<std::string> names;
-  for (const Term* known : all_terms()) names.push_back(known->name());
-  throw InputError(unknown_name("effect", name, names));
+  throw InputError(unknown_name("effect", name, term_names()));
 }
 
 }  // namespace rollrig::diagnosis

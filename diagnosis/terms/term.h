@@ -32,6 +32,7 @@ class Term {
 
 /// Every term that a comparison may try, in the order in which a hypothesis lists them.
 const std::vector<const Term*>& all_terms();
+std::vector<std::string> term_names();
 
 /// Those that act on such a machine with such a tire and can be seen there: of these the ones in `only` (all
 /// where it is empty), less those in `without`.

@@ -38,6 +38,8 @@ FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const Dia
 std::string explain_effect(const std::string& name);
 /// Names that it takes.
 std::vector<std::string> explainable_names();
+/// Names that DiagnosisOptions::only and ::without take.
+std::vector<std::string> comparable_names();
 
 }  // namespace rollrig
 #pragma GCC visibility pop
