@@ -14,6 +14,7 @@ using Ledger = sim::EnergyTerm::Ledger;
 namespace {
 
 constexpr double kRadius_m = 0.61;
+constexpr double kSegment_s = 2.0;
 
 /// A roller of 1.22 m under a tire, off every symmetric point.
 struct RollerFixture : tests::VehicleFixture {
@@ -35,14 +36,14 @@ struct Stretch {
   double force_N;
 };
 
-/// Stretches in segments of a second.
+/// Stretches in segments of two seconds.
 sim::Program make_roller_program(const std::vector<Stretch>& stretches) {
   sim::Phase phase;
   phase.name = "recorded";
   for (const Stretch& stretch : stretches) {
     const double slope = (stretch.end_m_s - stretch.start_m_s) / stretch.duration_s;
-    for (double t = 0.0; t < stretch.duration_s; t += 1.0) {
-      sim::Segment segment{1.0, std::vector<sim::Ramp>(rigs::kRollerInputCount)};
+    for (double t = 0.0; t < stretch.duration_s; t += kSegment_s) {
+      sim::Segment segment{kSegment_s, std::vector<sim::Ramp>(rigs::kRollerInputCount)};
       segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {stretch.start_m_s + slope * t, slope};
       segment.inputs[rigs::index_of(rigs::DrumInput::kLoad)] = {stretch.load_N, 0.0};
       segment.inputs[rigs::index_of(rigs::DrumInput::kAmbient)] = {293.15, 0.0};

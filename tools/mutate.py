@@ -1,0 +1,240 @@
+#!/usr/bin/env python3
+"""Mutation test: changes one operator, sign, factor or index of the code at a time and asks whether a fast test fails.
+
+Mutants are drawn at random (seeded), as many from each folder as it has code. Each is built and tested in a worktree of
+HEAD under build/mutants; what is not committed is not tested. Results are appended to build/mutants/results.jsonl: a run
+that was cut short goes on there. 240 mutants take about an hour on two idle cores, besides the first build.
+
+  tools/mutate.py                         draws and judges 240 mutants, prints the share that is killed
+  tools/mutate.py --survivors             judges those that survived again, with the tests as they are now
+  tools/mutate.py --list                  prints survivors and the share, judges nothing
+"""
+import argparse
+import concurrent.futures
+import json
+import queue
+import random
+import re
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+WORK = ROOT / "build" / "mutants"
+RESULTS = WORK / "results.jsonl"
+TIMES = WORK / "times.json"
+FOLDERS = ("models", "rigs", "estimation", "diagnosis")
+# Programs with tests of behavior, quickest feedback first; those of a mutant's own folder run before all others.
+PROGRAMS = ("models_tests", "rigs_tests", "measurements_tests", "estimation_tests", "scenarios_tests", "diagnosis_tests",
+            "cli_tests", "api_tests", "scoring_tests", "generator_tests", "report_tests", "published_tests")
+
+# Kind, what is searched in code without its comments and texts, what stands there in a mutant.
+CHANGES = (
+    ("sign", re.compile(r"(?<=[\w)\]}]) \+ (?=[\w(!*&-])"), " - "),
+    ("sign", re.compile(r"(?<=[\w)\]}]) - (?=[\w(!*&-])"), " + "),
+    ("sign", re.compile(r" \+= "), " -= "),
+    ("sign", re.compile(r" -= "), " += "),
+    ("sign", re.compile(r"(?<=[(,=] )-(?=[A-Za-z_(])|(?<=[(\[])-(?=[A-Za-z_(])|(?<=return )-(?=[A-Za-z_(])"), ""),
+    ("factor", re.compile(r"(?<=[\w)\]}]) \* (?=[\w(!*&-])"), " / "),
+    ("factor", re.compile(r"(?<=[\w)\]}]) / (?=[\w(!*&-])"), " * "),
+    ("factor", re.compile(r" \*= "), " /= "),
+    ("operator", re.compile(r"(?<=[\w)\]}]) < (?=[\w(!*&-])"), " >= "),
+    ("operator", re.compile(r"(?<=[\w)\]}]) > (?=[\w(!*&-])"), " <= "),
+    ("operator", re.compile(r" <= "), " > "),
+    ("operator", re.compile(r" >= "), " < "),
+    ("operator", re.compile(r" == "), " != "),
+    ("operator", re.compile(r" != "), " == "),
+    ("operator", re.compile(r" && "), " || "),
+    ("operator", re.compile(r" \|\| "), " && "),
+    ("operator", re.compile(r"std::max(?=\()"), "std::min"),
+    ("operator", re.compile(r"std::min(?=\()"), "std::max"),
+    ("index", re.compile(r"\[0\]"), "[1]"),
+    ("index", re.compile(r"\[1\]"), "[0]"),
+    ("index", re.compile(r"\.front\(\)"), ".back()"),
+    ("index", re.compile(r"\.back\(\)"), ".front()"),
+)
+# Lines that declare, or only word a message.
+NO_CODE = re.compile(r"^\s*(#|template|using|namespace|class |struct |enum |friend|static_assert|throw |case .*:$)|auto&& ")
+
+
+def mask(text):
+    """The text with comments and literals of texts blanked, each character kept in place."""
+    pattern = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
+    return pattern.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
+
+
+def find_mutants(folder):
+    mutants = []
+    for path in sorted((ROOT / folder).rglob("*")):
+        if path.suffix not in (".cpp", ".h"):
+            continue
+        lines = mask(path.read_text()).split("\n")
+        for number, line in enumerate(lines, 1):
+            if NO_CODE.search(line):
+                continue
+            for kind, searched, put in CHANGES:
+                for match in searched.finditer(line):
+                    mutants.append({"folder": folder, "file": str(path.relative_to(ROOT)), "line": number,
+                                    "column": match.start(), "kind": kind, "from": match.group().strip(),
+                                    "to": put.strip(), "length": len(match.group()), "put": put})
+    return mutants
+
+
+def draw(count, seed):
+    """Mutants in a drawn order; of each folder the share that it has of all code."""
+    found = [mutant for folder in FOLDERS for mutant in find_mutants(folder)]
+    random.Random(seed).shuffle(found)
+    return found[:2 * count]  # some do not compile
+
+
+def key_of(mutant):
+    return f"{mutant['file']}:{mutant['line']}:{mutant['column']}:{mutant['from']}>{mutant['to']}"
+
+
+class Tree:
+    """A worktree with a build of its own."""
+
+    def __init__(self, number):
+        self.source = WORK / f"tree_{number}"
+        self.build = self.source / "build"
+
+    def run(self, command, limit_s=None):
+        return subprocess.run(command, cwd=self.source, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              stdin=subprocess.DEVNULL, timeout=limit_s, check=False).returncode
+
+    def prepare(self, head):
+        if not self.source.exists():
+            subprocess.run(["git", "worktree", "prune"], cwd=ROOT, check=True)
+            subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(self.source), head], cwd=ROOT, check=True)
+        subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", head], cwd=self.source, check=True)
+        if self.run(["cmake", "-S", ".", "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]) != 0:
+            sys.exit(f"mutate: {self.source} cannot be configured")
+        if self.run(["cmake", "--build", str(self.build), "--parallel", "--target", *PROGRAMS]) != 0:
+            sys.exit(f"mutate: {self.source} cannot be built")
+
+    def test(self, program, limit_s):
+        """Whether all fast tests of a program pass within a time."""
+        try:
+            return self.run([str(self.build / "bin" / program), "[fast]", "--abort"], limit_s) == 0
+        except subprocess.TimeoutExpired:
+            return False
+
+    def judge(self, mutant, times_s):
+        path = self.source / mutant["file"]
+        original = path.read_text()
+        lines = original.split("\n")
+        line = lines[mutant["line"] - 1]
+        column = mutant["column"]
+        lines[mutant["line"] - 1] = line[:column] + mutant["put"] + line[column + mutant["length"]:]
+        path.write_text("\n".join(lines))
+        try:
+            own = mutant["folder"] + "_tests"
+            for program in [own] + [other for other in PROGRAMS if other != own]:
+                if self.run(["cmake", "--build", str(self.build), "--target", program]) != 0:
+                    return "invalid", "does not compile"
+                # A mutant that loops for ever is killed by the clock.
+                if not self.test(program, 60.0 + 10.0 * times_s[program]):
+                    return "killed", program
+            return "survived", ""
+        finally:
+            path.write_text(original)
+
+
+def read_results():
+    if not RESULTS.exists():
+        return {}
+    results = [json.loads(line) for line in RESULTS.read_text().splitlines()]
+    return {key_of(result): result for result in results}
+
+
+def measure_times(tree):
+    """Time of each program without a mutant; all must pass."""
+    if TIMES.exists():
+        return json.loads(TIMES.read_text())
+    times_s = {}
+    for program in PROGRAMS:
+        start_s = time.monotonic()
+        if not tree.test(program, 3600.0):
+            sys.exit(f"mutate: {program} fails without a mutant")
+        times_s[program] = time.monotonic() - start_s
+    TIMES.write_text(json.dumps(times_s, indent=1))
+    return times_s
+
+
+def prepare_trees(jobs):
+    WORK.mkdir(parents=True, exist_ok=True)
+    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+    trees = [Tree(number) for number in range(1, jobs + 1)]
+    for tree in trees:
+        print(f"building {tree.source.relative_to(ROOT)}", flush=True)
+        tree.prepare(head)
+    return trees
+
+
+def judge_all(mutants, wanted, trees):
+    """Judges mutants until `wanted` are valid."""
+    times_s = measure_times(trees[0])
+    free = queue.Queue()
+    for tree in trees:
+        free.put(tree)
+    lock = threading.Lock()
+    valid = 0
+
+    def judge(mutant):
+        nonlocal valid
+        if valid >= wanted:
+            return
+        tree = free.get()
+        try:
+            verdict, by = tree.judge(mutant, times_s)
+        finally:
+            free.put(tree)
+        with lock:
+            valid += verdict != "invalid"
+            with RESULTS.open("a") as file:
+                file.write(json.dumps({**mutant, "verdict": verdict, "by": by}) + "\n")
+            print(f"{valid:4} {verdict:8} {key_of(mutant)}  {by}", flush=True)
+
+    with concurrent.futures.ThreadPoolExecutor(len(trees)) as pool:
+        list(pool.map(judge, mutants))
+
+
+def print_summary(results):
+    valid = [result for result in results.values() if result["verdict"] != "invalid"]
+    survivors = [result for result in valid if result["verdict"] == "survived"]
+    for folder in FOLDERS:
+        of_folder = [result for result in valid if result["folder"] == folder]
+        killed = sum(result["verdict"] == "killed" for result in of_folder)
+        print(f"{folder:12} {killed:4} of {len(of_folder):4} killed")
+    killed = len(valid) - len(survivors)
+    print(f"{'all':12} {killed:4} of {len(valid):4} killed" + (f" ({100 * killed / len(valid):.1f} %)" if valid else ""))
+    for result in sorted(survivors, key=key_of):
+        line = (ROOT / result["file"]).read_text().split("\n")[result["line"] - 1].strip()
+        print(f"survived: {result['file']}:{result['line']}: {result['from']} -> {result['to'] or 'nothing'}: {line}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=240, help="valid mutants to judge (240)")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the draw (1)")
+    parser.add_argument("--jobs", type=int, default=2, help="worktrees that are built side by side (2)")
+    parser.add_argument("--survivors", action="store_true", help="judge those that survived again")
+    parser.add_argument("--list", action="store_true", help="print the results, judge nothing")
+    options = parser.parse_args()
+    results = read_results()
+    if not options.list:
+        trees = prepare_trees(options.jobs)
+        if options.survivors:
+            again = [result for result in results.values() if result["verdict"] == "survived"]
+            judge_all(again, len(again), trees)
+        else:
+            valid = sum(result["verdict"] != "invalid" for result in results.values())
+            new = [mutant for mutant in draw(options.count, options.seed) if key_of(mutant) not in results]
+            judge_all(new, options.count - valid, trees)
+    print_summary(read_results())
+
+
+if __name__ == "__main__":
+    main()
