@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <tuple>
 
 #include "diagnosis/comparison/evidence.h"
+#include "diagnosis/findings/common_value.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
@@ -62,8 +62,7 @@ bool differs_between_runs(const Study& study, const Candidate& candidate, std::s
   others.col(at(size_column)).setZero();
   const Eigen::LLT<Eigen::MatrixXd> curvature(others.transpose() * others + Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd direction = size - others * curvature.solve(others.transpose() * size);
-  std::vector<double> shifts;
-  std::vector<double> weights;
+  std::vector<Estimate> shifts;
   for (std::size_t run = 0; run < study.set.runs().size(); ++run) {
     double along = 0.0;
     double square = 0.0;
@@ -75,20 +74,9 @@ bool differs_between_runs(const Study& study, const Candidate& candidate, std::s
     }
     const bool is_witness = square > 1.0 && square > 1.0 / (allowed_u * allowed_u);  // no vaguer than what is allowed
     if (!is_witness) continue;
-    shifts.push_back(-along / square);
-    weights.push_back(1.0 / (1.0 / square + allowed_u * allowed_u));
+    shifts.push_back({-along / square, 1.0 / square + allowed_u * allowed_u});
   }
-  if (shifts.size() < 2) return false;
-  double sum = 0.0;
-  double weight = 0.0;
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    sum += weights[i] * shifts[i];
-    weight += weights[i];
-  }
-  double chi2 = 0.0;
-  for (std::size_t i = 0; i < shifts.size(); ++i) chi2 += weights[i] * std::pow(shifts[i] - sum / weight, 2);
-  const boost::math::chi_squared distribution(static_cast<double>(shifts.size() - 1));
-  return boost::math::cdf(boost::math::complement(distribution, chi2)) < thresholds::kRunSizeChance;
+  return !shifts.empty() && find_common_value(shifts).chance < thresholds::kRunSizeChance;
 }
 
 std::vector<std::string> find_objections(const Study& study, const Candidate& candidate) {

@@ -1,11 +1,11 @@
 #include "diagnosis/output/recurrences.h"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <map>
 #include <set>
 
+#include "diagnosis/findings/common_value.h"
 #include "diagnosis/output/fleet.h"
 
 namespace rollrig::diagnosis {
@@ -21,24 +21,16 @@ bool names_cause(const FleetMember& member) {
 }
 
 void average_sizes(const std::vector<ParameterEstimate>& sizes, Recurrence& recurrence) {
-  double weight = 0.0;
-  double sum = 0.0;
+  std::vector<Estimate> estimates;
   for (const ParameterEstimate& size : sizes) {
-    if (!(size.sd > 0.0)) continue;
-    weight += 1.0 / (size.sd * size.sd);
-    sum += size.value / (size.sd * size.sd);
+    if (size.sd > 0.0) estimates.push_back({size.value, size.sd * size.sd});
   }
-  if (!(weight > 0.0)) return;
-  recurrence.mean_size = sum / weight;
-  recurrence.mean_size_sd = 1.0 / std::sqrt(weight);
+  if (estimates.empty()) return;
+  const CommonValue common = find_common_value(estimates);
+  recurrence.mean_size = common.mean;
+  recurrence.mean_size_sd = common.sd;
   recurrence.unit = sizes.front().unit;
-  if (sizes.size() < 2) return;
-  double chi2 = 0.0;
-  for (const ParameterEstimate& size : sizes) {
-    if (size.sd > 0.0) chi2 += std::pow((size.value - *recurrence.mean_size) / size.sd, 2);
-  }
-  const boost::math::chi_squared distribution(static_cast<double>(sizes.size() - 1));
-  recurrence.same_size_p = boost::math::cdf(boost::math::complement(distribution, chi2));
+  if (estimates.size() > 1) recurrence.same_size_p = common.chance;
 }
 
 struct Group {
