@@ -42,7 +42,8 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
                               const IterationStart& start, Components kind) {
   constexpr int kMostIterations = 100;
   constexpr int kUndampedIterations = 10;
-  constexpr double kStep = 1e-4;  // of a standard deviation, and of a component
+  constexpr double kCoefficientStep = 1e-4;  // of a standard deviation
+  constexpr double kComponentStep = 1e-3;    // of a component
   const VectorXd floors = make_floors();
   VectorXd coefficients = start.coefficients;
   VectorXd components = start.components;
@@ -58,13 +59,14 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     const VectorXd sd = estimate.covariance.diagonal().cwiseSqrt();
     bool settled = share == 1.0;
     for (Index i = 0; i < coefficients.size(); ++i) {
-      settled = settled && std::abs(coefficients(i) - before(i)) <= kStep * sd(i) + 1e-9 * std::abs(coefficients(i));
+      settled = settled &&
+                std::abs(coefficients(i) - before(i)) <= kCoefficientStep * sd(i) + 1e-9 * std::abs(coefficients(i));
     }
     const double scale = (components - estimate.components).cwiseAbs().maxCoeff();
     const bool held = iterations > kMostIterations / 2;
     for (Index i = 0; i < components.size() && !held; ++i) {
       const double change = std::abs(estimate.components(i) - components(i));
-      settled = settled && (change <= 10.0 * kStep * std::max(components(i), estimate.components(i)) ||
+      settled = settled && (change <= kComponentStep * std::max(components(i), estimate.components(i)) ||
                             change <= 1e-12 * scale || estimate.components(i) == floors(i));
     }
     // a component that comes and goes across its floor would go on for ever: halve its steps, then hold it
