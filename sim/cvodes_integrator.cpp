@@ -79,13 +79,16 @@ class CvodesIntegrator::Implementation {
     set_up(options);
   }
 
-  void start(double time_s, const double* state, const double* integrals, const StopCondition* stop) {
+  void begin_run(double time_s) {
+    time_s_ = time_s;
+    N_VConst(0.0, y_.get());
+    N_VConst(0.0, q_.get());
+  }
+
+  void begin_segment(const StopCondition* stop) {
     collect_statistics();
     stop_ = stop;
-    time_s_ = time_s;
-    std::copy(state, state + n_, data(y_));
-    std::copy(integrals, integrals + m_, data(q_));
-    require_success(CVodeReInit(memory(), time_s, y_.get()), "CVodeReInit");
+    require_success(CVodeReInit(memory(), time_s_, y_.get()), "CVodeReInit");
     counted_ = {};  // CVODES counts from zero again
     if (m_ > 0) require_success(CVodeQuadReInit(memory(), q_.get()), "CVodeQuadReInit");
     require_success(CVodeRootInit(memory(), stop_ != nullptr ? 1 : 0, stop_ != nullptr ? calc_root : nullptr),
@@ -128,8 +131,8 @@ class CvodesIntegrator::Implementation {
   }
 
   double time_s() const { return time_s_; }
-  const double* state() const { return data(y_); }
-  const double* integrals() const { return data(q_); }
+  double* state() { return data(y_); }
+  double* integrals() { return data(q_); }
 
   CvodesStatistics statistics() {
     collect_statistics();
@@ -210,9 +213,7 @@ class CvodesIntegrator::Implementation {
   void restart() {
     double at_s = 0.0;
     if (m_ > 0) require_success(CVodeGetQuad(memory(), &at_s, q_.get()), "CVodeGetQuad");
-    const std::vector<double> state(data(y_), data(y_) + n_);
-    const std::vector<double> integrals(data(q_), data(q_) + m_);
-    start(time_s_, state.data(), integrals.data(), stop_);
+    begin_segment(stop_);
   }
 
   void collect_statistics() {
@@ -254,14 +255,12 @@ CvodesIntegrator::CvodesIntegrator(OdeSystem<double>& system, const CvodesOption
     : implementation_(std::make_unique<Implementation>(system, options)) {}
 CvodesIntegrator::~CvodesIntegrator() = default;
 
-void CvodesIntegrator::start(double time_s, const double* state, const double* integrals, double,
-                             const StopCondition* stop) {
-  implementation_->start(time_s, state, integrals, stop);
-}
+void CvodesIntegrator::begin_run(double time_s) { implementation_->begin_run(time_s); }
+void CvodesIntegrator::begin_segment(double, const StopCondition* stop) { implementation_->begin_segment(stop); }
 bool CvodesIntegrator::step(double end_time_s) { return implementation_->step(end_time_s); }
 double CvodesIntegrator::time_s() const { return implementation_->time_s(); }
-const double* CvodesIntegrator::state() const { return implementation_->state(); }
-const double* CvodesIntegrator::integrals() const { return implementation_->integrals(); }
+double* CvodesIntegrator::state() { return implementation_->state(); }
+double* CvodesIntegrator::integrals() { return implementation_->integrals(); }
 void CvodesIntegrator::interpolate_state(double time_s, double* state) {
   implementation_->interpolate_state(time_s, state);
 }

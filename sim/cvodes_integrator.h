@@ -35,12 +35,12 @@ class ROLLRIG_EXPORT CvodesIntegrator : public Integrator<double> {
   CvodesIntegrator(const CvodesIntegrator&) = delete;
   CvodesIntegrator& operator=(const CvodesIntegrator&) = delete;
 
-  void start(double time_s, const double* state, const double* integrals, double max_step_s,
-             const StopCondition* stop) override;
+  void begin_run(double time_s) override;
+  void begin_segment(double max_step_s, const StopCondition* stop) override;
   bool step(double end_time_s) override;
   double time_s() const override;
-  const double* state() const override;
-  const double* integrals() const override;
+  double* state() override;
+  double* integrals() override;
   void interpolate_state(double time_s, double* state) override;
   void interpolate_integrals(double time_s, double* integrals) override;
 

@@ -27,12 +27,14 @@ class FixedGridIntegrator : public Integrator<S> {
     for (auto* v : {&y_, &y_before_, &rate_, &rate_before_, &k2_, &k3_, &k4_, &stage_}) v->resize(total_);
   }
 
-  void start(double time_s, const S* state, const S* integrals, double max_step_s, const StopCondition* stop) override {
+  void begin_run(double time_s) override {
     time_s_ = time_s;
+    std::fill(y_.begin(), y_.end(), zero<S>());
+  }
+
+  void begin_segment(double max_step_s, const StopCondition* stop) override {
     max_step_s_ = max_step_s;
     stop_ = stop;
-    std::copy(state, state + n_, y_.begin());
-    std::copy(integrals, integrals + m_, y_.begin() + static_cast<std::ptrdiff_t>(n_));
     begin();
   }
 
@@ -49,8 +51,8 @@ class FixedGridIntegrator : public Integrator<S> {
   }
 
   double time_s() const override { return time_s_; }
-  const S* state() const override { return y_.data(); }
-  const S* integrals() const override { return y_.data() + n_; }
+  S* state() override { return y_.data(); }
+  S* integrals() override { return y_.data() + n_; }
 
   void interpolate_state(double time_s, S* state) override { interpolate(time_s, 0, n_, state); }
   void interpolate_integrals(double time_s, S* integrals) override { interpolate(time_s, n_, total_, integrals); }

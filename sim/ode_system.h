@@ -80,14 +80,17 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Starts at a knot. Remembers nothing across it, unless an integrator's own comment says so.
-  virtual void start(double time_s, const S* state, const S* integrals, double max_step_s,
-                     const StopCondition* stop) = 0;
+  /// Starts a run, its state and integrals zero.
+  virtual void begin_run(double time_s) = 0;
+  /// Starts a segment from the present state and integrals. Remembers nothing across the knot, unless an integrator's
+  /// own comment says so.
+  virtual void begin_segment(double max_step_s, const StopCondition* stop) = 0;
   /// Takes one step, at most to `end_time_s`; true when the stop condition was met at time_s().
   virtual bool step(double end_time_s) = 0;
   virtual double time_s() const = 0;
-  virtual const S* state() const = 0;
-  virtual const S* integrals() const = 0;
+  /// At time_s(), until the next step; may be moved before a segment.
+  virtual S* state() = 0;
+  virtual S* integrals() = 0;
   /// At a time inside the last step.
   virtual void interpolate_state(double time_s, S* state) = 0;
   virtual void interpolate_integrals(double time_s, S* integrals) = 0;

@@ -39,15 +39,13 @@ class Sampler {
     out_.values.resize(out_.channels.size());
     out_.poses = system.poses();
     out_.pose_values.resize(out_.poses.size());
-    mean_start_.resize(system.integrals().size());
+    mean_start_.assign(system.integrals().size(), zero<S>());
     mean_end_.resize(mean_start_.size());
     state_.resize(system.state_count());
     for (const Channel& channel : out_.channels) instant_count_ += channel.is_mean() ? 0 : 1;
     instant_.resize(instant_count_);
     for (std::vector<S>& column : out_.values) column.reserve(program.sample_times_s.size());
   }
-
-  void begin_run(const std::vector<S>& integrals) { mean_start_ = integrals; }
 
   void begin_phase(const Phase& phase, std::size_t index, double phase_end_s) {
     stride_ = phase.row_stride;
@@ -71,14 +69,15 @@ class Sampler {
   }
 
   /// Rows that are still open or due at the very end.
-  void finish(const std::vector<S>& state, const std::vector<S>& integrals, double end_s) {
+  void finish(Integrator<S>& integrator) {
+    const double end_s = integrator.time_s();
     if (!row_open_ && time_of(next_) <= end_s + kTimeSlack_s) {
-      state_ = state;
+      std::copy(integrator.state(), integrator.state() + state_.size(), state_.begin());
       write_instants(time_of(next_));
       row_open_ = row_written_ = true;
     }
     if (!row_open_ || !row_written_) return;
-    mean_end_ = integrals;
+    std::copy(integrator.integrals(), integrator.integrals() + mean_end_.size(), mean_end_.begin());
     write_means(end_s);
   }
 
@@ -150,14 +149,14 @@ class Sampler {
 };
 
 template <class S>
-std::vector<S> subtract(const std::vector<S>& a, const std::vector<S>& b) {
-  std::vector<S> difference(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) difference[i] = a[i] - b[i];
+std::vector<S> subtract(const S* a, const std::vector<S>& b) {
+  std::vector<S> difference(b.size());
+  for (std::size_t i = 0; i < b.size(); ++i) difference[i] = a[i] - b[i];
   return difference;
 }
 
 template <class S>
-void require_possible(const OdeSystem<S>& system, const Integrator<S>& integrator) {
+void require_possible(const OdeSystem<S>& system, Integrator<S>& integrator) {
   try {
     system.require_possible(integrator.state());
   } catch (const RunFailure& failure) {
@@ -212,31 +211,28 @@ template <class S>
 Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Program& program,
                       const Progress& progress = {}) {
   Recording<S> out;
-  std::vector<S> state(system.state_count());
-  std::vector<S> integrals(system.integrals().size(), zero<S>());
+  const std::size_t integral_count = system.integrals().size();
   std::vector<S> stored_before(system.stores().size());
   std::vector<S> stored_after(stored_before.size());
-  double time_s = program.start_time_s;
   const double duration_s = program.duration_s();
-  system.initialize(program.phases.front().segments.front(), time_s, state.data());
-  system.calc_stored(time_s, state.data(), stored_before.data());
+  integrator.begin_run(program.start_time_s);
+  system.initialize(program.phases.front().segments.front(), program.start_time_s, integrator.state());
+  system.calc_stored(program.start_time_s, integrator.state(), stored_before.data());
   detail::Sampler<S> sampler(system, program, out);
-  sampler.begin_run(integrals);
   for (const Phase& phase : program.phases) {
-    const double phase_start_s = time_s;
-    const std::vector<S> integrals_before = integrals;
+    const double phase_start_s = integrator.time_s();
+    const std::vector<S> integrals_before(integrator.integrals(), integrator.integrals() + integral_count);
     double planned_end_s = phase_start_s;
     bool stopped = false;
     log_phase(phase, phase_start_s);
-    system.begin_phase(phase, time_s, state.data());
+    system.begin_phase(phase, phase_start_s, integrator.state());
     sampler.begin_phase(phase, out.phases.size(), phase_start_s + phase.duration_s());
     for (const Segment& segment : phase.segments) {
       planned_end_s += segment.duration_s;
-      system.begin_segment(segment, time_s, state.data(), integrals.data());
-      const double max_step_s =
-          segment.max_step_s > 0.0 ? std::min(segment.max_step_s, phase.max_step_s) : phase.max_step_s;
-      integrator.start(time_s, state.data(), integrals.data(), max_step_s,
-                       phase.until.has_value() ? &*phase.until : nullptr);
+      system.begin_segment(segment, integrator.time_s(), integrator.state(), integrator.integrals());
+      integrator.begin_segment(
+          segment.max_step_s > 0.0 ? std::min(segment.max_step_s, phase.max_step_s) : phase.max_step_s,
+          phase.until.has_value() ? &*phase.until : nullptr);
       while (!stopped && integrator.time_s() < planned_end_s) {
         stopped = integrator.step(planned_end_s);
         detail::require_possible(system, integrator);
@@ -244,19 +240,16 @@ Recording<S> simulate(OdeSystem<S>& system, Integrator<S>& integrator, const Pro
         throw_if_interrupted();
         if (progress) progress((integrator.time_s() - program.start_time_s) / duration_s);
       }
-      time_s = integrator.time_s();
-      state.assign(integrator.state(), integrator.state() + state.size());
-      integrals.assign(integrator.integrals(), integrator.integrals() + integrals.size());
       if (stopped) break;
     }
-    out.phases.push_back({phase.name, phase_start_s, time_s});
-    out.phase_integrals.push_back(detail::subtract(integrals, integrals_before));
+    out.phases.push_back({phase.name, phase_start_s, integrator.time_s()});
+    out.phase_integrals.push_back(detail::subtract(integrator.integrals(), integrals_before));
   }
-  sampler.finish(state, integrals, time_s);
-  system.calc_stored(time_s, state.data(), stored_after.data());
-  out.audit = detail::make_audit(system, stored_before, stored_after, integrals);
-  out.final_state = std::move(state);
-  out.final_integrals = std::move(integrals);
+  sampler.finish(integrator);
+  system.calc_stored(integrator.time_s(), integrator.state(), stored_after.data());
+  out.final_state.assign(integrator.state(), integrator.state() + system.state_count());
+  out.final_integrals.assign(integrator.integrals(), integrator.integrals() + integral_count);
+  out.audit = detail::make_audit(system, stored_before, stored_after, out.final_integrals);
   return out;
 }
 

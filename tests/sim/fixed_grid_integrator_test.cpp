@@ -41,11 +41,11 @@ TEST_CASE("interpolation between grid points is of order four as well", "[fast]"
   const auto middle_error = [](double step_s) {
     LambdaSystem system({1.0}, [](double, const double* y, double* r) { r[0] = -y[0]; });
     sim::FixedGridIntegrator<double> integrator(system);
-    const double start[] = {1.0};
-    const double integral[] = {0.0};
     const sim::Segment segment{10.0, {}};
     system.begin_segment(segment, 0.0, nullptr, nullptr);
-    integrator.start(0.0, start, integral, step_s, nullptr);
+    integrator.begin_run(0.0);
+    *integrator.state() = 1.0;
+    integrator.begin_segment(step_s, nullptr);
     integrator.step(10.0);
     double y = 0.0;
     integrator.interpolate_state(0.5 * step_s, &y);
