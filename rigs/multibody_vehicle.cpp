@@ -113,7 +113,8 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   }
 
   void observe(double time_s, const double* y, double* values) override {
-    const models::InputPort<double> inputs = read_vehicle_inputs<double>(present_, time_s);
+    models::InputPort<double> inputs;
+    read_vehicle_inputs(present_, time_s, inputs);
     const double recorded_m_s = find_recorded_speed_m_s(time_s, y);
     const DriveEvaluation& at = drive_->evaluation(state_);
     if (present_.drive_on) kHold.require(time_s, at.acting.speed_m_s, at.speed_m_s);
@@ -169,7 +170,9 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   double find_recorded_speed_m_s(double time_s, const double* y) override {
     realize_at(time_s, y, Stage::Velocity);
     const DriveEvaluation& at = drive_->evaluation(state_);
-    return models::calc_recorded_speed_m_s(at.speed_m_s, read_vehicle_inputs<double>(present_, time_s), at.acting);
+    models::InputPort<double> recorded;
+    read_vehicle_inputs(present_, time_s, recorded);
+    return models::calc_recorded_speed_m_s(at.speed_m_s, recorded, at.acting);
   }
 
   /// Steady rolling at the first inputs: restraint carried, no slip, driver in balance.

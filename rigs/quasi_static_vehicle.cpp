@@ -117,7 +117,8 @@ void QuasiStaticVehicle<S>::share_demand() {
 
 template <class S>
 void QuasiStaticVehicle<S>::find_motion(double time_s, const S* state) {
-  const models::InputPort<S> recorded = read_vehicle_inputs<S>(present_, time_s);
+  models::InputPort<S> recorded;
+  read_vehicle_inputs(present_, time_s, recorded);
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     Wheel& wheel = wheels_[i];
     wheel.now.recorded = recorded;

@@ -41,7 +41,7 @@ void RecordedRoad<S>::initialize(const sim::Segment& first, double time_s, S* st
 
 template <class S>
 void RecordedRoad<S>::read_inputs(double time_s, models::InputPort<S>& inputs) const {
-  inputs = read_vehicle_inputs<S>(this->present_, time_s);
+  read_vehicle_inputs(this->present_, time_s, inputs);
   inputs.load_N = load_N_;
 }
 

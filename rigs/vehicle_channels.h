@@ -92,22 +92,20 @@ std::optional<std::string> without_position(const std::string& channel, const st
 /// channels are the first wheel's; empty for those of other wheels.
 std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel);
 
-/// What is recorded at a time. Load, longitudinal and brake force are the rig's to fill.
+/// Puts what is recorded at a time into `inputs`. Load, longitudinal and brake force are the rig's to fill.
 template <class S>
-models::InputPort<S> read_vehicle_inputs(const PresentProgram& present, double time_s) {
+void read_vehicle_inputs(const PresentProgram& present, double time_s, models::InputPort<S>& inputs) {
   const double elapsed_s = present.elapsed_s(time_s);
   const std::vector<sim::Ramp>& given = present.segment.inputs;
-  const auto value = [&](VehicleInput input) { return S(given[index_of(input)].at(elapsed_s)); };
-  models::InputPort<S> inputs;
-  inputs.speed_m_s = value(VehicleInput::kSpeed);
+  const auto value = [&](VehicleInput input) { return given[index_of(input)].at(elapsed_s); };
+  inputs.speed_m_s = S(value(VehicleInput::kSpeed));
   inputs.acceleration_m_s2 = S(given[index_of(VehicleInput::kSpeed)].slope_per_s);
-  inputs.ambient_K = value(VehicleInput::kAmbient);
+  inputs.ambient_K = S(value(VehicleInput::kAmbient));
   inputs.surface_recorded = present.surface_recorded;
-  inputs.surface_K = present.surface_recorded ? value(VehicleInput::kSurface) : inputs.ambient_K;
-  inputs.slope = value(VehicleInput::kSlope);
-  inputs.wind_m_s = value(VehicleInput::kWind);
+  inputs.surface_K = S(value(present.surface_recorded ? VehicleInput::kSurface : VehicleInput::kAmbient));
+  inputs.slope = S(value(VehicleInput::kSlope));
+  inputs.wind_m_s = S(value(VehicleInput::kWind));
   inputs.air_density_ratio = S(1.0);
-  return inputs;
 }
 
 /// What goes into a vehicle, is stored by no spring and lost at an instant.

@@ -27,7 +27,8 @@ VehicleDrive::VehicleDrive(const SimTK::GeneralForceSubsystem& forces, std::vect
       total_mass_kg_(layout.mass_kg + layout.rotating_mass_kg) {}
 
 models::InputPort<double> VehicleDrive::read_program(const State& state, std::size_t wheel) const {
-  models::InputPort<double> inputs = read_vehicle_inputs<double>(present_, state.getTime());
+  models::InputPort<double> inputs;
+  read_vehicle_inputs(present_, state.getTime(), inputs);
   inputs.load_N = layout_.wheels[wheel].static_load_N;
   return inputs;
 }

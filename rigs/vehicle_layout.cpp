@@ -91,9 +91,7 @@ double calc_unsprung_N(const VehicleSuspension& suspension, const models::TirePa
   return kStandardGravity_m_s2 * (suspension.unsprung_mass_kg + tire.geometry.mass_kg + tire.geometry.wheel_mass_kg);
 }
 
-bool rolls(const VehicleAxle& axle, const RigFile& rig) {
-  return !rig.driven_wheels_only || axle.drive_share > 0.0;
-}
+bool rolls(const VehicleAxle& axle, const RigFile& rig) { return !rig.driven_wheels_only || axle.drive_share > 0.0; }
 
 VehicleLayout make_whole_vehicle(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
                                  const models::RoadLoad<double>& set_load) {
