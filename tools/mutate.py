@@ -117,7 +117,7 @@ class Tree:
     def test(self, program, limit_s):
         """Whether all fast tests of a program pass within a time."""
         try:
-            return self.run([str(self.build / "bin" / program), "[fast]", "--abort"], limit_s) == 0
+            return self.run([str(self.build / "tests" / program), "[fast]", "--abort"], limit_s) == 0
         except subprocess.TimeoutExpired:
             return False
 
