@@ -15,6 +15,7 @@ import json
 import queue
 import random
 import re
+import shutil
 import subprocess
 import sys
 import threading
@@ -67,26 +68,28 @@ def mask(text):
     return pattern.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
 
 
-def find_mutants(folder):
+def find_mutants(source, folder):
     mutants = []
-    for path in sorted((ROOT / folder).rglob("*")):
+    for path in sorted((source / folder).rglob("*")):
         if path.suffix not in (".cpp", ".h"):
             continue
+        originals = path.read_text().split("\n")
         lines = mask(path.read_text()).split("\n")
         for number, line in enumerate(lines, 1):
             if NO_CODE.search(line):
                 continue
             for kind, searched, put in CHANGES:
                 for match in searched.finditer(line):
-                    mutants.append({"folder": folder, "file": str(path.relative_to(ROOT)), "line": number,
+                    mutants.append({"folder": folder, "file": str(path.relative_to(source)), "line": number,
                                     "column": match.start(), "kind": kind, "from": match.group().strip(),
-                                    "to": put.strip(), "length": len(match.group()), "put": put})
+                                    "to": put.strip(), "length": len(match.group()), "put": put,
+                                    "text": originals[number - 1].strip()})
     return mutants
 
 
-def draw(count, seed):
-    """Mutants in a drawn order; of each folder the share that it has of all code."""
-    found = [mutant for folder in FOLDERS for mutant in find_mutants(folder)]
+def draw(source, count, seed):
+    """Mutants of the code in a folder in a drawn order; of each part of it the share that it has of all code."""
+    found = [mutant for folder in FOLDERS for mutant in find_mutants(source, folder)]
     random.Random(seed).shuffle(found)
     return found[:2 * count]  # some do not compile
 
@@ -111,7 +114,8 @@ class Tree:
             subprocess.run(["git", "worktree", "prune"], cwd=ROOT, check=True)
             subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(self.source), head], cwd=ROOT, check=True)
         subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", head], cwd=self.source, check=True)
-        if self.run(["cmake", "-S", ".", "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]) != 0:
+        if self.run(["cmake", "-S", ".", "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                     *(["-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"] if shutil.which("ld.lld") else [])]) != 0:
             sys.exit(f"mutate: {self.source} cannot be configured")
         if self.run(["cmake", "--build", str(self.build), "--parallel", "--target", *PROGRAMS]) != 0:
             sys.exit(f"mutate: {self.source} cannot be built")
@@ -133,6 +137,8 @@ class Tree:
         lines = original.split("\n")
         line = lines[mutant["line"] - 1]
         column = mutant["column"]
+        if line[column:column + mutant["length"]].strip() != mutant["from"]:
+            return "invalid", "the code has changed since"
         lines[mutant["line"] - 1] = line[:column] + mutant["put"] + line[column + mutant["length"]:]
         path.write_text("\n".join(lines))
         try:
@@ -220,8 +226,7 @@ def print_summary(results):
     killed = len(valid) - len(survivors)
     print(f"{'all':12} {killed:4} of {len(valid):4} killed" + (f" ({100 * killed / len(valid):.1f} %)" if valid else ""))
     for result in sorted(survivors, key=key_of):
-        line = (ROOT / result["file"]).read_text().split("\n")[result["line"] - 1].strip()
-        print(f"survived: {result['file']}:{result['line']}: {result['from']} -> {result['to'] or 'nothing'}: {line}")
+        print(f"survived: {result['file']}:{result['line']}: {result['from']} -> {result['to'] or 'nothing'}: {result['text']}")
 
 
 def main():
@@ -240,7 +245,7 @@ def main():
             judge_all(again, len(again), trees)
         else:
             valid = sum(result["verdict"] != "invalid" for result in results.values())
-            new = [mutant for mutant in draw(options.count, options.seed) if key_of(mutant) not in results]
+            new = [mutant for mutant in draw(trees[0].source, options.count, options.seed) if key_of(mutant) not in results]
             judge_all(new, options.count - valid, trees)
     print_summary(read_results())
 
