@@ -17,9 +17,9 @@ namespace rollrig {
 namespace {
 
 bool has_measured(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
-  const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
+  const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);
   return std::any_of(channels.begin(), channels.end(),
-                     [&run](const std::string& channel) { return run.has_samples(channel); });
+                     [&run](const Quantity& channel) { return run.has_samples(channel); });
 }
 
 /// A set is held against the simulation as well: exchanged columns and wrong units are in no single number.

@@ -36,8 +36,8 @@ std::string format_fit(const measurements::MeasurementSet& set, const estimation
   std::string text = fmt::format("fit tire   set {}   tire {}   rig {}\n", set.name, set.tire.name, set.rig->name);
   text += report::format_table(make_table(fit));
   for (const estimation::ChannelFit& channel : fit.channels) {
-    text += fmt::format("  {:<24} {:>7} samples, rest {:.3f} of the sensor's noise\n", channel.channel, channel.samples,
-                        channel.whitened_rms);
+    text += fmt::format("  {:<24} {:>7} samples, rest {:.3f} of the sensor's noise\n", channel.channel.header(),
+                        channel.samples, channel.whitened_rms);
   }
   const estimation::TwoStepEstimate& two_step = fit.two_step;
   text += wrap(fmt::format("two-step regression of the source (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "

@@ -21,8 +21,8 @@ std::vector<MeasuredRun> MeasurementSet::list_runs() const {
   for (const measurements::MeasuredRun& run : data_->set.runs) {
     runs.push_back(
         {run.id, run.session, run.initial_tire_temperature_K, run.cold_pressure_Pa, run.rest_before_s, run.time_s, {}});
-    for (const auto& [name, values] : run.columns) {
-      runs.back().columns.push_back(make_channel(name, values));
+    for (const auto& [quantity, values] : run.columns) {
+      runs.back().columns.push_back(make_channel(quantity, values));
     }
   }
   return runs;

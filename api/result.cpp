@@ -9,10 +9,10 @@ namespace rollrig {
 
 const char* library_version() { return ROLLRIG_VERSION; }
 
-Channel make_channel(const std::string& name, std::vector<double> values_SI) {
-  const Unit unit = unit_of_key(name);
+Channel make_channel(const Quantity& quantity, std::vector<double> values_SI) {
+  const Unit unit = quantity.file_unit();
   for (double& value : values_SI) value = unit.from_si(value);
-  return {name, unit.symbol, std::move(values_SI)};
+  return {quantity.header(), unit.symbol, std::move(values_SI)};
 }
 
 void write_folder(const std::string& folder, const FolderFiles& files, bool force) {

@@ -30,7 +30,7 @@ Recording make_recording(const sim::Recording<double>& recorded) {
   recording.phase = recorded.phase;
   for (const sim::PhaseSpan& span : recorded.phases) recording.phases.push_back({span.name, span.start_s, span.end_s});
   for (std::size_t i = 0; i < recorded.channels.size(); ++i) {
-    recording.channels.push_back(make_channel(recorded.channels[i].name, recorded.values[i]));
+    recording.channels.push_back(make_channel(recorded.channels[i].quantity, recorded.values[i]));
   }
   return recording;
 }

@@ -32,7 +32,7 @@ std::string format_clock(const measurements::ClockEstimate& clock) {
   text += fmt::format("    rate  {:+.1f} +- {:.1f} ppm{}\n", 1e6 * clock.clock.rate, 1e6 * clock.rate_sd,
                       clock.rate_is_decided ? "" : ", not decided by the logs");
   for (const measurements::ClockEvidence& evidence : clock.evidence) {
-    text += fmt::format("    {:<24} {:>7} rows, {:5.1f} % of it follows the torque log\n", evidence.channel,
+    text += fmt::format("    {:<24} {:>7} rows, {:5.1f} % of it follows the torque log\n", evidence.channel.header(),
                         evidence.rows, 100.0 * evidence.explained);
   }
   return text;
@@ -43,7 +43,7 @@ std::string format_run(const measurements::ImportedRun& run) {
   std::string text = fmt::format("  run {}: {}\n", run.plan.id, format_count(run.rows.time_s.size(), "row"));
   for (std::size_t i = 0; i < std::min(kMost, run.rows.empty.size()); ++i) {
     const measurements::EmptyRange& range = run.rows.empty[i];
-    text += wrap(fmt::format("{} {} from {:.6g} to {:.6g} s ({}): {}", range.column,
+    text += wrap(fmt::format("{} {} from {:.6g} to {:.6g} s ({}): {}", range.column.header(),
                              range.rows_left_out ? "missing, rows left out" : "empty", range.from_s, range.to_s,
                              format_count(range.rows, "row"), range.reason),
                  4);

@@ -73,7 +73,7 @@ void read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) {
     for (const rigs::Column& column : some) {
       const std::string heading = column.quantity.header();
       if (may_lack_column && !csv.has(heading)) continue;
-      run.columns[heading] = csv.numbers({heading.c_str(), column.range, column.doc}, may_lack_sample);
+      run.columns[column.quantity] = csv.numbers({heading.c_str(), column.range, column.doc}, may_lack_sample);
     }
   };
   read(columns.given, false, false);
@@ -88,14 +88,15 @@ void check_runs(const MeasurementSet& set) {
       throw InputError({fmt::format("two runs have the id '{}'", run.id), set.path, 0, "[[run]] id", run.id,
                         "a different id for every run", ""});
     }
-    for (const std::string& channel : measured_channels(*set.kind)) {
+    for (const Quantity& channel : measured_channels(*set.kind)) {
       if (!run.has(channel) || set.sensors.count(channel) > 0) continue;
+      const std::string heading = channel.header();
       InputProblem problem;
-      problem.what = fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, channel);
+      problem.what = fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, heading);
       problem.file = set.path;
-      problem.key = fmt::format("[sensors.{}]", channel);
+      problem.key = fmt::format("[sensors.{}]", heading);
       problem.allowed =
-          "a table [sensors." + channel + "] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution";
+          "a table [sensors." + heading + "] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution";
       throw InputError(problem);
     }
   }
@@ -103,8 +104,8 @@ void check_runs(const MeasurementSet& set) {
 
 }  // namespace
 
-bool MeasuredRun::has_samples(const std::string& column) const {
-  const auto at = columns.find(column);
+bool MeasuredRun::has_samples(const Quantity& quantity) const {
+  const auto at = columns.find(quantity);
   return at != columns.end() &&
          std::any_of(at->second.begin(), at->second.end(), [](double value) { return !std::isnan(value); });
 }
@@ -114,7 +115,7 @@ MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind) {
   run.id = fs::path(file).stem().string();
   run.file = file;
   read_run_columns(kind.columns, run);
-  for (const std::string& channel : measured_channels(kind)) run.columns.erase(channel);
+  for (const Quantity& channel : measured_channels(kind)) run.columns.erase(channel);
   return run;
 }
 
@@ -148,12 +149,11 @@ namespace {
 /// Sensors that runs use and the set does not describe.
 void assume_sensors(MeasurementSet& set) {
   for (const auto& [channel, sensor] : set.kind->default_sensors) {
-    const std::string& name = channel;
-    const bool used =
-        std::any_of(set.runs.begin(), set.runs.end(), [&](const MeasuredRun& run) { return run.has(name); });
-    if (!used || set.sensors.count(name) > 0) continue;
-    set.sensors[name] = sensor;
-    set.assumed_sensors.push_back(name);
+    const bool used = std::any_of(set.runs.begin(), set.runs.end(),
+                                  [&channel = channel](const MeasuredRun& run) { return run.has(channel); });
+    if (!used || set.sensors.count(channel) > 0) continue;
+    set.sensors[channel] = sensor;
+    set.assumed_sensors.push_back(channel);
   }
 }
 

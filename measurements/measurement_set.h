@@ -1,7 +1,6 @@
 #pragma once
 /// Measurement sets of formats.md: a folder with set.toml and one CSV a run.
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,9 +15,6 @@ namespace rollrig::measurements {
 using rigs::MachineKind;
 using rigs::measured_channels;
 
-/// Column of a drum run in which more was done than is told by speed and load.
-constexpr const char* kHungTorque = "hung_torque_Nm";  // known torque on the force sensor
-
 struct MeasuredRun {
   std::string id;
   std::string file;  // path
@@ -31,15 +27,14 @@ struct MeasuredRun {
   bool force_at_standstill =
       false;  // the force read while the surface stands, nothing holding it, is the sensor's zero
   std::vector<double> time_s;
-  std::map<std::string, std::vector<double>> columns;  // SI by column name; NaN where there is no sample
+  QuantityMap<std::vector<double>> columns;  // SI; NaN where there is no sample
 
-  bool has(const std::string& column) const { return columns.count(column) > 0; }
-  bool has(const Quantity& quantity) const { return has(quantity.header()); }
+  bool has(const Quantity& quantity) const { return columns.count(quantity) > 0; }
   /// Throws std::out_of_range for a column that the run does not have.
-  const std::vector<double>& column(const Quantity& quantity) const { return columns.at(quantity.header()); }
-  std::vector<double>& column(const Quantity& quantity) { return columns.at(quantity.header()); }
+  const std::vector<double>& column(const Quantity& quantity) const { return columns.at(quantity); }
+  std::vector<double>& column(const Quantity& quantity) { return columns.at(quantity); }
   /// Whether a column holds anything but empty fields.
-  bool has_samples(const std::string& column) const;
+  bool has_samples(const Quantity& quantity) const;
 };
 
 struct MeasurementSet {
@@ -51,7 +46,7 @@ struct MeasurementSet {
   std::optional<rigs::RigFile> rig;          // all kinds but road
   std::optional<rigs::VehicleFile> vehicle;  // road
   models::SensorSet sensors;
-  std::vector<std::string> assumed_sensors;  // channels of which the set says nothing: those of its kind
+  std::vector<Quantity> assumed_sensors;  // channels of which the set says nothing: those of its kind
   std::vector<MeasuredRun> runs;
 };
 

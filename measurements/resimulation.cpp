@@ -220,7 +220,7 @@ void apply_trace_beside_given(const MeasuredRun& run, const models::Corner<S>& c
   for (const Quantity& quantity : {quantities::kLoad, quantities::kAmbient}) {
     if (!run.has(quantity)) continue;
     const std::vector<double>& given = run.column(quantity);
-    recording.channels.push_back({quantity.header()});
+    recording.channels.push_back({quantity});
     recording.values.emplace_back(given.begin(), given.end());
   }
   rigs::apply_trace_effects(corner, recording);

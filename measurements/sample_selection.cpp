@@ -37,8 +37,8 @@ std::vector<bool> find_settled_rows(const MeasuredRun& run) {
   return settled;
 }
 
-std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) {
-  const std::vector<double>& values = run.columns.at(channel);
+std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const Quantity& channel) {
+  const std::vector<double>& values = run.column(channel);
   const bool is_force = rigs::is_force(channel);
   const std::vector<bool> settled = is_force ? find_settled_rows(run) : std::vector<bool>(values.size(), true);
   std::vector<std::size_t> rows;

@@ -23,7 +23,7 @@ double find_acceleration(const MeasuredRun& run, std::size_t row);
 std::vector<bool> find_settled_rows(const MeasuredRun& run);
 
 /// Rows of a channel that a comparison uses: those with a sample; of the torque, those that are settled.
-std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel);
+std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const Quantity& channel);
 
 /// Mean time between the rows of a run.
 double calc_mean_interval_s(const MeasuredRun& run);

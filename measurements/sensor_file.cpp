@@ -7,7 +7,7 @@
 
 namespace rollrig::measurements {
 
-models::SensorSet read_sensor_file(const ConfigTable& config, const std::vector<std::string>& channels) {
+models::SensorSet read_sensor_file(const ConfigTable& config, const std::vector<Quantity>& channels) {
   TableReader file(config, "");
   check_format(file, "rollrig-sensors", 1);
   file.text("name");
@@ -28,12 +28,12 @@ models::SensorSet read_sensor_asset(const std::string& name_or_path) {
 std::string write_sensors(const models::SensorSet& sensors) {
   std::string text;
   for (const auto& [channel, sensor] : sensors) {
-    const double factor = unit_of_key(channel).factor;
+    const double factor = channel.file_unit().factor;
     text += fmt::format(
         "\n[sensors.{}]\noffset_sd = {:.10g}\ndrift_sd = {:.10g}\ndrift_time_s = {:.10g}\nnoise_sd = {:.10g}\n"
         "resolution = {:.10g}\n",
-        channel, sensor.offset_sd / factor, sensor.drift_sd / factor, sensor.drift_time_s, sensor.noise_sd / factor,
-        sensor.resolution / factor);
+        channel.header(), sensor.offset_sd / factor, sensor.drift_sd / factor, sensor.drift_time_s,
+        sensor.noise_sd / factor, sensor.resolution / factor);
   }
   return text;
 }

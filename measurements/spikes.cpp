@@ -9,6 +9,8 @@
 namespace rollrig::measurements {
 namespace {
 
+namespace quantities = models::quantities;
+
 constexpr std::size_t kSide = 3;  // neighbors to each side
 
 double take_median(std::vector<double> values) {
@@ -51,18 +53,18 @@ Departure calc_departure(const std::vector<double>& values, std::size_t i, std::
 
 }  // namespace
 
-std::vector<bool> find_steady_rows(const std::map<std::string, std::vector<double>>& columns, std::size_t rows) {
+std::vector<bool> find_steady_rows(const QuantityMap<std::vector<double>>& columns, std::size_t rows) {
   constexpr double kSpeed_m_s = 1.0 / 3.6;  // Assumed
   constexpr double kLoadShare = 0.05;       // Assumed: of the largest load
   constexpr std::size_t kAbout = 3;
   std::vector<bool> steady(rows, true);
-  for (const char* name : {"speed_km_h", "load_N", "longitudinal_force_N"}) {
-    const auto found = columns.find(name);
+  for (const Quantity& quantity : {quantities::kSpeed, quantities::kLoad, quantities::kLongitudinalForce}) {
+    const auto found = columns.find(quantity);
     if (found == columns.end()) continue;
     const std::vector<double>& input = found->second;
     double largest = 0.0;
     for (const double value : input) largest = std::isnan(value) ? largest : std::max(largest, std::abs(value));
-    const double limit = std::string(name) == "speed_km_h" ? kSpeed_m_s : kLoadShare * largest;
+    const double limit = quantity == quantities::kSpeed ? kSpeed_m_s : kLoadShare * largest;
     for (std::size_t i = 0; i < input.size(); ++i) {
       const std::size_t last = std::min(input.size() - 1, i + kAbout);
       for (std::size_t k = i > kAbout ? i - kAbout : 0; k <= last; ++k) {
@@ -73,7 +75,9 @@ std::vector<bool> find_steady_rows(const std::map<std::string, std::vector<doubl
   return steady;
 }
 
-bool carries_inertia(const std::string& column) { return rigs::is_force(column) || column == "longitudinal_force_N"; }
+bool carries_inertia(const Quantity& column) {
+  return rigs::is_force(column) || column == quantities::kLongitudinalForce;
+}
 
 std::vector<std::size_t> find_spikes(const std::vector<double>& values, double threshold, double floor,
                                      const std::vector<bool>& is_judged) {

@@ -2,9 +2,9 @@
 /// Samples that stand alone: spikes, and what a logger writes where it has none.
 
 #include <cstddef>
-#include <map>
-#include <string>
 #include <vector>
+
+#include "sim/core/quantity.h"
 
 namespace rollrig::measurements {
 
@@ -22,9 +22,9 @@ std::vector<std::size_t> find_spikes(const std::vector<double>& values, double t
 /// Rows where speed (within 1 km/h), load and longitudinal force (within 5 % of their largest) stay as they are
 /// three rows to each side. A column that is not there says nothing.
 /// Source  Assumed: all limits
-std::vector<bool> find_steady_rows(const std::map<std::string, std::vector<double>>& columns, std::size_t rows);
+std::vector<bool> find_steady_rows(const QuantityMap<std::vector<double>>& columns, std::size_t rows);
 
 /// Whether a column holds what accelerating takes, so that it may jump where the speed does.
-bool carries_inertia(const std::string& column);
+bool carries_inertia(const Quantity& column);
 
 }  // namespace rollrig::measurements

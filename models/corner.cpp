@@ -47,13 +47,13 @@ Corner<S>::Corner(Context<S> context, const std::vector<ActiveEffect>& effects)
   for (std::size_t i = 0; i < kNodeCount; ++i) {
     if (!nodes_[i]) continue;
     node_state_[i] = states_.size();
-    states_.push_back({fmt::format("{}_temperature_degC", names_[i]), kTemperatureScale_K});
+    states_.push_back({intern_quantity(names_[i] + std::string("_temperature_degC")), kTemperatureScale_K});
   }
   for (const ActiveEffect& active : effects) {
     effects_.push_back(
         {active.effect, find_hooks<S>(*active.effect, context_), convert_parameters<S>(active), states_.size()});
     for (const EffectState& state : active.effect->info.states) {
-      states_.push_back({fmt::format("{}.{}", active.effect->info.id, state.key), state.scale_SI});
+      states_.push_back({intern_quantity(active.effect->info.id + "." + state.key), state.scale_SI});
     }
   }
 }

@@ -12,7 +12,7 @@ namespace rollrig::models {
 
 /// A state of a corner.
 struct CornerState {
-  std::string key;        // name with unit, for output
+  Quantity quantity;
   double scale_SI = 1.0;  // size that matters, for the integrator's tolerance
 };
 

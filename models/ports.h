@@ -148,20 +148,20 @@ struct TracePort {
   std::vector<double> time_s;
 
   struct Channel {
-    std::string name;       // with the unit of the file, such as "drum_torque_Nm"
+    Quantity quantity;
     std::vector<S> values;  // SI; NaN where there is no sample
   };
   std::vector<Channel> channels;
 
   /// The values of a channel, or nullptr where the run does not have it.
-  std::vector<S>* find(const std::string& name) {
+  std::vector<S>* find(const Quantity& quantity) {
     for (Channel& channel : channels) {
-      if (channel.name == name) return &channel.values;
+      if (channel.quantity == quantity) return &channel.values;
     }
     return nullptr;
   }
   /// The machine's force as it is measured, or nullptr.
-  std::vector<S>* find_force() { return find(context->machine.force.header()); }
+  std::vector<S>* find_force() { return find(context->machine.force); }
   /// What a force at the surface is in that channel.
   S to_reading(const S& force_N) const {
     return reads_torque(context->machine) ? S(force_N / context->surface_curvature_per_m) : force_N;

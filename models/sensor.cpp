@@ -11,11 +11,11 @@
 namespace rollrig::models {
 namespace {
 
-SensorParameters read_sensor(TableReader& reader, const std::string& channel) {
+SensorParameters read_sensor(TableReader& reader, const Quantity& channel) {
   SensorParameters sensor;
   // A standard deviation in the unit of the channel is a difference: the factor without the offset.
   const auto in_channel_unit = [&](const char* key, const char* doc) {
-    return reader.number({key, non_negative(), doc}) * unit_of_key(channel).factor;
+    return reader.number({key, non_negative(), doc}) * channel.file_unit().factor;
   };
   sensor.offset_sd = in_channel_unit("offset_sd", "constant over a session");
   sensor.drift_sd = in_channel_unit("drift_sd", "first-order autoregressive drift");
@@ -28,28 +28,31 @@ SensorParameters read_sensor(TableReader& reader, const std::string& channel) {
 
 }  // namespace
 
-SensorSet read_sensors(const ConfigTable& sensors, const std::vector<std::string>& known) {
+SensorSet read_sensors(const ConfigTable& sensors, const std::vector<Quantity>& known) {
   SensorSet set;
   TableReader reader(sensors, "[sensors]");
-  for (const std::string& channel : sensors.keys()) {
-    if (std::find(known.begin(), known.end(), channel) == known.end()) {
-      InputProblem problem = unknown_name("measured channel", channel, known);
-      problem.file = sensors.find(channel)->origin.file;
-      problem.line = sensors.find(channel)->origin.line;
-      problem.key = fmt::format("[sensors.{}]", channel);
+  const std::vector<std::string> headers = list_headers(known);
+  for (const std::string& header : sensors.keys()) {
+    if (std::find(headers.begin(), headers.end(), header) == headers.end()) {
+      InputProblem problem = unknown_name("measured channel", header, headers);
+      problem.file = sensors.find(header)->origin.file;
+      problem.line = sensors.find(header)->origin.line;
+      problem.key = fmt::format("[sensors.{}]", header);
       throw InputError(problem);
     }
-    TableReader own(*reader.table(channel), fmt::format("[sensors.{}]", channel));
+    TableReader own(*reader.table(header), fmt::format("[sensors.{}]", header));
+    const Quantity channel = intern_quantity(header);
     set[channel] = read_sensor(own, channel);
   }
   return set;
 }
 
-void apply_sensor(const SensorParameters& sensor, const std::string& channel, const SensorStream& stream,
+void apply_sensor(const SensorParameters& sensor, const Quantity& channel, const SensorStream& stream,
                   const std::vector<double>& time_s, std::vector<double>& values) {
-  RandomStream offsets(stream.seed, "offset/" + stream.session + "/" + channel);
-  RandomStream drifts(stream.seed, "drift/" + stream.run + "/" + channel);
-  RandomStream noises(stream.seed, "noise/" + stream.run + "/" + channel);
+  const std::string header = channel.header();  // part of the streams' names
+  RandomStream offsets(stream.seed, "offset/" + stream.session + "/" + header);
+  RandomStream drifts(stream.seed, "drift/" + stream.run + "/" + header);
+  RandomStream noises(stream.seed, "noise/" + stream.run + "/" + header);
   const double offset = sensor.offset_sd * offsets.normal();
   double drift = sensor.drift_sd * drifts.normal();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -60,7 +63,7 @@ void apply_sensor(const SensorParameters& sensor, const std::string& channel, co
     values[i] += offset + drift + sensor.noise_sd * noises.normal();
     if (sensor.resolution > 0.0) {
       // Rounded in the unit that is shown: for a temperature in K the zero of degC is a whole number of steps.
-      const double zero = unit_of_key(channel).offset_SI;
+      const double zero = channel.file_unit().offset_SI;
       values[i] = zero + std::round((values[i] - zero) / sensor.resolution) * sensor.resolution;
     }
   }

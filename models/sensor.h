@@ -2,10 +2,10 @@
 /// Errors of a sensor: how they are made, and how large the error of a mean is.
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "sim/core/quantity.h"
 #include "sim/core/schema.h"
 
 namespace rollrig::models {
@@ -23,11 +23,11 @@ struct SensorParameters {
   double resolution = 0.0;  // 0 for none
 };
 
-/// Sensors by the channel that they measure ("drum_torque_Nm").
-using SensorSet = std::map<std::string, SensorParameters>;
+/// Sensors by the channel that they measure.
+using SensorSet = QuantityMap<SensorParameters>;
 
 /// Reads [sensors.<channel>] tables; channels must be among `known`. Throws InputError.
-SensorSet read_sensors(const ConfigTable& sensors, const std::vector<std::string>& known);
+SensorSet read_sensors(const ConfigTable& sensors, const std::vector<Quantity>& known);
 
 /// Which random numbers a sensor draws: runs of one session share the offset.
 struct SensorStream {
@@ -37,7 +37,7 @@ struct SensorStream {
 };
 
 /// Adds the errors of a sensor to samples at increasing times; NaN stays NaN.
-void apply_sensor(const SensorParameters& sensor, const std::string& channel, const SensorStream& stream,
+void apply_sensor(const SensorParameters& sensor, const Quantity& channel, const SensorStream& stream,
                   const std::vector<double>& time_s, std::vector<double>& values);
 
 /// Variance of the difference of two means over `count` samples each, their starts `apart_s` apart, in

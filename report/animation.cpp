@@ -12,23 +12,17 @@ namespace rollrig::report {
 namespace {
 
 namespace quantities = models::quantities;
+using rigs::wheel_channel;
 using scenarios::RunSpec;
 using Column = std::vector<double>;
 using Recording = sim::Recording<double>;
 using Tire = models::TireParameters<double>;
 
 /// A recorded pose, or nothing.
-const Column* find_pose(const Recording& recording, const std::string& name) {
+const Column* find_pose(const Recording& recording, const Quantity& quantity) {
   for (std::size_t i = 0; i < recording.poses.size(); ++i) {
     const bool is_whole = recording.pose_values[i].size() == recording.row_count();
-    if (recording.poses[i].name == name && is_whole) return &recording.pose_values[i];
-  }
-  return nullptr;
-}
-
-const Column* find_channel(const Recording& recording, const std::string& name) {
-  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
-    if (recording.channels[i].name == name) return &recording.values[i];
+    if (recording.poses[i].quantity == quantity && is_whole) return &recording.pose_values[i];
   }
   return nullptr;
 }
@@ -47,12 +41,6 @@ Column scaled(Column values, double factor) {
   for (double& value : values) value *= factor;
   return values;
 }
-
-/// The channel of the wheel at a position such as "front_left"; empty for the only wheel.
-std::string named(const std::string& channel, const std::string& position) {
-  return rigs::wheel_channel(channel, position);
-}
-std::string named(const Quantity& quantity, const std::string& position) { return named(quantity.header(), position); }
 
 class Scene {
  public:
@@ -86,27 +74,28 @@ class Scene {
     return height_m;
   }
 
-  Column angle_of(const std::string& pose, double radius_m) const {
+  Column angle_of(const Quantity& pose, double radius_m) const {
     const Column* recorded = find_pose(recording_, pose);
     return recorded != nullptr ? *recorded : scaled(integrate_speed(recording_), 1.0 / radius_m);
   }
 
   /// What the contact carries: as recorded, or the load that the wheel is given where nothing else is.
   const Column& contact_load_N(const std::string& position) const {
-    const Column* recorded = find_channel(recording_, named(quantities::kContactLoad, position));
-    return recorded != nullptr ? *recorded : recording_.channel(named(quantities::kLoad, position));
+    const Column* recorded = recording_.find(wheel_channel(quantities::kContactLoad, position));
+    return recorded != nullptr ? *recorded : recording_.channel(wheel_channel(quantities::kLoad, position));
   }
 
   /// What every wheel has: load, temperature, angles; the height is the machine's to add.
-  Json make_wheel(const Tire& tire, const std::string& position, const std::string& surface_pose) const {
+  Json make_wheel(const Tire& tire, const std::string& position, const Quantity& surface_pose) const {
     const Column& load_N = contact_load_N(position);
     const double rolling_m = calc_loaded_radius_m(tire, load_N[load_N.size() / 2]);
     Json wheel = {
         {"x_m", 0.0},
         {"tire", make_tire(tire)},
         {"load_N", series(load_N, "load_N")},
-        {"temperature_degC", series(recording_.channel(named(quantities::kLinerTemperature, position)), "x_degC")},
-        {"angle_rad", series(angle_of(named("wheel_angle_rad", position), rolling_m), "angle_rad")}};
+        {"temperature_degC",
+         series(recording_.channel(wheel_channel(quantities::kLinerTemperature, position)), "x_degC")},
+        {"angle_rad", series(angle_of(wheel_channel({"wheel_angle", "rad"}, position), rolling_m), "angle_rad")}};
     if (surface_radius_m() > 0.0) {
       wheel["surface_angle_rad"] = series(angle_of(surface_pose, surface_radius_m()), "angle_rad");
     }
@@ -117,8 +106,7 @@ class Scene {
     double low = 1e9;
     double high = -1e9;
     for (std::size_t i = 0; i < recording_.channels.size(); ++i) {
-      if (recording_.channels[i].name.rfind(name_without_unit(quantities::kLinerTemperature.header()), 0) != 0)
-        continue;
+      if (recording_.channels[i].quantity.name().rfind(quantities::kLinerTemperature.name(), 0) != 0) continue;
       const Column& values = recording_.values[i];
       low = std::min(low, *std::min_element(values.begin(), values.end()));
       high = std::max(high, *std::max_element(values.begin(), values.end()));
@@ -136,8 +124,8 @@ class Scene {
 
 Json make_drum_wheel(const Scene& scene) {
   const Tire& tire = scene.spec().tire.values;
-  Json wheel = scene.make_wheel(tire, "", "drum_angle_rad");
-  const Column* pose = find_pose(scene.recording(), "axle_height_m");
+  Json wheel = scene.make_wheel(tire, "", {"drum_angle", "rad"});
+  const Column* pose = find_pose(scene.recording(), {"axle_height", "m"});
   Column height_m = scene.height_by_load(tire, scene.contact_load_N(""));
   for (double& height : height_m) height += scene.surface_height_m();
   wheel["axle_height_m"] = scene.series(pose != nullptr ? *pose : height_m, "height_m");
@@ -155,11 +143,11 @@ struct DrawnWheel {
 Column find_axle_height_m(const Scene& scene, const DrawnWheel& drawn) {
   const Recording& recording = scene.recording();
   Column height_m = scene.height_by_load(drawn.tire, scene.contact_load_N(drawn.position));
-  const Column* heave_m = find_pose(recording, "body_heave_m");
-  const Column* travel_m = find_pose(recording, named("axle_travel_m", drawn.position));
+  const Column* heave_m = find_pose(recording, {"body_heave", "m"});
+  const Column* travel_m = find_pose(recording, wheel_channel({"axle_travel", "m"}, drawn.position));
   if (heave_m == nullptr || travel_m == nullptr) return height_m;
-  const Column* pitch_rad = find_pose(recording, "body_pitch_rad");
-  const double static_load_N = recording.channel(named(quantities::kLoad, drawn.position)).front();
+  const Column* pitch_rad = find_pose(recording, {"body_pitch", "rad"});
+  const double static_load_N = recording.channel(wheel_channel(quantities::kLoad, drawn.position)).front();
   const double static_m = calc_loaded_radius_m(drawn.tire, static_load_N);
   for (std::size_t row = 0; row < height_m.size(); ++row) {
     height_m[row] = static_m + (*heave_m)[row] + (*travel_m)[row];
@@ -170,10 +158,11 @@ Column find_axle_height_m(const Scene& scene, const DrawnWheel& drawn) {
 
 Json make_vehicle_wheel(const Scene& scene, const DrawnWheel& drawn) {
   const Recording& recording = scene.recording();
-  Json wheel = scene.make_wheel(drawn.tire, drawn.position, named("roller_angle_rad", drawn.position));
+  Json wheel = scene.make_wheel(drawn.tire, drawn.position, wheel_channel({"roller_angle", "rad"}, drawn.position));
   wheel["x_m"] = drawn.x_m;
   wheel["axle_height_m"] = scene.series(find_axle_height_m(scene, drawn), "height_m");
-  wheel["force_N"] = scene.series(recording.channel(named(quantities::kLongitudinalForce, drawn.position)), "force_N");
+  wheel["force_N"] =
+      scene.series(recording.channel(wheel_channel(quantities::kLongitudinalForce, drawn.position)), "force_N");
   return wheel;
 }
 
@@ -192,22 +181,22 @@ std::vector<DrawnWheel> list_drawn_wheels(const RunSpec& spec, bool is_whole) {
 void add_vehicle(const Scene& scene, Block& block) {
   const Recording& recording = scene.recording();
   const Column still(recording.row_count(), 0.0);
-  const auto pose_or_still = [&](const char* name) {
-    const Column* pose = find_pose(recording, name);
+  const auto pose_or_still = [&](const Quantity& quantity) {
+    const Column* pose = find_pose(recording, quantity);
     return pose != nullptr ? *pose : still;
   };
   Json body = {{"height_m", scene.spec().vehicle->center_of_gravity_height_m},
-               {"heave_m", scene.series(pose_or_still("body_heave_m"), "height_m")},
+               {"heave_m", scene.series(pose_or_still({"body_heave", "m"}), "height_m")},
                {"axles_x_m", Json::array()}};
-  const bool is_whole = find_channel(recording, named(quantities::kLoad, "")) == nullptr;
-  if (is_whole) body["pitch_rad"] = scene.series(pose_or_still("body_pitch_rad"), "angle_rad");
+  const bool is_whole = recording.find(quantities::kLoad) == nullptr;
+  if (is_whole) body["pitch_rad"] = scene.series(pose_or_still({"body_pitch", "rad"}), "angle_rad");
   for (const DrawnWheel& drawn : list_drawn_wheels(scene.spec(), is_whole)) {
     if (is_whole) body["axles_x_m"].push_back(drawn.x_m);
-    if (find_channel(recording, named(quantities::kLoad, drawn.position)) == nullptr) continue;  // its axle stands
+    if (recording.find(wheel_channel(quantities::kLoad, drawn.position)) == nullptr) continue;  // its axle stands
     block["wheels"].push_back(make_vehicle_wheel(scene, drawn));
   }
   block["body"] = body;
-  const Column* position_m = find_pose(recording, "position_m");
+  const Column* position_m = find_pose(recording, {"position", "m"});
   if (block["machine"] == "road") {
     block["position_m"] = scene.series(position_m != nullptr ? *position_m : integrate_speed(recording), "position_m");
   }

@@ -43,7 +43,7 @@ Json make_run_phases(const PreparedRun& run) {
 }
 
 Json make_measured(const PreparedSet& set, const Series& series) {
-  const std::string& channel = set.channels()[series.channel];
+  const std::string channel = set.channels()[series.channel].header();
   Json measured = make_series("measured", series.time_s, in_unit_of(channel, series.measured));
   measured["points"] = true;
   return measured;
@@ -60,7 +60,7 @@ std::vector<double> subtract(const std::string& channel, const Series& series, c
 
 /// The channel with what is measured and simulated, and below it what is left.
 void add_panels(const PreparedSet& set, const Series& series, const std::vector<SimulatedSet>& all, Json& panels) {
-  const std::string& channel = set.channels()[series.channel];
+  const std::string channel = set.channels()[series.channel].header();
   const std::string label = capitalized(plain_name(channel));
   Json values = Json::array({make_measured(set, series)});
   Json left = Json::array();
@@ -111,12 +111,12 @@ int find_shade(double z) {
 Json make_cell(const PreparedSet& set, const Series& series, std::size_t phase, const SimulatedSet& simulated,
                const std::vector<Location>& where) {
   const PreparedRun& run = set.runs()[series.run];
-  const std::string& channel = set.channels()[series.channel];
+  const Quantity& channel = set.channels()[series.channel];
   const double mean = calc_mean_over(phase, series, simulated);
   if (std::isnan(mean)) return nullptr;
   const diagnosis::ReportUnit unit = diagnosis::find_report_unit(set, channel);
   Json json = {{"text", fmt::format("{:+.2f}", unit.per_SI * mean)}, {"shade", 0}};
-  const Location* listed = find_listed(where, channel, run.measured.id, run.phases[phase].name);
+  const Location* listed = find_listed(where, channel.header(), run.measured.id, run.phases[phase].name);
   if (listed == nullptr) return json;
   json["text"] = fmt::format("{:+.2f}", listed->size);
   json["shade"] = find_shade(listed->z);
@@ -166,9 +166,9 @@ Block make_gap_map(const PreparedSet& set, const SimulatedSet& simulated, const 
        "with its z; warm above, cool below, deeper the clearer; it exceeds what the recalibrated curve of the charts "
        "leaves where that has bent towards the gap. All other numbers: mean over the phase with the files' own "
        "numbers, sensor offsets included."}};
-  for (const std::string& channel : set.channels()) {
+  for (const Quantity& channel : set.channels()) {
     const std::string unit = pretty_unit(diagnosis::find_report_unit(set, channel).symbol);
-    block["columns"].push_back(plain_name(channel) + ", " + unit);
+    block["columns"].push_back(plain_name(channel.header()) + ", " + unit);
   }
   for (std::size_t run = 0; run < set.runs().size(); ++run) {
     const PreparedRun& prepared = set.runs()[run];

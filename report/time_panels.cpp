@@ -45,9 +45,9 @@ std::string find_panel_name(const Quantity& quantity) {
 std::vector<std::string> list_positions(const sim::Recording<double>& recording) {
   std::vector<std::string> positions;
   for (const sim::Channel& channel : recording.channels) {
-    const std::string prefix = "load_";
-    const std::string quantity = name_without_unit(channel.name);
-    if (quantity.rfind(prefix, 0) == 0) positions.push_back(quantity.substr(prefix.size()));
+    const std::string_view prefix = "load_";
+    const std::string_view name = channel.quantity.name();
+    if (name.rfind(prefix, 0) == 0) positions.emplace_back(name.substr(prefix.size()));
   }
   return positions;
 }
@@ -60,21 +60,19 @@ struct Place {
 
 /// Panel and name of a channel. With several wheels a panel holds one quantity, a line a wheel; their loads, which stay
 /// as they are on a vehicle, have none: what their contacts carry says more.
-std::optional<Place> find_place(const std::string& channel, const std::vector<std::string>& positions) {
+std::optional<Place> find_place(const Quantity& channel, const std::vector<std::string>& positions) {
   const auto find_order = [](const Quantity& quantity) {
     return std::find(std::begin(kOrder), std::end(kOrder), quantity);
   };
   for (const std::string& position : positions) {
-    const std::optional<std::string> name = rigs::without_position(channel, position);
-    if (!name.has_value()) continue;
-    const Quantity quantity = intern_quantity(*name);
-    if (quantity == quantities::kLoad) return std::nullopt;
-    return Place{find_order(quantity), capitalized(plain_name(*name)), plain_name(position)};
+    const std::optional<Quantity> own = rigs::without_position(channel, position);
+    if (!own.has_value()) continue;
+    if (*own == quantities::kLoad) return std::nullopt;
+    return Place{find_order(*own), capitalized(plain_name(own->header())), plain_name(position)};
   }
-  const Quantity quantity = intern_quantity(channel);
-  const bool is_further_temperature = find_order(quantity) == std::end(kOrder) && quantity.unit_suffix() == "degC";
-  return Place{is_further_temperature ? find_order(quantities::kAmbient) : find_order(quantity),
-               find_panel_name(quantity), plain_name(channel)};
+  const bool is_further_temperature = find_order(channel) == std::end(kOrder) && channel.unit_suffix() == "degC";
+  return Place{is_further_temperature ? find_order(quantities::kAmbient) : find_order(channel),
+               find_panel_name(channel), plain_name(channel.header())};
 }
 
 struct Panel {
@@ -121,9 +119,9 @@ Block make_times(const sim::Recording<double>& recording) {
   std::vector<Panel> panels;
   const std::vector<std::string> positions = list_positions(recording);
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
-    const std::string& channel = recording.channels[i].name;
-    const std::optional<Place> place = find_place(channel, positions);
+    const std::optional<Place> place = find_place(recording.channels[i].quantity, positions);
     if (!place.has_value()) continue;
+    const std::string channel = recording.channels[i].quantity.header();
     Panel& panel = find_panel(panels, *place, shown_unit(channel));
     panel.series.push_back(make_series(place->series, recording.time_s, in_unit_of(channel, recording.values[i])));
   }

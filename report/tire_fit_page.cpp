@@ -62,7 +62,7 @@ Block make_channels(const TireFit& fit) {
   scenarios::ResultTable table{
       "What is left, whitened: 1 is the noise that the sensors' table says", {"channel", "samples", "rms"}, {}};
   for (const estimation::ChannelFit& at : fit.channels) {
-    table.rows.push_back({at.channel, fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
+    table.rows.push_back({at.channel.header(), fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
   }
   return make_table(table);
 }

@@ -5,6 +5,8 @@
 namespace rollrig::rigs {
 namespace {
 
+namespace quantities = models::quantities;
+
 // Errors that do not matter, for the integrator's control: of a mean over one second a few 1e-5 of its
 // usual size, of an energy a few 1e-9 of a test's motor work (1e6 J).
 constexpr double kForceTime_N_s = 1e-3;
@@ -53,21 +55,23 @@ std::vector<sim::Store> make_drum_stores(Detail detail) {
 std::vector<sim::Channel> make_drum_channels(const models::MachineTraits& machine,
                                              const std::vector<models::CornerState>& states, bool surface_recorded,
                                              Detail detail) {
-  const auto mean = [](const char* name, DrumIntegral integral) { return sim::Channel{name, index_of(integral)}; };
   std::vector<sim::Channel> channels;
+  const auto add = [&](const Quantity& quantity, DrumIntegral integral) {
+    channels.push_back({quantity, index_of(integral)});
+  };
   if (detail == Detail::kFull) {
-    for (const char* given : {"speed_km_h", "load_N", "ambient_degC"}) channels.push_back({given});
-    if (surface_recorded) channels.push_back({"surface_temperature_degC"});
+    channels = {{quantities::kSpeed}, {quantities::kLoad}, {quantities::kAmbient}};
+    if (surface_recorded) channels.push_back({quantities::kSurfaceTemperature});
   }
-  channels.push_back({machine.force.header(), index_of(DrumIntegral::kForceReading)});
+  add(machine.force, DrumIntegral::kForceReading);
   std::size_t reading = index_of(DrumIntegral::kTireReadings);
-  for (const models::TireChannel& tire : models::kTireChannels) channels.push_back({tire.quantity.header(), reading++});
+  for (const models::TireChannel& tire : models::kTireChannels) channels.push_back({tire.quantity, reading++});
   if (detail == Detail::kMeasured) return channels;
-  channels.push_back(mean("rolling_resistance_N", DrumIntegral::kRollingResistance));
-  channels.push_back(mean("parasitic_N", DrumIntegral::kParasitic));
-  channels.push_back(mean("spindle_force_N", DrumIntegral::kSpindleForce));
-  channels.push_back(mean("contact_load_N", DrumIntegral::kContactLoad));
-  for (std::size_t i = 2; i < states.size(); ++i) channels.push_back({states[i].key});  // after rubber and gas
+  add(quantities::kRollingResistance, DrumIntegral::kRollingResistance);
+  add(quantities::kParasiticLoss, DrumIntegral::kParasitic);
+  add(quantities::kSpindleForce, DrumIntegral::kSpindleForce);
+  add(quantities::kContactLoad, DrumIntegral::kContactLoad);
+  for (std::size_t i = 2; i < states.size(); ++i) channels.push_back({states[i].quantity});  // after rubber and gas
   return channels;
 }
 

@@ -12,8 +12,8 @@ namespace rollrig::rigs {
 
 namespace {
 
-void add_once(const std::string& name, std::vector<std::string>& names) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+void add_once(const Quantity& quantity, std::vector<Quantity>& quantities) {
+  if (std::find(quantities.begin(), quantities.end(), quantity) == quantities.end()) quantities.push_back(quantity);
 }
 
 Quantity find_quantity(models::Reading reading, const models::MachineTraits& machine) {
@@ -30,13 +30,13 @@ Quantity find_quantity(models::Reading reading, const models::MachineTraits& mac
 
 template <class Shows>
 std::vector<std::string> list_headings(const std::vector<models::Reading>& readings, const Shows& shows) {
-  std::vector<std::string> headings;
+  std::vector<Quantity> quantities;
   for (const models::Reading reading : readings) {
     for (const MachineKind* kind : machine_kinds()) {
-      if (shows(kind->traits)) add_once(find_quantity(reading, kind->traits).header(), headings);
+      if (shows(kind->traits)) add_once(find_quantity(reading, kind->traits), quantities);
     }
   }
-  return headings;
+  return list_headers(quantities);
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ Column columns::measure(const Quantity& tire_channel) {
 
 models::SensorSet::value_type columns::make_usual_sensor(const Quantity& tire_channel) {
   const models::TireChannel& channel = models::get_tire_channel(tire_channel);
-  return {channel.quantity.header(), channel.usual_sensor};
+  return {channel.quantity, channel.usual_sensor};
 }
 
 const std::vector<const MachineKind*>& machine_kinds() {
@@ -92,23 +92,23 @@ const MachineKind& find_machine_kind(const std::string& word) {
   throw std::invalid_argument("no kind of machine '" + word + "'");
 }
 
-bool is_force(const std::string& heading) {
+bool is_force(const Quantity& column) {
   return std::any_of(machine_kinds().begin(), machine_kinds().end(),
-                     [&](const MachineKind* kind) { return kind->traits.force.header() == heading; });
+                     [&](const MachineKind* kind) { return kind->traits.force == column; });
 }
 
-std::vector<std::string> measured_channels(const MachineKind& kind) {
-  std::vector<std::string> names;
-  for (const Column& column : kind.columns.measured) names.push_back(column.quantity.header());
-  return names;
+std::vector<Quantity> measured_channels(const MachineKind& kind) {
+  std::vector<Quantity> channels;
+  for (const Column& column : kind.columns.measured) channels.push_back(column.quantity);
+  return channels;
 }
 
-std::vector<std::string> all_measured_channels() {
-  std::vector<std::string> names;
+std::vector<Quantity> all_measured_channels() {
+  std::vector<Quantity> channels;
   for (const MachineKind* kind : machine_kinds()) {
-    for (const std::string& name : measured_channels(*kind)) add_once(name, names);
+    for (const Quantity& channel : measured_channels(*kind)) add_once(channel, channels);
   }
-  return names;
+  return channels;
 }
 
 std::vector<std::string> list_machines(bool (*has_trait)(const models::MachineTraits&)) {

@@ -60,11 +60,11 @@ const MachineKind* find_machine_kind_if_any(const std::string& word);
 const MachineKind& find_machine_kind(const std::string& word);
 
 /// Whether a column is the force channel of some kind.
-bool is_force(const std::string& heading);
-/// Headings of the measured columns of a kind.
-std::vector<std::string> measured_channels(const MachineKind& kind);
+bool is_force(const Quantity& column);
+/// The measured columns of a kind.
+std::vector<Quantity> measured_channels(const MachineKind& kind);
 /// Those of all kinds.
-std::vector<std::string> all_measured_channels();
+std::vector<Quantity> all_measured_channels();
 
 /// Words of the machines that have a trait.
 std::vector<std::string> list_machines(bool (*has_trait)(const models::MachineTraits&));

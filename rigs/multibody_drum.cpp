@@ -75,9 +75,9 @@ class MultibodyDrum::Implementation : public SimbodySystem {
 
   /// The axle of the wheel is at the carriage's height above that of the drum.
   std::vector<sim::PoseCoordinate> poses() const override {
-    return {{surface_height_m_ > 0.0 ? "drum_angle_rad" : "belt_way_m", q_state(drum_)},
-            {"axle_height_m", q_state(carriage_)},
-            {"wheel_angle_rad", q_state(wheel_)}};
+    return {{surface_height_m_ > 0.0 ? Quantity("drum_angle", "rad") : Quantity("belt_way", "m"), q_state(drum_)},
+            {{"axle_height", "m"}, q_state(carriage_)},
+            {{"wheel_angle", "rad"}, q_state(wheel_)}};
   }
 
   void initialize(const sim::Segment& first, double time_s, double* y) override {

@@ -86,16 +86,16 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   /// Heights are relative: the body's to where it is under static load, an axle's to the body.
   std::vector<sim::PoseCoordinate> poses() const override {
     std::vector<sim::PoseCoordinate> poses;
-    const auto add = [&](const std::string& name, const SimTK::MobilizedBody& body) {
-      poses.push_back({name, q_state(body)});
+    const auto add = [&](const Quantity& quantity, const SimTK::MobilizedBody& body) {
+      poses.push_back({quantity, q_state(body)});
     };
-    if (bodies_.has_sled()) add("position_m", bodies_.sled);
-    add("body_heave_m", bodies_.heave);
-    if (bodies_.pitches) add("body_pitch_rad", bodies_.body);
+    if (bodies_.has_sled()) add({"position", "m"}, bodies_.sled);
+    add({"body_heave", "m"}, bodies_.heave);
+    if (bodies_.pitches) add({"body_pitch", "rad"}, bodies_.body);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
-      add(wheel_channel("axle_travel_m", layout_.wheels[i]), bodies_.wheels[i].upright);
-      add(wheel_channel("wheel_angle_rad", layout_.wheels[i]), bodies_.wheels[i].wheel);
-      if (!is_flat()) add(wheel_channel("roller_angle_rad", layout_.wheels[i]), bodies_.wheels[i].roller);
+      add(wheel_channel({"axle_travel", "m"}, layout_.wheels[i]), bodies_.wheels[i].upright);
+      add(wheel_channel({"wheel_angle", "rad"}, layout_.wheels[i]), bodies_.wheels[i].wheel);
+      if (!is_flat()) add(wheel_channel({"roller_angle", "rad"}, layout_.wheels[i]), bodies_.wheels[i].roller);
     }
     return poses;
   }

@@ -31,12 +31,12 @@ enum class RecordedIntegral : std::size_t {
 };
 constexpr std::size_t index_of(RecordedIntegral integral) { return static_cast<std::size_t>(integral); }
 
-/// A channel under its heading in files.
+/// A channel that is a mean.
 inline sim::Channel make_mean_channel(const Quantity& quantity, RecordedIntegral integral) {
-  return {quantity.header(), index_of(integral)};
+  return {quantity, index_of(integral)};
 }
 inline sim::Channel make_tire_channel(const Quantity& quantity) {
-  return {quantity.header(), index_of(RecordedIntegral::kTireReadings) + models::index_of_tire_channel(quantity)};
+  return {quantity, index_of(RecordedIntegral::kTireReadings) + models::index_of_tire_channel(quantity)};
 }
 
 /// Power of all wheels at an instant, and what moves with the surface.

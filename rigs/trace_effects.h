@@ -2,15 +2,15 @@
 /// Port "trace": what effects do to the measured channels after a run.
 
 #include <functional>
-#include <string>
+#include <optional>
 
 #include "models/corner.h"
 #include "sim/recording.h"
 
 namespace rollrig::rigs {
 
-/// The name by which an effect knows a recorded channel; empty for channels that are not its own to change.
-using ChannelNames = std::function<std::string(const std::string& recorded)>;
+/// What a recorded channel is to an effect; none for channels that are not its own to change.
+using ChannelsOfEffects = std::function<std::optional<Quantity>(const Quantity& recorded)>;
 
 /// Whether any effect that is on has a trace function.
 template <class S>
@@ -22,10 +22,10 @@ bool has_trace_effects(const models::Corner<S>& corner) {
 }
 
 /// Runs the trace functions of the effects that are on over the channels of a recording. Where several wheels are
-/// recorded, it is called for each with the names of its channels.
+/// recorded, it is called for each with its own channels.
 template <class S>
 void apply_trace_effects(
     const models::Corner<S>& corner, sim::Recording<S>& recording,
-    const ChannelNames& name_of = [](const std::string& recorded) { return recorded; });
+    const ChannelsOfEffects& find_own = [](const Quantity& recorded) { return recorded; });
 
 }  // namespace rollrig::rigs

@@ -2,11 +2,12 @@
 
 #include <boost/algorithm/string/predicate.hpp>
 
-#include "sim/core/units.h"
 #include "sim/energy_audit.h"
 
 namespace rollrig::rigs {
 namespace {
+
+namespace quantities = models::quantities;
 
 // Errors that do not matter, for the integrator's control: see drum_channels.cpp. A drive cycle moves a
 // few 1e6 J in stretches of a second.
@@ -68,49 +69,48 @@ std::vector<sim::Store> make_vehicle_stores() {
           {"stored_heat", Role::kHeat}};
 }
 
-std::string wheel_channel(const std::string& name, const std::string& position) {
-  if (position.empty()) return name;
-  const std::string quantity = name_without_unit(name);
-  return quantity + "_" + position + name.substr(quantity.size());
+Quantity wheel_channel(const Quantity& quantity, const std::string& position) {
+  if (position.empty()) return quantity;
+  const std::string name = std::string(quantity.name()) + "_" + position;
+  return intern_quantity(Quantity(name, quantity.unit_suffix()).header());
 }
 
-std::optional<std::string> without_position(const std::string& channel, const std::string& position) {
-  const std::string quantity = name_without_unit(channel);
+std::optional<Quantity> without_position(const Quantity& channel, const std::string& position) {
   const std::string mark = "_" + position;
-  if (position.empty() || !boost::ends_with(quantity, mark)) return std::nullopt;
-  return quantity.substr(0, quantity.size() - mark.size()) + channel.substr(quantity.size());
+  if (position.empty() || !boost::ends_with(channel.name(), mark)) return std::nullopt;
+  return Quantity(channel.name().substr(0, channel.name().size() - mark.size()), channel.unit_suffix());
 }
 
-std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel) {
+std::optional<Quantity> find_at_wheel(const Quantity& recorded, const VehicleLayout& layout, std::size_t wheel) {
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
-    const std::optional<std::string> name = without_position(recorded, layout.wheels[i].position);
-    if (name.has_value()) return i == wheel ? *name : std::string();
+    const std::optional<Quantity> own = without_position(recorded, layout.wheels[i].position);
+    if (own.has_value()) return i == wheel ? own : std::nullopt;
   }
-  return wheel == 0 ? recorded : std::string();
+  return wheel == 0 ? std::optional(recorded) : std::nullopt;
 }
 
 std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
                                                 const std::vector<std::vector<models::CornerState>>& states,
                                                 bool surface_recorded) {
-  std::vector<sim::Channel> channels{{"speed_km_h"}, {"ambient_degC"}};
-  if (surface_recorded) channels.push_back({"surface_temperature_degC"});
-  channels.push_back({"traction_force_N", index_of(VehicleIntegral::kTraction)});
+  std::vector<sim::Channel> channels{{quantities::kSpeed}, {quantities::kAmbient}};
+  if (surface_recorded) channels.push_back({quantities::kSurfaceTemperature});
+  channels.push_back({quantities::kTractionForce, index_of(VehicleIntegral::kTraction)});
   for (std::size_t i = 0; i < layout.wheels.size(); ++i) {
-    const auto mean = [&](const char* name, WheelIntegral integral) {
-      channels.push_back({wheel_channel(name, layout.wheels[i]), index_of(integral, i)});
+    const auto mean = [&](const Quantity& quantity, WheelIntegral integral) {
+      channels.push_back({wheel_channel(quantity, layout.wheels[i]), index_of(integral, i)});
     };
-    channels.push_back({wheel_channel("load_N", layout.wheels[i])});
-    mean("longitudinal_force_N", WheelIntegral::kLongitudinalForce);
-    mean("loss_force_N", WheelIntegral::kLossForce);
+    channels.push_back({wheel_channel(quantities::kLoad, layout.wheels[i])});
+    mean(quantities::kLongitudinalForce, WheelIntegral::kLongitudinalForce);
+    mean(quantities::kLossForce, WheelIntegral::kLossForce);
     std::size_t reading = index_of(WheelIntegral::kTireReadings, i);
     for (const models::TireChannel& tire : models::kTireChannels) {
-      channels.push_back({wheel_channel(tire.quantity.header(), layout.wheels[i]), reading++});
+      channels.push_back({wheel_channel(tire.quantity, layout.wheels[i]), reading++});
     }
-    mean("rolling_resistance_N", WheelIntegral::kRollingResistance);
-    mean("parasitic_N", WheelIntegral::kParasitic);
-    mean("contact_load_N", WheelIntegral::kContactLoad);
+    mean(quantities::kRollingResistance, WheelIntegral::kRollingResistance);
+    mean(quantities::kParasiticLoss, WheelIntegral::kParasitic);
+    mean(quantities::kContactLoad, WheelIntegral::kContactLoad);
     for (std::size_t k = 2; k < states[i].size(); ++k) {  // after rubber and gas
-      channels.push_back({wheel_channel(states[i][k].key, layout.wheels[i])});
+      channels.push_back({wheel_channel(states[i][k].quantity, layout.wheels[i])});
     }
   }
   return channels;

@@ -80,17 +80,17 @@ std::vector<sim::Channel> make_vehicle_channels(const VehicleLayout& layout,
   return make_vehicle_channels(layout, states, surface_recorded);
 }
 
-/// A channel of one wheel: the position stands before the unit, "liner_temperature_front_left_degC".
-std::string wheel_channel(const std::string& name, const std::string& position);
-inline std::string wheel_channel(const std::string& name, const WheelPlace& wheel) {
-  return wheel_channel(name, wheel.position);
+/// A channel of one wheel: "liner_temperature_front_left" in degC.
+Quantity wheel_channel(const Quantity& quantity, const std::string& position);
+inline Quantity wheel_channel(const Quantity& quantity, const WheelPlace& wheel) {
+  return wheel_channel(quantity, wheel.position);
 }
 /// The channel without a wheel's position; nothing where it is not of that wheel.
-std::optional<std::string> without_position(const std::string& channel, const std::string& position);
+std::optional<Quantity> without_position(const Quantity& channel, const std::string& position);
 
-/// The name of a recorded channel as one wheel's effects know it: without the wheel's position; the vehicle's own
-/// channels are the first wheel's; empty for those of other wheels.
-std::string name_at_wheel(const std::string& recorded, const VehicleLayout& layout, std::size_t wheel);
+/// A recorded channel as one wheel's effects know it: without the wheel's position; the vehicle's own channels are the
+/// first wheel's; none for those of other wheels.
+std::optional<Quantity> find_at_wheel(const Quantity& recorded, const VehicleLayout& layout, std::size_t wheel);
 
 /// Puts what is recorded at a time into `inputs`. Load, longitudinal and brake force are the rig's to fill.
 template <class S>

@@ -160,7 +160,7 @@ Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
   const double counted_s = reader.common(VehicleIntegral::kCountedTime);
   if (counted_s > 0.0) section.mean_rrc = reader.wheel(WheelIntegral::kCountedRrc, 0) / counted_s;
   const std::vector<double>& temperature_K =
-      recording.channel(rigs::wheel_channel(quantities::kLinerTemperature.header(), layout.wheels.front()));
+      recording.channel(rigs::wheel_channel(quantities::kLinerTemperature, layout.wheels.front()));
   section.start_K = temperature_K[recording.row_at(span.start_s)];
   section.end_K = temperature_K[recording.row_at(span.end_s - spec.sample_interval_s)];
   for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {

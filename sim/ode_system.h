@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/quantity.h"
 #include "sim/program.h"
 
 namespace rollrig::sim {
@@ -28,15 +29,15 @@ struct Store {
 /// A recorded column: the mean over a sample of an integral's rate, or a value at the sample's time.
 struct Channel {
   static constexpr std::size_t kInstant = static_cast<std::size_t>(-1);
-  std::string name;                 // with the unit in which files show it
+  Quantity quantity;
   std::size_t integral = kInstant;  // index of the integral whose mean it is
 
   bool is_mean() const { return integral != kInstant; }
 };
 
-/// A coordinate of a body, for an animation: a state under its name with unit.
+/// A coordinate of a body, for an animation: a state.
 struct PoseCoordinate {
-  std::string name;
+  Quantity quantity;
   std::size_t state = 0;  // its index
 };
 

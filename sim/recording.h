@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/core/quantity.h"
 #include "sim/energy_audit.h"
 #include "sim/ode_system.h"
 
@@ -36,19 +35,23 @@ struct Recording {
 
   std::size_t row_count() const { return time_s.size(); }
 
-  /// Throws std::invalid_argument for a channel that was not recorded.
-  const std::vector<S>& channel(const std::string& name) const {
+  /// nullptr for a channel that was not recorded.
+  const std::vector<S>* find(const Quantity& quantity) const {
     for (std::size_t i = 0; i < channels.size(); ++i) {
-      if (channels[i].name == name) return values[i];
+      if (channels[i].quantity == quantity) return &values[i];
     }
-    throw std::invalid_argument("no channel '" + name + "' was recorded");
+    return nullptr;
   }
-  std::vector<S>& channel(const std::string& name) {
-    return const_cast<std::vector<S>&>(static_cast<const Recording&>(*this).channel(name));
+  /// Throws std::invalid_argument for a channel that was not recorded.
+  const std::vector<S>& channel(const Quantity& quantity) const {
+    if (const std::vector<S>* found = find(quantity)) return *found;
+    throw std::invalid_argument("no channel '" + quantity.header() + "' was recorded");
   }
-
-  const std::vector<S>& channel(const Quantity& quantity) const { return channel(quantity.header()); }
-  std::vector<S>& channel(const Quantity& quantity) { return channel(quantity.header()); }
+  std::vector<S>& channel(const Quantity& quantity) {
+    return const_cast<std::vector<S>&>(static_cast<const Recording&>(*this).channel(quantity));
+  }
+  /// By its heading in files.
+  const std::vector<S>& channel(const std::string& header) const { return channel(intern_quantity(header)); }
 
   /// The first row at or after a time, or the last row.
   std::size_t row_at(double at_s) const {

@@ -120,7 +120,7 @@ std::string make_reference_page() {
       "road_load"_a = describe_keys<models::RoadLoad<double>>(),
       "two_axle_geometry"_a = describe_keys<rigs::TwoAxleGeometry>(),
       "two_axle_brakes"_a = describe_keys<rigs::TwoAxleBrakes>(),
-      "measured_channels"_a = list_or_none(rigs::all_measured_channels()));
+      "measured_channels"_a = list_or_none(list_headers(rigs::all_measured_channels())));
 }
 
 }  // namespace rollrig::tools

@@ -26,7 +26,7 @@ constexpr double kStep_u = 0.75;
 
 /// One drive of §3.4.4, sample by sample.
 struct DrivenPower {
-  std::vector<double> speed_km_h;
+  std::vector<double> speed_m_s;
   std::vector<double> loss_N;     // between hub and roller
   std::vector<double> rolling_N;  // of the tire alone
   std::vector<std::size_t> kind;  // of section; kKinds.size() for none
@@ -44,15 +44,9 @@ DrivenPower drive(const std::string& tire, const std::vector<models::ActiveEffec
     kind_of_phase.push_back(kind);
   }
   for (const std::size_t phase : recording.phase) driven.kind.push_back(kind_of_phase[phase]);
-  const auto channel = [&recording](const std::string& name) {
-    for (const auto& known : recording.channels) {
-      if (known.name.rfind(name, 0) == 0) return recording.channel(known.name);
-    }
-    throw std::logic_error("no channel " + name);
-  };
-  driven.speed_km_h = channel("speed_km_h");
-  driven.loss_N = channel("loss_force_N");
-  driven.rolling_N = channel("rolling_resistance_N");
+  driven.speed_m_s = recording.channel(models::quantities::kSpeed);
+  driven.loss_N = recording.channel(models::quantities::kLossForce);
+  driven.rolling_N = recording.channel(models::quantities::kRollingResistance);
   return driven;
 }
 
@@ -61,7 +55,7 @@ std::array<double, 3> compare(const DrivenPower& model, const DrivenPower& measu
   std::array<double, 3> sum{};
   std::array<double, 3> count{};
   for (std::size_t i = 0; i < model.kind.size(); ++i) {
-    if (model.kind[i] >= kKinds.size() || 3.6 * model.speed_km_h[i] < kTrustedFrom_km_h) continue;
+    if (model.kind[i] >= kKinds.size() || 3.6 * model.speed_m_s[i] < kTrustedFrom_km_h) continue;
     const double more_N = measured.loss_N[i] - model.loss_N[i];
     if (!std::isfinite(more_N)) continue;
     sum[model.kind[i]] += -more_N / (model.rolling_N[i] + more_N);

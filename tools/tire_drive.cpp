@@ -23,7 +23,7 @@ TireDrive read_sections(const scenarios::RunSpec& spec, const rigs::VehicleLayou
                         const sim::Recording<double>& recording) {
   constexpr double kWh_J = 3600.0;
   const std::vector<double>& temperature_K =
-      recording.channel(rigs::wheel_channel("liner_temperature_degC", layout.wheels.front()));
+      recording.channel(rigs::wheel_channel(models::quantities::kLinerTemperature, layout.wheels.front()));
   TireDrive sections;
   for (std::size_t phase = 0; phase < recording.phases.size(); ++phase) {
     const sim::PhaseSpan& span = recording.phases[phase];

@@ -19,27 +19,27 @@ using measurements::MeasurementSet;
 
 constexpr double kUncompared = 1.05;  // just outside
 
-double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel, std::size_t row,
+double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel, std::size_t row,
                       double simulated) {
   const MeasurementKind& kind = kind_of(set);
-  if (channel == kind.force_channel(set).name) return kind.calc_force_tolerance(set, simulated);
-  const models::ChannelFamily& family = models::get_tire_channel(intern_quantity(channel)).family;
+  if (channel == set.kind->traits.force) return kind.calc_force_tolerance(set, simulated);
+  const models::ChannelFamily& family = models::get_tire_channel(channel).family;
   const bool is_pressure = family.rest == models::ChannelFamily::Rest::kColdPressure;
   const double rest = is_pressure ? run.cold_pressure_Pa : run.column(models::quantities::kAmbient)[row];
   return family.tolerance_SI + family.share_of_rise * std::abs(simulated - rest);
 }
 
 /// Of one sample, what its sensor makes of its own.
-double calc_noise(const MeasurementSet& set, const std::string& channel) {
+double calc_noise(const MeasurementSet& set, const Quantity& channel) {
   const auto sensor = set.sensors.find(channel);
   return sensor == set.sensors.end() ? 0.0 : std::hypot(sensor->second.noise_sd, sensor->second.drift_sd);
 }
 
-ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const std::string& channel,
+ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel,
                                   const std::vector<double>& simulated) {
   const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
-  const std::vector<double>& measured = run.columns.at(channel);
-  const Unit unit = unit_of_key(channel);
+  const std::vector<double>& measured = run.column(channel);
+  const Unit unit = channel.file_unit();
   ChannelMisfit misfit{channel, rows.size()};
   const double noise = calc_noise(set, channel);
   double squares = 0.0;
@@ -82,13 +82,13 @@ sim::Recording<double> resimulate_baseline(const MeasurementSet& set, const Meas
   for (std::size_t c = 0; c < recording.channels.size(); ++c) {
     const std::vector<double>& values = recording.values[c];
     if (std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); })) continue;
-    throw RunFailure(recording.channels[c].name + " does not stay finite");
+    throw RunFailure(recording.channels[c].quantity.header() + " does not stay finite");
   }
   return recording;
 }
 
 std::vector<std::size_t> find_compared_rows(const MeasurementSet& set, const MeasuredRun& run,
-                                            const std::string& channel) {
+                                            const Quantity& channel) {
   if (!run.has(channel)) return {};
   return kind_of(set).find_compared_rows(run, channel);
 }
@@ -110,7 +110,7 @@ double RunMisfit::sum_of_squares() const {
 
 RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated) {
   RunMisfit misfit;
-  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
+  for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     if (!run.has(channel)) continue;
     misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel)));
   }

@@ -16,10 +16,10 @@ sim::Recording<double> resimulate_baseline(const measurements::MeasurementSet& s
 
 /// Rows of a channel that are compared, as the set's kind has it; none where the run does not have the channel.
 std::vector<std::size_t> find_compared_rows(const measurements::MeasurementSet& set,
-                                            const measurements::MeasuredRun& run, const std::string& channel);
+                                            const measurements::MeasuredRun& run, const Quantity& channel);
 
 struct ChannelMisfit {
-  std::string channel;
+  Quantity channel;
   std::size_t samples = 0;
   double rms = 0.0;    // of the difference in tolerances, each at most kLargestMisfit, less the sensor's noise
   double ratio = 1.0;  // mean measured over mean simulated, in the unit of the file

@@ -13,6 +13,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
+namespace quantities = models::quantities;
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
@@ -58,13 +59,13 @@ Repair exchange(const MeasurementSet& set, const rigs::Column& a, const rigs::Co
 Repair wrong_unit(const WrongUnit& wrong) {
   const auto undo = [wrong](MeasuredRun& run) {
     if (!run.has(wrong.column)) return false;
-    const Unit unit = unit_of_key(wrong.column);
-    for (double& value : run.columns.at(wrong.column)) {
+    const Unit unit = wrong.column.file_unit();
+    for (double& value : run.column(wrong.column)) {
       value = unit.to_si(wrong.factor * unit.from_si(value) + wrong.offset);
     }
     return true;
   };
-  return {wrong.column + " " + wrong.text, undo};
+  return {wrong.column.header() + " " + wrong.text, undo};
 }
 
 std::vector<Repair> list_mistakes(const MeasurementSet& set, Mistakes which) {
@@ -93,16 +94,16 @@ std::vector<WrongUnit> list_common_wrong_units() {
   constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
   constexpr double kBar_kPa = 100.0;
   constexpr double kMile_km = 1.609344;  // exact
-  return {{"speed_km_h", 3.6, 0.0, "holds m/s"},
-          {"speed_km_h", 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
-          {"speed_km_h", kMile_km, 0.0, "holds mph"},
-          {"load_N", kStandardGravity_m_s2, 0.0, "holds kgf"},
-          {"load_N", 1e3, 0.0, "holds kN"},
-          {"cavity_pressure_kPa", 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},
-          {"cavity_pressure_kPa", kBar_kPa, 0.0, "holds bar"},
-          {"cavity_pressure_kPa", kPsi_kPa, 0.0, "holds psi"},
-          {"liner_temperature_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"},
-          {"ambient_degC", 1.0 / 1.8, -32.0 / 1.8, "holds degF"}};
+  return {{quantities::kSpeed, 3.6, 0.0, "holds m/s"},
+          {quantities::kSpeed, 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
+          {quantities::kSpeed, kMile_km, 0.0, "holds mph"},
+          {quantities::kLoad, kStandardGravity_m_s2, 0.0, "holds kgf"},
+          {quantities::kLoad, 1e3, 0.0, "holds kN"},
+          {quantities::kCavityPressure, 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},
+          {quantities::kCavityPressure, kBar_kPa, 0.0, "holds bar"},
+          {quantities::kCavityPressure, kPsi_kPa, 0.0, "holds psi"},
+          {quantities::kLinerTemperature, 1.0 / 1.8, -32.0 / 1.8, "holds degF"},
+          {quantities::kAmbient, 1.0 / 1.8, -32.0 / 1.8, "holds degF"}};
 }
 
 std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<std::size_t>& odd_runs, Mistakes which,

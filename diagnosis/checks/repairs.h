@@ -20,7 +20,7 @@ struct Repair {
 /// A mistake with a unit that a kind of set is prone to: the numbers of the file, times `factor` and plus `offset`, in
 /// the unit of the column, are right.
 struct WrongUnit {
-  std::string column;
+  Quantity column;
   double factor = 1.0;
   double offset = 0.0;
   std::string text;  // after the column's name

@@ -1,6 +1,5 @@
 #include "diagnosis/checks/rig_sensors.h"
 
-#include <algorithm>
 #include <functional>
 #include <stdexcept>
 
@@ -10,25 +9,19 @@
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr const char* kSpindleForce = "spindle_force_N";
-constexpr const char* kContactLoad = "contact_load_N";
-constexpr const char* kGasTemperature = "gas_temperature_degC";
-constexpr const char* kSpeedReading = "speed_reading_km_h";
-constexpr const char* kAirReading = "air_reading_degC";
-constexpr const char* kPressureReading = "pressure_reading_kPa";
+namespace quantities = models::quantities;
 
-template <class S>
-bool has_channel(const sim::Recording<S>& recording, const std::string& name) {
-  return std::any_of(recording.channels.begin(), recording.channels.end(),
-                     [&](const sim::Channel& channel) { return channel.name == name; });
-}
+constexpr Quantity kSpeedReading{"speed_reading", "km_h"};
+constexpr Quantity kAirReading{"air_reading", "degC"};
+constexpr Quantity kPressureReading{"pressure_reading", "kPa"};
 
 /// States of a corner at a row of a recording in full detail: rubber and gas come first.
 template <class S>
 std::vector<S> find_states(const models::Corner<S>& corner, const sim::Recording<S>& recording, std::size_t row) {
-  std::vector<S> states{recording.channel("liner_temperature_degC")[row], recording.channel(kGasTemperature)[row]};
+  std::vector<S> states{recording.channel(quantities::kLinerTemperature)[row],
+                        recording.channel(quantities::kGasTemperature)[row]};
   for (std::size_t i = states.size(); i < corner.state_count(); ++i) {
-    states.push_back(recording.channel(corner.states()[i].key)[row]);
+    states.push_back(recording.channel(corner.states()[i].quantity)[row]);
   }
   return states;
 }
@@ -38,19 +31,19 @@ template <class S>
 std::vector<S> read_instants(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                              const models::Corner<S>& corner, const sim::Recording<S>& recording,
                              const std::function<S(const models::Instant<S>&)>& read) {
-  const bool has_surface = run.has("surface_temperature_degC");
+  const bool has_surface = run.has(quantities::kSurfaceTemperature);
   std::vector<S> values;
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-    const auto given = [&](const char* column) { return S(run.columns.at(column)[row]); };
+    const auto given = [&](const Quantity& column) { return S(run.column(column)[row]); };
     const std::vector<S> states = find_states(corner, recording, row);
     models::Instant<S> now;
     now.inflation = {S(run.cold_pressure_Pa), S(run.initial_tire_temperature_K),
                      S(set.rig->environment.ambient_pressure_Pa)};
-    now.recorded.speed_m_s = given("speed_km_h");
-    now.recorded.load_N = given("load_N");
-    now.recorded.ambient_K = given("ambient_degC");
+    now.recorded.speed_m_s = given(quantities::kSpeed);
+    now.recorded.load_N = given(quantities::kLoad);
+    now.recorded.ambient_K = given(quantities::kAmbient);
     now.recorded.surface_recorded = has_surface;
-    now.recorded.surface_K = has_surface ? given("surface_temperature_degC") : now.recorded.ambient_K;
+    now.recorded.surface_K = has_surface ? given(quantities::kSurfaceTemperature) : now.recorded.ambient_K;
     now.recorded.air_density_ratio = S(1.0);
     corner.apply_inputs(states.data(), now);
     now.motion.speed_m_s = now.acting.speed_m_s;
@@ -63,18 +56,18 @@ std::vector<S> read_instants(const measurements::MeasurementSet& set, const meas
 
 /// What the effects of the port "trace" make of a true force in every row.
 template <class S>
-std::vector<S> trace_of(const measurements::MeasuredRun& run, const models::Corner<S>& corner,
-                        const std::string& channel, const std::vector<double>& force) {
+std::vector<S> trace_of(const measurements::MeasuredRun& run, const models::Corner<S>& corner, const Quantity& channel,
+                        const std::vector<double>& force) {
   sim::Recording<S> recording;
   recording.time_s = run.time_s;
-  const auto add = [&](const std::string& name, std::vector<S> values) {
-    recording.channels.push_back({name});
+  const auto add = [&](const Quantity& quantity, std::vector<S> values) {
+    recording.channels.push_back({quantity});
     recording.values.push_back(std::move(values));
   };
   add(channel, {force.begin(), force.end()});
-  for (const char* name : {"load_N", "ambient_degC"}) {
-    const std::vector<double>& given = run.columns.at(name);
-    add(name, {given.begin(), given.end()});
+  for (const Quantity& quantity : {quantities::kLoad, quantities::kAmbient}) {
+    const std::vector<double>& given = run.column(quantity);
+    add(quantity, {given.begin(), given.end()});
   }
   rigs::apply_trace_effects(corner, recording);
   return recording.values.front();
@@ -82,12 +75,12 @@ std::vector<S> trace_of(const measurements::MeasuredRun& run, const models::Corn
 
 template <class S>
 std::vector<S> read_force(const measurements::MeasuredRun& run, const models::Corner<S>& corner, std::vector<S> values,
-                          const std::string& channel) {
-  const bool hangs = run.has(kHungTorque);
+                          const Quantity& channel) {
+  const bool hangs = run.has(quantities::kHungTorque);
   if (!hangs && !run.reversed) return values;
   const std::vector<double> none(values.size(), 0.0);
   const std::vector<S> of_zero = trace_of(run, corner, channel, none);
-  const std::vector<S> of_hung = trace_of(run, corner, channel, hangs ? run.columns.at(kHungTorque) : none);
+  const std::vector<S> of_hung = trace_of(run, corner, channel, hangs ? run.column(quantities::kHungTorque) : none);
   for (std::size_t row = 0; row < values.size(); ++row) {
     values[row] += of_hung[row] - of_zero[row];
     if (run.reversed) values[row] -= S(2.0) * of_zero[row];
@@ -99,28 +92,28 @@ std::vector<S> read_force(const measurements::MeasuredRun& run, const models::Co
 
 const std::vector<RigSensor>& all_rig_sensors() {
   static const std::vector<RigSensor> sensors{
-      {kRimTemperature, "thermocouple on the rim", 1.0, {2.0, 0.05, 60.0, 0.1, 0.0}},
-      {kGasTemperature, "thermometer in the tire's gas, at the valve", 1.0, {0.5, 0.05, 60.0, 0.1, 0.0}},
+      {quantities::kRimTemperature, "thermocouple on the rim", 1.0, {2.0, 0.05, 60.0, 0.1, 0.0}},
+      {quantities::kGasTemperature, "thermometer in the tire's gas, at the valve", 1.0, {0.5, 0.05, 60.0, 0.1, 0.0}},
       {kSurfaceReading, "thermometer on the drum's surface", 0.25, {2.0, 0.1, 60.0, 0.2, 0.0}},
       {kAirReading, "thermometer in the air beside the tire", 0.25, {0.5, 0.1, 60.0, 0.1, 0.0}},
-      {kSpindleForce, "force sensor at the wheel's spindle", 4.0, {0.5, 0.1, 60.0, 0.3, 0.0}},
-      {kContactLoad, "load cell under the wheel's carriage", 1.0, {10.0, 2.0, 60.0, 5.0, 0.0}},
+      {quantities::kSpindleForce, "force sensor at the wheel's spindle", 4.0, {0.5, 0.1, 60.0, 0.3, 0.0}},
+      {quantities::kContactLoad, "load cell under the wheel's carriage", 1.0, {10.0, 2.0, 60.0, 5.0, 0.0}},
       {kSpeedReading, "light barrier that counts turns of the drum", 0.25, {0.01, 0.0, 60.0, 0.01, 0.0}},
       {kPressureReading, "second gauge on the cavity's pressure", 0.25, {1000.0, 50.0, 120.0, 50.0, 0.0}}};
   return sensors;
 }
 
-const RigSensor& find_rig_sensor(const std::string& channel) {
+const RigSensor& find_rig_sensor(const Quantity& channel) {
   for (const RigSensor& sensor : all_rig_sensors()) {
     if (sensor.channel == channel) return sensor;
   }
-  throw std::invalid_argument("no sensor reads " + channel);
+  throw std::invalid_argument("no sensor reads " + channel.header());
 }
 
 template <class S>
 std::vector<S> read_channel(const PreparedSet& set, const measurements::MeasuredRun& run,
                             const models::Corner<S>& corner, const sim::Recording<S>& recording,
-                            const std::string& channel) {
+                            const Quantity& channel) {
   const auto read = [&](auto&& get) {
     return read_instants<S>(set.source(), run, corner, recording, std::forward<decltype(get)>(get));
   };
@@ -129,11 +122,12 @@ std::vector<S> read_channel(const PreparedSet& set, const measurements::Measured
   if (channel == kAirReading) return read([](const Instant& now) { return now.acting.ambient_K; });
   if (channel == kSpeedReading) return read([](const Instant& now) { return now.acting.speed_m_s; });
   if (channel == kPressureReading) return read([](const Instant& now) { return now.pressure_Pa; });
-  if (channel == kRimTemperature && !has_channel(recording, channel)) {  // takes no heat: as warm as the air
-    const std::vector<double>& ambient_K = run.columns.at("ambient_degC");
+  const bool takes_heat = recording.find(channel) != nullptr;
+  if (channel == quantities::kRimTemperature && !takes_heat) {  // as warm as the air
+    const std::vector<double>& ambient_K = run.column(quantities::kAmbient);
     return {ambient_K.begin(), ambient_K.end()};
   }
-  if (channel == set.kind().force_channel(set.source()).name) {
+  if (channel == set.source().kind->traits.force) {
     return read_force(run, corner, recording.channel(channel), channel);
   }
   return recording.channel(channel);
@@ -141,8 +135,8 @@ std::vector<S> read_channel(const PreparedSet& set, const measurements::Measured
 
 template std::vector<double> read_channel(const PreparedSet&, const measurements::MeasuredRun&,
                                           const models::Corner<double>&, const sim::Recording<double>&,
-                                          const std::string&);
+                                          const Quantity&);
 template std::vector<Jet> read_channel(const PreparedSet&, const measurements::MeasuredRun&, const models::Corner<Jet>&,
-                                       const sim::Recording<Jet>&, const std::string&);
+                                       const sim::Recording<Jet>&, const Quantity&);
 
 }  // namespace rollrig::diagnosis

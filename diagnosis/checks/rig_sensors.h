@@ -12,14 +12,13 @@ namespace rollrig::diagnosis {
 
 /// A sensor that rigs seldom have and whose reading every hypothesis predicts.
 struct RigSensor {
-  const char* channel;  // what it reads, with its unit
+  Quantity channel;  // what it reads
   const char* description;
   double hours = 0.0;              // to fit it
   models::SensorParameters error;  // SI
 };
 
-constexpr const char* kRimTemperature = "rim_temperature_degC";
-constexpr const char* kSurfaceReading = "surface_reading_degC";
+constexpr Quantity kSurfaceReading{"surface_reading", "degC"};
 
 /// Sensors and their errors are Assumed: offsets of thermometers hold the place in which they sit as well (2 K where
 /// the baseline has nothing that warms: a rim or a surface that takes no heat stays that near to the air).
@@ -27,9 +26,7 @@ constexpr const char* kSurfaceReading = "surface_reading_degC";
 /// friction follows their temperature says how far.
 const std::vector<RigSensor>& all_rig_sensors();
 /// Throws std::invalid_argument where there is none of that channel.
-const RigSensor& find_rig_sensor(const std::string& channel);
-
-using measurements::kHungTorque;
+const RigSensor& find_rig_sensor(const Quantity& channel);
 
 /// A channel of a run as a sensor would read it, a value a row.
 /// Equation  with torque hung on it  y + trace(hung) - trace(0);  in reversed rotation  y - 2 trace(0)
@@ -40,6 +37,6 @@ using measurements::kHungTorque;
 template <class S>
 std::vector<S> read_channel(const PreparedSet& set, const measurements::MeasuredRun& run,
                             const models::Corner<S>& corner, const sim::Recording<S>& recording,
-                            const std::string& channel);
+                            const Quantity& channel);
 
 }  // namespace rollrig::diagnosis

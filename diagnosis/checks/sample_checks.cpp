@@ -21,18 +21,19 @@ using measurements::MeasurementSet;
 
 /// A force that never settles cannot be compared.
 void check_force(const MeasurementSet& set, SetChecks& checks) {
-  const ForceChannel force = kind_of(set).force_channel(set);
+  const Quantity& force = set.kind->traits.force;
   std::vector<std::size_t> without;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     if (set.runs[r].force_at_standstill) continue;  // its zero is
-    const bool measured = set.runs[r].has_samples(force.name);
-    if (measured && find_compared_rows(set, set.runs[r], force.name).empty()) without.push_back(r);
+    const bool measured = set.runs[r].has_samples(force);
+    if (measured && find_compared_rows(set, set.runs[r], force).empty()) without.push_back(r);
   }
   if (without.empty()) return;
   checks.warnings.push_back(fmt::format(
       "no {} of {} is compared: all of it is slower than {:.0f} km/h or within {:.0f} s of a change of load or "
       "acceleration",
-      force.word, name_runs(set, without), measurements::kTrustedSpeed_m_s * 3.6, measurements::kSettling_s));
+      kind_of(set).force_channel(set).word, name_runs(set, without), measurements::kTrustedSpeed_m_s * 3.6,
+      measurements::kSettling_s));
 }
 
 /// Between two rows inputs run straight, so that a step of speed or load may be off by half their distance: a clock
@@ -78,10 +79,10 @@ void check_spikes(const MeasurementSet& set, SetChecks& checks) {
     const MeasuredRun& run = set.runs[r];
     const std::vector<bool> steady = measurements::find_steady_rows(run.columns, run.time_s.size());
     const std::vector<bool> all(run.time_s.size(), true);
-    for (const std::string& channel : measurements::measured_channels(*set.kind)) {
+    for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
       const auto sensor = set.sensors.find(channel);
       if (!run.has(channel) || sensor == set.sensors.end()) continue;
-      const std::vector<double>& values = run.columns.at(channel);
+      const std::vector<double>& values = run.column(channel);
       const std::vector<bool>& judged = measurements::carries_inertia(channel) ? steady : all;
       std::vector<std::size_t> rows =
           measurements::find_spikes(values, kFar, std::max(sensor->second.noise_sd, sensor->second.resolution), judged);
@@ -91,19 +92,19 @@ void check_spikes(const MeasurementSet& set, SetChecks& checks) {
       checks.warnings.push_back(fmt::format(
           "{} of run {}: {} alone, far from those beside {} (the first in row {}: {:.6g}): spikes, or what a logger "
           "writes for no sample; left out",
-          channel, run.id, rows.size() == 1 ? "a sample stands" : fmt::format("{} samples stand", rows.size()),
-          rows.size() == 1 ? "it" : "them", rows.front() + 1, unit_of_key(channel).from_si(values[rows.front()])));
+          channel.header(), run.id, rows.size() == 1 ? "a sample stands" : fmt::format("{} samples stand", rows.size()),
+          rows.size() == 1 ? "it" : "them", rows.front() + 1, channel.file_unit().from_si(values[rows.front()])));
     }
   }
 }
 
 /// A run of next to no samples shows no gap, whatever acts.
 void check_amount(const MeasurementSet& set, SetChecks& checks) {
-  const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
+  const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);
   std::vector<std::size_t> few;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     std::size_t most = 0;
-    for (const std::string& channel : channels) {
+    for (const Quantity& channel : channels) {
       most = std::max(most, find_compared_rows(set, set.runs[r], channel).size());
     }
     if (most > 0 && most < kFewSamples) few.push_back(r);
@@ -135,11 +136,11 @@ void check_runs(const MeasurementSet& set, SetChecks& checks) {
   }
   for (std::size_t a = 0; a < set.runs.size(); ++a) {
     for (std::size_t b = a + 1; b < set.runs.size(); ++b) {
-      const auto same_samples = [&](const std::string& channel) {
+      const auto same_samples = [&](const Quantity& channel) {
         return set.runs[a].has(channel) && set.runs[b].has(channel) &&
-               are_same(set.runs[a].columns.at(channel), set.runs[b].columns.at(channel));
+               are_same(set.runs[a].column(channel), set.runs[b].column(channel));
       };
-      const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
+      const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);
       if (std::none_of(channels.begin(), channels.end(), same_samples)) continue;
       checks.warnings.push_back(
           fmt::format("{} hold the same samples: they are no test of each other", name_runs(set, {a, b})));
@@ -159,22 +160,22 @@ void check_samples(const MeasurementSet& set, SetChecks& checks) {
 }
 
 std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
-  const std::vector<std::string> channels = measurements::measured_channels(*set.kind);
+  const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);
   std::vector<std::string> sentences;
   std::vector<std::size_t> empty;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
-    const auto is_measured = [&](const std::string& channel) { return set.runs[r].has_samples(channel); };
+    const auto is_measured = [&](const Quantity& channel) { return set.runs[r].has_samples(channel); };
     if (std::none_of(channels.begin(), channels.end(), is_measured)) empty.push_back(r);
   }
   if (empty.size() == set.runs.size()) {
     throw InputError({"nothing was measured: no run has a sample of any measured channel", set.path, 0, "[[run]]", "",
-                      fmt::format("samples of one of {}", fmt::join(channels, ", ")), ""});
+                      fmt::format("samples of one of {}", fmt::join(list_headers(channels), ", ")), ""});
   }
   if (!empty.empty()) {
     sentences.push_back(fmt::format("{} measured nothing, and tells nothing: no sample of {}", name_runs(set, empty),
-                                    fmt::join(channels, ", ")));
+                                    fmt::join(list_headers(channels), ", ")));
   }
-  for (const std::string& channel : channels) {
+  for (const Quantity& channel : channels) {
     std::vector<std::size_t> without;
     bool anywhere = false;
     for (std::size_t r = 0; r < set.runs.size(); ++r) {
@@ -185,11 +186,12 @@ std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
       }
     }
     if (!without.empty()) {
-      sentences.push_back(fmt::format("{} has no sample in {}", channel, name_runs(set, without)));
+      sentences.push_back(fmt::format("{} has no sample in {}", channel.header(), name_runs(set, without)));
     }
-    const models::TireChannel* of_tire = models::find_tire_channel(intern_quantity(channel));
+    const models::TireChannel* of_tire = models::find_tire_channel(channel);
     if (!anywhere && without.empty() && (of_tire == nullptr || of_tire->is_expected)) {
-      sentences.push_back(fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel));
+      sentences.push_back(
+          fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel.header()));
     }
   }
   return sentences;

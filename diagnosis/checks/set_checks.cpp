@@ -27,7 +27,7 @@ std::string join(const std::vector<std::string>& words) { return fmt::format("{}
 void check_assumed(const MeasurementSet& set, SetChecks& checks) {
   if (!set.assumed_sensors.empty()) {
     checks.warnings.push_back(fmt::format("the set describes no sensor of {}: the noise of a usual one is assumed",
-                                          join(set.assumed_sensors)));
+                                          join(list_headers(set.assumed_sensors))));
   }
   if (!set.tire.has_thermal || !set.tire.has_rolling_resistance) {
     checks.warnings.push_back(fmt::format(
@@ -40,7 +40,7 @@ void check_assumed(const MeasurementSet& set, SetChecks& checks) {
 std::string describe_misfit(const MeasurementSet& set, const std::vector<std::size_t>& runs,
                             const std::vector<RunMisfit>& misfits) {
   std::vector<std::string> parts;
-  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
+  for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     std::vector<std::size_t> outside;
     double ratio = 1.0;
     for (const std::size_t r : runs) {
@@ -51,8 +51,8 @@ std::string describe_misfit(const MeasurementSet& set, const std::vector<std::si
       }
     }
     if (outside.empty()) continue;
-    parts.push_back(
-        fmt::format("{} of {} ({:.2g} of the simulated, on average)", channel, name_runs(set, outside), ratio));
+    parts.push_back(fmt::format("{} of {} ({:.2g} of the simulated, on average)", channel.header(),
+                                name_runs(set, outside), ratio));
   }
   return join(parts);
 }
@@ -102,14 +102,14 @@ void check_stuck(const MeasurementSet& set, const BaselineRuns& baseline, int th
 
 /// Where all sensors stand still nothing is left to diagnose.
 void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
-  const std::vector<std::string> channels = measurements::measured_channels(*kept.kind);
+  const std::vector<Quantity> channels = measurements::measured_channels(*kept.kind);
   for (const MeasuredRun& run : kept.runs) {
-    const auto is_left = [&](const std::string& channel) { return !find_compared_rows(kept, run, channel).empty(); };
+    const auto is_left = [&](const Quantity& channel) { return !find_compared_rows(kept, run, channel).empty(); };
     if (checks.left_out.empty() || std::any_of(channels.begin(), channels.end(), is_left)) return;
   }
   const DoubtfulRows& first = checks.left_out.front();
   throw InputError({"every measured channel stands still where it should move: stuck sensors, or no measurement at all",
-                    kept.runs[first.run].file, 0, first.channel, "", "samples of a sensor that works", ""});
+                    kept.runs[first.run].file, 0, first.channel.header(), "", "samples of a sensor that works", ""});
 }
 
 /// Whether a run's loss is next to nothing of the simulated, as in a unit a thousand times as large. Of a vehicle on
@@ -117,9 +117,9 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
 bool lacks_loss(const MeasurementSet& set, const RunMisfit& misfit) {
   constexpr double kLeast = 0.15;  // Assumed: no effect takes so much of a loss
   if (is_on_road(set.kind->traits)) return false;
-  const std::string force = kind_of(set).force_channel(set).name;
-  return std::any_of(misfit.channels.begin(), misfit.channels.end(),
-                     [&force](const ChannelMisfit& at) { return at.channel == force && at.ratio < kLeast; });
+  return std::any_of(misfit.channels.begin(), misfit.channels.end(), [&set](const ChannelMisfit& at) {
+    return at.channel == set.kind->traits.force && at.ratio < kLeast;
+  });
 }
 
 /// Columns and units.
@@ -170,7 +170,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
 
 MeasurementSet leave_out(MeasurementSet set, const std::vector<DoubtfulRows>& rows) {
   for (const DoubtfulRows& at : rows) {
-    std::vector<double>& values = set.runs[at.run].columns.at(at.channel);
+    std::vector<double>& values = set.runs[at.run].column(at.channel);
     std::fill(values.begin() + static_cast<std::ptrdiff_t>(at.first_row),
               values.begin() + static_cast<std::ptrdiff_t>(at.last_row) + 1, std::nan(""));
   }

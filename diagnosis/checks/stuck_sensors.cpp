@@ -16,14 +16,14 @@ constexpr std::size_t kStuckSamples = 30;
 constexpr double kStuck_s = 60.0;
 constexpr double kStuckNoises = 6.0;
 
-void find_stuck_rows(const MeasurementSet& set, std::size_t r, const std::string& channel,
+void find_stuck_rows(const MeasurementSet& set, std::size_t r, const Quantity& channel,
                      const std::vector<double>& expected, Stuck& stuck) {
   const MeasuredRun& run = set.runs[r];
   const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
   if (rows.empty()) return;
-  const std::vector<double>& measured = run.columns.at(channel);
+  const std::vector<double>& measured = run.column(channel);
   const models::SensorParameters& sensor = set.sensors.at(channel);
-  const Unit unit = unit_of_key(channel);
+  const Unit unit = channel.file_unit();
   for (std::size_t first = 0, last = 0; first < rows.size(); first = last + 1) {
     double lowest = expected[rows[first]];
     double highest = lowest;
@@ -40,7 +40,7 @@ void find_stuck_rows(const MeasurementSet& set, std::size_t r, const std::string
     stuck.warnings.push_back(
         fmt::format("{} of run {} stands at {:.6g} {} from {:.0f} to {:.0f} s, where it should move by {:.2g}: a stuck "
                     "sensor? Those samples are left out",
-                    channel, run.id, unit.from_si(measured[rows[first]]), unit.symbol, from_s, to_s,
+                    channel.header(), run.id, unit.from_si(measured[rows[first]]), unit.symbol, from_s, to_s,
                     (highest - lowest) / unit.factor));
   }
 }
@@ -51,7 +51,7 @@ Stuck find_stuck(const MeasurementSet& set, const BaselineRuns& baseline) {
   Stuck stuck;
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     if (!baseline.misfits[r].failure.empty()) continue;
-    for (const std::string& channel : measurements::measured_channels(*set.kind)) {
+    for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
       if (set.runs[r].has(channel)) {
         find_stuck_rows(set, r, channel, baseline.recordings[r].channel(channel), stuck);
       }

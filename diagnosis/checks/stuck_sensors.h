@@ -11,7 +11,7 @@ namespace rollrig::diagnosis {
 /// Rows of a channel that say nothing.
 struct DoubtfulRows {
   std::size_t run = 0;
-  std::string channel;
+  Quantity channel;
   std::size_t first_row = 0;
   std::size_t last_row = 0;  // inclusive
 };

@@ -55,13 +55,13 @@ struct Level {
 void add_level(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated,
                Level& level) {
   const MeasurementKind& kind = kind_of(set);
-  const std::string force = kind.force_channel(set).name;
+  const Quantity& force = set.kind->traits.force;
   const double loaded_N = measurements::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N;
   if (!run.has(models::quantities::kLoad)) return;
   for (const std::size_t row : find_compared_rows(set, run, force)) {
     const bool steady = std::abs(measurements::find_acceleration(run, row)) <= measurements::kSteadyAcceleration_m_s2;
     if (!steady || run.column(models::quantities::kLoad)[row] <= loaded_N) continue;
-    const auto measured_N = kind.find_tire_force_N(set, run, row, run.columns.at(force)[row]);
+    const auto measured_N = kind.find_tire_force_N(set, run, row, run.column(force)[row]);
     const auto simulated_N = kind.find_tire_force_N(set, run, row, simulated.channel(force)[row]);
     if (!measured_N.has_value() || !simulated_N.has_value()) return;
     level.measured_N += *measured_N;

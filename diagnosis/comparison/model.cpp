@@ -29,8 +29,8 @@ void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::s
 
 /// Beyond it a simulation has left its domain: the steps were too long for what moves that fast. Assumed: 2000 K,
 /// 1 kbar, 100 kN or kN m.
-double find_most_SI(const std::string& channel) {
-  const Dimension dimension = unit_of_key(channel).dimension;
+double find_most_SI(const Quantity& channel) {
+  const Dimension dimension = channel.file_unit().dimension;
   if (dimension == dimension::kTemperature) return 2000.0;
   return dimension == dimension::kPressure ? 1e8 : 1e5;
 }

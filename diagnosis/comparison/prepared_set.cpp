@@ -61,11 +61,11 @@ std::vector<Block> make_blocks(const std::vector<std::size_t>& rows, const std::
 
 }  // namespace
 
-void require_noise(const measurements::MeasurementSet& set, const std::string& channel) {
+void require_noise(const measurements::MeasurementSet& set, const Quantity& channel) {
   const models::SensorParameters& sensor = set.sensors.at(channel);
   if (sensor.noise_sd > 0.0 || sensor.drift_sd > 0.0 || sensor.resolution > 0.0) return;
   throw InputError({"a sensor has no noise at all, so that nothing would be within it", set.path, 0,
-                    "[sensors." + channel + "]", "0", "noise_sd, drift_sd or resolution above 0", ""});
+                    "[sensors." + channel.header() + "]", "0", "noise_sd, drift_sd or resolution above 0", ""});
 }
 
 PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings extra)
@@ -73,11 +73,11 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   std::sort(set_.runs.begin(), set_.runs.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   for (measurements::MeasuredRun& run : set_.runs) kind_->complete(set_, run);
   context_ = measurements::make_context(set_);
-  std::vector<std::string> readable = measurements::measured_channels(*set_.kind);
-  for (const std::string& channel : extra_.sensors) {
+  std::vector<Quantity> readable = measurements::measured_channels(*set_.kind);
+  for (const Quantity& channel : extra_.sensors) {
     if (std::find(readable.begin(), readable.end(), channel) == readable.end()) readable.push_back(channel);
   }
-  for (const std::string& channel : readable) {
+  for (const Quantity& channel : readable) {
     const bool measured = std::any_of(set_.runs.begin(), set_.runs.end(),
                                       [&](const measurements::MeasuredRun& run) { return run.has_samples(channel); });
     if (measured) channels_.push_back(channel);
@@ -103,13 +103,13 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
 
 void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t offset) {
   const PreparedRun& run = runs_[r];
-  const std::string& name = channels_[channel];
-  const models::SensorParameters& sensor = set_.sensors.at(name);
-  require_noise(set_, name);
-  const std::vector<double>& values = run.measured.columns.at(name);
-  std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, name);
+  const Quantity& quantity = channels_[channel];
+  const models::SensorParameters& sensor = set_.sensors.at(quantity);
+  require_noise(set_, quantity);
+  const std::vector<double>& values = run.measured.column(quantity);
+  std::vector<std::size_t> rows = kind_->find_compared_rows(run.measured, quantity);
   const bool reads_zero = extra_.force_at_standstill || run.measured.force_at_standstill;
-  if (reads_zero && name == kind_->force_channel(set_).name) add_standstill_rows(run.measured, values, rows);
+  if (reads_zero && quantity == set_.kind->traits.force) add_standstill_rows(run.measured, values, rows);
   if (rows.empty()) return;
   const std::vector<std::size_t> phases = phase_by_row(run);
   std::vector<Block> blocks = make_blocks(rows, run.measured.time_s, phases);

@@ -56,11 +56,11 @@ struct PreparedRun {
 /// What a test may read beyond a measurement set's columns.
 struct ExtraReadings {
   bool force_at_standstill = false;  // where the surface stands: the sensor's zero
-  std::vector<std::string> sensors;  // channels of sensors that the rig has not (rig_sensors.h)
+  std::vector<Quantity> sensors;     // channels of sensors that the rig has not (rig_sensors.h)
 };
 
 /// Throws InputError where the sensor of a channel has no noise at all.
-void require_noise(const measurements::MeasurementSet& set, const std::string& channel);
+void require_noise(const measurements::MeasurementSet& set, const Quantity& channel);
 
 /// Runs are put in the order of their ids, so that the order in the file does not matter.
 /// Blocks are 10 s long and end where a phase or an averaging gap does. What depends on the kind of the set
@@ -75,7 +75,7 @@ class PreparedSet {
   const MeasurementKind& kind() const { return *kind_; }
   const models::Context<double>& context() const { return context_; }
   const std::vector<PreparedRun>& runs() const { return runs_; }
-  const std::vector<std::string>& channels() const { return channels_; }
+  const std::vector<Quantity>& channels() const { return channels_; }
   const std::vector<Series>& series() const { return series_; }
   std::size_t offset_count() const { return offset_count_; }
   std::size_t residual_count() const { return residual_count_; }
@@ -90,7 +90,7 @@ class PreparedSet {
   const MeasurementKind* kind_;
   models::Context<double> context_;
   std::vector<PreparedRun> runs_;
-  std::vector<std::string> channels_;
+  std::vector<Quantity> channels_;
   std::vector<Series> series_;
   std::size_t offset_count_ = 0;
   std::size_t residual_count_ = 0;

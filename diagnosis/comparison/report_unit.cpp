@@ -5,10 +5,10 @@
 
 namespace rollrig::diagnosis {
 
-ReportUnit find_report_unit(const PreparedSet& set, const std::string& channel) {
-  const ForceChannel force = set.kind().force_channel(set.source());
-  if (channel == force.name) return {"N", force.newtons_per_SI};
-  const Unit unit = unit_of_key(channel);
+ReportUnit find_report_unit(const PreparedSet& set, const Quantity& channel) {
+  const measurements::MeasurementSet& source = set.source();
+  if (channel == source.kind->traits.force) return {"N", set.kind().force_channel(source).newtons_per_SI};
+  const Unit unit = channel.file_unit();
   return {unit.symbol, 1.0 / unit.factor};
 }
 

@@ -201,7 +201,7 @@ std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& bef
       if (measure.channels.empty()) return 0.0;  // no run could be simulated
       return unit.per_SI * measure.channels[c].gap();
     };
-    channels.push_back({set.channels()[c], unit.symbol, in_unit(before), in_unit(after)});
+    channels.push_back({set.channels()[c].header(), unit.symbol, in_unit(before), in_unit(after)});
   }
   return channels;
 }

@@ -163,13 +163,14 @@ Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unkno
 
 Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& sized) {
   Location location;
-  location.channel = set.channels()[stretch.series->channel];
+  const Quantity& channel = set.channels()[stretch.series->channel];
+  location.channel = channel.header();
   location.run = set.runs()[stretch.series->run].measured.id;
   location.phase = stretch.name;
   location.z = sized.z;
   location.start_s = stretch.start_s;
   location.end_s = stretch.end_s;
-  const ReportUnit unit = find_report_unit(set, location.channel);
+  const ReportUnit unit = find_report_unit(set, channel);
   location.size = sized.size * unit.per_SI;
   location.unit = unit.symbol;
   return location;

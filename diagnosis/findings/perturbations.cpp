@@ -258,7 +258,7 @@ std::vector<PerturbationFamily> calc_perturbations(const Study& study) {
   std::vector<std::vector<double>> knots_s;
   for (const PreparedRun& run : set.runs()) knots_s.push_back(find_perturbation_knots(run));
   for (std::size_t channel = 0; channel < set.channels().size(); ++channel) {
-    const auto* of_tire = models::find_tire_channel(intern_quantity(set.channels()[channel]));
+    const auto* of_tire = models::find_tire_channel(set.channels()[channel]);
     if (of_tire != nullptr) families.push_back(perturb_sensor(set, channel, of_tire->sensor, knots_s));
   }
   return families;

@@ -4,7 +4,7 @@
 namespace rollrig::diagnosis {
 
 const MeasurementKind& drum_kind() {
-  static const TireRigKind kind({"drum_torque_Nm", "torque", "drum torque", "kN m"});
+  static const TireRigKind kind(models::quantities::kDrumTorque, {"torque", "drum torque", "kN m"});
   return kind;
 }
 

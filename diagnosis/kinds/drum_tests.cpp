@@ -262,7 +262,7 @@ std::vector<PlannedTest> make_drum_tests(const PreparedSet& set) {
 
 PlannedTest make_drum_sensor_test(const PreparedSet& set) {
   TestConditions at = find_test_conditions(set);
-  std::vector<std::string> sensors;
+  std::vector<Quantity> sensors;
   for (const RigSensor& sensor : all_rig_sensors()) {
     const bool is_there = std::find(at.channels.begin(), at.channels.end(), sensor.channel) != at.channels.end();
     const bool is_recorded = sensor.channel == kSurfaceReading && records_surface(set);

@@ -13,16 +13,16 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-constexpr const char* kLoss = "loss_force_N";
+constexpr Quantity kLoss = models::quantities::kLossForce;
 
 class DynoKind : public KindWithRig {
  public:
-  ForceChannel force_channel(const MeasurementSet&) const override { return {kLoss, "loss force", 1.0}; }
+  ForceChannel force_channel(const MeasurementSet&) const override { return {"loss force", 1.0}; }
 
   /// The loss is compensated for inertia, so that speed changes count; below 20 km/h and within 30 s of a load change
   /// it does not.
-  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
-    const std::vector<double>& values = run.columns.at(channel);
+  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const Quantity& channel) const override {
+    const std::vector<double>& values = run.column(channel);
     const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
     std::vector<std::size_t> rows;
     double settled_s = run.time_s.front();

@@ -107,7 +107,7 @@ PlannedTest warm_surface(const TestConditions& at) {
 
 std::vector<PlannedTest> make_dyno_tests(const PreparedSet& set) {
   TestConditions at = find_test_conditions(set);
-  at.held = {{"longitudinal_force_N", 0.0}};
+  at.held = {{models::quantities::kLongitudinalForce, 0.0}};
   std::vector<PlannedTest> menu;
   for (const auto make : {steady_from_cold, rollers_alone, speed_steps_hot, drive_and_brake, ramps, ballast,
                           pressure_sweep, rests, soak_with_pressure, rim_thermocouple, warm_surface}) {

@@ -17,9 +17,8 @@
 
 namespace rollrig::diagnosis {
 
-/// The one channel of a kind that measures a force.
+/// The one channel of a kind that measures a force, which its traits name.
 struct ForceChannel {
-  std::string name;             // "drum_torque_Nm"
   std::string word;             // in messages: "torque"
   double newtons_per_SI = 1.0;  // as force at the surface
 };
@@ -35,7 +34,7 @@ class MeasurementKind {
   virtual ForceChannel force_channel(const measurements::MeasurementSet& set) const = 0;
   /// Rows of a channel that a comparison uses: those with a sample that the simulation can be held to.
   virtual std::vector<std::size_t> find_compared_rows(const measurements::MeasuredRun& run,
-                                                      const std::string& channel) const = 0;
+                                                      const Quantity& channel) const = 0;
   virtual std::vector<RunPhase> find_phases(const measurements::MeasurementSet& set,
                                             const measurements::MeasuredRun& run) const = 0;
   /// Load at or below which a tire is in skim; 0 where there is no skim.

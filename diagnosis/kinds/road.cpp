@@ -12,19 +12,19 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-constexpr const char* kTraction = "traction_force_N";
+constexpr Quantity kTraction = models::quantities::kTractionForce;
 
 class RoadKind : public MeasurementKind {
  public:
   /// Every tire carries its share of the weight.
   void complete(const MeasurementSet& set, MeasuredRun& run) const override {
-    run.columns["load_N"].assign(run.time_s.size(), measurements::find_tire_load_N(*set.vehicle));
+    run.columns[models::quantities::kLoad].assign(run.time_s.size(), measurements::find_tire_load_N(*set.vehicle));
   }
 
-  ForceChannel force_channel(const MeasurementSet&) const override { return {kTraction, "traction force", 1.0}; }
+  ForceChannel force_channel(const MeasurementSet&) const override { return {"traction force", 1.0}; }
 
-  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const std::string& channel) const override {
-    const std::vector<double>& values = run.columns.at(channel);
+  std::vector<std::size_t> find_compared_rows(const MeasuredRun& run, const Quantity& channel) const override {
+    const std::vector<double>& values = run.column(channel);
     const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
     std::vector<std::size_t> rows;
     for (std::size_t row = 0; row < values.size(); ++row) {
@@ -74,7 +74,7 @@ class RoadKind : public MeasurementKind {
     wrong.push_back({kTraction, 3.6, 0.0, "is too small by a factor of 3.6"});
     wrong.push_back({kTraction, -1.0, 0.0, "has the other sign: positive drives"});
     wrong.push_back({kTraction, 1e3, 0.0, "holds kN"});
-    wrong.push_back({"elevation_m", 0.3048, 0.0, "holds feet"});
+    wrong.push_back({models::quantities::kElevation, 0.3048, 0.0, "holds feet"});
     return wrong;
   }
 

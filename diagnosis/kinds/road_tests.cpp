@@ -64,7 +64,7 @@ PlannedTest repeat(const PlannedTest& once) {
 
 std::vector<PlannedTest> make_road_tests(const PreparedSet& set) {
   TestConditions at = find_test_conditions(set);
-  at.held = {{"elevation_m", 0.0}};
+  at.held = {{models::quantities::kElevation, 0.0}};
   std::vector<PlannedTest> menu;
   for (const auto make : {steady_from_cold, cold_air, warm_steps, ramps, rests}) menu.push_back(make(at));
   const std::size_t count = menu.size();

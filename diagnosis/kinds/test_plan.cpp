@@ -12,6 +12,8 @@
 namespace rollrig::diagnosis {
 namespace {
 
+namespace quantities = models::quantities;
+
 constexpr double kSetUp_h = 0.5;
 constexpr double kAcceleration_km_h_s = 1.0;
 
@@ -24,7 +26,7 @@ TestConditions find_test_conditions(const PreparedSet& set) {
                    pressures_Pa.end());
   double load_N = 0.0;
   for (const PreparedRun& run : set.runs()) {
-    const std::vector<double>& loads_N = run.measured.columns.at("load_N");
+    const std::vector<double>& loads_N = run.measured.column(quantities::kLoad);
     load_N = std::max(load_N, *std::max_element(loads_N.begin(), loads_N.end()));
   }
   return {load_N,
@@ -55,7 +57,7 @@ RunPlan& RunPlan::roll(double minutes, double load_N, double speed_km_h, bool re
 }
 
 RunPlan& RunPlan::pull(double longitudinal_force_N) {
-  conditions_.held["longitudinal_force_N"] = longitudinal_force_N;
+  conditions_.held[quantities::kLongitudinalForce] = longitudinal_force_N;
   return *this;
 }
 
@@ -82,20 +84,21 @@ RunPlan& RunPlan::reversed() {
 measurements::MeasuredRun RunPlan::finish() {
   add_row(speed_km_h_);
   const auto hangs = [](double torque_Nm) { return torque_Nm != 0.0; };
-  if (std::any_of(hung_by_row_Nm_.begin(), hung_by_row_Nm_.end(), hangs)) run_.columns[kHungTorque] = hung_by_row_Nm_;
+  if (std::any_of(hung_by_row_Nm_.begin(), hung_by_row_Nm_.end(), hangs))
+    run_.columns[quantities::kHungTorque] = hung_by_row_Nm_;
   return run_;
 }
 
 void RunPlan::add_row(double speed_km_h) {
   const bool first = run_.time_s.empty();
   run_.time_s.push_back(first ? 0.0 : run_.time_s.back() + kVirtualRow_s);
-  run_.columns["speed_km_h"].push_back(speed_km_h / 3.6);
-  run_.columns["load_N"].push_back(load_N_);
-  run_.columns["ambient_degC"].push_back(conditions_.ambient_K);
+  run_.columns[quantities::kSpeed].push_back(speed_km_h / 3.6);
+  run_.columns[quantities::kLoad].push_back(load_N_);
+  run_.columns[quantities::kAmbient].push_back(conditions_.ambient_K);
   hung_by_row_Nm_.push_back(hung_Nm_);
   for (const auto& [column, value] : conditions_.held) run_.columns[column].push_back(value);
-  if (surface_K_ > 0.0) run_.columns["surface_temperature_degC"].push_back(surface_K_);
-  for (const std::string& channel : conditions_.channels) {
+  if (surface_K_ > 0.0) run_.columns[quantities::kSurfaceTemperature].push_back(surface_K_);
+  for (const Quantity& channel : conditions_.channels) {
     run_.columns[channel].push_back(read_ ? 0.0 : std::numeric_limits<double>::quiet_NaN());
   }
 }
@@ -107,13 +110,13 @@ RunPlan begin_warm(const TestConditions& at) {
 RunPlan begin_cold(const TestConditions& at) { return {at, kUsual_km_h}; }
 
 TestConditions read_rim_too(TestConditions at) {
-  at.channels.emplace_back(kRimTemperature);
+  at.channels.push_back(quantities::kRimTemperature);
   return at;
 }
 
 PlannedTest fit_rim_thermocouple(PlannedTest test) {
-  test.hours += find_rig_sensor(kRimTemperature).hours;
-  test.extra.sensors = {kRimTemperature};
+  test.hours += find_rig_sensor(quantities::kRimTemperature).hours;
+  test.extra.sensors = {quantities::kRimTemperature};
   test.by_hand = {"Fit a thermocouple to the rim, with a slip ring or a logger on the wheel."};
   return test;
 }

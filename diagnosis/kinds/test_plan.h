@@ -18,8 +18,8 @@ struct TestConditions {
   double skim_N = 0.0;
   double pressure_Pa = 0.0;
   double ambient_K = 0.0;
-  std::vector<std::string> channels;
-  std::map<std::string, double> held;  // further given columns, with what they hold unless a stage says otherwise
+  std::vector<Quantity> channels;
+  std::map<Quantity, double> held;  // further given columns, with what they hold unless a stage says otherwise
 };
 
 /// The set's highest load, on which the tire is known to run, its middle pressure, and its kind's usual ambient.

@@ -16,19 +16,18 @@ class TireRigKind : public KindWithRig {
  public:
   /// How messages call the force channel.
   struct Words {
-    const char* heading;
     const char* force;         // "torque"
     const char* perturbation;  // "drum torque"
     const char* kilo;          // its unit a thousand times as large
   };
-  explicit TireRigKind(const Words& words) : words_(words) {}
+  TireRigKind(const Quantity& force, const Words& words) : force_(force), words_(words) {}
 
   ForceChannel force_channel(const measurements::MeasurementSet& set) const override {
-    return {words_.heading, words_.force, 1.0 / set.rig->lever_m()};
+    return {words_.force, 1.0 / set.rig->lever_m()};
   }
 
   std::vector<std::size_t> find_compared_rows(const measurements::MeasuredRun& run,
-                                              const std::string& channel) const override {
+                                              const Quantity& channel) const override {
     return measurements::find_compared_rows(run, channel);
   }
 
@@ -62,9 +61,9 @@ class TireRigKind : public KindWithRig {
   /// all else anyway.
   std::vector<WrongUnit> list_wrong_units() const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
-    wrong.push_back({words_.heading, 1e3, 0.0, std::string("holds ") + words_.kilo});
-    wrong.push_back({words_.heading, 3.6, 0.0, "is too small by a factor of 3.6"});
-    wrong.push_back({words_.heading, -1.0, 0.0, "has the other sign: positive drives"});
+    wrong.push_back({force_, 1e3, 0.0, std::string("holds ") + words_.kilo});
+    wrong.push_back({force_, 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({force_, -1.0, 0.0, "has the other sign: positive drives"});
     return wrong;
   }
 
@@ -75,6 +74,7 @@ class TireRigKind : public KindWithRig {
   }
 
  private:
+  Quantity force_;
   Words words_;
 };
 

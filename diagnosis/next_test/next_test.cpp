@@ -101,18 +101,18 @@ std::vector<NextSensor> propose_sensors(const Study& study, const std::vector<Op
   if (!run.has_value()) return {};
   const PredictedTest predicted(study, open, *run);
   if (!predicted.is_possible()) return {};
-  const std::vector<std::string>& added = run->extra.sensors;
-  const auto is_added = [&](const std::string& channel) {
+  const std::vector<Quantity>& added = run->extra.sensors;
+  const auto is_added = [&](const Quantity& channel) {
     return std::find(added.begin(), added.end(), channel) != added.end();
   };
   const std::vector<double> probabilities = list_probabilities(open);
   const std::vector<PredictedOutcome> without =
-      predicted.find_outcomes([&](const std::string& channel) { return !is_added(channel); });
+      predicted.find_outcomes([&](const Quantity& channel) { return !is_added(channel); });
   const double bits_without = calc_information_bits(probabilities, without);
   std::vector<NextSensor> proposed;
-  for (const std::string& sensor : added) {
+  for (const Quantity& sensor : added) {
     const std::vector<PredictedOutcome> with =
-        predicted.find_outcomes([&](const std::string& channel) { return channel == sensor || !is_added(channel); });
+        predicted.find_outcomes([&](const Quantity& channel) { return channel == sensor || !is_added(channel); });
     const double bits = calc_information_bits(probabilities, with) - bits_without;
     if (bits < kWorthwhile_bits) continue;
     const Splits splits = find_splits(open, [&](std::size_t a, std::size_t b) {

@@ -13,6 +13,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
+namespace quantities = models::quantities;
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
@@ -31,37 +32,35 @@ PlanWords find_words(const MachineKind& kind) {
 }
 
 /// Given columns of a run of the kind, as far as it has them.
-std::vector<std::string> find_given_columns(const MeasuredRun& run, const MachineKind& kind) {
-  std::vector<std::string> columns;
+std::vector<Quantity> find_given_columns(const MeasuredRun& run, const MachineKind& kind) {
+  std::vector<Quantity> columns;
   for (const rigs::Column& column : kind.columns.all_given()) {
-    if (run.has(column.quantity)) columns.push_back(column.quantity.header());
+    if (run.has(column.quantity)) columns.push_back(column.quantity);
   }
   return columns;
 }
 
 /// Whether a row says nothing that its neighbors do not: the load goes on, all else lies on a straight line.
-bool is_between(const MeasuredRun& run, const std::vector<std::string>& columns, std::size_t row) {
+bool is_between(const MeasuredRun& run, const std::vector<Quantity>& columns, std::size_t row) {
   constexpr double kSame = 1e-9;
   const double share = (run.time_s[row] - run.time_s[row - 1]) / (run.time_s[row + 1] - run.time_s[row - 1]);
-  return std::all_of(columns.begin(), columns.end(), [&](const std::string& name) {
-    const std::vector<double>& values = run.columns.at(name);
+  return std::all_of(columns.begin(), columns.end(), [&](const Quantity& quantity) {
+    const std::vector<double>& values = run.column(quantity);
     const double before = values[row - 1];
-    const double expected = name == "load_N" ? before : before + share * (values[row + 1] - before);
+    const double expected = quantity == quantities::kLoad ? before : before + share * (values[row + 1] - before);
     return std::abs(values[row] - expected) <= kSame * (1.0 + std::abs(expected));
   });
 }
 
 std::string write_inputs(const MeasuredRun& run, const MachineKind& kind) {
-  const std::vector<std::string> columns = find_given_columns(run, kind);
-  std::vector<std::string> header{"time_s"};
-  header.insert(header.end(), columns.begin(), columns.end());
-  CsvWriter csv(header);
+  const std::vector<Quantity> columns = find_given_columns(run, kind);
+  CsvWriter csv(list_headers(columns, {"time_s"}));
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
     const bool is_end = row == 0 || row + 1 == run.time_s.size();
     if (!is_end && is_between(run, columns, row)) continue;
     csv.begin_row();
     csv.add(run.time_s[row]);
-    for (const std::string& column : columns) csv.add(unit_of_key(column).from_si(run.columns.at(column)[row]));
+    for (const Quantity& column : columns) csv.add(column.file_unit().from_si(run.column(column)[row]));
     csv.end_row();
   }
   return csv.take();
@@ -105,10 +104,10 @@ bool holds_same(const Stage& a, const Stage& b) {
 
 /// Stages of constant speed, load and force; changes of speed count to what follows.
 std::vector<Stage> find_stages(const MeasuredRun& run) {
-  const std::vector<double>& load_N = run.columns.at("load_N");
-  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>& load_N = run.column(quantities::kLoad);
+  const std::vector<double>& speed_m_s = run.column(quantities::kSpeed);
   const std::vector<double>* pull_N =
-      run.has("longitudinal_force_N") ? &run.columns.at("longitudinal_force_N") : nullptr;
+      run.has(quantities::kLongitudinalForce) ? &run.column(quantities::kLongitudinalForce) : nullptr;
   std::vector<Stage> stages;
   double since_s = run.time_s.front();
   for (std::size_t row = 0; row + 1 < run.time_s.size(); ++row) {
@@ -141,7 +140,7 @@ std::string describe_stage(const Stage& stage, const MachineKind& kind) {
 
 std::string describe_run(const ProposedTest& test, std::size_t index, const MachineKind& kind) {
   const MeasuredRun& run = test.runs[index];
-  const double ambient_degC = run.columns.at("ambient_degC").front() - kZeroCelsius_K;
+  const double ambient_degC = run.column(quantities::kAmbient).front() - kZeroCelsius_K;
   std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
                                  (run.time_s.back() - run.time_s.front()) / 60.0);
   const std::vector<Stage> stages = find_stages(run);

@@ -29,7 +29,7 @@ measurements::MeasurementSet make_virtual_set(const PreparedSet& set, const Plan
   made.runs = test.runs;
   const double samples = std::max(1.0, kVirtualRow_s / find_sample_interval_s(set));
   for (auto& [channel, sensor] : made.sensors) sensor = average_sensor(sensor, samples);
-  for (const std::string& channel : test.extra.sensors) made.sensors[channel] = find_rig_sensor(channel).error;
+  for (const Quantity& channel : test.extra.sensors) made.sensors[channel] = find_rig_sensor(channel).error;
   return made;
 }
 
@@ -165,8 +165,7 @@ std::vector<PredictedOutcome> PredictedTest::reduce(const std::vector<Prediction
   return outcomes;
 }
 
-std::vector<PredictedOutcome> PredictedTest::find_outcomes(
-    const std::function<bool(const std::string&)>& wanted) const {
+std::vector<PredictedOutcome> PredictedTest::find_outcomes(const std::function<bool(const Quantity&)>& wanted) const {
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (wanted(channels_[i])) rows.push_back(at(i));

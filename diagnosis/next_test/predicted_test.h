@@ -20,7 +20,7 @@ class PredictedTest {
   /// Whether every hypothesis can be simulated on it.
   bool is_possible() const { return !predictions_.empty(); }
 
-  /// Outcomes as far as the channels of `wanted` show them: "" stands for the clocks.
+  /// Outcomes as far as the channels of `wanted` show them: one without a name stands for the clocks.
   /// Equation  covariance = 1 + (J L)(J L)^T + offsets, L L^T what the parameters are uncertain by after the
   ///           measurement, all of it reduced to the directions in which means and covariances of the hypotheses differ
   ///           from 1
@@ -28,8 +28,9 @@ class PredictedTest {
   ///           proportion to what they differ by on average. Noise and model error of a channel do not depend on
   ///           another, so that whitened rows may be left out
   /// Checked   tests/diagnosis/next_test_test.cpp
-  std::vector<PredictedOutcome> find_outcomes(const std::function<bool(const std::string&)>& wanted =
-                                                  [](const std::string&) { return true; }) const;
+  std::vector<PredictedOutcome> find_outcomes(const std::function<bool(const Quantity&)>& wanted = [](const Quantity&) {
+    return true;
+  }) const;
 
  private:
   /// Of one hypothesis: block means and how they move with the spread of its parameters.
@@ -43,8 +44,8 @@ class PredictedTest {
   static std::vector<PredictedOutcome> reduce(const std::vector<Prediction>& predictions, const RowMatrix& common);
 
   std::vector<Prediction> predictions_;
-  RowMatrix offsets_;                  // columns of the new session's sensor offsets
-  std::vector<std::string> channels_;  // of each row
+  RowMatrix offsets_;               // columns of the new session's sensor offsets
+  std::vector<Quantity> channels_;  // of each row
 };
 
 }  // namespace rollrig::diagnosis

@@ -18,10 +18,10 @@ DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Co
 }
 
 void DrumResiduals::collect_series() {
-  std::map<std::pair<std::string, std::string>, std::size_t> offsets;  // by session and channel
+  std::map<std::pair<std::string, Quantity>, std::size_t> offsets;  // by session and channel
   for (std::size_t r = 0; r < set_.runs.size(); ++r) {
     const measurements::MeasuredRun& run = set_.runs[r];
-    for (const std::string& channel : measurements::measured_channels(*set_.kind)) {
+    for (const Quantity& channel : measurements::measured_channels(*set_.kind)) {
       if (!run.has(channel)) continue;
       const models::SensorParameters& sensor = set_.sensors.at(channel);
       std::vector<std::size_t> rows = measurements::find_compared_rows(run, channel);
@@ -55,7 +55,7 @@ void DrumResiduals::evaluate_run(std::size_t r, const std::vector<S>& values, co
   for (const ComparedSeries& series : series_) {
     if (series.run != r) continue;
     const std::vector<S>& simulated = recording.channel(series.channel);
-    const std::vector<double>& measured = run.columns.at(series.channel);
+    const std::vector<double>& measured = run.column(series.channel);
     const std::size_t n = series.rows.size();
     std::vector<double> difference(n);
     std::vector<double> derivatives(n * columns.count);

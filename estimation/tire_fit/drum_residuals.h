@@ -13,7 +13,7 @@ namespace rollrig::estimation {
 /// Samples of one channel of one run that are compared.
 struct ComparedSeries {
   std::size_t run = 0;
-  std::string channel;
+  Quantity channel;
   std::size_t offset = 0;  // index of the sensor offset that it shares with its session
   std::vector<std::size_t> rows;
   measurements::Whitener whitener;

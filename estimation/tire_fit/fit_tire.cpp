@@ -107,7 +107,7 @@ void measure_channels(const measurements::MeasurementSet& set, const DrumResidua
                       const std::vector<double>& at_best, TireFit& fit) {
   std::size_t samples = 0;
   double chi2 = 0.0;
-  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
+  for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     ChannelFit of_channel{channel, 0, 0.0};
     for (const ComparedSeries& series : residuals.series()) {
       if (series.channel != channel) continue;
@@ -224,7 +224,7 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
   json["channels"] = Json::array();
   for (const ChannelFit& channel : fit.channels) {
     json["channels"].push_back(
-        {{"channel", channel.channel}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
+        {{"channel", channel.channel.header()}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
   }
   const TwoStepEstimate& two_step = fit.two_step;
   Lines::visit(two_step, [&](const Field& line, double value) { json["two_step"][line.key] = value; });

@@ -25,7 +25,7 @@ struct Estimate {
 
 /// How well one channel is met.
 struct ChannelFit {
-  std::string channel;
+  Quantity channel;
   std::size_t samples = 0;
   double whitened_rms = 0.0;  // 1 when the noise is as the sensors say
 };

@@ -11,6 +11,8 @@
 namespace rollrig::measurements {
 namespace {
 
+namespace quantities = models::quantities;
+
 InputError make_error(const Log& tire_log, const std::string& what, const std::string& value) {
   return InputError(
       {what, tire_log.file, 0, "[clock]", value,
@@ -20,7 +22,7 @@ InputError make_error(const Log& tire_log, const std::string& what, const std::s
 }
 
 /// Rows of a channel that have a value.
-Tie start_tie(const Log& log, const std::string& channel) {
+Tie start_tie(const Log& log, const Quantity& channel) {
   Tie tie;
   tie.channel = channel;
   const std::vector<double>& values = log.columns.at(channel);
@@ -56,7 +58,7 @@ std::vector<Tie> make_common_ties(const Log& torque_log, const Log& tire_log, co
     tie.is_common = true;
     tie.basis.node_s = other.time_s;
     tie.basis.functions = {other.values};
-    if (channel == "load_N" && mapping.clock.load_changes_at_rows) {
+    if (channel == quantities::kLoad && mapping.clock.load_changes_at_rows) {
       // In each log a load holds from its row to the next: it is that of the middle between them.
       for (double& time_s : tie.basis.node_s) time_s += 0.5 * torque_log.interval_s;
       for (double& time_s : tie.time_s) time_s += 0.5 * tire_log.interval_s;
@@ -71,11 +73,11 @@ std::vector<Tie> make_common_ties(const Log& torque_log, const Log& tire_log, co
 
 std::vector<Tie> make_response_ties(const Log& torque_log, const Log& tire_log, const Mapping& mapping) {
   std::vector<Tie> ties;
-  if (!torque_log.has("speed_km_h")) return ties;
+  if (!torque_log.has(quantities::kSpeed)) return ties;
   // The first that is there: what lies behind a second store answers with a lag of its own. Not the pressure: what the
   // gas and the volume add to it leaves shifts seconds apart alike.
-  const std::pair<const char*, Response> kinds[] = {{"liner_temperature_degC", Response::kRubber},
-                                                    {"gas_temperature_degC", Response::kGas}};
+  const std::pair<Quantity, Response> kinds[] = {{quantities::kLinerTemperature, Response::kRubber},
+                                                 {quantities::kGasTemperature, Response::kGas}};
   for (const auto& [channel, response] : kinds) {
     if (!tire_log.has(channel) || !ties.empty()) continue;
     Tie tie = start_tie(tire_log, channel);
@@ -125,7 +127,7 @@ std::string judge_peak(const ClockPeak& peak, const std::vector<Tie>& ties, cons
 }
 
 bool has_load_steps(const Log& log) {
-  const auto found = log.columns.find("load_N");
+  const auto found = log.columns.find(quantities::kLoad);
   return found != log.columns.end() && calc_spread(found->second) > 0.0;
 }
 
@@ -151,7 +153,7 @@ double find_sampling_sd(const std::vector<Tie>& ties, const Log& torque_log, con
   if (plan.load_changes_at_rows) return stamps_s;
   double variance = stamps_s * stamps_s;
   for (const Tie& tie : ties) {
-    const bool common_load = tie.channel == "load_N";
+    const bool common_load = tie.channel == quantities::kLoad;
     if (!common_load && (tie.is_common || !has_load_steps(torque_log))) continue;
     const double rows_s2 =
         torque_log.interval_s * torque_log.interval_s + (common_load ? tire_log.interval_s * tire_log.interval_s : 0.0);

@@ -11,7 +11,7 @@ namespace rollrig::measurements {
 
 /// What one channel of the tire log had to say.
 struct ClockEvidence {
-  std::string channel;
+  Quantity channel;
   bool is_common = false;  // measured by both logs; else a response of the tire
   std::size_t rows = 0;
   double explained = 0.0;  // share of what varies that follows the torque log

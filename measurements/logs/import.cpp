@@ -74,12 +74,12 @@ void average_sensors(const Mapping& mapping, Import& imported) {
 void add_warnings(Import& imported) {
   constexpr double kManySpikes = 0.01;  // Assumed: of a log's rows
   for (const Log& log : imported.logs) {
-    std::map<std::string, std::size_t> spikes;
+    std::map<Quantity, std::size_t> spikes;
     for (const Mark& mark : log.marks) spikes[mark.column] += mark.reason == "spike" ? 1 : 0;
     for (const auto& [column, count] : spikes) {
       if (static_cast<double>(count) < kManySpikes * static_cast<double>(log.time_s.size())) continue;
       imported.warnings.push_back(fmt::format("{} of {} rows of '{}' in {} are spikes: more than a sensor at ease has",
-                                              count, log.time_s.size(), column, log.file));
+                                              count, log.time_s.size(), column.header(), log.file));
     }
   }
   for (const ClockEstimate& clock : imported.clocks) {
@@ -96,7 +96,7 @@ void add_warnings(Import& imported) {
   for (const ImportedRun& run : imported.runs) {
     for (const auto& [column, values] : run.rows.columns) {
       if (std::any_of(values.begin(), values.end(), [](double value) { return !std::isnan(value); })) continue;
-      imported.warnings.push_back(fmt::format("run '{}' has not one value of '{}'", run.plan.id, column));
+      imported.warnings.push_back(fmt::format("run '{}' has not one value of '{}'", run.plan.id, column.header()));
     }
   }
 }

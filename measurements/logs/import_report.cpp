@@ -11,12 +11,12 @@ std::string quote(const std::string& text) { return Json(text).dump(); }
 
 std::string make_run_csv(const ResampledRun& run) {
   std::vector<std::string> header{"time_s"};
-  for (const auto& column : run.columns) header.push_back(column.first);
+  for (const auto& column : run.columns) header.push_back(column.first.header());
   CsvWriter csv(header);
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
     csv.begin_row();
     csv.add(run.time_s[row]);
-    for (const auto& [name, values] : run.columns) csv.add(unit_of_key(name).from_si(values[row]));
+    for (const auto& [quantity, values] : run.columns) csv.add(quantity.file_unit().from_si(values[row]));
     csv.end_row();
   }
   return csv.take();
@@ -57,7 +57,7 @@ std::string make_marks_csv(const Import& imported) {
       csv.begin_row();
       csv.add(mark.log);
       csv.add(static_cast<double>(mark.line));
-      csv.add(mark.column);
+      csv.add(mark.column.header());
       csv.add(mark.from_s, 15);
       csv.add(mark.to_s, 15);
       csv.add(mark.value.value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -86,7 +86,7 @@ Json make_clock_json(const ClockEstimate& clock) {
   json["log_likelihood_gain_of_next"] = clock.gain_next;
   json["evidence"] = Json::array();
   for (const ClockEvidence& evidence : clock.evidence) {
-    json["evidence"].push_back({{"channel", evidence.channel},
+    json["evidence"].push_back({{"channel", evidence.channel.header()},
                                 {"kind", evidence.is_common ? "common" : "response"},
                                 {"rows", evidence.rows},
                                 {"explained_percent", 100.0 * evidence.explained}});
@@ -97,6 +97,13 @@ Json make_clock_json(const ClockEstimate& clock) {
 /// A value as the log has it, without what the way to SI and back added in the last digits.
 Json as_read(double value) { return std::stod(fmt::format("{:.12g}", value)); }
 
+template <class T>
+Json make_json(const QuantityMap<T>& values) {
+  Json json = Json::object();
+  for (const auto& [quantity, value] : values) json[quantity.header()] = value;
+  return json;
+}
+
 Json make_log_json(const Log& log) {
   Json json;
   json["file"] = log.file;
@@ -104,11 +111,11 @@ Json make_log_json(const Log& log) {
   json["rows"] = log.time_s.size();
   json["interval_s"] = log.interval_s;
   json["ignored_columns"] = log.ignored_columns;
-  json["taken_as_zero"] = log.dead_banded;
+  json["taken_as_zero"] = make_json(log.dead_banded);
   json["marks"] = Json::array();
   for (const Mark& mark : log.marks) {
     Json entry{{"line", mark.line},
-               {"column", mark.column.empty() ? Json(nullptr) : Json(mark.column)},
+               {"column", mark.column.name().empty() ? Json(nullptr) : Json(mark.column.header())},
                {"from_s", mark.from_s},
                {"to_s", mark.to_s},
                {"value", mark.value.has_value() ? as_read(*mark.value) : Json(nullptr)},
@@ -124,11 +131,11 @@ Json make_run_json(const ImportedRun& run) {
   json["rows"] = run.rows.time_s.size();
   json["start_on_torque_log_s"] = run.rows.start_s;
   json["clock"] = run.clock.has_value() ? Json(*run.clock) : Json(nullptr);
-  json["samples_a_row"] = run.rows.samples_a_row;
-  json["rows_between_samples"] = run.rows.rows_between;
+  json["samples_a_row"] = make_json(run.rows.samples_a_row);
+  json["rows_between_samples"] = make_json(run.rows.rows_between);
   json["empty"] = Json::array();
   for (const EmptyRange& range : run.rows.empty) {
-    json["empty"].push_back({{"column", range.column},
+    json["empty"].push_back({{"column", range.column.header()},
                              {"from_s", range.from_s},
                              {"to_s", range.to_s},
                              {"rows", range.rows},

@@ -110,15 +110,16 @@ void check_range(const LogColumn& column, const CsvTable& csv, const std::vector
                  const std::vector<double>& values, std::size_t count) {
   constexpr double kMostOutside = 0.01;  // Assumed
   if (static_cast<double>(outside.size()) <= std::max(1.0, kMostOutside * static_cast<double>(count))) return;
-  const std::string symbol = unit_of_key(column.target).symbol;
-  throw InputError({fmt::format("{} of {} values of '{}' are out of range", outside.size(), count, column.target),
-                    csv.path(), csv.line_of(outside.front()), column.column,
-                    fmt::format("{:.6g} {}", values[outside.front()], symbol),
-                    fmt::format("{} {}; is the unit right?", column.allowed.to_string(), symbol), ""});
+  const std::string symbol = column.target.file_unit().symbol;
+  throw InputError(
+      {fmt::format("{} of {} values of '{}' are out of range", outside.size(), count, column.target.header()),
+       csv.path(), csv.line_of(outside.front()), column.column,
+       fmt::format("{:.6g} {}", values[outside.front()], symbol),
+       fmt::format("{} {}; is the unit right?", column.allowed.to_string(), symbol), ""});
 }
 
 void read_column(const LogColumn& column, const LogForm& form, const CsvTable& csv, Log& log) {
-  const Unit target = unit_of_key(column.target);
+  const Unit target = column.target.file_unit();
   std::vector<double> values = csv.plain_numbers(column.column, form.missing);
   std::vector<std::size_t> outside;
   std::size_t count = 0;
@@ -150,7 +151,7 @@ void mark_gaps(Log& log) {
   for (std::size_t row = 1; row < log.time_s.size(); ++row) {
     if (log.time_s[row] - log.time_s[row - 1] <= kGap * log.interval_s) continue;
     log.marks.push_back(
-        {log.file, log.line[row - 1], "", log.time_s[row - 1], log.time_s[row], std::nullopt, "no rows"});
+        {log.file, log.line[row - 1], {}, log.time_s[row - 1], log.time_s[row], std::nullopt, "no rows"});
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 /// One file of a logger: times in seconds, columns of the set in SI units.
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@ namespace rollrig::measurements {
 struct Mark {
   std::string log;              // path
   int line = 0;                 // of the file; of a gap the last line before it
-  std::string column;           // of the set; empty for a gap of whole rows
+  Quantity column;              // of the set; without a name for a gap of whole rows
   double from_s = 0.0;          // on the log's clock
   double to_s = 0.0;            // of a gap; else as from_s
   std::optional<double> value;  // as read, in the unit of the set's column
@@ -28,13 +27,13 @@ struct Log {
   bool is_utc = false;       // absolute, with a known offset to UTC
   std::vector<int> line;     // of each row
   std::vector<double> time_s;
-  double interval_s = 0.0;                             // median of the times between rows
-  std::map<std::string, std::vector<double>> columns;  // NaN where there is no value; constants are left out
+  double interval_s = 0.0;                   // median of the times between rows
+  QuantityMap<std::vector<double>> columns;  // NaN where there is no value; constants are left out
   std::vector<std::string> ignored_columns;
-  std::map<std::string, std::size_t> dead_banded;  // values taken as 0
+  QuantityMap<std::size_t> dead_banded;  // values taken as 0
   std::vector<Mark> marks;
 
-  bool has(const std::string& column) const { return columns.count(column) > 0; }
+  bool has(const Quantity& column) const { return columns.count(column) > 0; }
 };
 
 /// Reads a file as the mapping says; what is out of range is marked and left out, as are empty cells and gaps.

@@ -17,8 +17,8 @@ namespace rollrig::measurements {
 namespace {
 
 /// The unit that a text such as "km_h" or "bar" names; it must be one of the target's dimension.
-Unit read_unit(TableReader& reader, const std::string& target) {
-  const Unit wanted = unit_of_key(target);
+Unit read_unit(TableReader& reader, const Quantity& target) {
+  const Unit wanted = target.file_unit();
   if (!reader.has("unit")) {
     reader.accept("unit");
     return wanted;
@@ -26,7 +26,7 @@ Unit read_unit(TableReader& reader, const std::string& target) {
   const std::string text = reader.text("unit");
   const Unit unit = unit_of_key("value_" + text);
   if (unit.symbol.empty() || !(unit.dimension == wanted.dimension)) {
-    throw reader.problem("unit", fmt::format("'{}' is no unit of {} that rollrig knows", text, target),
+    throw reader.problem("unit", fmt::format("'{}' is no unit of {} that rollrig knows", text, target.header()),
                          fmt::format("a unit as in the suffix of a key, of the kind of {}; others by factor and "
                                      "offset (docs/import.md)",
                                      wanted.symbol));
@@ -36,16 +36,17 @@ Unit read_unit(TableReader& reader, const std::string& target) {
 
 LogColumn read_column(const ConfigTable& columns, const rigs::Column& of_set, const std::string& table_name) {
   LogColumn column;
-  column.target = of_set.quantity.header();
+  const std::string heading = of_set.quantity.header();
+  column.target = of_set.quantity;
   column.allowed = of_set.range;
   column.unit = of_set.quantity.file_unit();
-  const ConfigValue& value = *columns.find(column.target);
+  const ConfigValue& value = *columns.find(heading);
   if (const auto* name = std::get_if<std::string>(&value.data)) {
     column.column = *name;
     return column;
   }
   TableReader parent(columns, table_name);
-  TableReader reader(*parent.table(column.target), fmt::format("{} {}", table_name, column.target));
+  TableReader reader(*parent.table(heading), fmt::format("{} {}", table_name, heading));
   if (reader.has("value")) {
     const Field constant{"value", of_set.range, "constant"};
     column.constant_SI = column.unit.to_si(reader.number(constant));
@@ -206,7 +207,7 @@ void read_sensor_tables(TableReader& reader, const std::string& folder, Measurem
   set.sensors = models::read_sensors(*table, measured_channels(*set.kind));
 }
 
-bool maps(const LogForm& form, const std::string& target) {
+bool maps(const LogForm& form, const Quantity& target) {
   return std::any_of(form.columns.begin(), form.columns.end(),
                      [&target](const LogColumn& column) { return column.target == target; });
 }
@@ -216,23 +217,22 @@ void check_columns(const TableReader& reader, const Mapping& mapping) {
   const rigs::RunColumns& columns = mapping.set.kind->columns;
   for (const rigs::Column& column : columns.given) {
     const std::string heading = column.quantity.header();
-    if (maps(mapping.torque_log, heading) || (mapping.tire_log.has_value() && maps(*mapping.tire_log, heading))) {
-      continue;
-    }
+    const bool in_tire = mapping.tire_log.has_value() && maps(*mapping.tire_log, column.quantity);
+    if (maps(mapping.torque_log, column.quantity) || in_tire) continue;
     throw reader.problem("torque_log", fmt::format("no log gives '{}', which every row of the set needs", heading),
                          fmt::format("{} = \"<column>\" or {{ value = ... }} under [torque_log.columns]", heading));
   }
   bool any = false;
   for (const rigs::Column& column : columns.measured) {
     const std::string heading = column.quantity.header();
-    const bool in_torque = maps(mapping.torque_log, heading);
-    const bool in_tire = mapping.tire_log.has_value() && maps(*mapping.tire_log, heading);
+    const bool in_torque = maps(mapping.torque_log, column.quantity);
+    const bool in_tire = mapping.tire_log.has_value() && maps(*mapping.tire_log, column.quantity);
     any = any || in_torque || in_tire;
     if (in_torque && in_tire) {
       throw reader.problem("tire_log", fmt::format("both logs give '{}'", heading),
                            "a measured column from one log only");
     }
-    if ((in_torque || in_tire) && mapping.set.sensors.count(heading) == 0) {
+    if ((in_torque || in_tire) && mapping.set.sensors.count(column.quantity) == 0) {
       throw reader.problem(
           "sensors", fmt::format("'{}' is measured, and no sensor is given for it", heading),
           fmt::format("[sensors.{}] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution", heading));

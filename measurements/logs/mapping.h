@@ -24,7 +24,7 @@ struct TimeColumn {
 
 /// One column of a log that becomes one of the set.
 struct LogColumn {
-  std::string target;  // name in the set
+  Quantity target;     // in the set
   std::string column;  // name in the log; empty where a constant is given
   Unit unit;           // of column * factor + offset
   double factor = 1.0;

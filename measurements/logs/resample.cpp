@@ -22,7 +22,7 @@ struct Source {
   double constant_SI = kNone;
 };
 
-Source find_source(const Mapping& mapping, const RunSources& sources, const std::string& column) {
+Source find_source(const Mapping& mapping, const RunSources& sources, const Quantity& column) {
   const auto find_constant = [&column](const LogForm& form) {
     for (const LogColumn& mapped : form.columns) {
       if (mapped.target == column && mapped.constant_SI.has_value()) return *mapped.constant_SI;
@@ -38,7 +38,7 @@ Source find_source(const Mapping& mapping, const RunSources& sources, const std:
   return {nullptr, find_constant(*mapping.tire_log)};
 }
 
-double read_given(const Log& log, const std::string& column, double time_s) {
+double read_given(const Log& log, const Quantity& column, double time_s) {
   const std::vector<double>& values = log.columns.at(column);
   const double slack_s = std::max(1e-6, 1e-4 * log.interval_s);
   const auto after = std::upper_bound(log.time_s.begin(), log.time_s.end(), time_s + slack_s);
@@ -48,15 +48,15 @@ double read_given(const Log& log, const std::string& column, double time_s) {
   if (i + 1 >= values.size()) return kNone;
   const double between_s = log.time_s[i + 1] - log.time_s[i];
   if (between_s > kGap * log.interval_s) return kNone;
-  if (column == "load_N") return std::isnan(values[i + 1]) ? kNone : values[i];
+  if (column == models::quantities::kLoad) return std::isnan(values[i + 1]) ? kNone : values[i];
   return values[i] + (values[i + 1] - values[i]) * (time_s - log.time_s[i]) / between_s;
 }
 
 /// Why a log has no value of a column from one time to another.
-std::string find_reason(const Log& log, const std::string& column, double from_s, double to_s) {
+std::string find_reason(const Log& log, const Quantity& column, double from_s, double to_s) {
   const double half_s = 0.5 * log.interval_s;
   for (const Mark& mark : log.marks) {
-    const bool concerns = mark.column.empty() || mark.column == column;
+    const bool concerns = mark.column.name().empty() || mark.column == column;
     if (concerns && mark.from_s - half_s < to_s && mark.to_s + half_s > from_s) return mark.reason;
   }
   return "outside the log";
@@ -87,7 +87,7 @@ std::vector<Cell> find_row_cells(const std::vector<double>& times) {
   return cells;
 }
 
-std::vector<double> calc_means(const Log& log, const std::string& column, const std::vector<Cell>& rows) {
+std::vector<double> calc_means(const Log& log, const Quantity& column, const std::vector<Cell>& rows) {
   const std::vector<double>& values = log.columns.at(column);
   std::vector<double> means(rows.size(), kNone);
   std::size_t first = 0;
@@ -112,7 +112,7 @@ std::vector<double> calc_means(const Log& log, const std::string& column, const 
   return means;
 }
 
-std::vector<double> place_samples(const Log& log, const std::string& column, const std::vector<Cell>& rows) {
+std::vector<double> place_samples(const Log& log, const Quantity& column, const std::vector<Cell>& rows) {
   const std::vector<double>& values = log.columns.at(column);
   std::vector<double> placed(rows.size(), kNone);
   std::size_t row = 0;
@@ -145,7 +145,7 @@ struct RowGrid {
   double interval_s = 0.0;
 };
 
-void add_measured(const Log& log, const std::string& column, const RowGrid& rows, ResampledRun& run) {
+void add_measured(const Log& log, const Quantity& column, const RowGrid& rows, ResampledRun& run) {
   const auto& [times, cells, interval_s] = rows;
   const bool is_slow = log.interval_s > kSlower * interval_s;
   std::vector<double> values = is_slow ? place_samples(log, column, cells) : calc_means(log, column, cells);
@@ -167,13 +167,13 @@ void add_measured(const Log& log, const std::string& column, const RowGrid& rows
   run.columns[column] = std::move(values);
 }
 
-InputError missing_input(const Log& log, const std::string& column, double from_s, double to_s, double limit_s) {
+InputError missing_input(const Log& log, const Quantity& column, double from_s, double to_s, double limit_s) {
   const auto at = std::lower_bound(log.time_s.begin(), log.time_s.end(), from_s - 1e-6);
   const auto row = std::min(static_cast<std::size_t>(at - log.time_s.begin()), log.time_s.size() - 1);
   return InputError(
-      {fmt::format("'{}' is missing for {:.3g} s of the run, {}", column, to_s - from_s,
+      {fmt::format("'{}' is missing for {:.3g} s of the run, {}", column.header(), to_s - from_s,
                    find_reason(log, column, from_s, to_s)),
-       log.file, log.line[row], column, "",
+       log.file, log.line[row], column.header(), "",
        fmt::format("at most {:.3g} s (longest_given_gap_s); else from and to of [[run]], so that it ends before or "
                    "begins after",
                    limit_s),
@@ -183,10 +183,10 @@ InputError missing_input(const Log& log, const std::string& column, double from_
 /// Given columns on a grid; rows that lack one are left out.
 std::vector<double> add_given(const Mapping& mapping, const RunSources& sources, const std::vector<double>& grid,
                               double interval_s, ResampledRun& run) {
-  std::vector<std::pair<std::string, Source>> given;
+  std::vector<std::pair<Quantity, Source>> given;
   for (const rigs::Column& column : mapping.set.kind->columns.all_given()) {
-    const Source source = find_source(mapping, sources, column.quantity.header());
-    if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(column.quantity.header(), source);
+    const Source source = find_source(mapping, sources, column.quantity);
+    if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(column.quantity, source);
   }
   std::vector<double> kept;
   for (const double time_s : grid) {
@@ -238,7 +238,7 @@ ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, dou
   require_rows(times.size() >= 3);
   for (const double time_s : times) run.time_s.push_back(time_s - from_s);
   const RowGrid rows{times, find_row_cells(times), interval_s};
-  for (const std::string& column : measured_channels(*mapping.set.kind)) {
+  for (const Quantity& column : measured_channels(*mapping.set.kind)) {
     const Source source = find_source(mapping, sources, column);
     if (source.log != nullptr) add_measured(*source.log, column, rows, run);
   }

@@ -1,7 +1,6 @@
 #pragma once
 /// Logs brought to the rows of a measurement set.
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -11,7 +10,7 @@ namespace rollrig::measurements {
 
 /// Neighboring rows of a set that lack a value, or were left out for want of an input.
 struct EmptyRange {
-  std::string column;
+  Quantity column;
   double from_s = 0.0;  // time of the set
   double to_s = 0.0;
   std::size_t rows = 0;
@@ -20,12 +19,12 @@ struct EmptyRange {
 };
 
 struct ResampledRun {
-  double start_s = 0.0;                                // of the set's time, on the torque log's clock
-  std::vector<double> time_s;                          // from there
-  std::map<std::string, std::vector<double>> columns;  // SI; NaN: no value
+  double start_s = 0.0;                      // of the set's time, on the torque log's clock
+  std::vector<double> time_s;                // from there
+  QuantityMap<std::vector<double>> columns;  // SI; NaN: no value
   std::vector<EmptyRange> empty;
-  std::map<std::string, std::size_t> rows_between;  // of a log slower than the rows: empty, in no range
-  std::map<std::string, double> samples_a_row;      // of measured columns
+  QuantityMap<std::size_t> rows_between;  // of a log slower than the rows: empty, in no range
+  QuantityMap<double> samples_a_row;      // of measured columns
 };
 
 /// What a run is made of: the torque log, and a tire log whose times are already on the torque log's clock.

@@ -17,8 +17,8 @@ struct Inputs {
 
 Inputs find_inputs(const Log& log, bool at_rows) {
   Inputs inputs;
-  const std::vector<double>& speed = log.columns.at("speed_km_h");
-  const auto found = log.columns.find("load_N");
+  const std::vector<double>& speed = log.columns.at(models::quantities::kSpeed);
+  const auto found = log.columns.find(models::quantities::kLoad);
   double load_before = 1.0;
   const auto add = [&inputs](double time_s, double speed_m_s, double load_N) {
     inputs.node_s.push_back(time_s);

@@ -1,7 +1,6 @@
 #pragma once
 /// What ties two clocks together: a channel of the tire log that follows something of the torque log.
 
-#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -28,7 +27,7 @@ struct Basis {
 /// A channel of the tire log as a sum of functions of the torque log's time, which the clock moves, and of functions of
 /// its own time, which it does not: y(t) = sum_i a_i f_i(torque time of t) + sum_j b_j g_j(t) + noise.
 struct Tie {
-  std::string channel;
+  Quantity channel;
   bool is_common = false;      // else a response of the tire
   std::vector<double> time_s;  // on the tire log's clock
   std::vector<double> values;

@@ -148,8 +148,8 @@ struct ClockShift {
 
   template <class S>
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
-    for (const char* name : {"liner_temperature_degC", "cavity_pressure_kPa"}) {
-      std::vector<S>* values = port.find(name);
+    for (const Quantity& quantity : {quantities::kLinerTemperature, quantities::kCavityPressure}) {
+      std::vector<S>* values = port.find(quantity);
       if (values == nullptr || values->size() < 2) continue;
       const MeanChannel<S> channel(port.time_s, fill_gaps(port.time_s, *values));
       const std::vector<S> shifted = channel.calc_means(-self.parameter(kShift));

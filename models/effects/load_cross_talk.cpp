@@ -48,7 +48,7 @@ struct LoadCrossTalk {
   template <class S>
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
     using std::sin;
-    const std::vector<S>* load_N = port.find("load_N");
+    const std::vector<S>* load_N = port.find(quantities::kLoad);
     std::vector<S>* force = port.find_force();
     if (load_N == nullptr || force == nullptr) return;
     const std::vector<S> mean_N = calc_means(port.time_s, *load_N);

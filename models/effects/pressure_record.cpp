@@ -37,13 +37,13 @@ struct PressureRecord {
 
   template <class S>
   static void trace(const EffectView<S>& self, TracePort<S>& port) {
-    std::vector<S>* pressure_Pa = port.find("cavity_pressure_kPa");
+    std::vector<S>* pressure_Pa = port.find(quantities::kCavityPressure);
     if (pressure_Pa == nullptr) return;
     const S reference_Pa = port.context->tire.rolling_resistance.reference_pressure_Pa;
     const S of_pressure = self.parameter(kOffset) * self.parameter(kScaleShare) / reference_Pa;
     const S constant_Pa = self.parameter(kOffset) * (S(1.0) - self.parameter(kScaleShare));
     const S reference_K = get_reference_temperature_K<S>();
-    const std::vector<S>* liner_K = port.find("liner_temperature_degC");
+    const std::vector<S>* liner_K = port.find(quantities::kLinerTemperature);
     for (std::size_t row = 0; row < pressure_Pa->size(); ++row) {
       (*pressure_Pa)[row] += constant_Pa + of_pressure * (*pressure_Pa)[row];
       if (liner_K != nullptr) (*pressure_Pa)[row] += self.parameter(kDrift) * ((*liner_K)[row] - reference_K);

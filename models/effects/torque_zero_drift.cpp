@@ -46,7 +46,7 @@ struct TorqueZeroDrift {
   static std::vector<S> calc_drift_N(const EffectView<S>& self, TracePort<S>& port) {
     using std::exp;
     const S& time_constant_s = self.parameter(kTimeConstant);
-    const std::vector<S>* ambient_K = port.find("ambient_degC");
+    const std::vector<S>* ambient_K = port.find(quantities::kAmbient);
     std::vector<S> drift_N;
     for (std::size_t i = 0; i < port.time_s.size(); ++i) {
       const S since_start_s = quantity<S>(port.time_s[i] - port.time_s.front(), dimension::kTime);

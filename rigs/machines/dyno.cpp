@@ -22,7 +22,7 @@ const MachineKind& machine_dyno() {
         measure(quantities::kLinerTemperature),
         measure(quantities::kCavityPressure),
         measure(quantities::kGasTemperature)}},
-      {{quantities::kLossForce.header(), {2.0, 1.0, 60.0, 2.0, 0.0}},
+      {{quantities::kLossForce, {2.0, 1.0, 60.0, 2.0, 0.0}},
        make_usual_sensor(quantities::kLinerTemperature),
        make_usual_sensor(quantities::kGasTemperature),
        make_usual_sensor(quantities::kCavityPressure)},

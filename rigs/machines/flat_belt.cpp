@@ -17,7 +17,7 @@ const MachineKind& machine_flat_belt() {
                                   measure(quantities::kLinerTemperature),
                                   measure(quantities::kCavityPressure),
                                   measure(quantities::kGasTemperature)}},
-                                {{quantities::kBeltForce.header(), {0.45, 0.1, 60.0, 0.25, 0.0}},
+                                {{quantities::kBeltForce, {0.45, 0.1, 60.0, 0.25, 0.0}},
                                  make_usual_sensor(quantities::kLinerTemperature),
                                  make_usual_sensor(quantities::kCavityPressure)},
                                 "follow_drum"};

@@ -16,7 +16,7 @@ const MachineKind& machine_road() {
                                   {quantities::kAmbient, kTemperatureRange, "air"}},
                                  {},
                                  {{quantities::kTractionForce, any_number(), "force at the wheels"}}},
-                                {{quantities::kTractionForce.header(), {10.0, 215.0, 13.0, 140.0, 0.0}}},
+                                {{quantities::kTractionForce, {10.0, 215.0, 13.0, 140.0, 0.0}}},
                                 "follow_road"};
   return kind;
 }

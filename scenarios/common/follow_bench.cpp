@@ -28,16 +28,16 @@ void put_given_first(const measurements::MeasuredRun& rows, const rigs::MachineK
                      sim::Recording<double>& recording) {
   std::vector<sim::Channel> channels;
   std::vector<std::vector<double>> values;
-  const auto add = [&](const std::string& name, const std::vector<double>& column) {
-    const auto is_same = [&](const sim::Channel& channel) { return channel.name == name; };
+  const auto add = [&](const Quantity& quantity, const std::vector<double>& column) {
+    const auto is_same = [&](const sim::Channel& channel) { return channel.quantity == quantity; };
     if (std::any_of(channels.begin(), channels.end(), is_same)) return;
-    channels.push_back({name});
+    channels.push_back({quantity});
     values.push_back(column);
   };
   for (const rigs::Column& column : kind.columns.all_given()) {
-    if (rows.has(column.quantity)) add(column.quantity.header(), rows.column(column.quantity));
+    if (rows.has(column.quantity)) add(column.quantity, rows.column(column.quantity));
   }
-  for (std::size_t i = 0; i < recording.channels.size(); ++i) add(recording.channels[i].name, recording.values[i]);
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) add(recording.channels[i].quantity, recording.values[i]);
   recording.channels = std::move(channels);
   recording.values = std::move(values);
 }

@@ -87,7 +87,7 @@ double correct_rrc(double rrc, double ambient_K, const RunSpec& spec) {
 }
 
 models::SensorParameters find_force_sensor(const RunSpec& spec) {
-  const std::string force = spec.rig.kind->traits.force.header();
+  const Quantity& force = spec.rig.kind->traits.force;
   const models::SensorSet& usual = spec.rig.kind->default_sensors;
   if (spec.sensors.has_value() && spec.sensors->count(force) > 0) return spec.sensors->at(force);
   return usual.count(force) > 0 ? usual.at(force) : measurements::read_sensor_asset("source").at(force);

@@ -33,8 +33,8 @@ measurements::MeasuredRun add_run_up(const measurements::MeasuredRun& run, doubl
   for (double& time_s : longer.time_s) time_s -= run.time_s.front();
   if (run.column(quantities::kSpeed).front() <= 0.0) return longer;
   longer.time_s.insert(longer.time_s.begin(), -run_up_s);
-  for (auto& [name, values] : longer.columns) {
-    const double before = name == quantities::kSpeed.header() ? 0.0 : values.front();
+  for (auto& [quantity, values] : longer.columns) {
+    const double before = quantity == quantities::kSpeed ? 0.0 : values.front();
     values.insert(values.begin(), before);
   }
   return longer;
@@ -84,8 +84,8 @@ measurements::MeasuredRun RecordedInputs::make_rows(const RunSpec& spec) const {
   rows.rest_before_s = rest_before_s;
   rows.started_warm = tire_state.value == "warm";
   rows.time_s = merge_times_s(longer.time_s, spec.sample_interval_s);
-  for (const auto& [name, values] : longer.columns) {
-    rows.columns[name] = resample(longer.time_s, values, name == quantities::kLoad.header(), rows.time_s);
+  for (const auto& [quantity, values] : longer.columns) {
+    rows.columns[quantity] = resample(longer.time_s, values, quantity == quantities::kLoad, rows.time_s);
   }
   return rows;
 }

@@ -41,8 +41,8 @@ void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, 
   }
   outcome.recording.audit.require_closed(kDriveAuditLimit);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    rigs::apply_trace_effects(corners[i], outcome.recording, [&layout, i](const std::string& recorded) {
-      return rigs::name_at_wheel(recorded, layout, i);
+    rigs::apply_trace_effects(corners[i], outcome.recording, [&layout, i](const Quantity& recorded) {
+      return rigs::find_at_wheel(recorded, layout, i);
     });
   }
 }

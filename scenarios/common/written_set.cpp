@@ -15,27 +15,25 @@ namespace rollrig::scenarios {
 
 namespace {
 
-bool holds(const std::vector<rigs::Column>& columns, const std::string& heading) {
+bool holds(const std::vector<rigs::Column>& columns, const Quantity& quantity) {
   return std::any_of(columns.begin(), columns.end(),
-                     [&](const rigs::Column& column) { return column.quantity.header() == heading; });
+                     [&](const rigs::Column& column) { return column.quantity == quantity; });
 }
 
 /// Whether a set has no sample where the recording has one.
 /// Source    formats.md: the loss force is empty below 20 km/h, the traction force where friction brakes act
-bool is_left_empty(const sim::Recording<double>& recording, const std::string& column, std::size_t row) {
+bool is_left_empty(const sim::Recording<double>& recording, const Quantity& column, std::size_t row) {
   constexpr double kSlowest_m_s = 20.0 / 3.6;
-  if (column == quantities::kLossForce.header()) return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
-  if (column == quantities::kTractionForce.header()) return recording.channel(quantities::kFrictionBrake)[row] > 0.0;
+  if (column == quantities::kLossForce) return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
+  if (column == quantities::kTractionForce) return recording.channel(quantities::kFrictionBrake)[row] > 0.0;
   return false;
 }
 
 /// Rows of one run as CSV, times from its start. Where the run is cut out of a longer recording, a mean at
 /// its first or last row reaches beyond the cut: that field is left empty.
 std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<double>& recording, const SetRun& run,
-                          const std::vector<std::string>& columns) {
-  std::vector<std::string> header{"time_s"};
-  header.insert(header.end(), columns.begin(), columns.end());
-  CsvWriter csv(header);
+                          const std::vector<Quantity>& columns) {
+  CsvWriter csv(list_headers(columns, {"time_s"}));
   constexpr double kSlack_s = 1e-6;
   for (std::size_t row = 0; row < recording.row_count(); ++row) {
     const double time_s = recording.time_s[row];
@@ -44,10 +42,10 @@ std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<do
     const bool cut_after = std::abs(time_s - run.end_s) <= kSlack_s && row + 1 < recording.row_count();
     csv.begin_row();
     csv.add(time_s - run.start_s);
-    for (const std::string& column : columns) {
+    for (const Quantity& column : columns) {
       const bool beyond = (cut_before || cut_after) && holds(kind.columns.measured, column);
       const bool is_empty = beyond || is_left_empty(recording, column, row);
-      csv.add(is_empty ? std::nan("") : unit_of_key(column).from_si(recording.channel(column)[row]));
+      csv.add(is_empty ? std::nan("") : column.file_unit().from_si(recording.channel(column)[row]));
     }
     csv.end_row();
   }
@@ -55,14 +53,13 @@ std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<do
 }
 
 /// Given columns that were recorded, and measured ones that have a sensor.
-std::vector<std::string> find_columns(const rigs::MachineKind& kind, const sim::Recording<double>& recording,
-                                      const models::SensorSet& sensors) {
+std::vector<Quantity> find_columns(const rigs::MachineKind& kind, const sim::Recording<double>& recording,
+                                   const models::SensorSet& sensors) {
   const std::vector<rigs::Column> given = kind.columns.all_given();
-  std::vector<std::string> columns;
-  for (const sim::Channel& channel : recording.channels) {
-    const bool is_input = holds(given, channel.name);
-    const bool is_read = holds(kind.columns.measured, channel.name) && sensors.count(channel.name) > 0;
-    if (is_input || is_read) columns.push_back(channel.name);
+  std::vector<Quantity> columns;
+  for (const auto& [quantity, integral] : recording.channels) {
+    const bool is_read = holds(kind.columns.measured, quantity) && sensors.count(quantity) > 0;
+    if (holds(given, quantity) || is_read) columns.push_back(quantity);
   }
   return columns;
 }
@@ -85,7 +82,7 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
   if (!spec.scenario->writes_sets) throw std::invalid_argument("a scenario that writes no set");
   const rigs::MachineKind& kind = *spec.rig.kind;
   const models::SensorSet sensors = spec.sensors.value_or(models::SensorSet{});
-  const std::vector<std::string> columns = find_columns(kind, outcome.recording, sensors);
+  const std::vector<Quantity> columns = find_columns(kind, outcome.recording, sensors);
   const bool is_road = is_on_road(kind.traits);
   std::map<std::string, std::string> files;
   std::string set = fmt::format(

@@ -57,7 +57,7 @@ std::vector<GoldenValue> make_golden(const Outcome& outcome) {
   const sim::Recording<double>& recording = outcome.recording;
   const std::size_t stride = std::max<std::size_t>(1, recording.row_count() / kSamplesAChannel);
   for (std::size_t i = 0; i < recording.channels.size(); ++i) {
-    const std::string& name = recording.channels[i].name;
+    const std::string name = recording.channels[i].quantity.header();
     for (std::size_t row = 0; row < recording.row_count(); row += stride) {
       golden.push_back(make_value(name, recording.time_s[row], unit_of_key(name).from_si(recording.values[i][row])));
     }

@@ -7,8 +7,8 @@ std::string make_recording_csv(const sim::Recording<double>& recording) {
   std::vector<std::string> columns{"time_s", "phase"};
   std::vector<Unit> units;
   for (const sim::Channel& channel : recording.channels) {
-    columns.push_back(channel.name);
-    units.push_back(unit_of_key(channel.name));
+    columns.push_back(channel.quantity.header());
+    units.push_back(channel.quantity.file_unit());
   }
   CsvWriter csv(columns);
   for (std::size_t row = 0; row < recording.row_count(); ++row) {

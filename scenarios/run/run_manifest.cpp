@@ -71,12 +71,12 @@ Json sensors_to_json(const std::optional<models::SensorSet>& sensors) {
   if (!sensors.has_value()) return nullptr;
   Json json = Json::object();
   for (const auto& [channel, sensor] : *sensors) {
-    const double factor = unit_of_key(channel).factor;
-    json[channel] = {{"offset_sd", sensor.offset_sd / factor},
-                     {"drift_sd", sensor.drift_sd / factor},
-                     {"drift_time_s", sensor.drift_time_s},
-                     {"noise_sd", sensor.noise_sd / factor},
-                     {"resolution", sensor.resolution / factor}};
+    const double factor = channel.file_unit().factor;
+    json[channel.header()] = {{"offset_sd", sensor.offset_sd / factor},
+                              {"drift_sd", sensor.drift_sd / factor},
+                              {"drift_time_s", sensor.drift_time_s},
+                              {"noise_sd", sensor.noise_sd / factor},
+                              {"resolution", sensor.resolution / factor}};
   }
   return json;
 }

@@ -68,7 +68,7 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
     throw reader.problem("sensors", fmt::format("scenario '{}' records without sensors", spec.scenario->text.name),
                          "no sensors, or none");
   }
-  const std::vector<std::string> channels = rigs::measured_channels(*spec.rig.kind);
+  const std::vector<Quantity> channels = rigs::measured_channels(*spec.rig.kind);
   if (table != nullptr) return models::read_sensors(*reader.table("sensors"), channels);
   return measurements::read_sensor_file(read_config(find_asset_of(reader, "sensors", base_folder, "sensors", name)),
                                         channels);

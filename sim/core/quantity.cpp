@@ -21,4 +21,9 @@ Quantity intern_quantity(const std::string& header) {
   return {text.substr(0, length), text.substr(length + 1)};
 }
 
+std::vector<std::string> list_headers(const std::vector<Quantity>& quantities, std::vector<std::string> first) {
+  for (const Quantity& quantity : quantities) first.push_back(quantity.header());
+  return first;
+}
+
 }  // namespace rollrig

@@ -1,8 +1,10 @@
 #pragma once
 /// A quantity that is recorded, given or measured: SI inside, its unit only where it is written to a file.
 
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sim/core/units.h"
 
@@ -35,5 +37,20 @@ class Quantity {
 
 /// The quantity that a heading names: "drum_torque_Nm" -> drum_torque in Nm. Its text is kept until the program ends.
 Quantity intern_quantity(const std::string& header);
+
+/// The headings of columns in a file, after those of `first`.
+std::vector<std::string> list_headers(const std::vector<Quantity>& quantities, std::vector<std::string> first = {});
+
+/// A map by quantity; the heading of a file finds the same entry.
+template <class T>
+class QuantityMap : public std::map<Quantity, T> {
+ public:
+  using Map = std::map<Quantity, T>;
+  using Map::Map, Map::at, Map::count, Map::operator[];
+  T& at(const std::string& header) { return at(intern_quantity(header)); }
+  const T& at(const std::string& header) const { return at(intern_quantity(header)); }
+  std::size_t count(const std::string& header) const { return count(intern_quantity(header)); }
+  T& operator[](const std::string& header) { return (*this)[intern_quantity(header)]; }
+};
 
 }  // namespace rollrig

@@ -28,3 +28,15 @@ TEST_CASE("text of a quantity made up at run time outlives its maker", "[fast]")
   }
   CHECK(kept.header() == "bearing_rise_K");
 }
+
+TEST_CASE("the heading of a file finds what a map holds of its quantity", "[fast]") {
+  constexpr Quantity load{"load", "N"};
+  rollrig::QuantityMap<double> values{{load, 5400.0}};
+  CHECK(values.at("load_N") == 5400.0);
+  CHECK(values.count("load_N") == 1);
+  CHECK(values.count("speed_km_h") == 0);
+  values["speed_km_h"] = 25.0;
+  CHECK(values.at(Quantity("speed", "km_h")) == 25.0);
+  CHECK(rollrig::list_headers({load, {"speed", "km_h"}}, {"time_s"}) ==
+        std::vector<std::string>{"time_s", "load_N", "speed_km_h"});
+}

@@ -126,7 +126,7 @@ TEST_CASE("offsets of sensors perturb nothing", "[fast]") {
   auto clean = tests::make_gap_set({}, 2);
   for (const auto& [channel, sensor] : clean.sensors) {
     const double offset = 1.5 * sensor.offset_sd;
-    tests::add_to_channel(clean.runs[0], channel, [&](double) { return offset; });
+    tests::add_to_channel(clean.runs[0], channel.header(), [&](double) { return offset; });
   }
   CHECK(Shares(clean).listed().empty());
 }
@@ -167,7 +167,7 @@ TEST_CASE("perturbations that last move the channels by what their balance says"
     for (const auto& family : families) {
       if (family.name != name) continue;
       for (const auto& series : set.series()) {
-        if (set.channels()[series.channel] != channel) continue;
+        if (set.channels()[series.channel].header() != channel) continue;
         return family.columns.row(static_cast<Eigen::Index>(series.first_residual + block)).sum();
       }
     }

@@ -100,7 +100,7 @@ measurements::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffec
                                            models::Baseline baseline, double minutes) {
   measurements::MeasurementSet set = begin_set(tests::kDyno, baseline);
   set.rig = rigs::read_rig(read_config(find_asset("rigs", "dyno_1m2")));
-  set.sensors.erase("gas_temperature_degC");
+  set.sensors.erase(models::quantities::kGasTemperature);
   for (std::size_t i = 0; i < runs; ++i) {
     measurements::MeasuredRun run;
     run.id = "run_" + std::to_string(i + 1);

@@ -108,7 +108,7 @@ TEST_CASE("what a sensor's offset takes has no location", "[fast]") {
   auto measured = tests::add_noise(tests::make_gap_set({}, 2), 1);
   for (const auto& [channel, sensor] : measured.sensors) {
     const double offset = 1.5 * sensor.offset_sd;
-    tests::add_to_channel(measured.runs[0], channel, [&](double) { return offset; });
+    tests::add_to_channel(measured.runs[0], channel.header(), [&](double) { return offset; });
   }
   const tests::FittedBaseline fitted(measured);
   CHECK(diagnosis::find_locations(fitted).empty());

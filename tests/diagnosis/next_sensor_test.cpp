@@ -59,7 +59,7 @@ TEST_CASE("identical hypotheses and a lone one leave no sensor worth its hours",
 TEST_CASE("a sensor that the rig has is not proposed", "[fast]") {
   const Study& study = compared().study;
   const PlannedTest test = make_drum_sensor_test(study.set);
-  for (const std::string& channel : study.set.channels()) {
+  for (const Quantity& channel : study.set.channels()) {
     CHECK(std::find(test.extra.sensors.begin(), test.extra.sensors.end(), channel) == test.extra.sensors.end());
   }
   CHECK(test.extra.sensors.size() >= 5);
@@ -71,13 +71,14 @@ TEST_CASE("weights on a lever are read with the gain that a bent sensor has at t
                                       {tests::make_active(models::find_effect("torque_gain"), {2.0, -0.3})});
   measurements::MeasuredRun run;
   run.time_s = {0.0, 1.0, 2.0};
-  run.columns = {{"load_N", {0.0, 0.0, 0.0}}, {"ambient_degC", {298.15, 298.15, 298.15}}};
+  run.columns["load_N"] = {0.0, 0.0, 0.0};
+  run.columns["ambient_degC"] = {298.15, 298.15, 298.15};
   const double radius_m = study.set.source().rig->drum.diameter_m / 2.0;
   run.columns["hung_torque_Nm"] = {0.0, 60.0 * radius_m, 600.0 * radius_m};
   sim::Recording<double> recording;
-  recording.channels.push_back({"drum_torque_Nm"});
+  recording.channels.push_back({models::quantities::kDrumTorque});
   recording.values = {{0.0, 0.0, 0.0}};
-  const std::vector<double> read_Nm = read_channel(study.set, run, corner, recording, "drum_torque_Nm");
+  const std::vector<double> read_Nm = read_channel(study.set, run, corner, recording, models::quantities::kDrumTorque);
   CHECK(read_Nm[0] == 0.0);
   CHECK(read_Nm[1] == Approx(61.2 * radius_m));  // 60 N at the surface
   CHECK(read_Nm[2] > 600.0 * radius_m);

@@ -164,7 +164,7 @@ TEST_CASE("to repeat a run that could not show an effect tells next to nothing o
   for (std::size_t row = 0; row < run.time_s.size(); row += static_cast<std::size_t>(kVirtualRow_s)) {
     rows.time_s.push_back(run.time_s[row]);
     for (const auto& [column, values] : run.columns) rows.columns[column].push_back(values[row]);
-    for (const std::string& channel : compared.study.set.channels()) rows.columns[channel].push_back(0.0);
+    for (const Quantity& channel : compared.study.set.channels()) rows.columns[channel].push_back(0.0);
   }
   const std::vector<double> even{0.5, 0.5};
   CHECK(calc_information_bits(even, PredictedTest(compared.study, open, again).find_outcomes()) < 0.05);

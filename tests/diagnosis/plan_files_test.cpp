@@ -87,7 +87,8 @@ TEST_CASE("every test of the menu becomes run files whose inputs are the test's"
       const measurements::MeasuredRun written =
           measurements::read_run_inputs(folder.file(wanted.id + ".csv"), *set.kind);
       CHECK(written.time_s.size() < 60);  // for a person
-      CHECK(written.has("surface_temperature_degC") == wanted.has("surface_temperature_degC"));
+      CHECK(written.has(models::quantities::kSurfaceTemperature) ==
+            wanted.has(models::quantities::kSurfaceTemperature));
       double worst = 0.0;
       for (const std::string column : {"speed_km_h", "load_N", "ambient_degC"}) {
         for (std::size_t row = 0; row < wanted.time_s.size(); ++row) {
@@ -165,7 +166,8 @@ double find_worst_share(const measurements::MeasurementSet& set, const measureme
       for (std::size_t row = 0; row < written.size(); ++row) {
         if (std::isnan(written[row])) continue;
         // A traction force near zero is the difference of forces a hundred times as large.
-        const double scale = std::max(std::abs(simulated[row]), channel == "traction_force_N" ? 100.0 : 1.0);
+        const double scale =
+            std::max(std::abs(simulated[row]), channel == models::quantities::kTractionForce ? 100.0 : 1.0);
         worst = std::max(worst, std::abs(written[row] - simulated[row]) / scale);
       }
     }

@@ -224,7 +224,7 @@ TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
       CHECK_FALSE(checks.is_implausible());
       REQUIRE(checks.left_out.size() == 1);
       CHECK(checks.left_out[0].run == 1);
-      CHECK(checks.left_out[0].channel == channel);
+      CHECK(checks.left_out[0].channel.header() == channel);
       CHECK_THAT(join(checks.warnings), Contains("stands at") && Contains(set.runs[1].id));
       // what is left is the set without those samples, and it is let through
       const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
@@ -319,7 +319,7 @@ TEST_CASE("nothing measured is an error; a channel without samples a warning", "
   };
   clear(set.runs[0], "cavity_pressure_kPa");
   CHECK_THAT(join(check_set(set).warnings), Contains("cavity_pressure_kPa has no sample in run " + set.runs[0].id));
-  for (MeasuredRun& run : set.runs) run.columns.erase("cavity_pressure_kPa");
+  for (MeasuredRun& run : set.runs) run.columns.erase(models::quantities::kCavityPressure);
   CHECK_THAT(join(check_set(set).warnings), Contains("cavity_pressure_kPa was not measured"));
   for (MeasuredRun& run : set.runs) {
     clear(run, "drum_torque_Nm");
@@ -331,7 +331,7 @@ TEST_CASE("nothing measured is an error; a channel without samples a warning", "
 TEST_CASE("a run that measured nothing is warned of, once", "[fast]") {
   MeasurementSet set = short_set();
   MeasuredRun& empty = set.runs[1];
-  for (const char* channel : kChannels) empty.columns.erase(channel);
+  for (const char* channel : kChannels) empty.columns.erase(intern_quantity(channel));
   const std::vector<std::string> missing = diagnosis::find_missing_samples(set);
   REQUIRE(missing.size() == 1);
   CHECK_THAT(missing[0], Contains("run " + empty.id) && Contains("measured nothing"));

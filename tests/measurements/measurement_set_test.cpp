@@ -121,7 +121,7 @@ cold_pressure_kPa = 280.0
                     "time_s,speed_km_h,load_N,longitudinal_force_N,ambient_degC,loss_force_N,cavity_pressure_kPa\n"
                     "0,80,5400,0,25,40,280\n1,80,5400,0,25,40,280\n");
   const measurements::MeasurementSet set = measurements::read_measurement_set(folder.path());
-  CHECK(set.assumed_sensors == std::vector<std::string>{"loss_force_N"});
+  CHECK(set.assumed_sensors == std::vector<Quantity>{models::quantities::kLossForce});
   CHECK(set.sensors.at("loss_force_N").noise_sd > 0.0);
   CHECK(set.sensors.at("cavity_pressure_kPa").noise_sd == Approx(500.0));
   CHECK(set.sensors.count("liner_temperature_degC") == 0);  // not measured

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "models/quantities.h"
+
 using namespace rollrig;
 using measurements::Block;
 using measurements::Whitener;
@@ -99,8 +101,8 @@ Drawn draw_whitened(const SensorParameters& sensor, int draws) {
                 truth.begin() + static_cast<std::ptrdiff_t>(block.last), uniform(random));
     }
     std::vector<double> values = truth;
-    models::apply_sensor(sensor, "drum_torque_Nm", {static_cast<std::uint64_t>(draw), "s", "r"}, samples.time_s,
-                         values);
+    models::apply_sensor(sensor, models::quantities::kDrumTorque, {static_cast<std::uint64_t>(draw), "s", "r"},
+                         samples.time_s, values);
     std::vector<double> means;
     for (const Block& block : samples.blocks) {
       double sum = 0.0;

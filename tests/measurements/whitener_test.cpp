@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "models/quantities.h"
+
 using namespace rollrig;
 using measurements::Whitener;
 
@@ -23,7 +25,7 @@ std::vector<double> times_with_gaps(int count) {
 TEST_CASE("drift and noise become white with unit variance, across gaps as well", "[fast]") {
   const std::vector<double> times = times_with_gaps(90000);
   std::vector<double> noise(times.size(), 0.0);
-  models::apply_sensor(kSensor, "drum_torque_Nm", {5, "s", "r"}, times, noise);
+  models::apply_sensor(kSensor, models::quantities::kDrumTorque, {5, "s", "r"}, times, noise);
   std::vector<double> white = noise;
   Whitener(kSensor, times).apply(white.data(), 1);
   double variance = 0.0, lagged = 0.0;

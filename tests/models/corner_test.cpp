@@ -120,7 +120,7 @@ TEST_CASE("dimensions are right through every port, with every effect on, on eve
   CHECK(now.pressure_Pa.dimension() == dimension::kPressure);
   CHECK(at.corner.calc_stored_heat_J(at.x.data()).dimension() == dimension::kPower * dimension::kTime);
   for (std::size_t i = 0; i < at.rates.size(); ++i) {
-    INFO(at.corner.states()[i].key);
+    INFO(at.corner.states()[i].quantity.header());
     CHECK(at.rates[i].dimension() == at.x[i].dimension() / dimension::kTime);
   }
 }

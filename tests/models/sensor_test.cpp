@@ -1,4 +1,5 @@
 #include "models/sensor.h"
+#include "models/quantities.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,7 +15,7 @@ std::vector<double> seconds(std::size_t count) {
   return times;
 }
 std::vector<double> errors(const SensorParameters& sensor, const models::SensorStream& stream, std::size_t count,
-                           const std::string& channel = "drum_torque_Nm") {
+                           const Quantity& channel = models::quantities::kDrumTorque) {
   std::vector<double> values(count, 0.0);
   models::apply_sensor(sensor, channel, stream, seconds(count), values);
   return values;
@@ -51,7 +52,8 @@ TEST_CASE("drift is stationary with the standard deviation and memory that were 
 
 TEST_CASE("readings are whole steps in the unit that is shown", "[fast]") {
   std::vector<double> kelvin{298.15 + 0.04, 298.15 + 0.06};
-  models::apply_sensor({0.0, 0.0, 1.0, 0.0, 0.1}, "liner_temperature_degC", {1, "s", "r"}, {0.0, 1.0}, kelvin);
+  models::apply_sensor({0.0, 0.0, 1.0, 0.0, 0.1}, models::quantities::kLinerTemperature, {1, "s", "r"}, {0.0, 1.0},
+                       kelvin);
   CHECK(kelvin[0] - 273.15 == Approx(25.0).margin(1e-9));
   CHECK(kelvin[1] - 273.15 == Approx(25.1).margin(1e-9));
 }

@@ -108,7 +108,8 @@ TEST_CASE("friction of the contact heats the tread, hysteresis both, and the lin
   const double heat_W = 20.0 * at.now.rolling_resistance_N;
   CHECK(at.rates[tread] * tread_J_per_K == Approx(0.7 * heat_W));  // all of it is at 25 degC yet
   CHECK(at.rates[carcass] * carcass_J_per_K == Approx(0.3 * heat_W));
-  CHECK(at.corner.states()[0].key == "carcass_temperature_degC");  // the first state is what the sensor reads
+  CHECK(at.corner.states()[0].quantity.header() ==
+        "carcass_temperature_degC");  // the first state is what the sensor reads
 }
 
 TEST_CASE("on a drum the liner's sensor reads the carcass, warmer by what flows from it to the tread", "[fast]") {

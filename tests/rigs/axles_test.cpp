@@ -90,7 +90,7 @@ TEST_CASE("a tractor's wheels bear at rest what its axles' shares say, though th
     const auto recording = fixture.run_multibody(make_program({driving("stand", 20.0, 0.0, 0.0)}));
     for (const rigs::WheelPlace& wheel : fixture.layout().wheels) {
       INFO(rig << ", " << wheel.position);
-      CHECK(recording.channel(rigs::wheel_channel("contact_load_N", wheel)).back() ==
+      CHECK(recording.channel(rigs::wheel_channel(models::quantities::kContactLoad, wheel)).back() ==
             Approx(wheel.static_load_N).epsilon(1e-6));
     }
   }
@@ -172,9 +172,9 @@ TEST_CASE("each axle of a car with two kinds of tires loses and warms as that of
         const double limit = multibody ? 5e-5 : 1e-12;
         CHECK(of_wheel(recording, WheelIntegral::kRollingEnergy, i) ==
               Approx(of_wheel(of_alike, WheelIntegral::kRollingEnergy, i)).epsilon(limit));
-        for (const char* channel : {"liner_temperature_degC", "cavity_pressure_kPa"}) {
-          const std::string name = rigs::wheel_channel(channel, layout.wheels[i]);
-          CHECK(recording.channel(name).back() == Approx(of_alike.channel(name).back()).epsilon(limit));
+        for (const Quantity& quantity : {models::quantities::kLinerTemperature, models::quantities::kCavityPressure}) {
+          const Quantity channel = rigs::wheel_channel(quantity, layout.wheels[i]);
+          CHECK(recording.channel(channel).back() == Approx(of_alike.channel(channel).back()).epsilon(limit));
         }
       }
     }
@@ -214,7 +214,7 @@ TEST_CASE("motors and brakes of axles do the shares that the file says", "[fast]
     with_motor.set_load = {400.0, 0.0, 0.5};
     const auto driven = with_motor.run(multibody, program);
     const auto force_N = [&](const char* wheel) {
-      return driven.channel(rigs::wheel_channel("longitudinal_force_N", wheel))[40];
+      return driven.channel(rigs::wheel_channel(models::quantities::kLongitudinalForce, wheel))[40];
     };
     INFO(name_of(multibody));
     CHECK(force_N("front_left") > 50.0);
@@ -223,7 +223,7 @@ TEST_CASE("motors and brakes of axles do the shares that the file says", "[fast]
     without_motor.vehicle.powertrain.regeneration_limit_m_s2 = 0.0;
     const auto braked = without_motor.run(multibody, program);
     const auto brake_N = [&](const char* wheel) {
-      return braked.channel(rigs::wheel_channel("longitudinal_force_N", wheel))[62];
+      return braked.channel(rigs::wheel_channel(models::quantities::kLongitudinalForce, wheel))[62];
     };
     CHECK(brake_N("front_left") < -1000.0);
     CHECK(brake_N("front_left") / brake_N("rear_left") == Approx(0.68 / 0.32).epsilon(1e-3));
@@ -241,7 +241,7 @@ TEST_CASE("straps press every contact by their force, however the axles are spru
   const auto recording = fixture.run_multibody(make_program({driving("hold", 20.0, 20.0, 20.0)}));
   for (const rigs::WheelPlace& wheel : fixture.layout().wheels) {
     INFO(wheel.position);
-    CHECK(recording.channel(rigs::wheel_channel("contact_load_N", wheel)).back() ==
+    CHECK(recording.channel(rigs::wheel_channel(models::quantities::kContactLoad, wheel)).back() ==
           Approx(wheel.static_load_N + 250.0).epsilon(1e-6));
   }
 }

@@ -35,8 +35,8 @@ ambient_degC = 20.0
 TEST_CASE("a measured column of a kind is one of its own, and its force is among them", "[fast]") {
   for (const tests::Machine kind : rigs::machine_kinds()) {
     INFO(kind->word);
-    const std::vector<std::string> measured = rigs::measured_channels(*kind);
-    CHECK(std::count(measured.begin(), measured.end(), kind->traits.force.header()) == 1);
+    const std::vector<Quantity> measured = rigs::measured_channels(*kind);
+    CHECK(std::count(measured.begin(), measured.end(), kind->traits.force) == 1);
     for (const auto& [channel, sensor] : kind->default_sensors) {
       CHECK(std::count(measured.begin(), measured.end(), channel) == 1);
     }

@@ -119,7 +119,7 @@ struct Logger {
   static EffectInfo info() { return plain_info("logger", {kSize}); }
   template <class S>
   static void trace(const EffectView<S>& self, models::TracePort<S>& port) {
-    std::vector<S>* torque = port.find("drum_torque_Nm");
+    std::vector<S>* torque = port.find(models::quantities::kDrumTorque);
     for (std::size_t i = 0; torque != nullptr && i < torque->size(); ++i) {
       (*torque)[i] += self.parameter(0) * S(port.time_s[i]);
     }

@@ -155,9 +155,10 @@ TEST_CASE("on rollers every wheel's true load is off by its own share", "[fast]"
     const auto recording = fixture.run(multibody, make_program({driving("hold", 60.0, 20.0, 20.0)}));
     for (const rigs::WheelPlace& wheel : fixture.layout().wheels) {
       INFO(wheel.position << ", multibody " << multibody);
-      CHECK(recording.channel(rigs::wheel_channel("contact_load_N", wheel)).back() ==
+      CHECK(recording.channel(rigs::wheel_channel(models::quantities::kContactLoad, wheel)).back() ==
             Approx(1.05 * wheel.static_load_N).epsilon(1e-5));
-      CHECK(recording.channel(rigs::wheel_channel("load_N", wheel)).back() == Approx(wheel.static_load_N));
+      CHECK(recording.channel(rigs::wheel_channel(models::quantities::kLoad, wheel)).back() ==
+            Approx(wheel.static_load_N));
     }
   }
 }

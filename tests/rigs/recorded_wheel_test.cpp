@@ -131,7 +131,7 @@ TEST_CASE("what only sensors show is the same when nothing else is integrated, o
   const auto compare = [](const sim::Recording<double>& measured, const sim::Recording<double>& full) {
     REQUIRE(!measured.channels.empty());
     for (const sim::Channel& channel : measured.channels) {
-      CHECK(measured.channel(channel.name) == full.channel(channel.name));
+      CHECK(measured.channel(channel.quantity) == full.channel(channel.quantity));
     }
     CHECK(measured.audit.terms.empty());
     CHECK(measured.channels.size() < full.channels.size());

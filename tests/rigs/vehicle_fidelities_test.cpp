@@ -36,11 +36,11 @@ Pair run_both(const std::string& scenario, const std::vector<std::string>& setti
 }
 
 std::vector<std::string> channels_of(const sim::Recording<double>& recording, const std::string& quantity) {
-  std::vector<std::string> names;
+  std::vector<std::string> headers;
   for (const sim::Channel& channel : recording.channels) {
-    if (channel.name.rfind(quantity, 0) == 0) names.push_back(channel.name);
+    if (channel.quantity.header().rfind(quantity, 0) == 0) headers.push_back(channel.quantity.header());
   }
-  return names;
+  return headers;
 }
 
 /// Of all wheels.

@@ -123,9 +123,10 @@ TEST_CASE("tie-downs that press add their force to every contact", "[fast]") {
       const auto recording = fixture.run(multibody, make_program({driving("hold", 30.0, 20.0, 20.0)}));
       for (const rigs::WheelPlace& wheel : fixture.layout().wheels) {
         INFO(name_of(multibody) << " " << wheel.position);
-        const double load_N = recording.channel(rigs::wheel_channel("contact_load_N", wheel)).back();
+        const double load_N = recording.channel(rigs::wheel_channel(models::quantities::kContactLoad, wheel)).back();
         CHECK(load_N == Approx(wheel.static_load_N + 250.0).epsilon(1e-6));
-        CHECK(recording.channel(rigs::wheel_channel("load_N", wheel)).back() == Approx(wheel.static_load_N));
+        CHECK(recording.channel(rigs::wheel_channel(models::quantities::kLoad, wheel)).back() ==
+              Approx(wheel.static_load_N));
       }
     }
   }
@@ -142,7 +143,7 @@ TEST_CASE("loads of the wheels are the weight, shared by the axles as the file s
       double front_N = 0.0, rear_N = 0.0;
       for (const rigs::WheelPlace& wheel : fixture.layout().wheels) {
         (wheel.axle == tests::kFront ? front_N : rear_N) +=
-            recording.channel(rigs::wheel_channel("contact_load_N", wheel)).back();
+            recording.channel(rigs::wheel_channel(models::quantities::kContactLoad, wheel)).back();
       }
       CHECK(front_N + rear_N == Approx(weight_N).epsilon(1e-7));
       CHECK(front_N == Approx(0.6 * weight_N).epsilon(1e-6));
@@ -161,8 +162,9 @@ TEST_CASE("standing with the driver's foot on the brake is standing, on a hill a
                    << fixture.layout().wheels.size());
           CHECK(std::abs(find_total(recording, VehicleIntegral::kDistance)) < 0.05);
           CHECK(std::abs(find_total(recording, VehicleIntegral::kTireLoss)) < 5.0);
-          CHECK(recording.channel(rigs::wheel_channel("liner_temperature_degC", fixture.layout().wheels[0])).back() ==
-                Approx(293.15).margin(1e-3));
+          CHECK(
+              recording.channel(rigs::wheel_channel(models::quantities::kLinerTemperature, fixture.layout().wheels[0]))
+                  .back() == Approx(293.15).margin(1e-3));
         }
       }
     }

@@ -116,7 +116,7 @@ TEST_CASE("results are bit-identical from one or two threads", "[fast]") {
 TEST_CASE("with sensors on, the offset cancels and the uncertainty covers what noise does", "[fast]") {
   const double exact = number(run("iso_28580", "a50"), "rrc_N_per_kN");
   scenarios::RunSpec spec = make_spec("iso_28580", "a50", {}, "quasi_static");
-  spec.sensors = models::SensorSet{{"drum_torque_Nm", scenarios::find_force_sensor(spec)}};
+  spec.sensors = models::SensorSet{{models::quantities::kDrumTorque, scenarios::find_force_sensor(spec)}};
   int within = 0;
   constexpr int kSeeds = 200;
   double largest_offset_Nm = 0.0;

@@ -37,7 +37,7 @@ void check_equal(const sim::Recording<double>& a, const sim::Recording<double>& 
     for (std::size_t i = 0; i < a.row_count(); ++i) {
       worst = std::max(worst, std::abs(a.values[c][i] - b.values[c][i]) / (1.0 + std::abs(b.values[c][i])));
     }
-    INFO(a.channels[c].name);
+    INFO(a.channels[c].quantity.header());
     CHECK(worst <= tolerance);
   }
 }

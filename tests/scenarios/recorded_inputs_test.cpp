@@ -114,7 +114,7 @@ TEST_CASE("a set holds no loss force below 20 km/h and no traction where frictio
   for (const char* kind : {"dyno", "road"}) {
     const bool is_road = std::string(kind) == "road";
     Follow follow = is_road ? on_road() : on_roller();
-    const std::string channel = is_road ? "traction_force_N" : "loss_force_N";
+    const Quantity channel = is_road ? models::quantities::kTractionForce : models::quantities::kLossForce;
     follow.spec.sensors = models::SensorSet{{channel, {}}};
     const auto outcome = follow.run();
     const measurements::MeasurementSet set = write_and_read(follow.spec, outcome);

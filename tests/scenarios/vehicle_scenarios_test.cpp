@@ -167,10 +167,11 @@ TEST_CASE("rollers under a vehicle that is given by its road load leave its tire
 TEST_CASE("an effect on measured channels finds those of each wheel under their own names", "[fast]") {
   const auto spec = tests::make_spec("dyno_setting", "a50");
   const auto layout = rigs::make_whole_vehicle(*spec.vehicle, spec.rig, 293.15, {});
-  CHECK(rigs::name_at_wheel("liner_temperature_rear_left_degC", layout, 2) == "liner_temperature_degC");
-  CHECK(rigs::name_at_wheel("liner_temperature_rear_left_degC", layout, 0).empty());
-  CHECK(rigs::name_at_wheel("traction_force_N", layout, 0) == "traction_force_N");
-  CHECK(rigs::name_at_wheel("traction_force_N", layout, 1).empty());
+  const Quantity of_rear_left = intern_quantity("liner_temperature_rear_left_degC");
+  CHECK(rigs::find_at_wheel(of_rear_left, layout, 2) == models::quantities::kLinerTemperature);
+  CHECK_FALSE(rigs::find_at_wheel(of_rear_left, layout, 0).has_value());
+  CHECK(rigs::find_at_wheel(models::quantities::kTractionForce, layout, 0) == models::quantities::kTractionForce);
+  CHECK_FALSE(rigs::find_at_wheel(models::quantities::kTractionForce, layout, 1).has_value());
   const auto quarter = rigs::make_one_wheel(*spec.vehicle, spec.rig, 293.15, {}, tests::kFront);
-  CHECK(rigs::name_at_wheel("cavity_pressure_kPa", quarter, 0) == "cavity_pressure_kPa");
+  CHECK(rigs::find_at_wheel(models::quantities::kCavityPressure, quarter, 0) == models::quantities::kCavityPressure);
 }

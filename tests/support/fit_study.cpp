@@ -44,7 +44,8 @@ measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std
   set.sensors = measurements::read_sensor_asset(sensors);
   for (const double speed_km_h : {80.0, 120.0}) {
     set.runs.push_back(make_run(tire, speed_km_h, fidelity, rig));
-    if (set.sensors.count("gas_temperature_degC") == 0) set.runs.back().columns.erase("gas_temperature_degC");
+    if (set.sensors.count("gas_temperature_degC") == 0)
+      set.runs.back().columns.erase(models::quantities::kGasTemperature);
   }
   return set;
 }

@@ -72,7 +72,7 @@ class HandFedCorner {
   /// A state of an effect, by its key with the effect's id before it.
   S& state(const std::string& key) {
     for (std::size_t i = 0; i < corner.state_count(); ++i) {
-      if (corner.states()[i].key == key) return x[i];
+      if (corner.states()[i].quantity.header() == key) return x[i];
     }
     throw std::invalid_argument("no state " + key);
   }

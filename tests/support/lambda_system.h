@@ -19,9 +19,10 @@ class LambdaSystem : public sim::OdeSystem<double> {
       : start_(std::move(start)), rates_(std::move(rates)), tolerance_(tolerance) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       integrals_.push_back({"integral_y" + std::to_string(i), sim::Integral::Role::kChannel, tolerance});
-      channels_.push_back({"y" + std::to_string(i)});
+      channels_.push_back({intern_quantity("y" + std::to_string(i))});
     }
-    for (std::size_t i = 0; i < start_.size(); ++i) channels_.push_back({"mean_y" + std::to_string(i), i});
+    for (std::size_t i = 0; i < start_.size(); ++i)
+      channels_.push_back({intern_quantity("mean_y" + std::to_string(i)), i});
   }
 
   std::size_t state_count() const override { return start_.size(); }

@@ -20,7 +20,7 @@ void run_trace(const models::ActiveEffect& active, const models::Context<S>& con
   active.effect->hooks<S>().trace(models::EffectView<S>(parameters.data(), nullptr), port);
 }
 
-/// A channel by its name, in SI.
+/// A channel by its heading in files, in SI.
 using NamedChannel = std::pair<std::string, std::vector<double>>;
 
 /// One channel after the effect; others beside it for the effect to read.
@@ -30,9 +30,9 @@ inline std::vector<double> apply_trace(const models::ActiveEffect& active, const
   const auto context = make_context_on(kind);
   models::TracePort<double> port;
   port.time_s = time_s;
-  port.channels.push_back({channel.first, channel.second});
-  for (const auto& [name, values] : others) {
-    if (!values.empty()) port.channels.push_back({name, values});
+  port.channels.push_back({intern_quantity(channel.first), channel.second});
+  for (const auto& [header, values] : others) {
+    if (!values.empty()) port.channels.push_back({intern_quantity(header), values});
   }
   run_trace(active, context, port);
   return port.channels.front().values;

@@ -44,10 +44,10 @@ std::string find_obstacle(const PlannedTest& test) {
 
 /// Spans in which nothing is to be read.
 Json list_unread_s(const MeasuredRun& run, const measurements::MachineKind& kind) {
-  const std::vector<std::string> channels = measurements::measured_channels(kind);
+  const std::vector<Quantity> channels = measurements::measured_channels(kind);
   const auto is_read = [&](std::size_t row) {
-    return std::any_of(channels.begin(), channels.end(), [&](const std::string& channel) {
-      return run.has(channel) && !std::isnan(run.columns.at(channel)[row]);
+    return std::any_of(channels.begin(), channels.end(), [&](const Quantity& channel) {
+      return run.has(channel) && !std::isnan(run.column(channel)[row]);
     });
   };
   Json spans = Json::array();

@@ -68,8 +68,8 @@ TEST_CASE("where only the pressure is logged, the shift has to be given", "[fast
   LogsPlan plan;
   plan.shift_s = 17.0;
   MadeUpLogs made = make_up_logs(plan, 21);
-  made.tire.columns.erase("liner_temperature_degC");
-  made.tire.columns.erase("gas_temperature_degC");
+  made.tire.columns.erase(models::quantities::kLinerTemperature);
+  made.tire.columns.erase(models::quantities::kGasTemperature);
   CHECK_THROWS_AS(measurements::estimate_clock(made.torque, made.tire, made.mapping), InputError);
   made.mapping.clock.shift_s = 16.0;
   made.mapping.clock.shift_sd_s = 2.0;

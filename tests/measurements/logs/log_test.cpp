@@ -20,7 +20,7 @@ LogForm make_form(TimeForm time_form) {
   form.time.form = time_form;
   form.missing = {"---"};
   measurements::LogColumn column;
-  column.target = "cavity_pressure_kPa";
+  column.target = models::quantities::kCavityPressure;
   column.column = "p";
   column.unit = unit_of_key("value_bar");
   column.allowed = between(-100.0, 3000.0);

@@ -88,7 +88,8 @@ TEST_CASE("gaps and marked values leave empty fields, never made-up ones", "[fas
   for (const double t : pair.tire.time_s) pair.tire.columns["liner_temperature_degC"].push_back(300.0 + t);
   std::vector<double>& values = pair.tire.columns["liner_temperature_degC"];
   for (std::size_t i = 71; i < 81; ++i) values[i] = std::nan("");  // 30.0 to 34.5 s
-  pair.tire.marks.push_back({"tire_log.csv", 73, "liner_temperature_degC", 30.0, 34.5, std::nullopt, "spike"});
+  pair.tire.marks.push_back(
+      {"tire_log.csv", 73, models::quantities::kLinerTemperature, 30.0, 34.5, std::nullopt, "spike"});
   const measurements::ResampledRun run = pair.resample(1.0);
   for (std::size_t row = 1; row + 1 < run.time_s.size(); ++row) {
     const bool touched = run.time_s[row] + 0.5 > 29.75 && run.time_s[row] - 0.5 < 34.75;
@@ -121,7 +122,7 @@ TEST_CASE("rows without an input are left out, and too many of them are refused"
   Pair pair(0.0, 1.0, 101);
   for (const double t : pair.tire.time_s) pair.tire.columns["liner_temperature_degC"].push_back(300.0 + t);
   pair.torque.columns["speed_km_h"][40] = std::nan("");
-  pair.torque.marks.push_back({"torque_log.csv", 42, "speed_km_h", 40.0, 40.0, std::nullopt, "no value"});
+  pair.torque.marks.push_back({"torque_log.csv", 42, models::quantities::kSpeed, 40.0, 40.0, std::nullopt, "no value"});
   const measurements::ResampledRun run = pair.resample(1.0);
   CHECK(run.time_s.size() == 100);
   CHECK(run.time_s[40] == 41.0);

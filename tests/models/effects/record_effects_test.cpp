@@ -144,11 +144,12 @@ TEST_CASE("the pressure sensor's zero shifts with the liner's temperature, from 
   const auto context = make_context_on(tests::kDrum);
   models::TracePort<double> port;
   port.time_s = {0.0, 1.0};
-  port.channels = {{"cavity_pressure_kPa", {250e3, 250e3}}, {"liner_temperature_degC", {298.15, 318.15}}};
+  port.channels = {{models::quantities::kCavityPressure, {250e3, 250e3}},
+                   {models::quantities::kLinerTemperature, {298.15, 318.15}}};
   run_trace(effect, context, port);
-  CHECK((*port.find("cavity_pressure_kPa"))[0] == Approx(242e3));
-  CHECK((*port.find("cavity_pressure_kPa"))[1] == Approx(243e3));
-  CHECK((*port.find("liner_temperature_degC"))[1] == 318.15);
+  CHECK((*port.find(models::quantities::kCavityPressure))[0] == Approx(242e3));
+  CHECK((*port.find(models::quantities::kCavityPressure))[1] == Approx(243e3));
+  CHECK((*port.find(models::quantities::kLinerTemperature))[1] == 318.15);
 }
 
 TEST_CASE("a pressure sensor of a wrong scale is off by a share, its size at the reference pressure", "[fast]") {

@@ -13,11 +13,11 @@ using tests::switch_on;
 
 namespace {
 
-constexpr const char* kTorque = "drum_torque_Nm";
-constexpr const char* kLoss = "loss_force_N";
-constexpr const char* kLiner = "liner_temperature_degC";
-constexpr const char* kPressure = "cavity_pressure_kPa";
-constexpr const char* kAmbient = "ambient_degC";
+constexpr Quantity kTorque = models::quantities::kDrumTorque;
+constexpr Quantity kLoss = models::quantities::kLossForce;
+constexpr Quantity kLiner = models::quantities::kLinerTemperature;
+constexpr Quantity kPressure = models::quantities::kCavityPressure;
+constexpr Quantity kAmbient = models::quantities::kAmbient;
 
 /// Rows at one interval.
 std::vector<double> rows_every(double interval_s, double duration_s) {
@@ -40,9 +40,9 @@ std::vector<double> means_of(const std::function<double(double)>& integral, cons
 
 /// One channel after the effect.
 std::vector<double> apply(const models::ActiveEffect& active, const std::vector<double>& time_s,
-                          const std::vector<double>& values, const std::string& name = kLiner,
+                          const std::vector<double>& values, const Quantity& quantity = kLiner,
                           tests::Machine kind = tests::kDrum, const std::vector<double>& ambient_K = {}) {
-  return tests::apply_trace(active, time_s, {name, values}, kind, {{kAmbient, ambient_K}});
+  return tests::apply_trace(active, time_s, {quantity.header(), values}, kind, {{kAmbient.header(), ambient_K}});
 }
 
 std::vector<double> shift(double late_s, const std::vector<double>& time_s, const std::vector<double>& values) {
@@ -246,13 +246,14 @@ TEST_CASE("trace effects keep the dimensions of the channels", "[fast]") {
       INFO(id);
       TracePort<Q> port;
       port.time_s = {0.0, 1.0, 3.0};
-      for (const auto& [name, of] : std::vector<std::pair<std::string, Dimension>>{{kTorque, torque},
-                                                                                   {kLoss, dimension::kForce},
-                                                                                   {kAmbient, dimension::kTemperature},
-                                                                                   {"load_N", dimension::kForce},
-                                                                                   {kLiner, dimension::kTemperature},
-                                                                                   {kPressure, dimension::kPressure}}) {
-        port.channels.push_back({name, {Q(1.0, of), Q(2.0, of), Q(4.0, of)}});
+      for (const auto& [channel, of] :
+           std::vector<std::pair<Quantity, Dimension>>{{kTorque, torque},
+                                                       {kLoss, dimension::kForce},
+                                                       {kAmbient, dimension::kTemperature},
+                                                       {models::quantities::kLoad, dimension::kForce},
+                                                       {kLiner, dimension::kTemperature},
+                                                       {kPressure, dimension::kPressure}}) {
+        port.channels.push_back({channel, {Q(1.0, of), Q(2.0, of), Q(4.0, of)}});
       }
       CHECK_NOTHROW(run_trace(switch_on(id, {size}), context, port));
       CHECK((*port.find(kTorque))[1].dimension() == torque);

@@ -221,10 +221,10 @@ TEST_CASE("a form changes neither the size that is drawn nor noise, campaign and
   CHECK(one.truth.at("effects")[0].at("law") != other.truth.at("effects")[0].at("law"));
   CHECK(one.truth.at("base") == other.truth.at("base"));
   for (std::size_t r = 0; r < one.set.runs.size(); ++r) {
-    for (const auto& [name, column] : one.set.runs[r].columns) {
-      if (name == "drum_torque_Nm") continue;
-      INFO(name);
-      const auto& same = other.set.runs[r].columns.at(name);
+    for (const auto& [quantity, column] : one.set.runs[r].columns) {
+      if (quantity == models::quantities::kDrumTorque) continue;
+      INFO(quantity.header());
+      const auto& same = other.set.runs[r].column(quantity);
       const bool equal = std::equal(column.begin(), column.end(), same.begin(), same.end(),
                                     [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
       CHECK(equal);

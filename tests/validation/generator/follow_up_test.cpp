@@ -109,7 +109,7 @@ TEST_CASE("weights on the lever are read with the gain of the sensor", "[fast]")
   CHECK(run.columns.at("drum_torque_Nm")[50] == 0.0);
   CHECK(run.columns.at("drum_torque_Nm")[100] == Approx(52.0).margin(0.05));
   CHECK(run.columns.at("hung_torque_Nm")[100] == 50.0);
-  CHECK_FALSE(set.runs[0].has("hung_torque_Nm"));
+  CHECK_FALSE(set.runs[0].has(models::quantities::kHungTorque));
   for (const std::string& warning : diagnosis::check_set(set, 1).warnings) {
     CHECK_THAT(warning, !Contains("test-1 is compared"));  // the zero at standstill is, without ever 20 km/h
   }
@@ -140,8 +140,8 @@ TEST_CASE("a heated drum is recorded, and warms the tire", "[fast]") {
   made.add(kSteady);
   made.add(header + "0,80,5000,24,64\n600,80,5000,24,64\n");
   const measurements::MeasurementSet set = made.follow();
-  CHECK_FALSE(set.runs[1].has("surface_temperature_degC"));
-  REQUIRE(set.runs[2].has("surface_temperature_degC"));
+  CHECK_FALSE(set.runs[1].has(models::quantities::kSurfaceTemperature));
+  REQUIRE(set.runs[2].has(models::quantities::kSurfaceTemperature));
   CHECK(set.runs[2].columns.at("surface_temperature_degC").back() == Approx(337.15));
   const double rise_K =
       set.runs[2].columns.at("liner_temperature_degC").back() - set.runs[1].columns.at("liner_temperature_degC").back();

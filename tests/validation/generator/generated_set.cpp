@@ -23,8 +23,8 @@ namespace {
 /// Channels that the runs of a set have, the force first.
 std::vector<std::string> find_channels(const measurements::MeasurementSet& set) {
   std::vector<std::string> channels;
-  for (const std::string& channel : measurements::measured_channels(*set.kind)) {
-    if (set.runs.front().has(channel)) channels.push_back(channel);
+  for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
+    if (set.runs.front().has(channel)) channels.push_back(channel.header());
   }
   return channels;
 }

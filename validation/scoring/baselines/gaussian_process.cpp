@@ -10,6 +10,8 @@
 namespace rollrig::validation {
 namespace {
 
+namespace quantities = models::quantities;
+
 using diagnosis::at;
 using diagnosis::PreparedSet;
 using diagnosis::Series;
@@ -28,12 +30,12 @@ Eigen::MatrixXd find_inputs(const PreparedSet& set, const Series& series) {
   const measurements::MeasuredRun& run = set.runs()[series.run].measured;
   Eigen::MatrixXd inputs(at(series.size()), kInputs);
   for (std::size_t k = 0; k < series.size(); ++k) {
-    const auto mean = [&](const char* column) {
-      const std::vector<double>& values = run.columns.at(column);
+    const auto mean = [&](const Quantity& quantity) {
+      const std::vector<double>& values = run.column(quantity);
       return series.mean_over(series.blocks[k], [&](std::size_t row) { return values[row]; });
     };
-    inputs.row(at(k)) << (series.time_s[k] - run.time_s.front()) / 600.0, mean("speed_km_h") / (30.0 / 3.6),
-        mean("load_N") / 1500.0, mean("ambient_degC") / 5.0;
+    inputs.row(at(k)) << (series.time_s[k] - run.time_s.front()) / 600.0, mean(quantities::kSpeed) / (30.0 / 3.6),
+        mean(quantities::kLoad) / 1500.0, mean(quantities::kAmbient) / 5.0;
   }
   return inputs;
 }
