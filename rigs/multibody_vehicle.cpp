@@ -54,7 +54,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     std::vector<models::WheelContact> contacts;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const VehicleBodies::Wheel& wheel = bodies_.wheels[i];
-      const auto surface = is_flat() ? SimTK::GroundIndex : wheel.roller.getMobilizedBodyIndex();
+      const auto surface = is_on_road() ? SimTK::GroundIndex : wheel.roller.getMobilizedBodyIndex();
       contacts.emplace_back(matter_,
                             models::WheelContact::Bodies{wheel.wheel.getMobilizedBodyIndex(), surface,
                                                          wheel.upright.getMobilizedBodyIndex()},
@@ -70,13 +70,13 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
       tolerances[q_state(body)] = position;
       tolerances[u_state(body)] = speed;
     };
-    if (bodies_.has_sled()) put(bodies_.sled, is_flat() ? kDistance_m : kHeight_m, kSpeed_m_s);
+    if (bodies_.has_sled()) put(bodies_.sled, is_on_road() ? kDistance_m : kHeight_m, kSpeed_m_s);
     put(bodies_.heave, kHeight_m, kSpeed_m_s);
     put(bodies_.body, kHeight_m, kSpeed_m_s);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       put(bodies_.wheels[i].upright, kHeight_m, kSpeed_m_s);
       put(bodies_.wheels[i].wheel, kAngle_rad, kSpeed_rad_s);
-      if (!is_flat()) put(bodies_.wheels[i].roller, kAngle_rad, kSpeed_rad_s);
+      if (!is_on_road()) put(bodies_.wheels[i].roller, kAngle_rad, kSpeed_rad_s);
       put_tolerances(i, kSlipForce_N, kStateShare, tolerances);
     }
     tolerances[own_state()] = kSpeedIntegral_m;
@@ -95,7 +95,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       add(wheel_channel({"axle_travel", "m"}, layout_.wheels[i]), bodies_.wheels[i].upright);
       add(wheel_channel({"wheel_angle", "rad"}, layout_.wheels[i]), bodies_.wheels[i].wheel);
-      if (!is_flat()) add(wheel_channel({"roller_angle", "rad"}, layout_.wheels[i]), bodies_.wheels[i].roller);
+      if (!is_on_road()) add(wheel_channel({"roller_angle", "rad"}, layout_.wheels[i]), bodies_.wheels[i].roller);
     }
     return poses;
   }
@@ -153,14 +153,14 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     wheel.spindle_reaction_N = hub[1][0];
     wheel.hub_torque_Nm = drive.motor_Nm - drive.brake_Nm;
     wheel.roller_mass_kg = bodies.roller_mass_kg;
-    if (is_flat()) return wheel;
+    if (is_on_road()) return wheel;
     const SimTK::SpatialVec pin = bodies.roller.findMobilizerReactionOnBodyAtMInGround(state_);
     wheel.roller_reaction_N = pin[1][0];
     wheel.roller_lift_N = pin[1][1];
     return wheel;
   }
 
-  bool is_flat() const { return is_on_road(layout_.machine); }
+  bool is_on_road() const { return models::is_on_road(layout_.machine); }
 
   void set_drive(bool on, double* y) override {
     SimbodySystem::set_drive(on, y);
@@ -181,12 +181,12 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     const DriveEvaluation drive = drive_->evaluation(state_);
     const double speed_m_s = drive.acting.speed_m_s;
     bodies_.heave.setOneQ(state_, 0, -drive.sinks_m);
-    if (is_flat()) bodies_.sled.setOneU(state_, 0, speed_m_s);
+    if (is_on_road()) bodies_.sled.setOneU(state_, 0, speed_m_s);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const VehicleBodies::Wheel& wheel = bodies_.wheels[i];
       wheel.upright.setOneQ(state_, 0, drive.sinks_m - drive.wheels[i].restraint_N / drive_->tire_N_per_m(i));
       wheel.wheel.setOneU(state_, 0, speed_m_s / drive.wheels[i].radius_m);
-      if (!is_flat()) wheel.roller.setOneU(state_, 0, speed_m_s / layout_.roller_radius_m);
+      if (!is_on_road()) wheel.roller.setOneU(state_, 0, speed_m_s / layout_.roller_radius_m);
     }
     set_driver_in_balance(drive.acting);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) set_slip_in_balance(i);
@@ -195,10 +195,10 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
   void set_driver_in_balance(const models::InputPort<double>& acting) {
     system_.realize(state_, Stage::Velocity);
     double force_N = drive_->evaluation(state_).drag_N + drive_->evaluation(state_).grade_N;
-    if (!is_flat()) force_N += models::calc_faded_road_load_N(layout_.resistance, acting.speed_m_s);
+    if (!is_on_road()) force_N += models::calc_faded_road_load_N(layout_.resistance, acting.speed_m_s);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const models::Instant<double> now = drive_->evaluate_contact(state_, i).now;
-      force_N += now.rolling_resistance_N + (is_flat() ? now.parasitic_N : 0.0);
+      force_N += now.rolling_resistance_N + (is_on_road() ? now.parasitic_N : 0.0);
     }
     force_N += (layout_.mass_kg + layout_.rotating_mass_kg) * acting.acceleration_m_s2;
     state_.updY()[static_cast<int>(own_state())] = drive_->find_integral_m(force_N, acting);
@@ -210,7 +210,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     const ContactEvaluation at = drive_->evaluate_contact(state_, i);
     const DriveEvaluation::Wheel& wheel = drive_->evaluation(state_).wheels[i];
     const double torque_Nm =
-        at.couple_Nm - wheel.motor_Nm + wheel.brake_Nm + (is_flat() ? at.now.parasitic_N * at.loaded_radius_m : 0.0);
+        at.couple_Nm - wheel.motor_Nm + wheel.brake_Nm + (is_on_road() ? at.now.parasitic_N * at.loaded_radius_m : 0.0);
     state_.updY()[static_cast<int>(slip_state(i))] =
         torque_Nm / at.loaded_radius_m / drive_->contacts()[i].slip_spring_N_per_m();
   }
@@ -233,8 +233,8 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     VehiclePowers<double> power = drive_->find_powers(state_);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const ContactEvaluation& at = contact(i);
-      const double bearing_m_s = is_flat() ? at.loaded_radius_m * bodies_.wheels[i].wheel.getOneU(state_, 0)
-                                           : layout_.roller_radius_m * at.surface_speed_rad_s;
+      const double bearing_m_s = is_on_road() ? at.loaded_radius_m * bodies_.wheels[i].wheel.getOneU(state_, 0)
+                                              : layout_.roller_radius_m * at.surface_speed_rad_s;
       power.tire_W += at.couple_Nm * (at.wheel_speed_rad_s + at.surface_speed_rad_s);
       power.bearing_W += at.now.parasitic_N * bearing_m_s;
       power.tire_damper_W += drive_->contacts()[i].calc_tire_damper_W(at);
@@ -250,7 +250,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
       const models::Instant<double>& now = contact(i).now;
       resistance_N += now.rolling_resistance_N + now.parasitic_N;
-      if (!is_flat()) resistance_N -= at.wheels[i].roller_Nm / layout_.roller_radius_m;
+      if (!is_on_road()) resistance_N -= at.wheels[i].roller_Nm / layout_.roller_radius_m;
     }
     return -resistance_N / (contact_port_.vehicle_mass_factor * (layout_.mass_kg + layout_.rotating_mass_kg));
   }

@@ -19,7 +19,7 @@ struct VehicleForces {
     double rolling_resistance_N = 0.0;
     double loaded_radius_m = 0.0;
     double wheel_speed_rad_s = 0.0;
-    double roller_speed_rad_s = 0.0;  // 0 on the flat
+    double roller_speed_rad_s = 0.0;  // 0 on the road
     double spindle_reaction_N = 0.0;  // of the upright on the wheel, from Simbody's joint reaction
     double hub_torque_Nm = 0.0;       // of motor and brake on the wheel, positive when it drives
     double roller_reaction_N = 0.0;   // of the ground on the roller, from Simbody's joint reaction

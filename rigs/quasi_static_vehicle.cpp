@@ -58,7 +58,7 @@ void QuasiStaticVehicle<S>::find_resistance() {
   const S load_N = models::calc_faded_road_load_N(resistance, speed_m_s_);
   const S total_mass_kg = now.contact.vehicle_mass_factor * S(layout_.mass_kg + layout_.rotating_mass_kg);
   body_mass_kg_ = total_mass_kg - calc_wheel_inertia_kg();
-  if (is_flat()) {
+  if (is_on_road()) {
     given_force_N_ = models::calc_grade_N(S(layout_.mass_kg), now.acting.slope);
     const S density_kg_per_m3 = layout_.air_density_kg_per_m3 * now.acting.air_density_ratio;
     rolled_off_N_ = given_force_N_ + load_N +
@@ -127,7 +127,7 @@ void QuasiStaticVehicle<S>::find_motion(double time_s, const S* state) {
     if (i == 0) speed_m_s_ = present_.drive_on ? wheel.now.acting.speed_m_s : state[kSpeedState];
     this->find_losses(wheel, speed_m_s_, state);
     wheel.slip = zero<S>();
-    hubs_[i].loss_N = is_flat() ? wheel.now.parasitic_N : zero<S>();
+    hubs_[i].loss_N = is_on_road() ? wheel.now.parasitic_N : zero<S>();
   }
   find_resistance();
   find_balance();
@@ -180,12 +180,12 @@ void QuasiStaticVehicle<S>::fill_vehicle_integrands(S* integrands) const {
     power.motor_W += hubs_[i].motor_N * rim_m_s;
     power.brake_W += hubs_[i].friction_N * rim_m_s;
     power.tire_W += now.rolling_resistance_N * now.motion.rolling_speed_m_s;
-    power.bearing_W += is_flat() ? S(hubs_[i].loss_N * rim_m_s) : S(now.parasitic_N * speed_m_s_);
+    power.bearing_W += is_on_road() ? S(hubs_[i].loss_N * rim_m_s) : S(now.parasitic_N * speed_m_s_);
     power.add_slip_and_heat(now);
   }
   power.roller_W = (assist_N_ - given_force_N_) * speed_m_s_;
   power.drive_W = own_share > 0.0 ? S(power.motor_W / own_share) : S(motor_N_ * speed_m_s_);
-  if (is_flat()) power.drag_W = (rolled_off_N_ - given_force_N_) * speed_m_s_;
+  if (is_on_road()) power.drag_W = (rolled_off_N_ - given_force_N_) * speed_m_s_;
   put_vehicle_integrands(present_, demand_N_, speed_m_s_, power, integrands);
 }
 

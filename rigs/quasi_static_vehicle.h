@@ -12,12 +12,12 @@ namespace rollrig::rigs {
 
 /// Equation  on the driver's foot  D = R(v) + sum F_rr,i + (m + m_rot) a, which the driver asks for;
 ///           coasting  a = -(R(v) + sum F_rr,i)/(m + m_rot);
-///           R: rollers' force A + B v + C v^2, or drag, grade and road load on the flat;
+///           R: rollers' force A + B v + C v^2, or drag, grade and given road load on the road;
 ///           each wheel: models/wheel/rolling_wheel.h, its hub doing its share of D
 /// Symbols   m mass, m_rot equivalent mass of what turns [kg], a acceleration [m/s2]; what motors and brakes do of D:
 ///           models/vehicle/vehicle.h, blend_brakes
 /// Validity  slow against suspension, tie-downs and the driver's settling (a few seconds); loads are static,
-///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the flat the sum over all
+///           for the tie-downs of a dynamometer hold the vehicle (§3.4.2) and on the road the sum over all
 ///           axles counts; rollers make up for their own nominal parasitic loss and hold one speed
 /// Energy    kinetic energy jumps where the driver takes over: term "load_changes" of the mechanical audit
 /// Source    momentum of the vehicle and of what turns in it; (3.20)
@@ -46,10 +46,10 @@ class QuasiStaticVehicle : public QuasiStaticRig<S> {
   struct Hub {
     S motor_N{};
     S friction_N{};  // of its brake
-    S loss_N{};      // of its own bearings and brake pads, on the flat
+    S loss_N{};      // of its own bearings and brake pads, on the road
   };
 
-  bool is_flat() const { return is_on_road(layout_.machine); }
+  bool is_on_road() const { return models::is_on_road(layout_.machine); }
   void find_motion(double time_s, const S* state);
   void find_resistance();
   void find_balance();
@@ -63,7 +63,7 @@ class QuasiStaticVehicle : public QuasiStaticRig<S> {
   std::vector<Hub> hubs_;
   S speed_m_s_{};
   S acceleration_m_s2_{};
-  S rolled_off_N_{};   // against the vehicle: given road load and drag on the flat, rollers on a dynamometer
+  S rolled_off_N_{};   // against the vehicle: given road load and drag on the road, rollers on a dynamometer
   S given_force_N_{};  // part of it that rollers and grade do, as work and not as loss
   S body_mass_kg_{};   // all that moves but the simulated wheels' spin
   S demand_N_{};

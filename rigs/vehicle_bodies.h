@@ -13,7 +13,7 @@ struct VehicleBodies {
   struct Wheel {
     SimTK::MobilizedBody::Slider upright;
     SimTK::MobilizedBody::Pin wheel;
-    SimTK::MobilizedBody::Pin roller;  // empty handle on the flat
+    SimTK::MobilizedBody::Pin roller;  // empty handle on the road
     double roller_mass_kg = 0.0;       // its inertia over R^2
     double preload_N = 0.0;            // of the suspension when the upright is at its middle
     double loaded_radius_m = 0.0;      // under the static load

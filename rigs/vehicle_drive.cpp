@@ -35,7 +35,7 @@ models::InputPort<double> VehicleDrive::read_program(const State& state, std::si
 
 /// Drag and given road load, against the body's motion.
 double VehicleDrive::calc_body_drag_N(double speed_m_s, const models::InputPort<double>& acting) const {
-  if (!is_flat()) return 0.0;
+  if (!is_on_road()) return 0.0;
   const double density_kg_per_m3 = layout_.air_density_kg_per_m3 * acting.air_density_ratio;
   return models::calc_drag_N(density_kg_per_m3, layout_.drag_area_m2, speed_m_s, acting.wind_m_s) +
          models::calc_faded_road_load_N(layout_.resistance, speed_m_s);
@@ -44,7 +44,7 @@ double VehicleDrive::calc_body_drag_N(double speed_m_s, const models::InputPort<
 double VehicleDrive::calc_feedforward_N(const models::InputPort<double>& acting) const {
   const double speed_m_s = acting.speed_m_s;
   const double rolling_N = kGuessedRollingLoss * layout_.mass_kg * kStandardGravity_m_s2 * fade(speed_m_s);
-  if (is_flat()) {
+  if (is_on_road()) {
     return rolling_N + calc_body_drag_N(speed_m_s, acting) + models::calc_grade_N(layout_.mass_kg, acting.slope);
   }
   return rolling_N + models::calc_faded_road_load_N(layout_.resistance, speed_m_s);
@@ -56,7 +56,7 @@ double VehicleDrive::find_integral_m(double force_N, const models::InputPort<dou
 }
 
 void VehicleDrive::find_speed(const State& state, DriveEvaluation& at) const {
-  if (is_flat()) {
+  if (is_on_road()) {
     at.speed_m_s = bodies_.sled.getOneU(state, 0);
     return;
   }
@@ -122,7 +122,7 @@ void VehicleDrive::find_wheel(const State& state, std::size_t i, const models::F
   out.brake_Nm = friction_N * radius_m * fade(rim_m_s);
   at.assist_N -= place.motor_share * demand.motor_N - friction_N * fade(at.speed_m_s);
   find_suspension(state, i, at);
-  if (is_flat()) return;
+  if (is_on_road()) return;
   const double share = place.static_load_N / layout_.rolling_load_N;
   const double roller_m_s = bodies_.wheels[i].roller.getOneU(state, 0) * layout_.roller_radius_m;
   const double set_N = share * fade(roller_m_s) * models::calc_road_load_N(layout_.resistance, roller_m_s);
@@ -160,7 +160,7 @@ void VehicleDrive::evaluate(const State& state, DriveEvaluation& at) const {
   at.assist_N = demand.motor_N - demand.friction_N * fade(at.speed_m_s);  // less what the own wheels do
   for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) find_wheel(state, i, demand, at);
   share_restraint(at);
-  if (is_flat()) {
+  if (is_on_road()) {
     at.drag_N = calc_body_drag_N(at.speed_m_s, at.acting);
     at.grade_N = models::calc_grade_N(layout_.mass_kg, at.acting.slope);
   } else if (bodies_.has_sled()) {
@@ -201,7 +201,7 @@ void VehicleDrive::add_own_forces(const State& state, const Contacts&, SimTK::Ve
                                   SimTK::Vector& mobility_forces) const {
   const DriveEvaluation& at = evaluation(state);
   const Vec3 up(0, 1, 0);
-  double along_N = -at.drag_N - at.grade_N + (is_flat() ? at.assist_N : 0.0);
+  double along_N = -at.drag_N - at.grade_N + (is_on_road() ? at.assist_N : 0.0);
   along_N += at.tie_down_N + at.tie_down_damper_N;
   SpatialVec& on_body = body_forces[bodies_.body.getMobilizedBodyIndex()];
   on_body[1] += Vec3(along_N, 0, 0);
@@ -217,7 +217,7 @@ void VehicleDrive::add_own_forces(const State& state, const Contacts&, SimTK::Ve
     on_upright[1] -= wheel.on_upright_N * up;
     const Vec3 down_N = -(wheel.on_body_N + own.ballast_N) * up;
     on_body += SpatialVec(SimTK::cross(arm_m, down_N), down_N);
-    if (is_flat()) continue;
+    if (is_on_road()) continue;
     body_forces[own.roller.getMobilizedBodyIndex()][0] += Vec3(0, 0, wheel.roller_Nm + calc_assist_Nm(at));
   }
 }
@@ -234,7 +234,7 @@ double VehicleDrive::calc_given_W(const State& state, std::size_t i) const {
   const Vec3 axle_m_s = bodies_.body.findStationVelocityInGround(state, Vec3(layout_.wheels[i].axle_x_m, 0, 0));
   const Vec3 upright_m_s = own.upright.getBodyOriginVelocity(state);
   const double restraint_W = -(wheel.on_body_N + own.ballast_N) * axle_m_s[1] - wheel.on_upright_N * upright_m_s[1];
-  if (is_flat()) return restraint_W;
+  if (is_on_road()) return restraint_W;
   return restraint_W + (wheel.roller_Nm + calc_assist_Nm(at)) * own.roller.getOneU(state, 0);
 }
 
@@ -250,8 +250,8 @@ VehiclePowers<double> VehicleDrive::find_powers(const State& state) const {
     power.roller_W += calc_given_W(state, i);
     power.suspension_damper_W += at.wheels[i].suspension_damper_N * bodies_.wheels[i].upright.getOneU(state, 0);
   }
-  if (is_flat()) power.roller_W += (at.assist_N - at.grade_N) * at.speed_m_s;
-  if (!is_flat() && bodies_.has_sled()) {
+  if (is_on_road()) power.roller_W += (at.assist_N - at.grade_N) * at.speed_m_s;
+  if (!is_on_road() && bodies_.has_sled()) {
     power.suspension_damper_W -= at.tie_down_damper_N * bodies_.sled.getOneU(state, 0);
   }
   power.drive_W = own_share > 0.0 ? power.motor_W / own_share : at.motor_N * at.speed_m_s;
@@ -266,7 +266,7 @@ double VehicleDrive::calc_own_springs_J(const State& state) const {
     energy_J +=
         bodies_.wheels[i].preload_N * q_m + models::calc_spring_J(layout_.wheels[i].suspension.stiffness_N_per_m, q_m);
   }
-  if (is_flat() || !bodies_.has_sled()) return energy_J;
+  if (is_on_road() || !bodies_.has_sled()) return energy_J;
   return energy_J + models::calc_spring_J(layout_.tie_down.stiffness_N_per_m, bodies_.sled.getOneQ(state, 0));
 }
 

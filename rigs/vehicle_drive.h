@@ -14,7 +14,7 @@ namespace rollrig::rigs {
 /// What the drive does at one state.
 struct DriveEvaluation {
   models::InputPort<double> acting;  // on the first wheel
-  double speed_m_s = 0.0;            // of the rollers on a dynamometer, of the body on the flat
+  double speed_m_s = 0.0;            // of the rollers on a dynamometer, of the body on the road
   double speed_error_m_s = 0.0;
   double demand_N = 0.0;
   double motor_N = 0.0;   // of the whole demand
@@ -76,7 +76,7 @@ class VehicleDrive : public RigForces {
   void put_own_rates(const SimTK::State& state, const Contacts& contacts, double* z_rates) const override;
   void allocate_own_caches(SimTK::State& state) const override;
 
-  bool is_flat() const { return is_on_road(layout_.machine); }
+  bool is_on_road() const { return models::is_on_road(layout_.machine); }
   /// What the vehicle's program gives for a wheel, without forces.
   models::InputPort<double> read_program(const SimTK::State& state, std::size_t wheel) const;
   void evaluate(const SimTK::State& state, DriveEvaluation& at) const;

@@ -36,10 +36,10 @@ struct VehicleLayout {
   double motor_limit_N = 0.0;  // most that the motor brakes
   double regeneration_fade_m_s = 0.0;
   double driver_bandwidth_rad_s = 0.0;  // of the rollers' common speed as well
-  double roller_radius_m = 0.0;         // 0 on the flat
+  double roller_radius_m = 0.0;         // 0 on the road
   double body_height_m = 0.0;           // of the center of gravity above rollers or road
   TieDownParameters tie_down;
-  /// Force of the rollers against the vehicle (§3.4.3, (3.20)); on the flat, the road load of a vehicle
+  /// Force of the rollers against the vehicle (§3.4.3, (3.20)); on the road, the road load of a vehicle
   /// that is given by it alone.
   models::RoadLoad<double> resistance;
   std::vector<WheelPlace> wheels;
@@ -64,7 +64,7 @@ VehicleLayout make_one_wheel(const VehicleFile& vehicle, const RigFile& rig, dou
                              const models::RoadLoad<double>& set_load, std::size_t axle);
 
 /// What the equations take of a tire under a vehicle on a rig. A vehicle that is given by its road load rolls
-/// on the flat without any loss in its tires, since that load contains them. Throws InputError.
+/// on the road without any loss in its tires, since that load contains them. Throws InputError.
 models::Context<double> make_vehicle_context(const models::TireFile& tire, const RigFile& rig,
                                              const VehicleFile& vehicle, models::Baseline baseline);
 

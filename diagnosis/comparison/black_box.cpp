@@ -15,7 +15,7 @@ Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
   const PreparedRun& run = set.runs()[series.run];
   const double start_s = run.measured.time_s.front();
   const double skim_limit_N = set.kind().skim_limit_N(set.source());
-  Eigen::MatrixXd features(at(series.size()), kFeatures);
+  Eigen::MatrixXd features(to_index(series.size()), kFeatures);
   for (std::size_t k = 0; k < series.size(); ++k) {
     const auto mean = [&](const Quantity& quantity) {
       const std::vector<double>& values = run.measured.column(quantity);
@@ -26,7 +26,7 @@ Eigen::MatrixXd find_features(const PreparedSet& set, const Series& series) {
     const double skim = mean(models::quantities::kLoad) <= skim_limit_N ? 1.0 : 0.0;
     const double elapsed_s = series.time_s[k] - start_s;
     const double in_phase_s = series.time_s[k] - run.measured.time_s[run.phases[series.phase[k]].first];
-    features.row(at(k)) << 1.0, speed, speed * speed, load, load * speed, skim,
+    features.row(to_index(k)) << 1.0, speed, speed * speed, load, load * speed, skim,
         (mean(models::quantities::kAmbient) - 298.15) / 5.0, (run.measured.initial_tire_temperature_K - 298.15) / 10.0,
         (run.measured.cold_pressure_Pa - 2.5e5) / 5e4, std::exp(-elapsed_s / 300.0), std::exp(-elapsed_s / 1200.0),
         std::exp(-in_phase_s / 300.0), std::exp(-in_phase_s / 1200.0);

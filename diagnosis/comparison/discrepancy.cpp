@@ -24,7 +24,7 @@ void add_hats(const Series& series, double spacing_s, Eigen::MatrixXd& basis) {
   for (std::size_t k = 0; k < series.size(); ++k) {
     for (Eigen::Index hat = 0; hat <= intervals; ++hat) {
       const double apart = std::abs(series.time_s[k] - start_s - static_cast<double>(hat) * step_s) / step_s;
-      if (apart < 1.0) basis(at(k), first + hat) = 1.0 - apart;
+      if (apart < 1.0) basis(to_index(k), first + hat) = 1.0 - apart;
     }
   }
 }
@@ -32,14 +32,14 @@ void add_hats(const Series& series, double spacing_s, Eigen::MatrixXd& basis) {
 void add_phases(const Series& series, Eigen::MatrixXd& basis) {
   const std::size_t phases = 1 + *std::max_element(series.phase.begin(), series.phase.end());
   const Eigen::Index first = basis.cols();
-  basis.conservativeResize(Eigen::NoChange, first + at(phases));
-  basis.rightCols(at(phases)).setZero();
-  for (std::size_t k = 0; k < series.size(); ++k) basis(at(k), first + at(series.phase[k])) = 1.0;
+  basis.conservativeResize(Eigen::NoChange, first + to_index(phases));
+  basis.rightCols(to_index(phases)).setZero();
+  for (std::size_t k = 0; k < series.size(); ++k) basis(to_index(k), first + to_index(series.phase[k])) = 1.0;
 }
 
 /// The basis of time of a series, in noise floors.
 Eigen::MatrixXd make_time_basis(const Series& series) {
-  Eigen::MatrixXd columns(at(series.size()), 1);
+  Eigen::MatrixXd columns(to_index(series.size()), 1);
   columns.setOnes();
   for (const double scale_s : thresholds::kDiscrepancyScales_s) add_hats(series, scale_s, columns);
   add_phases(series, columns);
@@ -84,11 +84,11 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
   constexpr double kConditions = 9.0;
   const auto sizes = {kSpeeds_km_h.size(), kLoadShares.size(), kTimes_s.size(), kSinceLoad_s.size()};
   Eigen::Index columns = kSingles;
-  for (const std::size_t size : sizes) columns += at(size);
+  for (const std::size_t size : sizes) columns += to_index(size);
   const PreparedRun& run = set.runs()[series.run];
   const std::vector<double> since_load_s = find_time_since_load_change(run);
   const auto& tire = set.context().tire.rolling_resistance;
-  Eigen::MatrixXd basis(at(series.size()), columns);
+  Eigen::MatrixXd basis(to_index(series.size()), columns);
   for (std::size_t k = 0; k < series.size(); ++k) {
     const auto mean = [&](const std::vector<double>& values) {
       return series.mean_over(series.blocks[k], [&](std::size_t row) { return values[row]; });
@@ -100,8 +100,8 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
     Eigen::RowVectorXd row(columns);
     Eigen::Index at_column = 0;
     const auto put = [&](double x, const std::vector<double>& knots) {
-      put_hats(x, knots, row.segment(at_column, at(knots.size())));
-      at_column += at(knots.size());
+      put_hats(x, knots, row.segment(at_column, to_index(knots.size())));
+      at_column += to_index(knots.size());
     };
     put(speed_km_h, kSpeeds_km_h);
     put(load_share, kLoadShares);
@@ -110,7 +110,7 @@ Eigen::MatrixXd make_condition_basis(const PreparedSet& set, const Series& serie
     row.tail(kSingles) << 1.0, load_share * speed_km_h / 80.0, acceleration_m_s2 / 0.5,
         (run.measured.cold_pressure_Pa - tire.reference_pressure_Pa) / 5e4,
         (run.measured.initial_tire_temperature_K - run.measured.column(models::quantities::kAmbient).front()) / 10.0;
-    basis.row(at(k)) = row;
+    basis.row(to_index(k)) = row;
   }
   return basis / std::sqrt(kConditions);
 }
@@ -137,9 +137,9 @@ Discrepancy::Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitude
   for (const Series& series : set_.series()) {
     of_series.push_back(whiten_basis(series, make_condition_basis(set_, series)));
   }
-  RowMatrix all(at(set_.residual_count()), of_series.front().cols());
+  RowMatrix all(to_index(set_.residual_count()), of_series.front().cols());
   for (std::size_t s = 0; s < of_series.size(); ++s) {
-    all.middleRows(at(set_.series()[s].first_residual), of_series[s].rows()) = of_series[s];
+    all.middleRows(to_index(set_.series()[s].first_residual), of_series[s].rows()) = of_series[s];
   }
   below_->whiten(below_amplitudes_, all);
   for (std::size_t channel = 0; channel < set_.channels().size(); ++channel) {
@@ -166,13 +166,13 @@ void Discrepancy::add_basis(std::size_t channel, std::vector<std::size_t> series
 template <class Columns>
 Eigen::MatrixXd Discrepancy::gather(const Basis& basis, const Columns& columns) const {
   Eigen::Index rows = 0;
-  for (const std::size_t s : basis.series) rows += at(set_.series()[s].size());
+  for (const std::size_t s : basis.series) rows += to_index(set_.series()[s].size());
   Eigen::MatrixXd gathered(rows, columns.cols());
   Eigen::Index next = 0;
   for (const std::size_t s : basis.series) {
     const Series& series = set_.series()[s];
-    gathered.middleRows(next, at(series.size())) = series.rows_of(columns);
-    next += at(series.size());
+    gathered.middleRows(next, to_index(series.size())) = series.rows_of(columns);
+    next += to_index(series.size());
   }
   return gathered;
 }
@@ -187,8 +187,8 @@ void Discrepancy::whiten(const Amplitudes& amplitudes, Columns& columns) const {
     Eigen::Index next = 0;
     for (const std::size_t s : basis.series) {
       const Series& series = set_.series()[s];
-      series.rows_of(columns) -= change.middleRows(next, at(series.size()));
-      next += at(series.size());
+      series.rows_of(columns) -= change.middleRows(next, to_index(series.size()));
+      next += to_index(series.size());
     }
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes and places of the standard library as Eigen counts them.
+/// Sizes and indices of the standard library as Eigen has them, with a sign.
 
 #include <Eigen/Core>
 
@@ -7,6 +7,6 @@
 
 namespace rollrig::diagnosis {
 
-inline Eigen::Index at(std::size_t i) { return static_cast<Eigen::Index>(i); }
+inline Eigen::Index to_index(std::size_t i) { return static_cast<Eigen::Index>(i); }
 
 }  // namespace rollrig::diagnosis

@@ -46,7 +46,7 @@ Amplitudes expect_model_error(ModelError error, const Candidate& candidate) {
 Amplitudes measure_whole(const Model& model, const Fit& fit) {
   const Model without(model.set(), model.base(), {});
   Eigen::VectorXd simulated;
-  const Eigen::Index own = at(model.own_count());
+  const Eigen::Index own = to_index(model.own_count());
   if (!without.simulate(fit.unknowns.tail(fit.unknowns.size() - own), 1, simulated, nullptr)) {
     return Amplitudes(model.set().channels().size(), 0.0);
   }
@@ -124,7 +124,7 @@ Candidate Evaluator::fit_null() const {
   null.whole = null.signature;
   const Amplitudes expected = expect_model_error(study_.settings.model_error, null);
   null.fit = refit(model, study_.discrepancy,
-                   {expected, Eigen::VectorXd::Zero(at(model.unknown_count())), study_.settings.threads});
+                   {expected, Eigen::VectorXd::Zero(to_index(model.unknown_count())), study_.settings.threads});
   if (!std::isfinite(null.fit.cost)) {
     throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
   }
@@ -143,7 +143,7 @@ std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::ve
     candidates[i] = fit_once(model, {from.amplitudes, start, 1, steps});
     if (std::isfinite(candidates[i].fit.cost)) return;
     // Where it cannot be simulated with what makes up for its absence: from the middle of all priors.
-    const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(model.unknown_count()));
+    const Eigen::VectorXd middle = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
     candidates[i] = fit_once(model, {from.amplitudes, middle, 1, steps});
   });
   const auto gain_of = [](const Candidate& one) { return std::max(one.log_evidence, one.log_discrepancy); };

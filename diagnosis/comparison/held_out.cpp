@@ -18,20 +18,20 @@ struct Bounds {
 /// from a set that is not of this tire may lead out of physics.
 Bounds find_bounds(const Model& model) {
   constexpr double kMostRelative = 0.9;
-  const Eigen::Index n = at(model.unknown_count());
+  const Eigen::Index n = to_index(model.unknown_count());
   const double infinity = std::numeric_limits<double>::infinity();
   Bounds bounds{Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds own = model.own_parameters()[i].bounds();
-    bounds.lower[at(i)] = own.lower;
-    bounds.upper[at(i)] = own.upper;
+    bounds.lower[to_index(i)] = own.lower;
+    bounds.upper[to_index(i)] = own.upper;
   }
   const std::vector<estimation::FreeParameter>& base = model.base();
   for (std::size_t i = 0; i < base.size(); ++i) {
     const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
     if (most > 0.0) {
-      bounds.lower[at(model.own_count() + i)] = -most;
-      bounds.upper[at(model.own_count() + i)] = most;
+      bounds.lower[to_index(model.own_count() + i)] = -most;
+      bounds.upper[to_index(model.own_count() + i)] = most;
     }
   }
   return bounds;
@@ -61,7 +61,7 @@ Prediction predict_without(const Study& study, const Candidate& candidate, std::
       solve_within(curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals), bounds.lower,
                    bounds.upper);
   Prediction prediction;
-  const auto parameters = at(model.parameter_count());  // offsets are taken off anew
+  const auto parameters = to_index(model.parameter_count());  // offsets are taken off anew
   left_out.rightCols(n - parameters).setZero();
   prediction.uncertainty = curvature.matrixL().solve(Eigen::MatrixXd(left_out.transpose())).squaredNorm();
   if (!model.simulate(unknowns, 1, prediction.simulated, nullptr)) prediction.simulated.resize(0);

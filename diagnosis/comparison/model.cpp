@@ -18,13 +18,13 @@ double make_scalar<double>(double value, double, std::size_t) {
 template <>
 Jet make_scalar<Jet>(double value, double derivative, std::size_t column) {
   Jet jet(value);
-  if (column < static_cast<std::size_t>(kJetWidth)) jet.v[at(column)] = derivative;
+  if (column < static_cast<std::size_t>(kJetWidth)) jet.v[to_index(column)] = derivative;
   return jet;
 }
 
 void store_derivatives(double, RowMatrix*, std::size_t, std::size_t, std::size_t) {}
 void store_derivatives(const Jet& value, RowMatrix* out, std::size_t row, std::size_t first, std::size_t count) {
-  for (std::size_t c = 0; c < count; ++c) (*out)(at(row), at(first + c)) = value.v[at(c)];
+  for (std::size_t c = 0; c < count; ++c) (*out)(to_index(row), to_index(first + c)) = value.v[to_index(c)];
 }
 
 /// Beyond it a simulation has left its domain: the steps were too long for what moves that fast. Assumed: 2000 K,
@@ -49,13 +49,13 @@ Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base
 
 bool Model::find_parameters(const Eigen::VectorXd& unknowns, std::vector<Parameter>& parameters) const {
   for (std::size_t i = 0; i < own_.size(); ++i) {
-    const PriorUnits value = own_[i].value_at(unknowns[at(i)]);
+    const PriorUnits value = own_[i].value_at(unknowns[to_index(i)]);
     if (!value.allowed) return false;
     parameters.push_back({value.value_SI, value.derivative_SI});
   }
   for (std::size_t i = 0; i < base_.size(); ++i) {
     const double sd = base_[i].prior_sd_SI;
-    parameters.push_back({base_[i].start_SI + sd * unknowns[at(own_.size() + i)], sd});
+    parameters.push_back({base_[i].start_SI + sd * unknowns[to_index(own_.size() + i)], sd});
   }
   return true;
 }
@@ -97,7 +97,7 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
     for (std::size_t k = 0; k < series.size(); ++k) {
       const S mean = series.mean_over(series.blocks[k], [&](std::size_t row) { return simulated[row]; });
       if (!(std::abs(value_of(mean)) < most)) return false;  // NaN too
-      if (first_column == 0) values[at(series.first_residual + k)] = value_of(mean);
+      if (first_column == 0) values[to_index(series.first_residual + k)] = value_of(mean);
       store_derivatives(mean, derivatives, series.first_residual + k, first_column, count);
     }
   }
@@ -110,8 +110,8 @@ bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
   if (!find_parameters(unknowns, parameters)) return false;
   const std::size_t runs = set_.runs().size();
   const std::size_t passes = derivatives == nullptr ? 1 : (parameters.size() + kJetWidth - 1) / kJetWidth;
-  values.setZero(at(residual_count()));
-  if (derivatives != nullptr) derivatives->setZero(at(residual_count()), at(parameters.size()));
+  values.setZero(to_index(residual_count()));
+  if (derivatives != nullptr) derivatives->setZero(to_index(residual_count()), to_index(parameters.size()));
   std::vector<char> good(runs * passes, 1);
   parallel_for(runs * passes, threads, [&](std::size_t job) {
     const std::size_t run = job / passes;
@@ -125,14 +125,14 @@ bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
 
 bool Model::derive_run(std::size_t run, const Eigen::VectorXd& unknowns, RowMatrix& derivatives) const {
   std::vector<Parameter> parameters;
-  Eigen::VectorXd values(at(residual_count()));
+  Eigen::VectorXd values(to_index(residual_count()));
   return find_parameters(unknowns, parameters) && simulate_run<Jet>(run, parameters, 0, values, &derivatives);
 }
 
 Eigen::VectorXd Model::subtract_from_measured(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& simulated) const {
   Eigen::VectorXd difference = set_.measured() - simulated;
   for (const Series& series : set_.series()) {
-    series.rows_of(difference).array() -= series.offset_sd * unknowns[at(parameter_count() + series.offset)];
+    series.rows_of(difference).array() -= series.offset_sd * unknowns[to_index(parameter_count() + series.offset)];
   }
   return difference;
 }
@@ -144,10 +144,10 @@ bool Model::evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
   if (!simulate(unknowns, threads, simulated, jacobian != nullptr ? &derivatives : nullptr)) return false;
   residuals = subtract_from_measured(unknowns, simulated);
   if (jacobian != nullptr) {
-    jacobian->setZero(at(residual_count()), at(unknown_count()));
-    jacobian->leftCols(at(parameter_count())) = -derivatives;
+    jacobian->setZero(to_index(residual_count()), to_index(unknown_count()));
+    jacobian->leftCols(to_index(parameter_count())) = -derivatives;
     for (const Series& series : set_.series()) {
-      series.rows_of(*jacobian).col(at(parameter_count() + series.offset)).setConstant(-series.offset_sd);
+      series.rows_of(*jacobian).col(to_index(parameter_count() + series.offset)).setConstant(-series.offset_sd);
     }
   }
   whiten(set_, residuals);
@@ -157,7 +157,8 @@ bool Model::evaluate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
 
 void whiten(const PreparedSet& set, RowMatrix& columns) {
   for (const Series& series : set.series()) {
-    series.whitener.apply(columns.row(at(series.first_residual)).data(), static_cast<std::size_t>(columns.cols()));
+    series.whitener.apply(columns.row(to_index(series.first_residual)).data(),
+                          static_cast<std::size_t>(columns.cols()));
   }
 }
 

@@ -95,9 +95,9 @@ PreparedSet::PreparedSet(const measurements::MeasurementSet& set, ExtraReadings 
   if (series_.empty()) {
     throw InputError({"nothing was measured in any run", set_.path, 0, "", "", "samples in one measured channel", ""});
   }
-  measured_.resize(at(residual_count_));
+  measured_.resize(to_index(residual_count_));
   for (const Series& series : series_) {
-    series.rows_of(measured_) = Eigen::Map<const Eigen::VectorXd>(series.measured.data(), at(series.size()));
+    series.rows_of(measured_) = Eigen::Map<const Eigen::VectorXd>(series.measured.data(), to_index(series.size()));
   }
 }
 

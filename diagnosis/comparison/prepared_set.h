@@ -36,7 +36,7 @@ struct Series {
   /// Of a column or columns over the residuals of the whole set, those of this series.
   template <class Columns>
   auto rows_of(Columns& columns) const {
-    return columns.middleRows(at(first_residual), at(size()));
+    return columns.middleRows(to_index(first_residual), to_index(size()));
   }
   /// Mean over the samples of a block.
   template <class Get>

@@ -19,8 +19,8 @@ class WhitenedResiduals : public ceres::CostFunction {
   }
 
   bool Evaluate(double const* const* parameters, double* out, double** jacobians) const override {
-    const Eigen::Index unknowns = at(model_.unknown_count());
-    const Eigen::Index rows = at(model_.residual_count());
+    const Eigen::Index unknowns = to_index(model_.unknown_count());
+    const Eigen::Index rows = to_index(model_.residual_count());
     const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(parameters[0], unknowns);
     const bool derive = jacobians != nullptr && jacobians[0] != nullptr;
     Eigen::VectorXd residuals;
@@ -68,7 +68,7 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds bounds = model.own_parameters()[i].bounds();
-    double& u = fit.unknowns[at(i)];
+    double& u = fit.unknowns[to_index(i)];
     u = std::clamp(u, bounds.lower, bounds.upper);
   }
   ceres::Solver::Options options;

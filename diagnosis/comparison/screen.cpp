@@ -11,7 +11,7 @@
 namespace rollrig::diagnosis {
 
 Eigen::VectorXd insert_own(const Model& larger, const Fit& fit, const Term& term, const Eigen::VectorXd& own) {
-  Eigen::VectorXd unknowns(at(larger.unknown_count()));
+  Eigen::VectorXd unknowns(to_index(larger.unknown_count()));
   Eigen::Index from = 0;
   Eigen::Index next_own = 0;
   for (Eigen::Index i = 0; i < unknowns.size(); ++i) {
@@ -43,7 +43,7 @@ std::vector<SizeTrial> find_size_trials(const models::EffectParameter& size) {
 
 /// Own parameters at that size, and with each shape moved by one prior unit, one at a time.
 std::vector<Eigen::VectorXd> find_shape_trials(const Term& term, double size_u) {
-  Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(term.parameters().size()));
+  Eigen::VectorXd middle = Eigen::VectorXd::Zero(to_index(term.parameters().size()));
   middle[0] = size_u;
   std::vector<Eigen::VectorXd> trials{middle};
   for (Eigen::Index shape = 1; shape < middle.size(); ++shape) {

@@ -43,10 +43,10 @@ class PerturbationModel {
  public:
   PerturbationModel(const PreparedSet& set, const LinearFit& null, const std::vector<PerturbationFamily>& families)
       : null_curvature_(null.curvature), count_(families.size()) {
-    RowMatrix columns(at(set.residual_count()), at(count_) * kKnots);
+    RowMatrix columns(to_index(set.residual_count()), to_index(count_) * kKnots);
     for (std::size_t f = 0; f < count_; ++f) {
       const double largest = measure_constant(set, families[f].columns);
-      columns.middleCols(at(f) * kKnots, kKnots) = families[f].columns / (largest > 0.0 ? largest : 1.0);
+      columns.middleCols(to_index(f) * kKnots, kKnots) = families[f].columns / (largest > 0.0 ? largest : 1.0);
     }
     null.whiten(columns);
     const Eigen::Index n = columns.cols();
@@ -96,7 +96,7 @@ class PerturbationModel {
       const Eigen::VectorXd sizes = one.factor.matrixU().solve(one.half_score - one.half_with_null * unknowns);
       for (std::size_t i = 0; i < acting.size(); ++i) {
         result.contributions[acting[i]] +=
-            sizes.segment(at(i) * kKnots, kKnots).dot(one.score.segment(at(i) * kKnots, kKnots));
+            sizes.segment(to_index(i) * kKnots, kKnots).dot(one.score.segment(to_index(i) * kKnots, kKnots));
       }
     }
     return result;
@@ -117,21 +117,21 @@ class PerturbationModel {
   };
 
   Solved solve(const OfRun& run, const Choice& choice, const std::vector<std::size_t>& acting) const {
-    const Eigen::Index n = at(acting.size()) * kKnots;
+    const Eigen::Index n = to_index(acting.size()) * kKnots;
     Eigen::MatrixXd square = Eigen::MatrixXd::Identity(n, n);
     Eigen::MatrixXd with_null(n, run.with_null.cols());
     Solved solved;
     solved.score.resize(n);
     for (std::size_t i = 0; i < acting.size(); ++i) {
       const double amplitude = amplitude_of(choice[acting[i]]);
-      const Eigen::Index from = at(acting[i]) * kKnots;
+      const Eigen::Index from = to_index(acting[i]) * kKnots;
       for (std::size_t j = 0; j < acting.size(); ++j) {
-        square.block(at(i) * kKnots, at(j) * kKnots, kKnots, kKnots) +=
+        square.block(to_index(i) * kKnots, to_index(j) * kKnots, kKnots, kKnots) +=
             amplitude * amplitude_of(choice[acting[j]]) *
-            run.square.block(from, at(acting[j]) * kKnots, kKnots, kKnots);
+            run.square.block(from, to_index(acting[j]) * kKnots, kKnots, kKnots);
       }
-      with_null.middleRows(at(i) * kKnots, kKnots) = amplitude * run.with_null.middleRows(from, kKnots);
-      solved.score.segment(at(i) * kKnots, kKnots) = amplitude * run.score.segment(from, kKnots);
+      with_null.middleRows(to_index(i) * kKnots, kKnots) = amplitude * run.with_null.middleRows(from, kKnots);
+      solved.score.segment(to_index(i) * kKnots, kKnots) = amplitude * run.score.segment(from, kKnots);
     }
     solved.factor.compute(square);
     solved.half_with_null = solved.factor.matrixL().solve(with_null);

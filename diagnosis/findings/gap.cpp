@@ -21,7 +21,7 @@ struct OffsetFit {
 OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
   std::vector<double> whitened(series.size());
   std::vector<double> ones(series.size(), 1.0);
-  for (std::size_t k = 0; k < series.size(); ++k) whitened[k] = difference[at(series.first_residual + k)];
+  for (std::size_t k = 0; k < series.size(); ++k) whitened[k] = difference[to_index(series.first_residual + k)];
   series.whitener.apply(whitened.data(), 1);
   series.whitener.apply(ones.data(), 1);
   double along = 0.0;
@@ -60,7 +60,7 @@ void add_run(const PreparedSet& set, std::size_t run, const Eigen::VectorXd& dif
     if (series.run != run) continue;
     const OffsetFit fit = fit_offset(series, difference);
     for (std::size_t k = 0; k < series.size(); ++k) {
-      const double d = difference[at(series.first_residual + k)] - fit.offset;
+      const double d = difference[to_index(series.first_residual + k)] - fit.offset;
       const double sd = series.whitener.standard_deviation(k);
       const double above = d * d - std::max(0.0, sd * sd - fit.offset_variance);
       measure.stretches[{run, series.phase[k]}].add({above / (series.floor * series.floor), 1.0});
@@ -91,9 +91,9 @@ Measure measure_as_calibrated(const Study& study, const Candidate& candidate) {
   const PreparedSet& set = study.set;
   const Model model(set, {}, candidate.fit.hypothesis);
   constexpr int kMost = 6;
-  RefitStart start{candidate.amplitudes, Eigen::VectorXd(at(model.unknown_count())), 1, kMost};
-  const Eigen::Index own = at(model.own_count());
-  const Eigen::Index offsets = at(set.offset_count());
+  RefitStart start{candidate.amplitudes, Eigen::VectorXd(to_index(model.unknown_count())), 1, kMost};
+  const Eigen::Index own = to_index(model.own_count());
+  const Eigen::Index offsets = to_index(set.offset_count());
   start.unknowns << candidate.fit.unknowns.head(own), candidate.fit.unknowns.tail(offsets);
   const Eigen::VectorXd simulated = refit(model, study.discrepancy, start).simulated;
   Measure measure;

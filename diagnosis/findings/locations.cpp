@@ -66,23 +66,23 @@ Scores calc_scores(const LinearFit& null, const std::vector<Stretch>& stretches)
   RowMatrix templates = RowMatrix::Zero(null.jacobian.rows(), width);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     for (const std::size_t k : stretches[i].blocks)
-      templates(at(stretches[i].series->first_residual + k), column[i]) = 1;
+      templates(to_index(stretches[i].series->first_residual + k), column[i]) = 1;
   }
   null.whiten(templates);
-  const Eigen::Index count = at(stretches.size());
+  const Eigen::Index count = to_index(stretches.size());
   const auto rows_of = [&](std::size_t i, const auto& matrix) {
-    return matrix.middleRows(at(stretches[i].series->first_residual), at(stretches[i].series->size()));
+    return matrix.middleRows(to_index(stretches[i].series->first_residual), to_index(stretches[i].series->size()));
   };
   Scores scores{Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd(count), Eigen::VectorXd(count), {}};
   Eigen::MatrixXd through_null(null.jacobian.cols(), count);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     const Eigen::VectorXd one = rows_of(i, templates).col(column[i]);
-    through_null.col(at(i)) = rows_of(i, null.jacobian).transpose() * one;
-    scores.score[at(i)] = one.dot(rows_of(i, null.residual));
-    scores.without_null[at(i)] = one.squaredNorm();
+    through_null.col(to_index(i)) = rows_of(i, null.jacobian).transpose() * one;
+    scores.score[to_index(i)] = one.dot(rows_of(i, null.residual));
+    scores.without_null[to_index(i)] = one.squaredNorm();
     for (std::size_t j = 0; j < stretches.size(); ++j) {
       if (stretches[j].series != stretches[i].series) continue;
-      scores.information(at(i), at(j)) = one.dot(rows_of(j, templates).col(column[j]));
+      scores.information(to_index(i), to_index(j)) = one.dot(rows_of(j, templates).col(column[j]));
     }
   }
   scores.null_steps = null.factor.solve(through_null);
@@ -126,7 +126,7 @@ struct Sized {
 std::vector<Sized> size_jointly(const Scores& scores, std::vector<std::size_t> selected, double critical) {
   while (true) {
     std::vector<Sized> sized;
-    const Eigen::Index n = at(selected.size());
+    const Eigen::Index n = to_index(selected.size());
     const Eigen::MatrixXd information = scores.information(selected, selected);
     const Eigen::VectorXd score = scores.score(selected);
     const Eigen::MatrixXd covariance = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
@@ -147,7 +147,7 @@ double calc_excess(const Stretch& stretch, const Eigen::VectorXd& difference) {
   double sum = 0.0;
   for (const std::size_t k : stretch.blocks) {
     const double noise_sd = series.whitener.standard_deviation(k);
-    const double d = difference[at(series.first_residual + k)];
+    const double d = difference[to_index(series.first_residual + k)];
     sum += (d * d - noise_sd * noise_sd) / (series.floor * series.floor);
   }
   return sum;
@@ -190,7 +190,7 @@ std::vector<Location> find_locations(const Study& study) {
   if (listed.empty()) return {};
 
   Eigen::VectorXd unknowns = linear.unknowns;
-  for (const Sized& sized : listed) unknowns += scores.null_steps.col(at(sized.stretch)) * sized.size;
+  for (const Sized& sized : listed) unknowns += scores.null_steps.col(to_index(sized.stretch)) * sized.size;
   const Eigen::VectorXd difference = calc_difference(study, unknowns);
   std::vector<Location> locations;
   double of_listed = 0.0;

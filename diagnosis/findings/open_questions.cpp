@@ -38,7 +38,7 @@ std::vector<const Candidate*> rank(const Study& study, const Comparison& compari
 /// A hypothesis of a study at its parameters, without offsets, each as uncertain as the study leaves it.
 OpenHypothesis describe(const Study& study, const Hypothesis& hypothesis, const Eigen::VectorXd& unknowns,
                         const Eigen::MatrixXd& covariance) {
-  const Eigen::Index count = unknowns.size() - at(study.set.offset_count());
+  const Eigen::Index count = unknowns.size() - to_index(study.set.offset_count());
   return {hypothesis, unknowns.head(count), covariance.topLeftCorner(count, count).llt().matrixL()};
 }
 
@@ -68,18 +68,18 @@ std::optional<OpenHypothesis> add_unseen(const Study& study, const Candidate& le
   Fit fit;
   fit.hypothesis = lead.fit.hypothesis.with({&term, 1});
   const Model larger = study.make_model(fit.hypothesis);
-  const Eigen::VectorXd middle = Eigen::VectorXd::Zero(at(term.parameters().size()));
+  const Eigen::VectorXd middle = Eigen::VectorXd::Zero(to_index(term.parameters().size()));
   fit.unknowns = insert_own(larger, lead.fit, term, middle);
   if (!larger.evaluate(fit.unknowns, study.settings.threads, fit.residuals, &fit.jacobian)) return std::nullopt;
   const Evidence::Solution solution = Evidence(study.discrepancy, fit).solve(lead.amplitudes, true);
   std::vector<Eigen::Index> added;
   for (std::size_t i = 0; i < larger.own_count(); ++i) {
-    if (larger.own_parameters()[i].term == &term) added.push_back(at(i));
+    if (larger.own_parameters()[i].term == &term) added.push_back(to_index(i));
   }
   Eigen::VectorXd unknowns = move_to_likeliest(fit.unknowns, solution, added);
   for (std::size_t i = 0; i < larger.own_count(); ++i) {
     const PriorBounds bounds = larger.own_parameters()[i].bounds();
-    unknowns[at(i)] = std::clamp(unknowns[at(i)], bounds.lower, bounds.upper);
+    unknowns[to_index(i)] = std::clamp(unknowns[to_index(i)], bounds.lower, bounds.upper);
   }
   return describe(study, fit.hypothesis, unknowns, solution.covariance);
 }

@@ -206,7 +206,7 @@ std::vector<Piece> find_pieces(const PreparedRun& run) {
 /// A sensor's own perturbation: it moves its channel alone.
 PerturbationFamily perturb_sensor(const PreparedSet& set, std::size_t channel, const std::string& name,
                                   const std::vector<std::vector<double>>& knots_s) {
-  PerturbationFamily family{name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))};
+  PerturbationFamily family{name, RowMatrix::Zero(to_index(set.residual_count()), to_index(kPerturbationKnots))};
   for (const Series& series : set.series()) {
     if (series.channel != channel) continue;
     const std::vector<double>& of_run = knots_s[series.run];
@@ -215,8 +215,8 @@ PerturbationFamily perturb_sensor(const PreparedSet& set, std::size_t channel, c
       const double elapsed_s = series.time_s[k] - start_s;
       const std::size_t i = find_interval(elapsed_s, [&](std::size_t knot) { return of_run[knot]; });
       const double share = (elapsed_s - of_run[i]) / (of_run[i + 1] - of_run[i]);
-      family.columns(at(series.first_residual + k), at(i)) = 1.0 - share;
-      family.columns(at(series.first_residual + k), at(i + 1)) = share;
+      family.columns(to_index(series.first_residual + k), to_index(i)) = 1.0 - share;
+      family.columns(to_index(series.first_residual + k), to_index(i + 1)) = share;
     }
   }
   return family;
@@ -245,11 +245,12 @@ std::vector<PerturbationFamily> calc_perturbations(const Study& study) {
   std::vector<PerturbationFamily> families;
   std::vector<Model> models;
   for (const NamedPerturbation& one : set.kind().perturbations()) {
-    families.push_back({one.name, RowMatrix::Zero(at(set.residual_count()), at(kPerturbationKnots))});
+    families.push_back({one.name, RowMatrix::Zero(to_index(set.residual_count()), to_index(kPerturbationKnots))});
     models.push_back(study.make_model({{{&find_term(one.perturbation), 1}}}));
   }
-  Eigen::VectorXd unknowns(at(kPerturbationKnots + study.base.size()));
-  unknowns << Eigen::VectorXd::Zero(at(kPerturbationKnots)), study.null.fit.unknowns.head(at(study.base.size()));
+  Eigen::VectorXd unknowns(to_index(kPerturbationKnots + study.base.size()));
+  unknowns << Eigen::VectorXd::Zero(to_index(kPerturbationKnots)),
+      study.null.fit.unknowns.head(to_index(study.base.size()));
   parallel_for(set.runs().size() * models.size(), study.settings.threads, [&](std::size_t job) {
     const std::size_t f = job % models.size();
     if (models[f].derive_run(job / models.size(), unknowns, families[f].columns)) return;

@@ -36,9 +36,9 @@ std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Can
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
     const Unit unit = unit_of_key(own.declared->key);
-    const double u = candidate.fit.unknowns[at(i)];
+    const double u = candidate.fit.unknowns[to_index(i)];
     const double of_law_u = own.is_size() ? study.settings.model_error.size_share * distance_from_off(own, u) : 0.0;
-    const double sd_u = std::hypot(std::sqrt(covariance(at(i), at(i))), of_law_u);
+    const double sd_u = std::hypot(std::sqrt(covariance(to_index(i), to_index(i))), of_law_u);
     const auto value_at = [&](double shifted) { return own.value_at(shifted).value_SI / unit.factor; };
     const auto [low, high] = std::minmax({value_at(u - kNormal95 * sd_u), value_at(u + kNormal95 * sd_u)});
     estimates.push_back({fmt::format("{}.{}", own.term->name(), own.declared->key), value_at(u),
@@ -57,9 +57,9 @@ bool differs_between_runs(const Study& study, const Candidate& candidate, std::s
   study.discrepancy.whiten(candidate.amplitudes, residual);
   // The size's direction once all other unknowns have taken what they can.
   const Eigen::Index n = jacobian.cols();
-  const Eigen::VectorXd size = jacobian.col(at(size_column));
+  const Eigen::VectorXd size = jacobian.col(to_index(size_column));
   RowMatrix others = jacobian;
-  others.col(at(size_column)).setZero();
+  others.col(to_index(size_column)).setZero();
   const Eigen::LLT<Eigen::MatrixXd> curvature(others.transpose() * others + Eigen::MatrixXd::Identity(n, n));
   const Eigen::VectorXd direction = size - others * curvature.solve(others.transpose() * size);
   std::vector<Estimate> shifts;
@@ -92,7 +92,7 @@ std::vector<std::string> find_objections(const Study& study, const Candidate& ca
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
     const char* key = own.declared->key;
-    const double u = candidate.fit.unknowns[at(i)];
+    const double u = candidate.fit.unknowns[to_index(i)];
     if (std::abs(u) > thresholds::kTail_sd) {
       objections.push_back(
           fmt::format("{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", key,

@@ -34,9 +34,9 @@ measurements::MeasurementSet make_virtual_set(const PreparedSet& set, const Plan
 }
 
 RowMatrix make_offsets(const PreparedSet& set) {
-  RowMatrix offsets = RowMatrix::Zero(at(set.residual_count()), at(set.offset_count()));
+  RowMatrix offsets = RowMatrix::Zero(to_index(set.residual_count()), to_index(set.offset_count()));
   for (const Series& series : set.series())
-    series.rows_of(offsets).col(at(series.offset)).setConstant(series.offset_sd);
+    series.rows_of(offsets).col(to_index(series.offset)).setConstant(series.offset_sd);
   return offsets;
 }
 
@@ -77,7 +77,7 @@ PredictedTest::PredictedTest(const Study& study, const std::vector<OpenHypothesi
 bool PredictedTest::simulate(const PreparedSet& set, const Study& study, const std::vector<OpenHypothesis>& open) {
   for (const OpenHypothesis& one : open) {
     const Model model(set, study.base, one.hypothesis);
-    Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+    Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
     unknowns.head(one.parameters.size()) = one.parameters;
     Prediction prediction;
     RowMatrix derivatives;
@@ -122,9 +122,9 @@ void PredictedTest::add_clock_reading(const Study& study, const std::vector<Open
     for (std::size_t i = 0; i < model.own_count(); ++i) {
       const Model::OwnParameter& own = model.own_parameters()[i];
       if (!own.is_size() || own.term->name() != "clock_shift") continue;
-      const PriorUnits shift_s = own.value_at(open[h].parameters[at(i)]);
+      const PriorUnits shift_s = own.value_at(open[h].parameters[to_index(i)]);
       prediction.mean[row] = shift_s.value_SI / sd_s;
-      prediction.spread.row(row) = shift_s.derivative_SI / sd_s * open[h].spread.row(at(i));
+      prediction.spread.row(row) = shift_s.derivative_SI / sd_s * open[h].spread.row(to_index(i));
     }
   }
   channels_.emplace_back();
@@ -136,7 +136,7 @@ void PredictedTest::add_clock_reading(const Study& study, const std::vector<Open
 std::vector<PredictedOutcome> PredictedTest::reduce(const std::vector<Prediction>& predictions,
                                                     const RowMatrix& common) {
   const Eigen::Index rows = common.rows();
-  Eigen::Index count = common.cols() + at(predictions.size());
+  Eigen::Index count = common.cols() + to_index(predictions.size());
   for (const Prediction& one : predictions) count += one.spread.cols();
   RowMatrix all(rows, count);
   all.leftCols(common.cols()) = common;
@@ -168,7 +168,7 @@ std::vector<PredictedOutcome> PredictedTest::reduce(const std::vector<Prediction
 std::vector<PredictedOutcome> PredictedTest::find_outcomes(const std::function<bool(const Quantity&)>& wanted) const {
   std::vector<Eigen::Index> rows;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    if (wanted(channels_[i])) rows.push_back(at(i));
+    if (wanted(channels_[i])) rows.push_back(to_index(i));
   }
   std::vector<Prediction> kept;
   for (const Prediction& one : predictions_) kept.push_back({one.mean(rows), compress(one.spread(rows, Eigen::all))});

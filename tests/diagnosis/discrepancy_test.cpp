@@ -35,15 +35,15 @@ const PreparedSet& twins() {
 
 /// The discrepancy's covariance of whitened residuals, of unit amplitude, over the whole set.
 Eigen::MatrixXd make_process(const Discrepancy& discrepancy, const Amplitudes& amplitudes) {
-  const Eigen::Index n = at(discrepancy.set().residual_count());
+  const Eigen::Index n = to_index(discrepancy.set().residual_count());
   Eigen::MatrixXd process = Eigen::MatrixXd::Zero(n, n);
   for (const Discrepancy::Basis& basis : discrepancy.bases()) {
     std::vector<Eigen::Index> rows;
     for (const std::size_t s : basis.series) {
       const Series& series = discrepancy.set().series()[s];
-      for (std::size_t k = 0; k < series.size(); ++k) rows.push_back(at(series.first_residual + k));
+      for (std::size_t k = 0; k < series.size(); ++k) rows.push_back(to_index(series.first_residual + k));
     }
-    REQUIRE(at(rows.size()) == basis.directions.rows());
+    REQUIRE(to_index(rows.size()) == basis.directions.rows());
     const Eigen::MatrixXd part = amplitudes[basis.channel] * amplitudes[basis.channel] * basis.directions *
                                  basis.strengths.asDiagonal() * basis.directions.transpose();
     for (Eigen::Index i = 0; i < part.rows(); ++i) {
@@ -61,7 +61,7 @@ Eigen::MatrixXd make_rows_in_floors(const Discrepancy& discrepancy, std::size_t 
   for (const Discrepancy::Basis& basis : discrepancy.bases()) {
     Eigen::Index first = 0;
     for (const std::size_t other : basis.series) {
-      const Eigen::Index size = at(discrepancy.set().series()[other].size());
+      const Eigen::Index size = to_index(discrepancy.set().series()[other].size());
       if (other == s) {
         RowMatrix rows = basis.directions.middleRows(first, size) * basis.strengths.cwiseSqrt().asDiagonal();
         series.whitener.undo(rows.data(), static_cast<std::size_t>(rows.cols()));
@@ -75,8 +75,8 @@ Eigen::MatrixXd make_rows_in_floors(const Discrepancy& discrepancy, std::size_t 
 
 void check_inverse_root(const Discrepancy& discrepancy, const Amplitudes& amplitudes) {
   const Eigen::MatrixXd sigma =
-      make_process(discrepancy, amplitudes) +
-      Eigen::MatrixXd::Identity(at(discrepancy.set().residual_count()), at(discrepancy.set().residual_count()));
+      make_process(discrepancy, amplitudes) + Eigen::MatrixXd::Identity(to_index(discrepancy.set().residual_count()),
+                                                                        to_index(discrepancy.set().residual_count()));
   const RowMatrix columns = RowMatrix::Random(sigma.rows(), 3);
   RowMatrix whitened = columns;
   discrepancy.whiten(amplitudes, whitened);
@@ -99,7 +99,7 @@ TEST_CASE("the squared length after whitening is r' Sigma^-1 r, of either kind",
 TEST_CASE("a discrepancy of no size changes nothing", "[fast]") {
   const Discrepancy of_time(two_runs());
   const Discrepancy of_conditions(of_time, {0.0, 0.0, 0.0});
-  const RowMatrix columns = RowMatrix::Random(at(two_runs().residual_count()), 2);
+  const RowMatrix columns = RowMatrix::Random(to_index(two_runs().residual_count()), 2);
   for (const Discrepancy* discrepancy : {&of_time, &of_conditions}) {
     RowMatrix whitened = columns;
     discrepancy->whiten({0.0, 0.0, 0.0}, whitened);
@@ -112,11 +112,11 @@ TEST_CASE("a discrepancy of no size changes nothing", "[fast]") {
 
 TEST_CASE("a channel of no size is left alone", "[fast]") {
   const Discrepancy discrepancy(two_runs());
-  const Eigen::VectorXd column = Eigen::VectorXd::Random(at(two_runs().residual_count()));
+  const Eigen::VectorXd column = Eigen::VectorXd::Random(to_index(two_runs().residual_count()));
   Eigen::VectorXd whitened = column;
   discrepancy.whiten({0.0, 3.0, 0.0}, whitened);
   for (const Series& series : two_runs().series()) {
-    const auto change = (whitened - column).segment(at(series.first_residual), at(series.size())).norm();
+    const auto change = (whitened - column).segment(to_index(series.first_residual), to_index(series.size())).norm();
     CHECK((change > 0.1) == (series.channel == 1));
   }
 }
@@ -126,13 +126,13 @@ TEST_CASE("of what it stands on, a discrepancy knows the inverse root and the de
   CHECK(of_time.log_determinant_below() == 0.0);
   const Amplitudes amplitudes{0.2, 1.0, 0.4};
   const Discrepancy of_conditions(of_time, amplitudes);
-  const Eigen::VectorXd column = Eigen::VectorXd::Random(at(two_runs().residual_count()));
+  const Eigen::VectorXd column = Eigen::VectorXd::Random(to_index(two_runs().residual_count()));
   Eigen::VectorXd below = column;
   Eigen::VectorXd of_its_own = column;
   of_conditions.whiten_below(below);
   of_time.whiten(amplitudes, of_its_own);
   CHECK(below == of_its_own);
-  const Eigen::Index n = at(two_runs().residual_count());
+  const Eigen::Index n = to_index(two_runs().residual_count());
   const Eigen::LLT<Eigen::MatrixXd> sigma(make_process(of_time, amplitudes) + Eigen::MatrixXd::Identity(n, n));
   const double log_determinant = 2.0 * sigma.matrixLLT().diagonal().array().log().sum();
   CHECK(of_conditions.log_determinant_below() == Approx(log_determinant));
@@ -175,11 +175,11 @@ TEST_CASE("a discrepancy of time differs from run to run; one of conditions repe
 TEST_CASE("what lasts is taken for a discrepancy, what jumps from block to block is not", "[fast]") {
   const Discrepancy discrepancy(two_runs());
   const Series& series = two_runs().series().front();
-  Eigen::VectorXd slow = Eigen::VectorXd::Zero(at(two_runs().residual_count()));
+  Eigen::VectorXd slow = Eigen::VectorXd::Zero(to_index(two_runs().residual_count()));
   Eigen::VectorXd fast = slow;
   for (std::size_t k = 0; k < series.size(); ++k) {
-    slow[at(series.first_residual + k)] = std::sin(series.time_s[k] / 300.0);
-    fast[at(series.first_residual + k)] = k % 2 == 0 ? 1.0 : -1.0;
+    slow[to_index(series.first_residual + k)] = std::sin(series.time_s[k] / 300.0);
+    fast[to_index(series.first_residual + k)] = k % 2 == 0 ? 1.0 : -1.0;
   }
   const auto kept = [&](Eigen::VectorXd difference) {
     diagnosis::whiten(two_runs(), difference);

@@ -12,11 +12,11 @@
 using namespace rollrig;
 using diagnosis::AmplitudePrior;
 using diagnosis::Amplitudes;
-using diagnosis::at;
 using diagnosis::Discrepancy;
 using diagnosis::Evidence;
 using diagnosis::PreparedSet;
 using diagnosis::RowMatrix;
+using diagnosis::to_index;
 
 namespace {
 
@@ -35,7 +35,7 @@ const PreparedSet& short_set() {
 struct Problem {
   explicit Problem(Eigen::Index unknowns) : discrepancy(short_set()) {
     std::srand(5);  // Eigen's Random
-    const Eigen::Index n = at(short_set().residual_count());
+    const Eigen::Index n = to_index(short_set().residual_count());
     fit.jacobian = 0.05 * RowMatrix::Random(n, unknowns);
     fit.unknowns = 0.5 * Eigen::VectorXd::Random(unknowns);
     fit.residuals = Eigen::VectorXd::Random(n) + 3.0 * fit.jacobian.col(0);
@@ -49,8 +49,8 @@ struct Problem {
     for (const Discrepancy::Basis& basis : discrepancy.bases()) {
       const auto& series = short_set().series()[basis.series.front()];
       const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
-      const Eigen::Index first = at(series.first_residual);
-      const Eigen::Index size = at(series.size());
+      const Eigen::Index first = to_index(series.first_residual);
+      const Eigen::Index size = to_index(series.size());
       sigma.block(first, first, size, size) +=
           square * basis.directions * basis.strengths.asDiagonal() * basis.directions.transpose();
     }

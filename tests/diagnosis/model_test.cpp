@@ -10,12 +10,12 @@
 #include "tests/support/fit_study.h"
 
 using namespace rollrig;
-using diagnosis::at;
 using diagnosis::Hypothesis;
 using diagnosis::Model;
 using diagnosis::PreparedSet;
 using diagnosis::RowMatrix;
 using diagnosis::Series;
+using diagnosis::to_index;
 
 namespace {
 
@@ -37,7 +37,7 @@ Hypothesis with(const std::vector<const char*>& ids, int sign = 1) {
 
 /// Somewhere off the priors' middles.
 Eigen::VectorXd make_unknowns(const Model& model) {
-  Eigen::VectorXd unknowns(at(model.unknown_count()));
+  Eigen::VectorXd unknowns(to_index(model.unknown_count()));
   for (Eigen::Index i = 0; i < unknowns.size(); ++i) unknowns[i] = 0.3 * std::sin(static_cast<double>(i + 1));
   return unknowns;
 }
@@ -156,22 +156,22 @@ TEST_CASE("at the truth, without noise, nothing is left", "[fast]") {
   const PreparedSet set(tests::make_gap_set({effect}, 2));
   const Model model(set, base(), with({"bearing_warmup"}));
   Eigen::VectorXd residuals;
-  REQUIRE(model.evaluate(Eigen::VectorXd::Zero(at(model.unknown_count())), 1, residuals, nullptr));
+  REQUIRE(model.evaluate(Eigen::VectorXd::Zero(to_index(model.unknown_count())), 1, residuals, nullptr));
   CHECK(residuals.cwiseAbs().maxCoeff() < 1e-3);
   const Model none(set, base(), {});
-  REQUIRE(none.evaluate(Eigen::VectorXd::Zero(at(none.unknown_count())), 1, residuals, nullptr));
+  REQUIRE(none.evaluate(Eigen::VectorXd::Zero(to_index(none.unknown_count())), 1, residuals, nullptr));
   CHECK(residuals.cwiseAbs().maxCoeff() > 1.0);
 }
 
 TEST_CASE("residuals of the truth are of unit variance", "[fast]") {
   // Rounding is not white where the true value holds still for minutes: its share is below 2 %.
   const Model model(two_runs(), base(), {});
-  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
   Eigen::VectorXd residuals;
   RowMatrix jacobian;
   REQUIRE(model.evaluate(unknowns, 1, residuals, &jacobian));
   // The sessions' offsets, which are the truth's only unknowns here, by least squares.
-  const RowMatrix offsets = jacobian.rightCols(at(two_runs().offset_count()));
+  const RowMatrix offsets = jacobian.rightCols(to_index(two_runs().offset_count()));
   const Eigen::VectorXd best = (offsets.transpose() * offsets).llt().solve(-offsets.transpose() * residuals);
   const Eigen::VectorXd left = residuals + offsets * best;
   const double freedom = static_cast<double>(left.size() - best.size());
@@ -181,7 +181,7 @@ TEST_CASE("residuals of the truth are of unit variance", "[fast]") {
 
 TEST_CASE("a parameter out of its range is no hypothesis", "[fast]") {
   const Model model(two_runs(), base(), with({"bearing_warmup"}));
-  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+  Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
   unknowns[0] = model.own_parameters()[0].bounds().upper + 0.1;
   Eigen::VectorXd residuals;
   CHECK_FALSE(model.evaluate(unknowns, 1, residuals, nullptr));

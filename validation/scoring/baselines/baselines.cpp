@@ -9,7 +9,7 @@
 namespace rollrig::validation {
 namespace {
 
-using diagnosis::at;
+using diagnosis::to_index;
 using diagnosis::Diagnosis;
 using diagnosis::Verdict;
 
@@ -30,7 +30,7 @@ std::vector<ChosenEffect> find_amplitudes(const std::vector<TriedEffect>& tried,
   const LeastSquares::Fit fit = LeastSquares(data).fit(columns);
   std::vector<ChosenEffect> chosen;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    chosen.push_back({tried[columns[i]], fit.amplitudes[at(i)], fit.sd[at(i)]});
+    chosen.push_back({tried[columns[i]], fit.amplitudes[to_index(i)], fit.sd[to_index(i)]});
   }
   return chosen;
 }

@@ -12,7 +12,7 @@ namespace {
 
 namespace quantities = models::quantities;
 
-using diagnosis::at;
+using diagnosis::to_index;
 using diagnosis::PreparedSet;
 using diagnosis::Series;
 
@@ -28,13 +28,13 @@ constexpr Eigen::Index kInputs = 4;
 /// Inputs of every block of a series. Assumed: length scales of 600 s, 30 km/h, 1500 N and 5 K.
 Eigen::MatrixXd find_inputs(const PreparedSet& set, const Series& series) {
   const measurements::MeasuredRun& run = set.runs()[series.run].measured;
-  Eigen::MatrixXd inputs(at(series.size()), kInputs);
+  Eigen::MatrixXd inputs(to_index(series.size()), kInputs);
   for (std::size_t k = 0; k < series.size(); ++k) {
     const auto mean = [&](const Quantity& quantity) {
       const std::vector<double>& values = run.column(quantity);
       return series.mean_over(series.blocks[k], [&](std::size_t row) { return values[row]; });
     };
-    inputs.row(at(k)) << (series.time_s[k] - run.time_s.front()) / 600.0, mean(quantities::kSpeed) / (30.0 / 3.6),
+    inputs.row(to_index(k)) << (series.time_s[k] - run.time_s.front()) / 600.0, mean(quantities::kSpeed) / (30.0 / 3.6),
         mean(quantities::kLoad) / 1500.0, mean(quantities::kAmbient) / 5.0;
   }
   return inputs;
@@ -48,13 +48,13 @@ struct Examples {
   std::vector<double> offset_sds;    // of that, in noise floors
 
   GaussianProcess learn() const {
-    const Eigen::Index count = at(values.size());
+    const Eigen::Index count = to_index(values.size());
     Eigen::MatrixXd rows(count, kInputs);
     Eigen::MatrixXd noise = Eigen::MatrixXd::Identity(count, count);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      rows.row(at(i)) = inputs[i];
+      rows.row(to_index(i)) = inputs[i];
       for (std::size_t k = 0; k < values.size(); ++k) {
-        if (offsets[i] == offsets[k]) noise(at(i), at(k)) += offset_sds[i] * offset_sds[k];
+        if (offsets[i] == offsets[k]) noise(to_index(i), to_index(k)) += offset_sds[i] * offset_sds[k];
       }
     }
     return {std::move(rows), Eigen::Map<const Eigen::VectorXd>(values.data(), count), noise};
@@ -67,9 +67,9 @@ void add_means(const PreparedSet& set, const Series& series, const Eigen::Vector
   const Eigen::MatrixXd inputs = find_inputs(set, series);
   for (std::size_t first = 0, last = 0; first < series.size(); first = last) {
     while (last < series.size() && last < first + blocks && series.phase[last] == series.phase[first]) ++last;
-    const Eigen::Index count = at(last - first);
-    examples.inputs.emplace_back(inputs.middleRows(at(first), count).colwise().mean());
-    examples.values.push_back(difference.segment(at(series.first_residual + first), count).mean() / series.floor);
+    const Eigen::Index count = to_index(last - first);
+    examples.inputs.emplace_back(inputs.middleRows(to_index(first), count).colwise().mean());
+    examples.values.push_back(difference.segment(to_index(series.first_residual + first), count).mean() / series.floor);
     examples.offsets.push_back(series.offset);
     examples.offset_sds.push_back(series.offset_sd / series.floor);
   }
@@ -118,7 +118,7 @@ Eigen::VectorXd subtract_gaussian_process(const PreparedSet& set, const Eigen::V
     const GaussianProcess process = examples.learn();
     for (const Series& series : set.series()) {
       if (series.channel != channel || series.run != run) continue;
-      rest.segment(at(series.first_residual), at(series.size())) -=
+      rest.segment(to_index(series.first_residual), to_index(series.size())) -=
           series.floor * process.predict(find_inputs(set, series));
     }
   }

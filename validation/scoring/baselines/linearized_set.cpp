@@ -13,7 +13,7 @@
 
 namespace rollrig::validation {
 
-using diagnosis::at;
+using diagnosis::to_index;
 using models::EffectParameter;
 
 namespace {
@@ -85,9 +85,9 @@ std::vector<TriedEffect> LinearizedSet::try_effects() const {
 LinearData LinearizedSet::project(const std::vector<TriedEffect>& tried) const {
   const BaseProjection projection(study_.null.fit.jacobian);
   LinearData data;
-  Eigen::MatrixXd changes(study_.null.fit.residuals.size(), at(tried.size()));
+  Eigen::MatrixXd changes(study_.null.fit.residuals.size(), to_index(tried.size()));
   for (std::size_t i = 0; i < tried.size(); ++i) {
-    changes.col(at(i)) = tried[i].change;
+    changes.col(to_index(i)) = tried[i].change;
     data.effects.push_back(tried[i].term.term->name());
   }
   data.residual = projection.apply(study_.null.fit.residuals);
@@ -106,13 +106,13 @@ diagnosis::Candidate LinearizedSet::expand(const std::vector<ChosenEffect>& chos
   }
   const diagnosis::Model model = study_.make_model(candidate.fit.hypothesis);
   diagnosis::Fit& fit = candidate.fit;
-  fit.unknowns = Eigen::VectorXd::Zero(at(model.unknown_count()));
+  fit.unknowns = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const diagnosis::Model::OwnParameter& own = model.own_parameters()[i];
     const auto of = std::find_if(acting.begin(), acting.end(),
                                  [&](const ChosenEffect* one) { return one->tried.term.term == own.term; });
     const diagnosis::PriorBounds bounds = own.bounds();
-    fit.unknowns[at(i)] = std::clamp(scale_own(**of)[at(own.index)], bounds.lower, bounds.upper);
+    fit.unknowns[to_index(i)] = std::clamp(scale_own(**of)[to_index(own.index)], bounds.lower, bounds.upper);
   }
   candidate.amplitudes.assign(study_.set.channels().size(), 0.0);
   const bool done = model.evaluate(fit.unknowns, 1, fit.residuals, &fit.jacobian) &&

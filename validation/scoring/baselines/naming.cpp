@@ -10,7 +10,7 @@
 namespace rollrig::validation {
 namespace {
 
-using diagnosis::at;
+using diagnosis::to_index;
 
 bool has_effect_of(const LinearData& data, const std::vector<std::size_t>& columns, std::size_t column) {
   return std::any_of(columns.begin(), columns.end(),
@@ -52,10 +52,10 @@ void descend(const LeastSquares& squares, double lambda, Eigen::VectorXd& amplit
 std::vector<std::size_t> find_support(const Eigen::VectorXd& amplitudes) {
   std::vector<std::size_t> columns;
   for (std::size_t j = 0; j < static_cast<std::size_t>(amplitudes.size()); ++j) {
-    if (amplitudes[at(j)] > 0.0) columns.push_back(j);
+    if (amplitudes[to_index(j)] > 0.0) columns.push_back(j);
   }
   std::stable_sort(columns.begin(), columns.end(),
-                   [&](std::size_t a, std::size_t b) { return amplitudes[at(a)] > amplitudes[at(b)]; });
+                   [&](std::size_t a, std::size_t b) { return amplitudes[to_index(a)] > amplitudes[to_index(b)]; });
   return columns;
 }
 
@@ -101,7 +101,7 @@ Naming name_by_nearest_signature(const LinearData& data) {
   // The probability of "none" is the test's own, the effects share the rest as models with a size each.
   std::vector<CandidateModel> effects;
   for (std::size_t column = 0; column < data.effects.size(); ++column) {
-    const double along = std::max(0.0, squares.along()[at(column)]);
+    const double along = std::max(0.0, squares.along()[to_index(column)]);
     effects.push_back({{column}, -along * along});
   }
   const auto nearest = std::min_element(effects.begin(), effects.end());
