@@ -45,12 +45,12 @@ struct TireChannel {
   const char* doc;
   ChannelFamily family;
   SensorParameters usual_sensor;  // SI
-  const char* sensor;             // what its sensor is called beside the equations that miss something
-  bool is_expected;               // a set that lacks it is told so
+  const char* sensor;             // what the balance of a diagnosis calls its sensor
+  bool is_expected;               // a set that lacks it is warned of
   ForEachScalar<TireReading> read;
 };
 
-/// Usual sensors: as assets/sensors/source.toml.
+/// Usual sensors: as assets/sensors/source.toml; their numbers in the order of SensorParameters.
 inline constexpr std::array kTireChannels{
     TireChannel{quantities::kLinerTemperature,
                 "temperature of the inner liner",

@@ -57,7 +57,7 @@ void RecordedWheel<S>::initialize(const sim::Segment& first, double time_s, S* s
   models::InputPort<S> inputs;
   read_inputs(time_s, inputs);
   this->begin_wheel(wheel(), inputs.load_N, state);
-  if (detail_ == Detail::kFull) find_line(state);
+  if (detail_ == Detail::kFull) set_segment_motion(state);
 }
 
 template <class S>
@@ -65,13 +65,13 @@ void RecordedWheel<S>::begin_segment(const sim::Segment& segment, double time_s,
   if (detail_ == Detail::kMeasured) return present_.take(segment, time_s);
   const S former_J = calc_kinetic_J(time_s);
   present_.take(segment, time_s);
-  find_line(state);
+  set_segment_motion(state);
   integrals[index_of(RecordedIntegral::kKnotWork)] += calc_kinetic_J(time_s) - former_J;
 }
 
-/// The motion that the middle of the present segment stands for.
+/// The motion in the middle of the present segment, which stands for all of it.
 template <class S>
-void RecordedWheel<S>::find_line(const S* state) {
+void RecordedWheel<S>::set_segment_motion(const S* state) {
   find_motion(present_.segment_start_s + 0.5 * present_.segment.duration_s, state);
   moving_kg_ = find_powers().moving_kg;
   middle_m_s_ = wheel().now.motion.speed_m_s;

@@ -94,7 +94,7 @@ class RecordedWheel : public QuasiStaticRig<S> {
 
  private:
   void find_motion(double time_s, const S* state);
-  void find_line(const S* state);
+  void set_segment_motion(const S* state);
   S calc_kinetic_J(double time_s) const;
   S find_recorded_speed_m_s(double time_s, const S* state) override;
   void put_further(S* integrands) const;

@@ -1,6 +1,7 @@
 #pragma once
 /// Classical Runge-Kutta of order 4 on a grid that depends on the program alone, so that results are smooth functions
-/// of the parameters and can carry derivatives. Other rules on that grid derive from it.
+/// of the parameters and can carry derivatives. Another rule on that grid derives from it and overrides begin(),
+/// advance_to() and interpolate_step().
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ namespace rollrig::sim {
 
 /// Equation  y_{n+1} = y_n + h/6 (k1 + 2 k2 + 2 k3 + k4); between grid points the cubic through values
 ///           and rates at both ends
-/// Errors    order 4 in the state at the grid, order 4 in the state between, order 3 in the rate of an
+/// Accuracy  order 4 in the state at the grid, order 4 in the state between, order 3 in the rate of an
 ///           integral between
 /// Checked   tests/sim/fixed_grid_integrator_test.cpp
 template <class S>

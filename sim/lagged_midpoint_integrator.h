@@ -10,7 +10,7 @@ namespace rollrig::sim {
 ///           a step
 /// Validity  steps well below every time constant, most of all where rates jump at a knot: the step after it begins
 ///           with those from before
-/// Errors    order 2 in states and integrals at the ends of steps
+/// Accuracy  order 2 in states and integrals at the ends of steps
 /// Checked   tests/sim/lagged_midpoint_integrator_test.cpp
 template <class S>
 class LaggedMidpointIntegrator : public FixedGridIntegrator<S> {

@@ -16,7 +16,7 @@ struct Integral {
   enum class Role { kChannel, kWorkIn, kDissipated, kHeatIn, kHeatOut, kThroughput };
   std::string name;
   Role role = Role::kChannel;
-  double tolerance_SI = 1.0;  // error that does not matter
+  double tolerance_SI = 1.0;  // absolute, of an integrator with error control
 };
 
 /// An energy that the system stores; its change enters one of the two audits.
@@ -47,7 +47,7 @@ class OdeSystem {
   virtual ~OdeSystem() = default;
 
   virtual std::size_t state_count() const = 0;
-  /// Error of each state that does not matter, in SI units.
+  /// Absolute tolerance of each state, in SI units, for an integrator with error control.
   virtual std::vector<double> state_tolerances() const = 0;
   virtual const std::vector<Integral>& integrals() const = 0;
   virtual const std::vector<Store>& stores() const = 0;

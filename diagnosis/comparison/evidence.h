@@ -16,8 +16,8 @@ struct AmplitudePrior {
 /// Log-normal around a middle, on a grid of factors of two.
 AmplitudePrior near_amplitude(double middle);
 
-/// Likewise, and with `kExactLaw` of the weight below it, in factors of four down to `least`: a law may be as wrong as
-/// `middle`, yet of a huge effect that would be much more than a good law leaves.
+/// Likewise, and with `kExactLaw` of the weight at smaller amplitudes, in factors of four down to `least`: `middle`
+/// grows with the effect, and of a huge effect it overstates what a good law leaves.
 AmplitudePrior law_amplitude(double least, double middle);
 
 /// Evidence of a hypothesis linear about an expansion point.

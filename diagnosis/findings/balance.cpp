@@ -16,7 +16,7 @@ constexpr auto kKnots = static_cast<Eigen::Index>(kPerturbationKnots);
 constexpr int kAmplitudes = 10;  // 0.5, 1, 2 .. 256 noise floors
 constexpr double kSignificantOdds = 100.0;
 
-/// Amplitude of each family: 0 for none, else one more than the power of two, of half a noise floor.
+/// Amplitude of each family: 0 for none, else k for 0.25 * 2^k noise floors.
 using Choice = std::vector<int>;
 
 double amplitude_of(int chosen) { return chosen == 0 ? 0.0 : 0.25 * std::exp2(chosen); }

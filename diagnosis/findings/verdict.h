@@ -29,8 +29,8 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
 /// three the unlikeliest are left out, as long as all of them together hold a tenth of it at most.
 /// The first cause is held adequate unless
 /// - a free discrepancy on top of it is likelier than it alone,
-/// - its size differs from run to run, by more than noise and 30 % of it explain, among runs that know it so well (1 in
-/// 1000),
+/// - its size, estimated from each run by itself, scatters by more than noise and 30 % of the size explain (chance
+///   below 0.001); only runs that determine the size to within 30 % count,
 /// - its size or a shape lies more than 3 standard deviations out in its prior.
 std::vector<Cause> find_causes(const Study& study, const Comparison& comparison);
 

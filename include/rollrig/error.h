@@ -1,4 +1,4 @@
 #pragma once
-/// What is thrown: all folders use the same types. Installed is the file itself in this one's place.
+/// What is thrown: all folders use the same types. Installing replaces this file by sim/core/error.h.
 
 #include "../../sim/core/error.h"
