@@ -58,18 +58,28 @@ double calc_lasting_rounding_variance(double resolution, double noise_sd) {
   return resolution * resolution * sum;
 }
 
+ReadingNoise find_reading_noise(const models::SensorParameters& sensor) {
+  const double lasting = calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
+  return {sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting, lasting};
+}
+
+models::SensorParameters average_sensor(models::SensorParameters sensor, double samples) {
+  sensor.noise_sd = std::sqrt(find_reading_noise(sensor).calc_mean_variance(samples));
+  sensor.resolution = 0.0;
+  return sensor;
+}
+
 Whitener::Whitener(const models::SensorParameters& sensor, const std::vector<double>& time_s)
     : Whitener(sensor, time_s, make_single_blocks(time_s.size())) {}
 
 Whitener::Whitener(const models::SensorParameters& sensor, const std::vector<double>& time_s,
                    const std::vector<Block>& blocks) {
   const double stationary = sensor.drift_sd * sensor.drift_sd;
-  const double lasting = calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
-  const double white = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting;
+  const ReadingNoise noise = find_reading_noise(sensor);
   double variance = stationary;  // of the drift before the block, given all earlier blocks
   for (const Block& block : blocks) {
     const DriftOverBlock drift = follow_drift(sensor, time_s, block);
-    const double reading = white / static_cast<double>(block.last - block.first) + lasting;
+    const double reading = noise.calc_mean_variance(static_cast<double>(block.last - block.first));
     const double innovation = drift.mean_share * drift.mean_share * variance + drift.mean_variance + reading;
     Step step;
     step.memory = drift.mean_share;

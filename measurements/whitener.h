@@ -58,4 +58,16 @@ class Whitener {
 /// Variance of the rounding error that stays in a mean over many samples.
 double calc_lasting_rounding_variance(double resolution, double noise_sd);
 
+/// Noise and rounding of a sensor in a mean over samples.
+struct ReadingNoise {
+  double white = 0.0;    // variance that falls with the number of samples
+  double lasting = 0.0;  // variance that does not
+
+  double calc_mean_variance(double samples) const { return white / samples + lasting; }
+};
+ReadingNoise find_reading_noise(const models::SensorParameters& sensor);
+
+/// The sensor of means over `samples` each: its noise and rounding are smaller.
+models::SensorParameters average_sensor(models::SensorParameters sensor, double samples);
+
 }  // namespace rollrig::measurements

@@ -5,18 +5,10 @@
 
 #include "diagnosis/checks/rig_sensors.h"
 #include "measurements/sample_selection.h"
+#include "measurements/whitener.h"
 
 namespace rollrig::diagnosis {
 namespace {
-
-/// The sensor of means over so many samples, one a row: its noise and rounding are smaller.
-models::SensorParameters average_sensor(models::SensorParameters sensor, double samples) {
-  const double lasting = measurements::calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
-  const double white = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting;
-  sensor.noise_sd = std::sqrt(white / samples + lasting);
-  sensor.resolution = 0.0;
-  return sensor;
-}
 
 double find_sample_interval_s(const PreparedSet& set) {
   return measurements::calc_mean_interval_s(set.runs().front().measured);
@@ -28,7 +20,7 @@ measurements::MeasurementSet make_virtual_set(const PreparedSet& set, const Plan
   made.name = test.id;
   made.runs = test.runs;
   const double samples = std::max(1.0, kVirtualRow_s / find_sample_interval_s(set));
-  for (auto& [channel, sensor] : made.sensors) sensor = average_sensor(sensor, samples);
+  for (auto& [channel, sensor] : made.sensors) sensor = measurements::average_sensor(sensor, samples);
   for (const Quantity& channel : test.extra.sensors) made.sensors[channel] = find_rig_sensor(channel).error;
   return made;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "measurements/logs/cleaning.h"
+#include "measurements/whitener.h"
 
 namespace rollrig::measurements {
 namespace {
@@ -62,9 +63,11 @@ void import_run(const RunPlan& plan, const Mapping& mapping, Import& imported) {
 
 /// Rows are means over samples of the logs: their noise is the smaller, in all runs taken as in the noisiest.
 void average_sensors(const Mapping& mapping, Import& imported) {
+  constexpr double kSeveral = 1.5;
   for (const ImportedRun& run : imported.runs) {
     for (const auto& [channel, samples] : run.rows.samples_a_row) {
-      const models::SensorParameters averaged = average_sensor(mapping.set.sensors.at(channel), samples);
+      const models::SensorParameters& one = mapping.set.sensors.at(channel);
+      const models::SensorParameters averaged = samples < kSeveral ? one : average_sensor(one, samples);
       const auto [known, is_new] = imported.sensors.emplace(channel, averaged);
       if (!is_new && averaged.noise_sd > known->second.noise_sd) known->second = averaged;
     }

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "measurements/whitener.h"
 
 namespace rollrig::measurements {
 namespace {
@@ -243,17 +242,6 @@ ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, dou
     if (source.log != nullptr) add_measured(*source.log, column, rows, run);
   }
   return run;
-}
-
-models::SensorParameters average_sensor(const models::SensorParameters& sensor, double samples) {
-  constexpr double kSome = 1.5;
-  if (samples < kSome) return sensor;
-  const double lasting = calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
-  const double white = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting;
-  models::SensorParameters averaged = sensor;
-  averaged.noise_sd = std::sqrt(std::max(0.0, white) / samples + lasting);
-  averaged.resolution = 0.0;
-  return averaged;
 }
 
 }  // namespace rollrig::measurements

@@ -45,7 +45,4 @@ struct RunSources {
 ResampledRun resample_run(const Mapping& mapping, const RunSources& sources, double interval_s, double from_s,
                           double to_s);
 
-/// A sensor's errors in a mean over `samples` of its log.
-models::SensorParameters average_sensor(const models::SensorParameters& sensor, double samples);
-
 }  // namespace rollrig::measurements

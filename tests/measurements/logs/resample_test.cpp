@@ -1,4 +1,5 @@
 #include "measurements/logs/resample.h"
+#include "measurements/whitener.h"
 #include "tests/support/machines.h"
 
 #include <catch2/catch.hpp>
