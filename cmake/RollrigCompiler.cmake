@@ -23,7 +23,9 @@ endforeach()
 
 include(GNUInstallDirs)
 add_library(rollrig_options INTERFACE)
+# A kind of machine that leaves an answer out does not compile.
 target_compile_options(rollrig_options INTERFACE -Wall -Wextra -Wconversion -Wshadow=local
+                                                 -Werror=missing-field-initializers
                                                  $<$<BOOL:${ROLLRIG_WERROR}>:-Werror>)
 target_include_directories(rollrig_options INTERFACE "${PROJECT_SOURCE_DIR}")
 # Asserts inside Eigen's kernels cost a multiple of the arithmetic; nothing of Simbody depends on them.

@@ -16,7 +16,6 @@ inline constexpr Quantity kHungTorque{"hung_torque", "Nm"};
 
 // What its sensors show.
 inline constexpr Quantity kDrumTorque{"drum_torque", "Nm"};
-inline constexpr Quantity kBeltForce{"belt_force", "N"};
 inline constexpr Quantity kLossForce{"loss_force", "N"};
 inline constexpr Quantity kTractionForce{"traction_force", "N"};
 inline constexpr Quantity kLinerTemperature{"liner_temperature", "degC"};

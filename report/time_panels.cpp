@@ -14,12 +14,12 @@ namespace {
 
 namespace quantities = models::quantities;
 
-/// In the order of their panels; what is not listed comes last, further temperatures beside the others.
+/// In the order of their panels. Of what is not listed a machine's force stands with the drum's torque, a temperature
+/// with the others; the rest comes last.
 constexpr Quantity kOrder[]{quantities::kSpeed,
                             quantities::kLoad,
                             quantities::kContactLoad,
                             quantities::kDrumTorque,
-                            quantities::kBeltForce,
                             quantities::kTractionForce,
                             quantities::kLongitudinalForce,
                             quantities::kLossForce,
@@ -62,7 +62,9 @@ struct Place {
 /// as they are on a vehicle, have none: what their contacts carry says more.
 std::optional<Place> find_place(const Quantity& channel, const std::vector<std::string>& positions) {
   const auto find_order = [](const Quantity& quantity) {
-    return std::find(std::begin(kOrder), std::end(kOrder), quantity);
+    const auto listed = std::find(std::begin(kOrder), std::end(kOrder), quantity);
+    if (listed != std::end(kOrder) || !rigs::is_force(quantity)) return listed;
+    return std::find(std::begin(kOrder), std::end(kOrder), quantities::kDrumTorque);
   };
   for (const std::string& position : positions) {
     const std::optional<Quantity> own = rigs::without_position(channel, position);

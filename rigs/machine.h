@@ -39,7 +39,8 @@ Column measure(const Quantity& tire_channel);
 models::SensorSet::value_type make_usual_sensor(const Quantity& tire_channel);
 }  // namespace columns
 
-/// No member has a default: the compiler warns of a kind that leaves one out (an error in the release preset).
+/// No member has a default, and a missing one is an error to the compiler: a kind that leaves an answer out does not
+/// compile.
 struct MachineKind {
   const char* word;         // in files and messages
   const char* former_word;  // in files of format /1, which stay readable; empty where that knows no such kind

@@ -10,7 +10,7 @@ namespace {
 
 class FlatBeltKind : public TireRigKind {
  public:
-  FlatBeltKind() : TireRigKind(models::quantities::kBeltForce, {"belt force", "belt force", "kN"}) {}
+  FlatBeltKind() : TireRigKind(rigs::find_machine_kind("flat_belt").traits.force, {"belt force", "belt force", "kN"}) {}
 
   /// As on a drum, but for weights on a lever, which need an axis.
   std::vector<PlannedTest> make_test_menu(const PreparedSet& set) const override {

@@ -238,7 +238,9 @@ void check_columns(const TableReader& reader, const Mapping& mapping) {
           fmt::format("[sensors.{}] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution", heading));
     }
   }
-  if (!any) throw reader.problem("torque_log", "no log gives a measured column", "drum_torque_Nm = \"<column>\", ...");
+  if (!any)
+    throw reader.problem("torque_log", "no log gives a measured column",
+                         mapping.set.kind->traits.force.header() + " = \"<column>\", ...");
 }
 
 }  // namespace
