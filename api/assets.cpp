@@ -6,6 +6,7 @@
 
 #include "scenarios/common/speed_trace.h"
 #include "scenarios/run/run_spec.h"
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
@@ -97,16 +98,16 @@ std::vector<Listed> list_effects() {
 std::string describe(const std::string& name) {
   if (const auto* scenario = scenarios::find_scenario_if_any(name)) return describe_scenario(*scenario);
   std::vector<std::string> known = scenarios::scenario_names();
-  const auto is_asked = [&](const std::string& each) {
+  const auto is_asked = [&](const std::string& each, const std::string& asked) {
     known.push_back(each);
-    return each == name;
+    return each == asked;
   };
   for (const models::Effect* effect : models::all_effects()) {
-    if (is_asked(effect->info.id)) return describe_effect(effect->info);
+    if (is_asked(effect->info.id, name)) return describe_effect(effect->info);
   }
   for (const std::string& folder : asset_folders()) {
     for (const std::string& asset : list_assets(folder)) {
-      if (!is_asked(asset)) continue;
+      if (!is_asked(asset, find_present_name(folder, name))) continue;
       const std::string path = find_asset(folder, name);
       // Source comments of an asset are part of what it says: the file itself is shown.
       return folder == "cycles" ? describe_cycle(path) : path + "\n\n" + read_text_file(path);

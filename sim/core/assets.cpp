@@ -71,13 +71,16 @@ std::vector<std::string> list_assets(const std::string& folder) {
   return names;
 }
 
+std::string find_present_name(const std::string& folder, const std::string& name) {
+  static const std::map<std::string, std::string> former{{"rigs/flat", "road"}};
+  const auto renamed = former.find(folder + "/" + name);
+  return renamed != former.end() ? renamed->second : name;
+}
+
 std::string find_asset_from(const std::string& base_folder, const std::string& folder,
                             const std::string& name_or_path) {
   if (is_path(folder, name_or_path)) return (fs::path(base_folder) / name_or_path).lexically_normal().string();
-  // Names that are still accepted.
-  static const std::map<std::string, std::string> former{{"rigs/flat", "road"}};
-  const auto renamed = former.find(folder + "/" + name_or_path);
-  const std::string name = renamed != former.end() ? renamed->second : name_or_path;
+  const std::string name = find_present_name(folder, name_or_path);
   const fs::path file = fs::path(find_assets_folder()) / folder / (name + extension_of(folder));
   if (fs::exists(file)) return file.string();
   InputProblem problem = unknown_name(folder.substr(0, folder.size() - 1), name_or_path, list_assets(folder));

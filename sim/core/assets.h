@@ -8,6 +8,9 @@
 
 namespace rollrig {
 
+/// The name of an asset today; names of before are still accepted.
+std::string find_present_name(const std::string& folder, const std::string& name);
+
 /// find_asset() with paths taken relative to `base_folder` (for names inside a file).
 std::string find_asset_from(const std::string& base_folder, const std::string& folder, const std::string& name_or_path);
 
