@@ -159,6 +159,10 @@ void assume_sensors(MeasurementSet& set) {
 
 }  // namespace
 
+std::string write_set_format(const MachineKind& kind) {
+  return fmt::format("format = \"rollrig-measurements/{}\"\n", *kind.former_word == '\0' ? 2 : 1);
+}
+
 MeasurementSet read_measurement_set(const std::string& folder) {
   MeasurementSet set;
   set.path = set_file_of(folder);
@@ -172,7 +176,7 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   const ConfigTable config = read_config(set.path);
   const std::string base = folder_of(set.path);
   TableReader reader(config, "");
-  check_format(reader, "rollrig-measurements", 1);
+  check_format(reader, "rollrig-measurements", 2);
   set.name = reader.text("name");
   set.baseline = reader.text_or("baseline", "combined", {"combined", "constant_rrc"}) == "combined"
                      ? models::Baseline::kCombined

@@ -50,6 +50,9 @@ struct MeasurementSet {
   std::vector<MeasuredRun> runs;
 };
 
+/// The first line of set.toml: form /2 of a kind that /1 does not have.
+std::string write_set_format(const MachineKind& kind);
+
 /// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
 MeasurementSet read_measurement_set(const std::string& folder);
 

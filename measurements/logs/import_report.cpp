@@ -42,7 +42,7 @@ std::string make_set_toml(const Mapping& mapping, const Import& imported) {
     text += fmt::format("# clock of {}: shift {:.3f} +- {:.3f} s (1 sd)\n", quote(clock.tire_log), clock.clock.shift_s,
                         clock.calc_shift_sd_s());
   }
-  text += fmt::format("format = \"rollrig-measurements/1\"\nname = {}\ntire = \"tire.toml\"\n{}\nbaseline = {}\n",
+  text += fmt::format("{}name = {}\ntire = \"tire.toml\"\n{}\nbaseline = {}\n", write_set_format(*mapping.set.kind),
                       quote(mapping.set.name), on_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
                       quote(mapping.baseline));
   text += write_sensors(imported.sensors);

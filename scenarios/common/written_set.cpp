@@ -85,10 +85,10 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
   const std::vector<Quantity> columns = find_columns(kind, outcome.recording, sensors);
   const bool is_road = is_on_road(kind.traits);
   std::map<std::string, std::string> files;
-  std::string set = fmt::format(
-      "format = \"rollrig-measurements/1\"\nname = \"{}\"\n{}tire = \"tire.toml\"\n{}\nbaseline = \"{}\"\n", name,
-      is_road ? "kind = \"road\"\n" : "", is_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
-      spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
+  std::string set = fmt::format("{}name = \"{}\"\n{}tire = \"tire.toml\"\n{}\nbaseline = \"{}\"\n",
+                                measurements::write_set_format(kind), name, is_road ? "kind = \"road\"\n" : "",
+                                is_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
+                                spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
   set += measurements::write_sensors(sensors);
   for (const SetRun& run : outcome.set_runs) {
     set += write_run_table(run);
