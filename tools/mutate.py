@@ -98,12 +98,22 @@ def key_of(mutant):
     return f"{mutant['file']}:{mutant['line']}:{mutant['column']}:{mutant['from']}>{mutant['to']}"
 
 
+def find_line(lines, mutant):
+    """Index of the line that a mutant changes, wherever it has moved to; None where it is not there, or twice."""
+    found = [i for i, line in enumerate(lines) if line.strip() == mutant["text"]]
+    at_place = [i for i in found if i == mutant["line"] - 1]
+    index = (at_place or found)[0] if at_place or len(found) == 1 else None
+    column = mutant["column"]
+    is_there = index is not None and lines[index][column:column + mutant["length"]].strip() == mutant["from"]
+    return index if is_there else None
+
+
 class Tree:
     """A worktree with a build of its own."""
 
     def __init__(self, number):
         self.source = WORK / f"tree_{number}"
-        self.build = self.source / "build"
+        self.build = self.source / "build" / "release"
 
     def run(self, command, limit_s=None):
         return subprocess.run(command, cwd=self.source, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
@@ -112,10 +122,11 @@ class Tree:
     def prepare(self, head):
         if not self.source.exists():
             subprocess.run(["git", "worktree", "prune"], cwd=ROOT, check=True)
-            subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(self.source), head], cwd=ROOT, check=True)
+            subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(self.source), head], cwd=ROOT,
+                           check=True)
         subprocess.run(["git", "checkout", "--quiet", "--force", "--detach", head], cwd=self.source, check=True)
-        if self.run(["cmake", "-S", ".", "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                     *(["-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"] if shutil.which("ld.lld") else [])]) != 0:
+        linker = ["-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld"] if shutil.which("ld.lld") else []
+        if self.run(["cmake", "--preset", "release", *linker]) != 0:
             sys.exit(f"mutate: {self.source} cannot be configured")
         if self.run(["cmake", "--build", str(self.build), "--parallel", "--target", *PROGRAMS]) != 0:
             sys.exit(f"mutate: {self.source} cannot be built")
@@ -135,11 +146,11 @@ class Tree:
         path = self.source / mutant["file"]
         original = path.read_text()
         lines = original.split("\n")
-        line = lines[mutant["line"] - 1]
-        column = mutant["column"]
-        if line[column:column + mutant["length"]].strip() != mutant["from"]:
+        index = find_line(lines, mutant)
+        if index is None:
             return "invalid", "the code has changed since"
-        lines[mutant["line"] - 1] = line[:column] + mutant["put"] + line[column + mutant["length"]:]
+        line, column = lines[index], mutant["column"]
+        lines[index] = line[:column] + mutant["put"] + line[column + mutant["length"]:]
         path.write_text("\n".join(lines))
         try:
             own = mutant["folder"] + "_tests"
@@ -180,11 +191,11 @@ def measure_times(tree):
 
 def prepare_trees(jobs):
     WORK.mkdir(parents=True, exist_ok=True)
-    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+    head = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True)
     trees = [Tree(number) for number in range(1, jobs + 1)]
     for tree in trees:
         print(f"building {tree.source.relative_to(ROOT)}", flush=True)
-        tree.prepare(head)
+        tree.prepare(head.stdout.strip())
     return trees
 
 
@@ -224,9 +235,11 @@ def print_summary(results):
         killed = sum(result["verdict"] == "killed" for result in of_folder)
         print(f"{folder:12} {killed:4} of {len(of_folder):4} killed")
     killed = len(valid) - len(survivors)
-    print(f"{'all':12} {killed:4} of {len(valid):4} killed" + (f" ({100 * killed / len(valid):.1f} %)" if valid else ""))
+    share = f" ({100 * killed / len(valid):.1f} %)" if valid else ""
+    print(f"{'all':12} {killed:4} of {len(valid):4} killed{share}")
     for result in sorted(survivors, key=key_of):
-        print(f"survived: {result['file']}:{result['line']}: {result['from']} -> {result['to'] or 'nothing'}: {result['text']}")
+        change = f"{result['from']} -> {result['to'] or 'nothing'}"
+        print(f"survived: {result['file']}:{result['line']}: {change}: {result['text']}")
 
 
 def main():
@@ -245,7 +258,8 @@ def main():
             judge_all(again, len(again), trees)
         else:
             valid = sum(result["verdict"] != "invalid" for result in results.values())
-            new = [mutant for mutant in draw(trees[0].source, options.count, options.seed) if key_of(mutant) not in results]
+            drawn = draw(trees[0].source, options.count, options.seed)
+            new = [mutant for mutant in drawn if key_of(mutant) not in results]
             judge_all(new, options.count - valid, trees)
     print_summary(read_results())
 
