@@ -8,11 +8,11 @@
 
 using namespace rollrig;
 using diagnosis::Amplitudes;
-using diagnosis::at;
 using diagnosis::Discrepancy;
 using diagnosis::PreparedSet;
 using diagnosis::RowMatrix;
 using diagnosis::Series;
+using diagnosis::to_index;
 
 namespace {
 
@@ -189,4 +189,21 @@ TEST_CASE("what lasts is taken for a discrepancy, what jumps from block to block
   };
   CHECK(kept(slow) < 0.05);
   CHECK(kept(fast) > 0.7);
+}
+
+TEST_CASE("a discrepancy of conditions holds what runs straight over time, at whatever row between its knots",
+          "[fast]") {
+  const Discrepancy of_time(two_runs());
+  const Discrepancy of_conditions(of_time, {0.0, 0.0, 0.0});
+  Eigen::VectorXd straight = Eigen::VectorXd::Zero(to_index(two_runs().residual_count()));
+  for (const Series& series : two_runs().series()) {
+    const double start_s = two_runs().runs()[series.run].measured.time_s.front();
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      straight[to_index(series.first_residual + k)] = series.floor * (series.time_s[k] - start_s) / 1000.0;
+    }
+  }
+  diagnosis::whiten(two_runs(), straight);
+  const double before = straight.norm();
+  of_conditions.whiten({1e4, 1e4, 1e4}, straight);
+  CHECK(straight.norm() < 1e-3 * before);
 }

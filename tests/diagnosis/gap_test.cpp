@@ -174,6 +174,30 @@ TEST_CASE("a wrong effect shrinks it less", "[fast]") {
   CHECK(by_wrong.recalibrated.before == by_right.recalibrated.before);
 }
 
+/// Runs of which some have warm bearings.
+measurements::MeasurementSet make_mixed_set(const std::vector<bool>& are_warming) {
+  constexpr double kStrong_per_K = 0.05;
+  auto mixed = tests::make_gap_set(warming_bearings(kStrong_per_K), are_warming.size());
+  const auto cold = tests::make_gap_set({}, are_warming.size());
+  for (std::size_t run = 0; run < are_warming.size(); ++run) {
+    if (!are_warming[run]) mixed.runs[run] = cold.runs[run];
+  }
+  return tests::add_noise(mixed, 5);
+}
+
+TEST_CASE("a cause that enlarges the gap of runs which the others predict is said to, not one that merely may",
+          "[fast]") {
+  const FittedBaseline by_turns(make_mixed_set({false, true, false, true}));
+  const Candidate wrong = fit_effect(by_turns, "bearing_warmup");
+  CHECK(find(by_turns, &wrong).worse_where_certain);
+  const FittedBaseline halves(make_mixed_set({false, true, true, false}));
+  const Candidate doubtful = fit_effect(halves, "bearing_warmup");
+  const Gap gap = find(halves, &doubtful);
+  REQUIRE(gap.shrink_ci95_percent[0] < 0.0);
+  REQUIRE(gap.shrink_ci95_percent[1] > 0.0);
+  CHECK_FALSE(gap.worse_where_certain);
+}
+
 TEST_CASE("a run is judged by fits that did not see it", "[fast]") {
   // The bearings of the second run are stiffer by 0.05 N s/m, which a fit that sees it takes for its base parameters.
   auto both = tests::make_gap_set({}, 2);
