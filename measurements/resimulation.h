@@ -31,7 +31,7 @@ sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& ki
 /// Machine   drum and flat belt: rigs/quasi_static_drum.h on the fixed grid; dyno: rigs/recorded_roller.h, and road:
 ///           rigs/recorded_road.h, by the lagged midpoint rule. A drive right after another (tire_state = "warm")
 ///           begins at the temperature of steady driving at 80 km/h (Assumed)
-/// Checked   tests/measurements/resimulation_test.cpp
+/// Checked   tests/measurements/resimulation_test.cpp, tests/measurements/road_resimulation_test.cpp
 class Resimulation {
  public:
   Resimulation(const MeasuredRun& run, const MachineKind& kind);

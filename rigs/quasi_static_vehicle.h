@@ -21,7 +21,7 @@ namespace rollrig::rigs {
 ///           axles counts; rollers make up for their own nominal parasitic loss and hold one speed
 /// Energy    kinetic energy jumps where the driver takes over: term "load_changes" of the mechanical audit
 /// Source    momentum of the vehicle and of what turns in it; (3.20)
-/// Checked   tests/rigs/vehicle_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
+/// Checked   tests/rigs/vehicle_test.cpp, tests/rigs/vehicle_stops_test.cpp, tests/rigs/vehicle_fidelities_test.cpp
 template <class S>
 class QuasiStaticVehicle : public QuasiStaticRig<S> {
  public:

@@ -35,7 +35,7 @@ constexpr double kLargestMisfit = 10.0;
 ///           A force with samples of which none can be compared counts as just outside: its speed may not be one.
 /// Source    Assumed: an effect at the upper end of its prior, with the pressure record off by 15 kPa and the air
 ///           at the tire by 6 K, stays below 1; of draws from the priors at most 1 in 100 is above 2
-/// Checked   tests/diagnosis/set_checks_test.cpp
+/// Checked   tests/diagnosis/set_checks_test.cpp, tests/diagnosis/wrong_columns_test.cpp
 struct RunMisfit {
   std::vector<ChannelMisfit> channels;
   std::string failure;  // why the run could not be simulated; else empty

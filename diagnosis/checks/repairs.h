@@ -36,7 +36,7 @@ enum class Mistakes { kAll, kExchanges };
 /// undone in all of `odd_runs` and simulated again, brings every channel within its tolerance and the sum of squares
 /// below a tenth; with it the other runs that it brings below a tenth. None where none does.
 /// Validity  one mistake at a time, the same in all of `odd_runs`
-/// Checked   tests/diagnosis/set_checks_test.cpp
+/// Checked   tests/diagnosis/wrong_columns_test.cpp
 std::optional<Repair> find_repair(const measurements::MeasurementSet& set, const std::vector<std::size_t>& odd_runs,
                                   Mistakes which, int threads);
 

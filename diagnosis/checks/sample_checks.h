@@ -13,7 +13,7 @@ constexpr std::size_t kFewSamples = 30;  // Assumed: half a minute at 1 Hz; any 
 /// kFewSamples, one run alone, the same samples in two runs, and rows far apart. Leaves out samples that stand alone:
 /// spikes (measurements/spikes.h, 20 standard deviations), and what a logger writes where it has no sample.
 /// Errors  InputError: nothing was measured at all
-/// Checked tests/diagnosis/set_checks_test.cpp
+/// Checked tests/diagnosis/set_checks_test.cpp, tests/diagnosis/left_out_samples_test.cpp
 void check_samples(const measurements::MeasurementSet& set, SetChecks& checks);
 
 /// What was not measured, a sentence each: runs without any sample, channels without one in a run, channels that the

@@ -25,7 +25,7 @@ struct Stuck {
 /// by more than six times the sensor's noise and resolution. Runs that cannot be simulated are passed over.
 /// Validity  a sensor stuck while nothing moves cannot be told from one that works, and does no harm
 /// Source    Assumed: 30 samples, 60 s, six times
-/// Checked   tests/diagnosis/set_checks_test.cpp
+/// Checked   tests/diagnosis/left_out_samples_test.cpp
 Stuck find_stuck(const measurements::MeasurementSet& set, const BaselineRuns& baseline);
 
 }  // namespace rollrig::diagnosis

@@ -74,7 +74,7 @@ ForceDemand<S> blend_brakes(const S& demand_N, const S& motor_limit_N, const S& 
 /// Whether the vehicle is to stand still. Its motor holds it then, uphill and downhill, without power: a friction
 /// brake whose force fades with the speed would let it creep.
 /// Source    Assumed: hill hold, usual of electric cars
-/// Checked   tests/rigs/vehicle_test.cpp
+/// Checked   tests/rigs/vehicle_stops_test.cpp
 template <class S>
 bool is_held(const InputPort<S>& acting) {
   return value_of(acting.speed_m_s) == 0.0 && value_of(acting.acceleration_m_s2) == 0.0;

@@ -1,33 +1,20 @@
-// The command line as users and CI jobs meet it.
+// The command line as users and CI jobs meet it: runs, sweeps and regressions, their settings and what they write.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "build_paths.h"
+#include "tests/cli/longest_line.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
 using Catch::Contains;
 using nlohmann::json;
-using rollrig::tests::flatten;
+using rollrig::tests::longest_line;
 using rollrig::tests::read_file;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
 using rollrig::tests::write_file;
-
-namespace {
-std::size_t longest_line(const std::string& text) {
-  std::istringstream in(text);
-  std::size_t longest = 0;
-  for (std::string line; std::getline(in, line);) {
-    const auto characters =
-        std::count_if(line.begin(), line.end(), [](unsigned char c) { return (c & 0xC0U) != 0x80U; });
-    longest = std::max(longest, static_cast<std::size_t>(characters));
-  }
-  return longest;
-}
-}  // namespace
 
 TEST_CASE("the main job prints a short table and exits with 0", "[fast]") {
   const auto run = run_program("run iso_28580 --tire a50");
@@ -222,220 +209,6 @@ TEST_CASE("all regression scenarios are as their goldens", "[fast]") {
   CHECK(run.status == 0);
 }
 
-TEST_CASE("a set is written, validated and fitted", "[fast]") {
-  const TemporaryFolder folder;
-  REQUIRE(run_program("run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80, 120]' "
-                      "--set measurement_cycles=1 --write-set set --quiet",
-                      folder.path())
-              .status == 0);
-  CHECK_THAT(run_program("validate set", folder.path()).out, Contains("2 runs"));
-  const auto fit = run_program("fit tire set --out fitted --name mine", folder.path());
-  INFO(fit.err);
-  REQUIRE(fit.status == 0);
-  CHECK(longest_line(fit.out) <= 80);
-  CHECK(run_program("validate fitted/mine.toml", folder.path()).status == 0);
-  const json result = json::parse(read_file(folder.file("fitted/fit.json")));
-  CHECK(result["parameters"].size() == 6);
-  CHECK(run_program("run iso_28580 --tire fitted/mine.toml", folder.path()).status == 0);
-}
-
-TEST_CASE("a set that is written without sensors is said to hold no measurement", "[fast]") {
-  const TemporaryFolder folder;
-  const auto plain = run_program("run skim --tire a50 --write-set plain", folder.path());
-  CHECK(plain.status == 0);
-  CHECK_THAT(plain.out, Contains("nothing is measured in it") && Contains("--sensors"));
-  const auto measured = run_program("run skim --tire a50 --sensors source --write-set measured", folder.path());
-  CHECK(measured.status == 0);
-  CHECK_THAT(measured.out, !Contains("nothing is measured"));
-}
-
-namespace {
-/// A set of two runs in "set", its pressures in bar under a kPa heading where wanted.
-void write_small_set(const TemporaryFolder& folder, bool in_bar) {
-  REQUIRE(run_program("run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80, 120]' "
-                      "--set measurement_cycles=1 --write-set set --quiet",
-                      folder.path())
-              .status == 0);
-  if (!in_bar) return;
-  for (const char* run : {"set/speed-80.csv", "set/speed-120.csv"}) {
-    std::istringstream in(read_file(folder.file(run)));
-    std::string line;
-    std::getline(in, line);
-    REQUIRE(line.substr(line.rfind(',') + 1) == "cavity_pressure_kPa");
-    std::string out = line + "\n";
-    while (std::getline(in, line)) {
-      const std::size_t last = line.rfind(',') + 1;
-      if (last < line.size()) line.replace(last, std::string::npos, std::to_string(std::stod(line.substr(last)) / 100));
-      out += line + "\n";
-    }
-    write_file(folder.file(run), out);
-  }
-}
-}  // namespace
-
-TEST_CASE("a fit says that a column looks as if it were in another unit", "[fast]") {
-  const TemporaryFolder good;
-  write_small_set(good, false);
-  const auto right = run_program("fit tire set", good.path());
-  CHECK(right.status == 0);
-  CHECK_THAT(right.out, !Contains("looks as if"));
-  const TemporaryFolder bad;
-  write_small_set(bad, true);
-  const auto fit = run_program("fit tire set --json fit.json", bad.path());
-  CHECK_THAT(fit.out + fit.err, Contains("cavity_pressure_kPa holds bar"));
-  CHECK(fit.status == 1);
-  CHECK_THAT(read_file(bad.file("fit.json")), Contains("cavity_pressure_kPa holds bar"));
-}
-
-TEST_CASE("a fit leaves out what a diagnosis leaves out", "[fast]") {
-  const TemporaryFolder folder;
-  write_small_set(folder, false);
-  REQUIRE(run_program("fit tire set --json clean.json --quiet", folder.path()).status == 0);
-  std::istringstream in(read_file(folder.file("set/speed-80.csv")));
-  std::string out;
-  std::string line;
-  for (int row = 0; std::getline(in, line); ++row) {
-    std::size_t at = 0;  // the fifth column is the torque
-    for (int column = 0; column < 4; ++column) at = line.find(',', at) + 1;
-    if (row > 0 && row % 97 == 0 && line[at] != ',') line.replace(at, line.find(',', at) - at, "-9999");
-    out += line + "\n";
-  }
-  write_file(folder.file("set/speed-80.csv"), out);
-  const auto fit = run_program("fit tire set --json spiked.json", folder.path());
-  CHECK(fit.status == 0);
-  CHECK_THAT(flatten(fit.out), Contains("samples of stuck sensors or that stand alone were left out"));
-  const auto A0_N = [&](const char* file) {
-    return json::parse(read_file(folder.file(file)))["parameters"][0]["value"].get<double>();
-  };
-  CHECK(A0_N("spiked.json") == Approx(A0_N("clean.json")).epsilon(0.02));
-}
-
-TEST_CASE("validate: 0 for a good set, 1 for one whose columns cannot be right, 2 for one that cannot be read",
-          "[fast]") {
-  const TemporaryFolder good;
-  write_small_set(good, false);
-  const auto passed = run_program("validate set", good.path());
-  CHECK(passed.status == 0);
-  CHECK_THAT(passed.out, Contains("good measurement set") && !Contains("measured nothing"));
-  const TemporaryFolder bad;
-  write_small_set(bad, true);
-  const auto doubtful = run_program("validate set '" ROLLRIG_SOURCE_DIR "/assets/tires/a50.toml'", bad.path());
-  CHECK(doubtful.status == 1);
-  CHECK_THAT(doubtful.out, Contains("doubtful measurement set") && Contains("good tire"));  // the rest is looked at too
-  fs::remove(bad.file("set/speed-80.csv"));
-  CHECK(run_program("validate set", bad.path()).status == 2);
-}
-
-TEST_CASE("validate says how many rows are of runs that measured nothing", "[fast]") {
-  const TemporaryFolder folder;
-  write_small_set(folder, false);
-  std::istringstream in(read_file(folder.file("set/speed-80.csv")));
-  std::string line;
-  std::getline(in, line);
-  const auto columns = std::count(line.begin(), line.end(), ',') + 1;
-  std::string out = line + "\n";
-  std::size_t rows = 0;
-  for (; std::getline(in, line); ++rows) {
-    std::size_t last = line.size();
-    for (int i = 0; i < 3; ++i) last = line.rfind(',', last - 1);  // torque, temperature, pressure
-    out += line.substr(0, last) + ",,,\n";
-  }
-  REQUIRE(columns >= 7);
-  write_file(folder.file("set/speed-80.csv"), out);
-  const auto run = run_program("validate set", folder.path());
-  INFO(run.out << run.err);
-  CHECK_THAT(flatten(run.out), Contains(std::to_string(rows) + " of them in runs that measured nothing"));
-}
-
-TEST_CASE("every asset is valid", "[fast]") {
-  for (const char* kind : {"tires", "rigs", "sensors", "regression"}) {
-    for (const auto& entry : fs::directory_iterator(fs::path(ROLLRIG_SOURCE_DIR) / "assets" / kind)) {
-      if (entry.path().extension() != ".toml") continue;
-      const auto run = run_program("validate '" + entry.path().string() + "'");
-      INFO(run.err);
-      CHECK(run.status == 0);
-    }
-  }
-}
-
-TEST_CASE("every number of an asset cites its place in the source or says that it is assumed", "[fast]") {
-  for (const char* kind : {"tires", "rigs", "sensors"}) {
-    for (const auto& entry : fs::directory_iterator(fs::path(ROLLRIG_SOURCE_DIR) / "assets" / kind)) {
-      std::istringstream in(read_file(entry.path().string()));
-      for (std::string line; std::getline(in, line);) {
-        const bool assigns_number = line.find(" = ") != std::string::npos && line.find('"') == std::string::npos;
-        if (!assigns_number) continue;
-        INFO(entry.path() << ": " << line);
-        CHECK_THAT(line, Contains("§") || Contains("Table") || Contains("Figure") || Contains("(3.") ||
-                             Contains("Assumed") || Contains("Calibrated"));
-      }
-    }
-  }
-}
-
-TEST_CASE("describe explains scenarios, effects and assets within 80 columns", "[fast]") {
-  for (const char* name : {"iso_28580", "warm_up", "skim", "skim_series", "transient_skim", "load_sweep",
-                           "pressure_sweep", "speed_sweep", "load_exponent", "bearing_warmup", "tire_loss_in_skim"}) {
-    const auto run = run_program(std::string("describe ") + name);
-    INFO(name);
-    CHECK(run.status == 0);
-    CHECK(longest_line(run.out) <= 80);
-    CHECK_THAT(run.out, Contains("Source"));
-  }
-  CHECK_THAT(run_program("describe a50").out, Contains("Table 3.1"));
-  CHECK(longest_line(run_program("list").out) <= 80);
-  const auto typo = run_program("describe iso_28850");
-  CHECK(typo.status == 2);
-  CHECK_THAT(typo.err, Contains("iso_28580"));
-}
-
-TEST_CASE("help stands everywhere and completion scripts parse", "[fast]") {
-  for (const char* command : {"", "run", "sweep", "regress", "validate", "list", "describe", "fit", "fit tire",
-                              "fit road-load", "diagnose", "export", "completion", "man"}) {
-    const auto run = run_program(std::string(command) + " --help");
-    INFO(command);
-    CHECK(run.status == 0);
-    CHECK_THAT(run.out, Contains("Usage"));
-    CHECK(longest_line(run.out) <= 80);
-  }
-  CHECK_THAT(run_program("--help").out, Contains("--log debug|info|warning|error|off\n"));
-  CHECK_THAT(run_program("man").out, Contains("debug|info|warning|error|off"));
-  CHECK_THAT(run_program("fit road-load --help").out, Contains("--mass positive FLOAT\n"));
-  const TemporaryFolder folder;
-  write_file(folder.file("completion.bash"), run_program("completion bash").out);
-  write_file(
-      folder.file("try.sh"),
-      "source ./completion.bash\nCOMP_WORDS=(rollrig run iso)\nCOMP_CWORD=2\n_rollrig\necho \"${COMPREPLY[@]}\"\n"
-      "COMP_WORDS=(rollrig run --tire a5)\nCOMP_CWORD=3\n_rollrig\necho \"${COMPREPLY[@]}\"\n");
-  const auto tried = run_program("--version && bash try.sh", folder.path());
-  CHECK_THAT(tried.out, Contains("iso_28580") && Contains("a50"));
-  CHECK(run_program("completion fish").status == 0);
-  CHECK(run_program("completion zsh").status == 0);
-}
-
-TEST_CASE("usage errors name the nearest word and exit with 2", "[fast]") {
-  const auto option = run_program("run iso_28580 --tyre a50");
-  CHECK(option.status == 2);
-  CHECK_THAT(option.err, Contains("--tire"));
-  const auto command = run_program("rnu iso_28580");
-  CHECK(command.status == 2);
-  CHECK_THAT(command.err, Contains("run"));
-  CHECK(run_program("").status == 2);
-  CHECK(run_program("run iso_28580").status == 2);
-}
-
-TEST_CASE("errors stay within 80 columns, with all that is allowed and paths whole", "[fast]") {
-  for (const char* arguments : {"run nope --tire a50", "diagnose --explain nope", "describe nope",
-                                "run iso_28580 --tire a50 --set effects.nope.x=1", "export . --mat x"}) {
-    const auto run = run_program(arguments);
-    INFO(run.err);
-    CHECK(run.status == 2);
-    CHECK(longest_line(run.err) <= 80);
-  }
-  const std::string path = "no_such_folder_of_a_rather_long_name/and another one below it/and at last a tire file.toml";
-  CHECK_THAT(run_program("validate '" + path + "'").err, Contains("  where    " + path + "\n"));
-}
-
 TEST_CASE("every command that writes a page says where", "[fast]") {
   const TemporaryFolder folder;
   fs::create_directory(folder.file("runs"));
@@ -460,42 +233,6 @@ TEST_CASE("an interrupted run stops cleanly and leaves nothing behind", "[fast]"
   CHECK(run.status == 130);
   CHECK_THAT(run.err, Contains("nothing was written"));
   CHECK(folder.entry_count() == 0);
-}
-
-TEST_CASE("a run that fails exits with 3 and says why", "[fast]") {
-  // a drum that cannot turn the tire: a stiffness that no machine number holds
-  const auto run = run_program("run iso_28580 --tire a50 --set tire.rolling_resistance.A0_N=1e300");
-  CHECK(run.status == 3);
-  CHECK_THAT(run.err, Contains("run failed"));
-}
-
-TEST_CASE("a tire that an effect cools without end is a failed run that names the effect", "[fast]") {
-  // a loss of -800 N: the tire drives, and what it gives is taken from its heat
-  const std::string effect =
-      " --set effects.tire_loss_in_skim.force_N=-20 --set effects.tire_loss_in_skim.load_power=1";
-  for (const char* fidelity : {"multibody", "quasi_static"}) {
-    const auto run = run_program(std::string("run warm_up --tire a50 --fidelity ") + fidelity + effect, "",
-                                 "timeout --foreground 60");
-    INFO(fidelity);
-    CHECK(run.status == 3);
-    CHECK_THAT(run.err, Contains("temperature of the tire's rubber") && Contains("tire_loss_in_skim (force_N = -20"));
-  }
-}
-
-TEST_CASE("a tire that heats without end is a failed run of recorded rows, too", "[fast]") {
-  // no cooling, and a loss that does not fall with temperature
-  const TemporaryFolder folder;
-  std::string rows = "time_s,speed_km_h,load_N,ambient_degC,longitudinal_force_N\n";
-  for (int i = 0; i <= 2000; i += 2) rows += std::to_string(i) + ",120,5000,25,0\n";
-  write_file(folder.file("rows.csv"), rows);
-  const auto run = run_program(
-      "run follow_roller --tire a50 --set program=rows.csv --set tire.rolling_resistance.B0_per_degC=0 --set "
-      "tire.rolling_resistance.B1_s_per_m_degC=0 --set tire.rolling_resistance.A0_N=5000 --set "
-      "tire.thermal.z_W_per_K=0.01 --set tire.thermal.f_W_s_per_m_K=0",
-      folder.path());
-  INFO(run.out);
-  CHECK(run.status == 3);
-  CHECK_THAT(run.err, Contains("temperature of the tire's rubber"));
 }
 
 TEST_CASE("scenarios are known by their former names as well, which nothing shows", "[fast]") {

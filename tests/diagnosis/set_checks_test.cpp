@@ -1,15 +1,15 @@
 // Sets that cannot be what they are said to be are met before the comparison, and sets that can are let through.
-#include "diagnosis/checks/sample_checks.h"
+#include "diagnosis/checks/set_checks.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
-#include "sim/core/error.h"
-#include "sim/core/units.h"
+#include "diagnosis/checks/sample_checks.h"
+#include "tests/diagnosis/checked_sets.h"
 #include "tests/support/drum_fixture.h"
-#include "tests/support/drum_sets.h"
 #include "tests/support/machines.h"
 
 using Catch::Contains;
@@ -18,64 +18,14 @@ using diagnosis::check_set;
 using diagnosis::SetChecks;
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
+using tests::Answer;
+using tests::answer_to;
+using tests::exchange_everywhere;
+using tests::join;
+using tests::kChannels;
+using tests::short_set;
 
 namespace {
-
-const char* const kChannels[] = {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"};
-
-const MeasurementSet& short_set() {
-  static const MeasurementSet set = tests::simulate_campaign(tests::make_short_campaign());
-  return set;
-}
-
-/// The numbers of a column, as a file has them, replaced by factor x + offset.
-MeasurementSet rescale(MeasurementSet set, const std::string& column, double factor, double offset = 0.0) {
-  const Unit unit = unit_of_key(column);
-  for (MeasuredRun& run : set.runs) {
-    for (double& value : run.columns.at(column)) value = unit.to_si(factor * unit.from_si(value) + offset);
-  }
-  return set;
-}
-
-/// The headings of two columns exchanged. A file has no empty field in a given column, so those take 20.
-void exchange(MeasuredRun& run, const std::string& a, const std::string& b) {
-  const std::vector<double> was_a = run.columns.at(a);
-  const std::vector<double> was_b = run.columns.at(b);
-  const auto read_as = [](const std::string& from, const std::string& to, double value) {
-    const bool given = to == "speed_km_h" || to == "load_N" || to == "ambient_degC";
-    const double number = unit_of_key(from).from_si(value);
-    return unit_of_key(to).to_si(given && std::isnan(number) ? 20.0 : number);
-  };
-  for (std::size_t row = 0; row < was_a.size(); ++row) {
-    run.columns.at(a)[row] = read_as(b, a, was_b[row]);
-    run.columns.at(b)[row] = read_as(a, b, was_a[row]);
-  }
-}
-
-MeasurementSet exchange_everywhere(MeasurementSet set, const std::string& a, const std::string& b) {
-  for (MeasuredRun& run : set.runs) exchange(run, a, b);
-  return set;
-}
-
-std::string join(const std::vector<std::string>& sentences) {
-  std::string text;
-  for (const std::string& sentence : sentences) text += sentence + "\n";
-  return text;
-}
-
-/// All that is said of a set, whether it is refused or warned of.
-struct Answer {
-  bool stopped = false;  // refused or implausible: no cause is named
-  std::string text;
-};
-Answer answer_to(const MeasurementSet& set) {
-  try {
-    const SetChecks checks = check_set(set);
-    return {checks.is_implausible(), join(checks.warnings)};
-  } catch (const InputError& error) {
-    return {true, error.what()};
-  }
-}
 
 /// A draw from the priors: log-normal or normal, two thirds between low and high.
 models::ActiveEffect draw_effect(const models::Effect& effect, std::mt19937_64& random) {
@@ -141,101 +91,6 @@ TEST_CASE("no effect of the catalog makes a set look like a mistake", "[slow]") 
   CHECK(stopped <= sets / 100);
 }
 
-TEST_CASE("each pair of exchanged columns is found", "[fast]") {
-  const std::vector<std::string> columns{"speed_km_h",     "load_N",     "ambient_degC",
-                                         "drum_torque_Nm", kChannels[1], kChannels[2]};
-  for (std::size_t a = 0; a < columns.size(); ++a) {
-    for (std::size_t b = a + 1; b < columns.size(); ++b) {
-      const Answer answer = answer_to(exchange_everywhere(short_set(), columns[a], columns[b]));
-      INFO(columns[a] << " " << columns[b] << ": " << answer.text);
-      CHECK(answer.stopped);
-      CHECK_THAT(answer.text, Contains("the columns " + columns[a] + " and " + columns[b] + " are exchanged"));
-    }
-  }
-}
-
-TEST_CASE("columns exchanged in one run alone are found in that run", "[fast]") {
-  MeasurementSet set = short_set();
-  exchange(set.runs[1], "drum_torque_Nm", "liner_temperature_degC");
-  const Answer answer = answer_to(set);
-  CHECK(answer.stopped);
-  CHECK_THAT(answer.text, Contains("in run " + set.runs[1].id) && Contains("are exchanged"));
-}
-
-TEST_CASE("a wrong unit is named", "[fast]") {
-  struct Case {
-    const char* column;
-    double factor;
-    double offset;
-    const char* text;
-  };
-  const std::vector<Case> cases{{"speed_km_h", 1.0 / 3.6, 0.0, "speed_km_h holds m/s"},
-                                {"speed_km_h", 3.6, 0.0, "speed_km_h was multiplied by 3.6"},
-                                {"drum_torque_Nm", 3.6, 0.0, "drum_torque_Nm of all runs (3.6 of the simulated"},
-                                {"drum_torque_Nm", 1.0 / 3.6, 0.0, "drum_torque_Nm is too small by a factor of 3.6"},
-                                {"drum_torque_Nm", -1.0, 0.0, "the other sign"},
-                                {"speed_km_h", 1.0 / 1.609344, 0.0, "speed_km_h holds mph"},
-                                {"drum_torque_Nm", 1e-3, 0.0, "drum_torque_Nm holds kN m"},
-                                {"load_N", 1.0 / 9.80665, 0.0, "load_N holds kgf"},
-                                {"load_N", 1e-3, 0.0, "load_N holds kN"},
-                                {"cavity_pressure_kPa", 1.0, 101.325, "absolute"},
-                                {"cavity_pressure_kPa", 0.01, 0.0, "holds bar"},
-                                {"cavity_pressure_kPa", 1.0 / 6.894757, 0.0, "holds psi"},
-                                {"liner_temperature_degC", 1.8, 32.0, "liner_temperature_degC holds degF"},
-                                {"ambient_degC", 1.8, 32.0, "ambient_degC holds degF"}};
-  for (const Case& at : cases) {
-    const Answer answer = answer_to(rescale(short_set(), at.column, at.factor, at.offset));
-    INFO(at.column << " x " << at.factor << " + " << at.offset << ": " << answer.text);
-    CHECK(answer.stopped);
-    CHECK_THAT(answer.text, Contains("all runs") && Contains(at.text));
-  }
-}
-
-TEST_CASE("a wrong unit is found beside the uncertainty of the tire file and an effect", "[fast]") {
-  for (const char* id : {"bearing_warmup", "tire_loss_in_skim", "tread_liner_lag"}) {
-    for (const double factor : {1.0 / 3.6, 3.6}) {
-      tests::Campaign campaign = tests::make_short_campaign();
-      campaign.effects = {tests::make_effect_at(id, 0.5)};
-      MeasurementSet set = rescale(tests::simulate_campaign(campaign, 3), "speed_km_h", factor);
-      set.tire.values.rolling_resistance.A0_N *= 1.05;
-      set.tire.values.thermal.heat_capacity_J_per_K *= 0.95;
-      const Answer answer = answer_to(set);
-      INFO(id << " " << factor << ": " << answer.text);
-      CHECK(answer.stopped);
-      CHECK_THAT(answer.text, Contains("speed_km_h"));
-    }
-  }
-}
-
-TEST_CASE("a level that no mistake of the list explains is outside, and said with its ratio", "[fast]") {
-  const SetChecks checks = check_set(rescale(short_set(), "drum_torque_Nm", 10.0));
-  CHECK(checks.is_implausible());
-  CHECK_THAT(join(checks.warnings), Contains("drum_torque_Nm of all runs (10 of the simulated"));
-}
-
-TEST_CASE("a stuck sensor is left out, where it stands still", "[fast]") {
-  for (const char* channel : kChannels) {
-    for (const std::size_t from : {std::size_t{0}, std::size_t{300}}) {
-      MeasurementSet set = short_set();
-      std::vector<double>& values = set.runs[1].columns.at(channel);
-      std::fill(values.begin() + static_cast<std::ptrdiff_t>(from), values.end(), values[200]);
-      const SetChecks checks = check_set(set);
-      INFO(channel << " from " << from << ": " << join(checks.warnings));
-      CHECK_FALSE(checks.is_implausible());
-      REQUIRE(checks.left_out.size() == 1);
-      CHECK(checks.left_out[0].run == 1);
-      CHECK(checks.left_out[0].channel.header() == channel);
-      CHECK_THAT(join(checks.warnings), Contains("stands at") && Contains(set.runs[1].id));
-      // what is left is the set without those samples, and it is let through
-      const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.left_out[0].first_row]));
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[checks.left_out[0].last_row]));
-      CHECK(kept.runs[0].columns.at("load_N") == set.runs[0].columns.at("load_N"));
-      CHECK(check_set(kept).left_out.empty());
-    }
-  }
-}
-
 TEST_CASE("rows far apart are warned of, with the shift that they may make", "[fast]") {
   MeasurementSet set = short_set();
   CHECK_THAT(join(check_set(set).warnings), !Contains("apart"));
@@ -249,66 +104,6 @@ TEST_CASE("rows far apart are warned of, with the shift that they may make", "[f
     for (auto& [name, values] : run.columns) thin(values);
   }
   CHECK_THAT(join(check_set(set).warnings), Contains("s apart") && Contains("clock_shift"));
-}
-
-TEST_CASE("samples that stand alone are left out, those beside them stay", "[fast]") {
-  const MeasurementSet clean = short_set();
-  REQUIRE(check_set(clean).left_out.empty());
-  for (const char* channel : kChannels) {
-    MeasurementSet set = clean;
-    std::vector<double>& values = set.runs[1].columns.at(channel);
-    std::vector<std::size_t> rows;
-    for (std::size_t row = 250; row + 20 < values.size() && rows.size() < 5; row += 37) {
-      if (std::isnan(values[row])) continue;
-      rows.push_back(row);
-      values[row] = -9999.0;
-    }
-    const SetChecks checks = check_set(set);
-    INFO(channel << ": " << join(checks.warnings));
-    CHECK_FALSE(checks.is_implausible());
-    CHECK_THAT(join(checks.warnings), Contains("5 samples stand alone") && Contains(set.runs[1].id));
-    REQUIRE(checks.left_out.size() == rows.size());
-    const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
-    for (const std::size_t row : rows) {
-      CHECK(std::isnan(kept.runs[1].columns.at(channel)[row]));
-      CHECK(kept.runs[1].columns.at(channel)[row + 1] == clean.runs[1].columns.at(channel)[row + 1]);
-    }
-  }
-}
-
-TEST_CASE("the number of a spike is a placeholder wherever it stands, if nothing comes near to it", "[fast]") {
-  MeasurementSet set = short_set();
-  std::vector<double>& torque = set.runs[1].columns.at("drum_torque_Nm");
-  for (std::size_t row = 5; row < torque.size(); row += 31) torque[row] = -9999.0;  // on ramps and load changes as well
-  const SetChecks checks = check_set(set);
-  const MeasurementSet kept = diagnosis::leave_out(set, checks.left_out);
-  const std::vector<double>& left = kept.runs[1].columns.at("drum_torque_Nm");
-  CHECK(std::count(left.begin(), left.end(), -9999.0) == 0);
-  CHECK(checks.left_out.size() == static_cast<std::size_t>(std::count(torque.begin(), torque.end(), -9999.0)));
-}
-
-TEST_CASE("where every sensor is stuck nothing is left", "[fast]") {
-  MeasurementSet set = short_set();
-  for (MeasuredRun& run : set.runs) {
-    for (const char* channel : kChannels) {
-      std::vector<double>& values = run.columns.at(channel);
-      std::fill(values.begin(), values.end(), values[200]);
-    }
-  }
-  CHECK_THROWS_WITH(check_set(set), Contains("stands still"));
-}
-
-TEST_CASE("a channel that holds still because nothing moves is not doubtful", "[fast]") {
-  // coarse steps on a warm tire: minutes on one number
-  MeasurementSet set = short_set();
-  set.sensors.at("liner_temperature_degC").resolution = 2.0;
-  for (MeasuredRun& run : set.runs) {
-    for (double& value : run.columns.at("liner_temperature_degC"))
-      value = 273.15 + 2.0 * std::round((value - 273.15) / 2.0);
-  }
-  const SetChecks checks = check_set(set);
-  INFO(join(checks.warnings));
-  CHECK(checks.left_out.empty());
 }
 
 TEST_CASE("nothing measured is an error; a channel without samples a warning", "[fast]") {

@@ -41,8 +41,8 @@ std::vector<double> means_of(const std::function<double(double)>& integral, cons
 /// One channel after the effect.
 std::vector<double> apply(const models::ActiveEffect& active, const std::vector<double>& time_s,
                           const std::vector<double>& values, const Quantity& quantity = kLiner,
-                          tests::Machine kind = tests::kDrum, const std::vector<double>& ambient_K = {}) {
-  return tests::apply_trace(active, time_s, {quantity.header(), values}, kind, {{kAmbient.header(), ambient_K}});
+                          tests::Machine kind = tests::kDrum) {
+  return tests::apply_trace(active, time_s, {quantity.header(), values}, kind);
 }
 
 std::vector<double> shift(double late_s, const std::vector<double>& time_s, const std::vector<double>& values) {
@@ -101,8 +101,8 @@ TEST_CASE("a kelvin of ambient moves the zero like its minutes of drift, and non
   const std::vector<double> ambient_K{298.15, 300.15, 297.15};
   const std::vector<double> zeros(3, 0.0);
   const auto drift = [&](double rate_N_per_h, double ambient_min_per_K) {
-    return apply(switch_on("torque_zero_drift", {rate_N_per_h, 60.0, ambient_min_per_K}), time_s, zeros, kTorque,
-                 tests::kDrum, ambient_K);
+    return tests::apply_trace(switch_on("torque_zero_drift", {rate_N_per_h, 60.0, ambient_min_per_K}), time_s,
+                              {kTorque.header(), zeros}, tests::kDrum, {{kAmbient.header(), ambient_K}});
   };
   const auto in_time = drift(1.2, 0.0);
   const auto both = drift(1.2, 5.0);
