@@ -25,7 +25,7 @@ async function bundle(entry) {
 }
 
 /// What the licenses of the bundled packages ask to be handed on.
-function collectLicences() {
+function collectLicenses() {
   const parts = [];
   for (const [name, files] of [
     ['echarts', ['LICENSE', 'NOTICE']],
@@ -52,10 +52,13 @@ function makeCpp(html) {
     + `std::string_view page_template() { return {kTemplate, sizeof kTemplate - 1}; }\n\n}  // namespace rollrig::report\n`;
 }
 
-const fill = (text, name, value) => text.replace(`/*${name}*/`, () => value);
+function fill(text, name, value) {
+  if (!text.includes(`/*${name}*/`)) throw new Error(`template.html has no place for ${name}`);
+  return text.replace(`/*${name}*/`, () => value);
+}
 let html = read('template.html');
 html = fill(html, 'STYLE', await bundle('style.css'));
 html = fill(html, 'SCRIPT', escapeScript(await bundle('src/main.js')));
-html = fill(html, 'LICENCES', escapeHtml(collectLicences()));
+html = fill(html, 'LICENSES', escapeHtml(collectLicenses()));
 writeFileSync(htmlFile, html);
 if (cppFile) writeFileSync(cppFile, makeCpp(html));
