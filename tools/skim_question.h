@@ -17,8 +17,8 @@ struct SkimAnswer {
   std::string next_test;
 };
 
-/// Simulates the test on the source's drum with its sensors (one log a second, seed 1), and diagnoses it with the whole
-/// catalog in the race.
+/// Simulates the test on the source's drum with its sensors (one log a second, seed 1), and diagnoses it by comparison
+/// of the whole catalog.
 SkimAnswer ask(const std::string& tire, const std::string& effect, const std::string& parameter, double size);
 
 /// Every tire at the middle of both priors, and a50 at both ends of each.

@@ -8,7 +8,7 @@
 
 namespace rollrig::diagnosis {
 
-/// The discrepancy of one run less what a ridge regression learnt on the other runs predicts for it, channel by
+/// The discrepancy of one run less what a ridge regression learned on the other runs predicts for it, channel by
 /// channel. Features of a block: 1, v, v^2, load, load v, skim or not, air temperature, initial tire temperature, cold
 /// pressure, e^(-t/300 s), e^(-t/1200 s) of the run's time t and of the time since the last change of load; each
 /// standardized, with a weight of one noise floor.

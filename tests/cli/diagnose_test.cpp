@@ -189,8 +189,8 @@ TEST_CASE("the example program diagnoses through the library", "[slow]") {
 
 TEST_CASE("a plan is run from anywhere, and what it writes is diagnosed", "[slow]") {
   const SetFolder made("--set effects.bearing_warmup.fall_per_K=0.02");
-  const std::string race = " --only bearing_warmup,torque_zero_drift";
-  const auto planned = run_program("diagnose set --plan next" + race, made.folder.path());
+  const std::string compared = " --only bearing_warmup,torque_zero_drift";
+  const auto planned = run_program("diagnose set --plan next" + compared, made.folder.path());
   INFO(planned.out << planned.err);
   REQUIRE(planned.status == 0);
   CHECK_THAT(planned.out, Contains("plan.txt"));
@@ -201,11 +201,11 @@ TEST_CASE("a plan is run from anywhere, and what it writes is diagnosed", "[slow
       run_program("run " + next + "/run-1.toml --fidelity quasi_static --write-set paper --quiet", elsewhere.path());
   INFO(run.err);
   REQUIRE(run.status == 0);
-  const auto diagnosed = run_program("diagnose paper --json why.json --quiet" + race, elsewhere.path());
+  const auto diagnosed = run_program("diagnose paper --json why.json --quiet" + compared, elsewhere.path());
   INFO(diagnosed.err);
   REQUIRE(diagnosed.status == 0);
   CHECK(json::parse(read_file(elsewhere.file("why.json")))["verdict"] == "no_gap");  // nothing was switched on
-  const auto again = run_program("diagnose set --plan next" + race, made.folder.path());
+  const auto again = run_program("diagnose set --plan next" + compared, made.folder.path());
   CHECK(again.status == 2);  // the folder holds the first plan
   CHECK_THAT(again.err, Contains("--force"));
 }
@@ -222,12 +222,12 @@ TEST_CASE("a plan for a wheel or a vehicle is run, and what it writes is diagnos
                    (is_road ? "]\noffset_sd = 10.0\ndrift_sd = 20.0\ndrift_time_s = 13.0\nnoise_sd = 14.0\n"
                             : "]\noffset_sd = 2.0\ndrift_sd = 1.0\ndrift_time_s = 60.0\nnoise_sd = 2.0\n") +
                    "resolution = 0.0\n");
-    const std::string race = " --quiet --only toe_camber_drag,torque_gain";
+    const std::string compared = " --quiet --only toe_camber_drag,torque_gain";
     for (const std::string& command :
          {std::string("run run.toml --write-set set --quiet --set effects.toe_camber_drag.force_N=10"),
-          "diagnose set --plan next" + race, std::string("validate next/run-1.toml"),
+          "diagnose set --plan next" + compared, std::string("validate next/run-1.toml"),
           std::string("run next/run-1.toml --write-set paper --quiet"), std::string("validate paper"),
-          "diagnose paper --json why.json" + race}) {
+          "diagnose paper --json why.json" + compared}) {
       const auto done = run_program(command, folder.path());
       INFO(command << "\n" << done.err);
       REQUIRE(done.status == 0);

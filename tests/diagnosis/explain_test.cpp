@@ -45,7 +45,7 @@ TEST_CASE("none and unknown are explained", "[fast]") {
   CHECK_THAT(diagnosis::explain_effect("unknown"), Contains("unexplained"));
 }
 
-TEST_CASE("a misspelt effect is answered with the nearest", "[fast]") {
+TEST_CASE("a misspelled effect is answered with the nearest", "[fast]") {
   CHECK_THROWS_WITH(diagnosis::explain_effect("bearing_warmpu"), Contains("bearing_warmup"));
   CHECK_THROWS_AS(diagnosis::explain_effect(""), InputError);
 }

@@ -58,7 +58,7 @@ TEST_CASE("brake drag is set by braking, never above its size, and decays with i
   CHECK(at.state("brake_drag.dragging") == Approx(set * std::exp(-1.0)).epsilon(1e-6));
 }
 
-TEST_CASE("drag that the disc perturbations back is worn off by distance, and stays at standstill", "[fast]") {
+TEST_CASE("drag that the disc pushes back is worn off by distance, and stays at standstill", "[fast]") {
   const auto left_after = [](double speed_m_s, double duration_s) {
     HandFedCorner<double> at(make_context_on(tests::kDyno), {switch_on("brake_drag", {8.0, 2.0, 1e4, 1.0})});
     at.inputs.brake_force_N = 3000.0;

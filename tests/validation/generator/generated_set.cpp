@@ -15,7 +15,7 @@
 #include "sim/simulate.h"
 #include "tests/support/machines.h"
 #include "tests/support/run_program.h"
-#include "tests/validation/generator/vehicle_replay.h"
+#include "tests/validation/generator/vehicle_resimulation.h"
 
 namespace rollrig::tests {
 namespace {
@@ -58,7 +58,7 @@ class FloorSum {
   std::map<std::string, double> count_;
 };
 
-sim::Recording<double> replay(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
+sim::Recording<double> resimulate_drum(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {});
   rigs::RigStart<double> start;
   start.tire_temperature_K = run.initial_tire_temperature_K;
@@ -121,11 +121,11 @@ Floors compare_with_baseline(const measurements::MeasurementSet& set) {
   FloorSum sum(set);
   for (const measurements::MeasuredRun& run : set.runs) {
     if (set.kind != tests::kDrum) {
-      const auto baseline = replay_vehicle(set, run);
+      const auto baseline = resimulate_vehicle(set, run);
       for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.at(channel));
       continue;
     }
-    const sim::Recording<double> baseline = replay(set, run);
+    const sim::Recording<double> baseline = resimulate_drum(set, run);
     for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.channel(channel));
   }
   return sum.take();

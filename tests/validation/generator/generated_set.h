@@ -39,7 +39,7 @@ double calc_floor(const measurements::MeasurementSet& set, const std::string& ch
 /// Root mean square of a difference in noise floors, by channel.
 using Floors = std::map<std::string, double>;
 
-/// Between a set and rollrig's baseline replay of it with the parameters of its files.
+/// Between a set and rollrig's baseline, simulated again from its recorded inputs with the parameters of its files.
 Floors compare_with_baseline(const measurements::MeasurementSet& set);
 /// Between two sets of the same rows.
 Floors compare(const measurements::MeasurementSet& a, const measurements::MeasurementSet& b);

@@ -45,7 +45,7 @@ TEST_CASE("a slow leak is named with its size, and shrinks the gap on the runs l
   }
 }
 
-TEST_CASE("effects that are not in the race are not named", "[fast]") {
+TEST_CASE("effects that are not in the comparison are not named", "[fast]") {
   validation::Settings settings;
   settings.only = {"windage", "slow_leak"};
   settings.without = {"slow_leak"};

@@ -1,4 +1,4 @@
-#include "tests/validation/generator/vehicle_replay.h"
+#include "tests/validation/generator/vehicle_resimulation.h"
 
 #include <algorithm>
 #include <array>
@@ -29,9 +29,9 @@ models::Context<double> make_vehicle_context(const measurements::MeasurementSet&
 }
 
 /// One wheel and, on the road, the vehicle on it, with inputs linear between rows.
-class Replay {
+class VehicleResimulation {
  public:
-  Replay(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run)
+  VehicleResimulation(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run)
       : set_(set), run_(run), corner_(make_vehicle_context(set), {}) {
     now_.recorded.air_density_ratio = 1.0;
     now_.inflation = {run.cold_pressure_Pa, run.initial_tire_temperature_K, kAmbient_Pa};
@@ -161,9 +161,9 @@ class Replay {
 
 }  // namespace
 
-std::map<std::string, std::vector<double>> replay_vehicle(const measurements::MeasurementSet& set,
-                                                          const measurements::MeasuredRun& run) {
-  return Replay(set, run).take();
+std::map<std::string, std::vector<double>> resimulate_vehicle(const measurements::MeasurementSet& set,
+                                                              const measurements::MeasuredRun& run) {
+  return VehicleResimulation(set, run).take();
 }
 
 }  // namespace rollrig::tests
