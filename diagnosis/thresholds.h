@@ -8,7 +8,8 @@
 
 namespace rollrig::diagnosis {
 
-/// Probabilities before the measurement. Source: design of the method; the rest of a kind is shared evenly.
+/// Probabilities before the measurement (docs/diagnosis.md, "Method", hypotheses); what a kind has is shared evenly.
+/// Assumed: no cause as likely as all others together, one effect rather than two, 9 % for what is outside the catalog.
 struct ComparisonPriors {
   double none = 0.50;
   double singles = 0.35;
@@ -34,8 +35,8 @@ namespace thresholds {
 constexpr double kExactLaw = 0.3;  // Assumed: that a law is better than the shares of model error say
 
 // Screening and refits.
-constexpr double kScreened_nats = 6.0;        // design: all effects within so much of the best are refitted,
-constexpr std::size_t kScreenedLeast = 6;     // design: and so many at least
+constexpr double kScreened_nats = 6.0;        // Assumed: all effects within odds of 400 of the best are refitted,
+constexpr std::size_t kScreenedLeast = 6;     // Assumed: and so many at least
 constexpr int kFirstSteps = 4;                // of Levenberg and Marquardt, for each of them
 constexpr int kMostSteps = 30;                // for those that could still win
 constexpr double kFaint_nats = 2.0;           // a screening score that cannot make a cause: one step will do
@@ -52,10 +53,10 @@ constexpr std::size_t kSecondsOfTriples = 2;
 constexpr double kDiscrepancyScales_s[] = {120.0, 480.0};  // Assumed: shorter is noise, longer is a phase
 
 // Verdict.
-constexpr double kToldApart_nats = 3.0;       // design: below it hypotheses are named together
-constexpr double kTail_sd = 3.0;              // design: a parameter so far out in its prior is an objection
-constexpr double kRunSizeChance = 1e-3;       // Assumed: of the test whether the size is one in all runs ...
-constexpr double kRunSizeShare = 0.3;         // ... by which a law's idealization may change it from run to run
+constexpr double kToldApart_nats = 3.0;  // Assumed: odds of 20, below which hypotheses are named together
+constexpr double kTail_sd = 3.0;         // Assumed: 3 draws of a prior in 1000; a parameter so far out is an objection
+constexpr double kRunSizeChance = 1e-3;  // Assumed: of the test whether the size is one in all runs ...
+constexpr double kRunSizeShare = 0.3;    // ... by which a law's idealization may change it from run to run
 constexpr double kKeptUnderObjection = 0.05;  // Assumed: of a cause's probability, the rest goes to "unknown"
 constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a run left out is judged
 constexpr double kDetectableEffect_sd = 5.0;  // named then in 19 of 20 sets, against the priors above

@@ -7,7 +7,7 @@
 
 namespace rollrig::measurements {
 
-constexpr double kSettling_s = 30.0;               // design: leave out 30 s after each load change
+constexpr double kSettling_s = 30.0;               // Assumed: by then load cylinder and speed controller rest
 constexpr double kLoadedShare = 0.2;               // Assumed: above this share of the reference load a tire is loaded
 constexpr double kSteadyAcceleration_m_s2 = 0.05;  // Assumed
 constexpr double kTrustedSpeed_m_s = 20.0 / 3.6;   // §4.2.1: the source trusts its law from 20 km/h up

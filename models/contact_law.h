@@ -53,8 +53,8 @@ S calc_relaxation_per_s(const S& rolling_per_s, const S& sliding_per_s) {
 /// Validity  any speed, standstill as well; Fx = k sigma V_s/|V|, in proportion to the slip, to 1e-4 up to
 ///           0.4 mu Fz; |Fx| settles at mu Fz in full sliding; no force when lifted
 /// Energy    never dissipates less than nothing while d g r <= 4 k
-/// Source    relaxation model of the design; damping gated as usual in LuGre friction. Assumed: V_0, the power 8,
-///           so that a tire within its grip costs the Fx^2/C of effect slip_loss
+/// Source    single contact point with a relaxation length, usual in tire dynamics; damping gated as usual in LuGre
+///           friction. Assumed: V_0, the power 8, so that a tire within its grip costs the Fx^2/C of effect slip_loss
 /// Checked   tests/models/contact_law_test.cpp
 template <class S>
 SlipForce<S> calc_slip_force(const ContactParameters<S>& p, const S& speed_m_s, const S& slip_speed_m_s,

@@ -10,7 +10,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr double kBlock_s = 10.0;  // design: work on 10 s means
+constexpr double kBlock_s = 10.0;  // Assumed: short against what a tire takes to warm, and ten samples a second apart
 constexpr double kSlack_s = 1e-6;
 
 /// Whether the surface stands still over a row and its neighbors.

@@ -22,7 +22,7 @@ struct PlannedTest {
   std::vector<std::string> by_hand = {};  // what is done at the rig beside the runs, a sentence each
 };
 
-constexpr double kVirtualRow_s = 10.0;  // design: work on 10 s means
+constexpr double kVirtualRow_s = 10.0;  // as long as the blocks of a comparison (docs/diagnosis.md, "Method", data)
 
 /// What the set's own rig, sensors, tire, usual load and pressure allow. Speeds, loads and durations: Assumed, after
 /// the source's tests (§3.2); they are what makes each test's own comparison, not a standard's.

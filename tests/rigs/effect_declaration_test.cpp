@@ -20,7 +20,7 @@ using tests::usual_values;
 
 namespace {
 
-/// Every effect of the design's catalog; the registry has these and may have more.
+/// Every effect that the registry must hold, so that none is lost by a line of effects.def; it may have more.
 const std::set<std::string>& catalog() {
   static const std::set<std::string> ids{
       "bearing_warmup",     "tire_loss_in_skim", "bearing_load_friction", "windage",

@@ -47,7 +47,7 @@ using Tallies = std::map<std::string, Tally>;
 using Confusion = std::map<std::string, std::map<std::string, std::size_t>>;  // truth, what was said
 
 struct ScoreOptions {
-  double detectable_d_prime = 5.0;  // from here on an effect is to be found: design of the validation
+  double detectable_d_prime = 5.0;  // from here on an effect is to be found (docs/validation.md, "Figures")
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
 };
 
