@@ -190,9 +190,9 @@ TEST_CASE("a cause that enlarges the gap of runs which the others predict is sai
   const FittedBaseline by_turns(make_mixed_set({false, true, false, true}));
   const Candidate wrong = fit_effect(by_turns, "bearing_warmup");
   CHECK(find(by_turns, &wrong).worse_where_certain);
-  const FittedBaseline halves(make_mixed_set({false, true, true, false}));
-  const Candidate doubtful = fit_effect(halves, "bearing_warmup");
-  const Gap gap = find(halves, &doubtful);
+  const FittedBaseline mostly(make_mixed_set({false, true, true, true}));
+  const Candidate doubtful = fit_effect(mostly, "bearing_warmup");
+  const Gap gap = find(mostly, &doubtful);
   REQUIRE(gap.shrink_ci95_percent[0] < 0.0);
   REQUIRE(gap.shrink_ci95_percent[1] > 0.0);
   CHECK_FALSE(gap.worse_where_certain);

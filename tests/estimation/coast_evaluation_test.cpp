@@ -254,6 +254,9 @@ TEST_CASE("what one direction is above the other is the mean over pressures, kno
 TEST_CASE("where no pressure was run twice, the scatter within a run stands for it", "[fast]") {
   const Evaluated all = evaluate(make_exact_lifted({{{0.061, 0.083}}, {{0.049, 0.071}}}));
   CHECK(level_of(all, 0, 0).net_m_s2.sd == Approx((1.0 + kMassRatio) * 0.004));
+  Decelerations one_lifted = kScattered;
+  one_lifted.drum.resize(1);
+  CHECK(evaluate(one_lifted).fit.points[0].drum_alone_m_s2->sd == Approx(0.004));
 }
 
 TEST_CASE("a run that does not pass a speed counts at the other alone", "[fast]") {
