@@ -270,3 +270,17 @@ TEST_CASE("a run that does not pass a speed counts at the other alone", "[fast]"
   CHECK(level_of(all, 0, 0).runs == 3);
   CHECK(level_of(all, 1, 0).runs == 4);
 }
+
+TEST_CASE("a covariance of means does not ask where zero is, not with runs that lack a speed either", "[fast]") {
+  RunTable table;
+  table.value_m_s2.resize(5, 2);
+  table.value_m_s2 << 0.061, 0.083, 0.064, 0.084, 0.066, 0.088, 0.070, std::nan(""), std::nan(""), 0.091;
+  table.sd_m_s2 = Eigen::MatrixXd::Constant(5, 2, 0.004);
+  RunTable shifted = table;
+  shifted.value_m_s2.col(0).array() += 0.5;
+  shifted.value_m_s2.col(1).array() -= 0.2;
+  const double covariance = calc_mean_covariance(table, 0, 1);
+  CHECK(covariance != 0.0);
+  CHECK(calc_mean_covariance(shifted, 0, 1) == Approx(covariance));
+  CHECK(calc_mean_covariance(table, 1, 0) == Approx(covariance));
+}

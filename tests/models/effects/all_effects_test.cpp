@@ -75,7 +75,7 @@ TEST_CASE("every effect is the baseline to the bit at its off value, and where i
 TEST_CASE("every effect grows with its size", "[fast]") {
   for (const Effect* effect : models::all_effects()) {
     if (effect->hooks<double>().trace != nullptr) continue;  // not at the corner
-    if (effect->info.id == "wind_and_grade") continue;  // on the vehicle: measurements/road_resimulation_test.cpp
+    if (effect->info.id == "wind_and_grade") continue;       // on the vehicle: measurements/road_resimulation_test.cpp
     for (const tests::Machine kind : rigs::machine_kinds()) {
       if (!effect->info.acts_on(kind->traits)) continue;
       if (effect->info.id == "curvature_exponent" && kind == tests::kDrum) continue;  // the reference drum
