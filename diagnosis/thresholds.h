@@ -9,7 +9,7 @@
 namespace rollrig::diagnosis {
 
 /// Probabilities before the measurement (docs/diagnosis.md, "Method", hypotheses); what a kind has is shared evenly.
-/// Assumed: no cause as likely as all others together, one effect rather than two, 9 % for what is outside the catalog.
+/// Assumed: without a cause as likely as with one; one effect likelier than two; 9 % for a cause outside the catalog.
 struct ComparisonPriors {
   double none = 0.50;
   double singles = 0.35;

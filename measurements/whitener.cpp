@@ -2,6 +2,7 @@
 
 #include <boost/math/constants/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rollrig::measurements {
@@ -60,7 +61,8 @@ double calc_lasting_rounding_variance(double resolution, double noise_sd) {
 
 ReadingNoise find_reading_noise(const models::SensorParameters& sensor) {
   const double lasting = calc_lasting_rounding_variance(sensor.resolution, sensor.noise_sd);
-  return {sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0 - lasting, lasting};
+  const double single = sensor.noise_sd * sensor.noise_sd + sensor.resolution * sensor.resolution / 12.0;
+  return {std::max(0.0, single - lasting), lasting};
 }
 
 models::SensorParameters average_sensor(models::SensorParameters sensor, double samples) {

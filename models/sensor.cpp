@@ -31,18 +31,18 @@ SensorParameters read_sensor(TableReader& reader, const Quantity& channel) {
 SensorSet read_sensors(const ConfigTable& sensors, const std::vector<Quantity>& known) {
   SensorSet set;
   TableReader reader(sensors, "[sensors]");
-  const std::vector<std::string> headers = list_headers(known);
   for (const std::string& header : sensors.keys()) {
-    if (std::find(headers.begin(), headers.end(), header) == headers.end()) {
-      InputProblem problem = unknown_name("measured channel", header, headers);
+    const auto channel = std::find_if(known.begin(), known.end(),
+                                      [&header](const Quantity& quantity) { return quantity.header() == header; });
+    if (channel == known.end()) {
+      InputProblem problem = unknown_name("measured channel", header, list_headers(known));
       problem.file = sensors.find(header)->origin.file;
       problem.line = sensors.find(header)->origin.line;
       problem.key = fmt::format("[sensors.{}]", header);
       throw InputError(problem);
     }
     TableReader own(*reader.table(header), fmt::format("[sensors.{}]", header));
-    const Quantity channel = intern_quantity(header);
-    set[channel] = read_sensor(own, channel);
+    set[*channel] = read_sensor(own, *channel);
   }
   return set;
 }

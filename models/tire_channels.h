@@ -20,7 +20,7 @@ struct ChannelFamily {
   Rest rest;
   double tolerance_SI;       // by which a plausible sample may differ from its simulation: this, and
   double share_of_rise;      // this share of the simulated rise
-  double mean_tolerance_SI;  // error of the integral over a second that does not matter to the integrator
+  double mean_tolerance_SI;  // absolute, of the integral over a second, for an integrator with error control
 };
 
 /// In degC. Assumed: wider than any tire or test cell.

@@ -66,11 +66,9 @@ Scenario scenario_follow_road() {
       {"follow_road", "A vehicle on the road, through speed, height and air that a file gives, row by row",
        "Run-up to the first row's speed, then speed, height and air as the file has them; its first row is 0 s. All "
        "tires alike, each under an equal share of the weight; air of 101.325 kPa; no rig. What the motor does not "
-       "brake, "
-       "friction brakes do: --write-set leaves the traction force empty there. Quasi-static only. The steps are those "
-       "of "
-       "the diagnosis, which simulates a set that --write-set wrote to the same values. `rollrig diagnose --plan` "
-       "writes such files for a road set.",
+       "brake, friction brakes do: --write-set leaves the traction force empty there. Quasi-static only. The steps are "
+       "those of the diagnosis, which simulates a set that --write-set wrote to the same values. `rollrig diagnose "
+       "--plan` writes such files for a road set.",
        "formats.md: a run of a measurement set; (3.20)", "drive"},
       "", &evaluate);
 }

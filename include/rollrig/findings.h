@@ -50,8 +50,7 @@ struct Gap {
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
   std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
   std::vector<std::string> held_out;            // runs judged on
-  bool worse_where_certain =
-      false;  // it enlarges the gap on held-out runs that the other runs predict well, the cause makes the gap larger
+  bool worse_where_certain = false;  // the cause enlarges the gap of held-out runs that the others predict well
   std::vector<ChannelGap> channels;
 };
 

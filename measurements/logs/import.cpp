@@ -63,7 +63,7 @@ void import_run(const RunPlan& plan, const Mapping& mapping, Import& imported) {
 
 /// Rows are means over samples of the logs: their noise is the smaller, in all runs taken as in the noisiest.
 void average_sensors(const Mapping& mapping, Import& imported) {
-  constexpr double kSeveral = 1.5;
+  constexpr double kSeveral = 1.5;  // samples a row; below, a row is a sample
   for (const ImportedRun& run : imported.runs) {
     for (const auto& [channel, samples] : run.rows.samples_a_row) {
       const models::SensorParameters& one = mapping.set.sensors.at(channel);

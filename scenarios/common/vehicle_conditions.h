@@ -25,8 +25,7 @@ struct VehicleConditions {
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"wheels", between(1.0, 4.0),
                 "4: the whole vehicle, however many wheels it has; 1: one wheel with its share, of the first axle "
-                "unless wheel_of "
-                "names another",
+                "unless wheel_of names another",
                 4.0},
           p.wheels);
     visit(Field{"wheel_of", any_number(), "Axle of which one wheel is simulated; default: all wheels", {}, "quarter"},

@@ -8,7 +8,7 @@
 
 namespace rollrig {
 
-/// The name of an asset today; names of before are still accepted.
+/// The name that an asset has now: `name`, or what replaced it where it is a former one.
 std::string find_present_name(const std::string& folder, const std::string& name);
 
 /// find_asset() with paths taken relative to `base_folder` (for names inside a file).

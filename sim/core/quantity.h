@@ -10,7 +10,7 @@
 
 namespace rollrig {
 
-/// Name and file unit. Two quantities are the same when their names are. It holds no text of its own: constants refer
+/// Name and file unit. Two quantities are the same when both are. It holds no text of its own: constants refer
 /// to literals, and intern_quantity() keeps the text of names that are made up at run time.
 class Quantity {
  public:
@@ -26,9 +26,11 @@ class Quantity {
   /// Of its values in files.
   Unit file_unit() const { return unit_of_key(header()); }
 
-  constexpr bool operator==(const Quantity& other) const { return name_ == other.name_; }
-  constexpr bool operator!=(const Quantity& other) const { return name_ != other.name_; }
-  constexpr bool operator<(const Quantity& other) const { return name_ < other.name_; }
+  constexpr bool operator==(const Quantity& other) const { return name_ == other.name_ && unit_ == other.unit_; }
+  constexpr bool operator!=(const Quantity& other) const { return !(*this == other); }
+  constexpr bool operator<(const Quantity& other) const {
+    return name_ != other.name_ ? name_ < other.name_ : unit_ < other.unit_;
+  }
 
  private:
   std::string_view name_;
@@ -41,7 +43,7 @@ Quantity intern_quantity(const std::string& header);
 /// The headings of columns in a file, after those of `first`.
 std::vector<std::string> list_headers(const std::vector<Quantity>& quantities, std::vector<std::string> first = {});
 
-/// A map by quantity; the heading of a file finds the same entry.
+/// A map by quantity. The heading that a file has for it finds the same entry; one in another unit does not.
 template <class T>
 class QuantityMap : public std::map<Quantity, T> {
  public:

@@ -12,6 +12,9 @@ TEST_CASE("a quantity's heading is its name and its unit, and is read back", "[f
   const Quantity read = intern_quantity("drum_torque_Nm");
   CHECK(read == torque);
   CHECK(read.unit_suffix() == "Nm");
+  CHECK(intern_quantity("drum_torque_kNm") != torque);
+  CHECK(Quantity("drum_torque", "kN") != torque);
+  CHECK((Quantity("drum_torque", "N") < torque && !(torque < Quantity("drum_torque", "N"))));
 }
 
 TEST_CASE("a ratio has no unit, a temperature its offset", "[fast]") {
@@ -34,6 +37,7 @@ TEST_CASE("the heading of a file finds what a map holds of its quantity", "[fast
   rollrig::QuantityMap<double> values{{load, 5400.0}};
   CHECK(values.at("load_N") == 5400.0);
   CHECK(values.count("load_N") == 1);
+  CHECK(values.count("load_kN") == 0);
   CHECK(values.count("speed_km_h") == 0);
   values["speed_km_h"] = 25.0;
   CHECK(values.at(Quantity("speed", "km_h")) == 25.0);
