@@ -102,8 +102,7 @@ ContactParameters<S> make_contact_parameters(const TireParameters<S>& tire, cons
   p.relaxation_length_m = stiff ? quantity<S>(0.02, dimension::kLength) : tire.stiffness.relaxation_length_m;
   const S stiffness_N = stiff ? quantity<S>(2e7, dimension::kForce) : S(1.0) / slip_compliance_per_N;
   p.slip_spring_N_per_m = stiffness_N / p.relaxation_length_m;
-  const S radius_m = tire.geometry.outer_diameter_m / S(2.0);
-  const S spin_mass_kg = tire.geometry.spin_inertia_kg_m2 / (radius_m * radius_m);
+  const S spin_mass_kg = calc_spin_mass_kg(tire, S(tire.geometry.outer_diameter_m / S(2.0)));
   p.slip_damping_N_s_per_m = S(2.0) * sqrt(p.slip_spring_N_per_m * spin_mass_kg);
   p.friction_coefficient = tire.stiffness.friction_coefficient;
   return p;

@@ -22,8 +22,8 @@ DrumActuators::DrumActuators(const SimTK::GeneralForceSubsystem& forces, models:
       present_(present) {}
 
 double DrumActuators::calc_effective_inertia_kg_m2(double load_N) const {
-  const double ratio = radius_m_ / calc_loaded_radius_m(context_.tire, load_N);
-  return inertia_kg_m2_ + context_.tire.geometry.spin_inertia_kg_m2 * ratio * ratio;
+  const double loaded_radius_m = calc_loaded_radius_m(context_.tire, load_N);
+  return inertia_kg_m2_ + calc_spin_mass_kg(context_.tire, loaded_radius_m) * radius_m_ * radius_m_;
 }
 
 double DrumActuators::calc_friction_feedforward_Nm(double speed_m_s) const {

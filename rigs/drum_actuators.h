@@ -36,7 +36,6 @@ class DrumActuators : public RigForces {
 
   /// Own states: integral of the speed error, then the cylinder's lag e.
   SimTK::ZIndex integral_z() const { return own_z(); }
-  SimTK::ZIndex lag_z() const { return SimTK::ZIndex(own_z() + 1); }
   /// Integral of the speed error at which the motor gives a torque at constant speed.
   double find_integral_rad(double torque_Nm, double speed_m_s, double load_N) const;
 

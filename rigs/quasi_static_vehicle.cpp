@@ -88,7 +88,7 @@ void QuasiStaticVehicle<S>::find_balance() {
   S inertia_kg = body_mass_kg_;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     resistance_N += wheels_[i].now.rolling_resistance_N + hubs_[i].loss_N;
-    inertia_kg += wheels_[i].rolling.spin_mass_kg / (S(1.0) - wheels_[i].slip);
+    inertia_kg += wheels_[i].rolling.calc_carried_mass_kg(wheels_[i].slip);
   }
   const bool drives = present_.drive_on;
   acceleration_m_s2_ = drives ? wheels_.front().now.acting.acceleration_m_s2 : S(-resistance_N / inertia_kg);

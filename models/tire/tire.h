@@ -253,4 +253,10 @@ S calc_loaded_radius_m(const TireParameters<S>& tire, const S& load_N) {
   return tire.geometry.outer_diameter_m / 2.0 - load_N / tire.stiffness.vertical_N_per_m;
 }
 
+/// Equivalent mass of a wheel's spin at a rolling radius, I_spin/r^2 [kg].
+template <class S>
+S calc_spin_mass_kg(const TireParameters<S>& tire, const S& radius_m) {
+  return tire.geometry.spin_inertia_kg_m2 / (radius_m * radius_m);
+}
+
 }  // namespace rollrig::models

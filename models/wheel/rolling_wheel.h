@@ -23,12 +23,6 @@ S calc_resistance_couple_Nm(const S& rolling_resistance_N, const S& loaded_radiu
   return rolling_resistance_N * loaded_radius_m / calc_rolling_ratio(loaded_radius_m, curvature_per_m);
 }
 
-/// Equivalent mass of a wheel's spin under a load, I_spin/r_l^2 [kg].
-template <class S>
-S calc_spin_mass_kg(const TireParameters<S>& tire, const S& loaded_radius_m) {
-  return tire.geometry.spin_inertia_kg_m2 / (loaded_radius_m * loaded_radius_m);
-}
-
 /// Kinetic energy [J].
 template <class S>
 S calc_kinetic_J(const S& mass_kg, const S& speed_m_s) {
@@ -60,9 +54,14 @@ struct RollingWheel {
   S spin_mass_kg{};     // I_spin/r_l^2; none of a lifted wheel, which the surface does not turn
   S loss_at_wheel_N{};  // F_rr/(1 + r_l k); the rest of F_rr brakes the surface
 
+  /// Equivalent mass of the spin as X feels it. X works at a rim that slip makes slower; the energy of the spin is
+  /// that without slip.
+  /// Equation  I_spin/(r_l^2 (1 - s))
+  S calc_carried_mass_kg(const S& slip) const { return spin_mass_kg / (S(1.0) - slip); }
+
   /// X + D.
   S calc_balance_N(const S& hub_loss_N, const S& acceleration_m_s2, const S& slip) const {
-    return loss_at_wheel_N + hub_loss_N + spin_mass_kg * acceleration_m_s2 / (S(1.0) - slip);
+    return loss_at_wheel_N + hub_loss_N + calc_carried_mass_kg(slip) * acceleration_m_s2;
   }
 };
 
