@@ -18,8 +18,7 @@ install(DIRECTORY docs DESTINATION "${CMAKE_INSTALL_DOCDIR}" FILES_MATCHING PATT
 # The library: rollrig::rollrig, and behind it CVODES (sim/CMakeLists.txt).
 install(TARGETS rollrig_library EXPORT rollrigTargets LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(TARGETS rollrig_cvodes LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(DIRECTORY include/rollrig DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" PATTERN error.h EXCLUDE)
-install(FILES sim/core/error.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/rollrig")  # include/rollrig includes it
+install(DIRECTORY include/rollrig DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 
 set(rollrig_cmake_folder "${CMAKE_INSTALL_LIBDIR}/cmake/rollrig")
 install(EXPORT rollrigTargets NAMESPACE rollrig:: DESTINATION "${rollrig_cmake_folder}")
