@@ -14,7 +14,4 @@ struct MeasurementSet::Data {
 /// Values in SI units as a channel of the API has them.
 Channel make_channel(const Quantity& quantity, std::vector<double> values_SI);
 
-/// A document as it is written to files.
-inline std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
-
 }  // namespace rollrig

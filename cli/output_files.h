@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "rollrig/result.h"
@@ -76,9 +75,6 @@ class Output {
   OutputFiles files_;
   std::vector<std::string> written_;  // names in the folder; a folder in it stands for its files
 };
-
-/// A JSON document as text, as it is written to files.
-inline std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
 
 /// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
 void warn_of_undescribed(const std::string& folder);

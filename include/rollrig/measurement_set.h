@@ -55,6 +55,12 @@ class MeasurementSet {
 /// Errors  InputError: the file is wrong; RunFailure: a set cannot be simulated
 FileCheck check_file(const std::string& path);
 
+/// Joins a torque log and a tire log, each on a clock of its own, into a measurement set (docs/import.md). `mapping` is
+/// a .toml file, `data` the folder of the logs, empty: that of the mapping. The report has the files of the set, with
+/// import.json and marks.csv beside them, and no page.
+/// Errors  InputError: a wrong mapping or log; clocks that cannot be found
+Report import_logs(const std::string& mapping, const std::string& data = "");
+
 /// Folders right in `folder` that are sets, sorted by name; none where `folder` is a set itself.
 std::vector<std::string> find_sets(const std::string& folder);
 /// Folders right in `folder` that hold CSV files and no set.toml, sorted by name.

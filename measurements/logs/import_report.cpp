@@ -154,7 +154,7 @@ std::map<std::string, std::string> make_set_files(const Mapping& mapping, const 
   files[is_on_road(mapping.set.kind->traits) ? "vehicle.toml" : "rig.toml"] = mapping.machine_content;
   for (const ImportedRun& run : imported.runs) files[run.plan.id + ".csv"] = make_run_csv(run.rows);
   files["marks.csv"] = make_marks_csv(imported);
-  files["import.json"] = make_import_json(mapping, imported).dump(2) + "\n";
+  files["import.json"] = to_text(make_import_json(mapping, imported));
   return files;
 }
 

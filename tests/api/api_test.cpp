@@ -159,6 +159,21 @@ TEST_CASE("a set is read with its runs, columns and units, and checked", "[fast]
   CHECK_THROWS_AS(rollrig::write_folder(folder.file("set"), {{"a", "b"}}), rollrig::InputError);  // it is not empty
 }
 
+TEST_CASE("two logs give a set that can be read, the same as from the command line", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string mapping = ROLLRIG_SOURCE_DIR "/assets/examples/logs/import.toml";
+  const rollrig::Report imported = rollrig::import_logs(mapping);
+  const auto told = run_program("import " + mapping + " --out " + folder.file("told"));
+  CHECK(told.out.rfind(imported.text, 0) == 0);  // what the checks of the set say follows
+  const rollrig::FolderFiles files = imported.make_files();
+  CHECK(files.size() > 3);
+  for (const auto& [name, content] : files) CHECK(content == read_file(folder.file("told/" + name)));
+  CHECK(imported.json == read_file(folder.file("told/import.json")));
+  rollrig::write_folder(folder.file("joined"), files);
+  CHECK_FALSE(rollrig::MeasurementSet(folder.file("joined")).list_runs().empty());
+  CHECK_THROWS_AS(rollrig::import_logs(mapping, folder.file("told")), rollrig::InputError);  // no log is there
+}
+
 TEST_CASE("a process that is asked to stop does, until that is taken back", "[fast]") {
   const rollrig::Run run(make_input("iso_28580"));
   rollrig::request_interrupt();

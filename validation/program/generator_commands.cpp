@@ -62,7 +62,7 @@ int make_case_command(CaseOptions options) {
   MadeSet made = make_set(options.order, without.has_value());
   for (auto& [name, content] : made.files) set.add(name, std::move(content));
   for (auto& [name, content] : made.counterfactual) without->add(name, std::move(content));
-  if (!options.truth.empty()) write_output(options.truth, made.truth.dump(2) + "\n");
+  if (!options.truth.empty()) write_output(options.truth, to_text(made.truth));
   set.commit();
   if (without.has_value()) without->commit();
   return cli::kDone;
