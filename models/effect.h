@@ -46,9 +46,6 @@ struct LawError {
   double whole_share = 0.0;  // of all that it changes, base parameters held
 };
 
-/// What is measured, whatever a machine calls it.
-enum class Reading { kForce, kLinerTemperature, kCavityPressure };
-
 /// Everything about an effect that is not an equation in code.
 struct EffectInfo {
   std::string id;
@@ -61,8 +58,8 @@ struct EffectInfo {
   const char* only_against = nullptr;                 // id of the tire model that lacks it; others have it
   bool (*faint_on)(const MachineTraits&) = &is_none;  // of these, where it changes too little to be seen
   NodeSet nodes{};                         // thermal nodes that it adds; it does not act on a tire model that has them
-  std::vector<Reading> visible_in;         // as far as the machine has them: those that a finite size changes
-  std::vector<Reading> clean_in;           // likewise: those that it leaves bit-identical
+  std::vector<Quantity> visible_in;        // measured ones that a finite size changes, on machines that have them
+  std::vector<Quantity> clean_in;          // likewise: those that it leaves bit-identical
   std::vector<std::string> confused_with;  // ids
   std::vector<std::string> splitting_tests;  // tests that tell it from those
   LawError law_error{};                      // where it exceeds the diagnosis' usual shares

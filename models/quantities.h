@@ -23,6 +23,9 @@ inline constexpr Quantity kCavityPressure{"cavity_pressure", "kPa"};
 inline constexpr Quantity kGasTemperature{"gas_temperature", "degC"};
 inline constexpr Quantity kRimTemperature{"rim_temperature", "degC"};
 
+/// Stands for the force or torque that a machine measures, whatever its name there (MachineTraits::force).
+inline constexpr Quantity kMachineForce{"machine_force", "N"};
+
 // What only a simulation knows.
 inline constexpr Quantity kRollingResistance{"rolling_resistance", "N"};
 inline constexpr Quantity kParasiticLoss{"parasitic", "N"};

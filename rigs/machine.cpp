@@ -16,27 +16,16 @@ void add_once(const Quantity& quantity, std::vector<Quantity>& quantities) {
   if (std::find(quantities.begin(), quantities.end(), quantity) == quantities.end()) quantities.push_back(quantity);
 }
 
-Quantity find_quantity(models::Reading reading, const models::MachineTraits& machine) {
-  switch (reading) {
-    case models::Reading::kForce:
-      return machine.force;
-    case models::Reading::kLinerTemperature:
-      return models::quantities::kLinerTemperature;
-    case models::Reading::kCavityPressure:
-      return models::quantities::kCavityPressure;
-  }
-  throw std::invalid_argument("a reading without a quantity");
-}
-
 template <class Shows>
-std::vector<std::string> list_headings(const std::vector<models::Reading>& readings, const Shows& shows) {
-  std::vector<Quantity> quantities;
-  for (const models::Reading reading : readings) {
+std::vector<std::string> list_headings(const std::vector<Quantity>& quantities, const Shows& shows) {
+  std::vector<Quantity> found;
+  for (const Quantity& quantity : quantities) {
     for (const MachineKind* kind : machine_kinds()) {
-      if (shows(kind->traits)) add_once(find_quantity(reading, kind->traits), quantities);
+      const bool is_force = quantity == models::quantities::kMachineForce;
+      if (shows(kind->traits)) add_once(is_force ? kind->traits.force : quantity, found);
     }
   }
-  return list_headers(quantities);
+  return list_headers(found);
 }
 
 }  // namespace

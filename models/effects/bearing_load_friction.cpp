@@ -20,8 +20,8 @@ struct BearingLoadFriction {
     info.parameters = {
         {"force_N", between(0.0, 50.0), {0.3, 3.0, Prior::Scale::kLog}, "F_b, at the surface, at 5.4 kN", 0.0}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"load_cross_talk", "tire_loss_in_skim", "load_exponent"};
     info.splitting_tests = {"the same run with reversed rotation", "load sweep hot and cold",
                             "skim at 50, 100, 200 and 400 N, extrapolated to zero"};

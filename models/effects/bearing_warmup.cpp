@@ -42,8 +42,8 @@ struct BearingWarmup {
         {"quadratic_share", between(-0.5, 2.0), {0.2, 1.0}, "h, of the quadratic term, that falls as well"}};
     info.states = {{"bearing_rise_dK", 10.0, "theta, bearing temperature over ambient"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"torque_zero_drift", "tire_loss_in_skim"};
     info.splitting_tests = {"drum alone for 30 min, then a cold tire on the hot drum",
                             "torque at standstill before and after"};

@@ -33,8 +33,8 @@ struct BrakeDrag {
         {"wear_power", between(-0.5, 1.5), {0.0, 1.0}, "n, of the speed in the pace of its decay"}};
     info.states = {{"dragging", 1.0, "d, share of the full drag"}};
     info.acts_on = &is_of_vehicle;
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"toe_camber_drag"};
     info.splitting_tests = {"coastdown with and without braking before it", "steady speed after braking"};
     return info;

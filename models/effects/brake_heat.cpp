@@ -33,7 +33,7 @@ struct BrakeHeat {
                    {"rim_heat_kJ", 1e4, "E, heat in the rim on its way to the tire"}};
     info.acts_on = &is_of_vehicle;
     info.faint_on = &is_on_road;  // a few K move the loss by less than a thousandth of what accelerating takes
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"rim_heat"};
     info.splitting_tests = {"the same cycle with and without friction brakes", "rim thermocouple"};
     return info;

@@ -33,8 +33,8 @@ struct CavityVolume {
         {"growth_ratio", between(-2.0, 5.0), {0.1, 0.9}, "q, growth at 120 km/h relative to e"},
         {"setting_ratio", between(-2.0, 3.0), {0.0, 1.0}, "l, contraction at which the pressure was set, of e"}};
     info.states = {{"felt_volume", 0.01, "w_f - 1, volume over that at filling that the gas has come to terms with"}};
-    info.faint_on = &is_on_road;                   // one load, no pressure channel
-    info.visible_in = {Reading::kCavityPressure};  // the loss follows by half a percent at most
+    info.faint_on = &is_on_road;                      // one load, no pressure channel
+    info.visible_in = {quantities::kCavityPressure};  // the loss follows by half a percent at most
     info.splitting_tests = {"load off and on at constant liner temperature, pressure logged",
                             "pressure at standstill at several loads"};
     return info;

@@ -33,7 +33,7 @@ struct CellAirWarming {
         {"tire_share", between(-1.0, 2.0), {0.2, 0.9}, "s, of the heat, given off by the loaded tire"}};
     info.states = {{"air_rise_dK", 10.0, "theta, air at the tire over the recorded ambient"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"rim_heat", "slow_leak", "surface_warming"};
     info.splitting_tests = {"air temperature read beside the tire", "soak with temperature and pressure logged",
                             "setting gauge before and after, at one temperature"};

@@ -138,8 +138,8 @@ struct ClockShift {
                         "d, by which temperature and pressure are late in the record",
                         0.0}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
-    info.clean_in = {Reading::kForce};
+    info.visible_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
+    info.clean_in = {quantities::kMachineForce};
     info.confused_with = {"tread_liner_lag"};
     info.splitting_tests = {"speed step with a common electrical pulse on both loggers",
                             "steps up and down: a clock shifts both alike"};

@@ -27,7 +27,7 @@ struct ConvectionLaw {
         {"other_air_m_s", between(0.05, 20.0), {0.3, 3.0, Prior::Scale::kLog}, "u, air that moves at standstill"},
         {"fan_share", between(0.0, 1.0), {0.0, 1.0}, "s, of the deficit, by a fan"}};
     info.faint_on = &is_on_road;  // some K cooler costs a few parts in a thousand of what accelerating takes
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"standing_wave"};
     info.splitting_tests = {"fan on and off at 120 km/h", "speed steps 80, 120, 40 km/h on the warm tire",
                             "soak with temperature and pressure logged"};

@@ -15,7 +15,7 @@ struct CurvatureExponent {
     info.source = "source (3.1), after ISO 28580. Assumed: n 0.6 to 1.4";
     info.parameters = {{"exponent", between(-1.0, 3.0), {0.6, 1.4}, "n, power of the correction factor", 1.0}};
     info.faint_on = &is_drum;  // no change at all where the drum is the reference drum
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"tie_down_load"};
     info.splitting_tests = {"the same tire on three diameters", "tie-downs slack and tight"};
     return info;

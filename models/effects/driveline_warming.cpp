@@ -29,8 +29,8 @@ struct DrivelineWarming {
         {"dry_share", between(-0.5, 0.9), {0.0, 0.2}, "g, of the cold force, that does not feel the oil"}};
     info.states = {{"oil_rise", 1.0, "w, rise of the oil's temperature over ambient, relative"}};
     info.acts_on = &is_of_vehicle;
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"bearing_warmup"};
     info.splitting_tests = {"rollers alone, warm, then the cold vehicle on them",
                             "vehicle with warm oil on cold tires"};

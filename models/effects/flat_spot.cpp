@@ -28,7 +28,7 @@ struct FlatSpot {
                         {0.7, 4.0, Prior::Scale::kLog},
                         "tau, of standing in which it comes back"}};
     info.states = {{"flatness", 1.0, "s, 1 after long standing"}};
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"rubber_memory"};
     info.splitting_tests = {"roll after 10 min, 1 h and 12 h at rest", "the same start at two speeds"};
     return info;

@@ -26,7 +26,7 @@ struct GasHeatTransfer {
                         1.0},
                        {"stirred_share", between(-1.0, 2.0), {0.0, 0.7}, "s, of the exponent, in proportion to speed"}};
     info.faint_on = &is_on_road;  // no pressure channel
-    info.visible_in = {Reading::kCavityPressure};
+    info.visible_in = {quantities::kCavityPressure};
     info.confused_with = {"rim_heat"};
     info.splitting_tests = {"speed steps with the pressure logged every second", "gas thermocouple at the valve"};
     return info;

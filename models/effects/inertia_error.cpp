@@ -21,8 +21,8 @@ struct InertiaError {
                         {0.3, 4.0, Prior::Scale::kLog, true},
                         "s, true over reckoned, less one",
                         0.0}};
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"slip_loss", "speed_record"};
     info.splitting_tests = {"ramps of several accelerations with the tire lifted",
                             "ramps up and down: slip has one sign"};

@@ -26,8 +26,8 @@ struct LoadCrossTalk {
                         0.0},
                        {"bending_share", between(-1.0, 1.0), {0.0, 0.3}, "b, of the angle, in proportion to load"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"bearing_load_friction"};
     info.splitting_tests = {"the same run with reversed rotation", "torque at standstill at several loads"};
     return info;

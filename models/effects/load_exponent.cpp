@@ -15,7 +15,7 @@ struct LoadExponent {
     info.source = "source (3.7) and §3.3.1.3. Assumed: b 0.85 to 1.15";
     info.parameters = {{"exponent", between(0.3, 2.0), {0.85, 1.15}, "b, exponent of the load", 1.0}};
     info.faint_on = &is_on_road;  // one load
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"tire_loss_in_skim", "bearing_load_friction"};
     info.splitting_tests = {"skim at 50, 100, 200 and 400 N, extrapolated to zero", "load sweep hot and cold"};
     return info;

@@ -29,7 +29,7 @@ struct LoadRecord {
                        {"offset_share", between(0.0, 1.0), {0.0, 0.5}, "g, of the error, that is an offset"},
                        {"power", between(0.3, 3.0), {0.6, 1.4}, "n, of the recorded load, by which the rest grows"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"torque_gain", "tie_down_load"};
     info.splitting_tests = {"dead weights or a second load cell under the tire",
                             "skim at 50, 100, 200 and 400 N, extrapolated to zero"};

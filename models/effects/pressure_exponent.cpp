@@ -19,7 +19,7 @@ struct PressureExponent {
         "a, at which the effect does nothing. Assumed: a + d from 0.25 to 0.55 about the usual 0.4";
     info.parameters = {{"exponent_shift", between(-1.0, 1.0), {-0.15, 0.15}, "d, exponent less the tire file's", 0.0}};
     info.faint_on = &is_on_road;  // one pressure
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.splitting_tests = {"pressure sweep at one load", "pressure set anew on a warm tire, at one temperature"};
     return info;
   }

@@ -29,8 +29,8 @@ struct PressureRecord {
         {"drift_kPa_per_dK", between(-2.0, 2.0), {-0.08, 0.08}, "d, of the zero with temperature"},
         {"scale_share", between(-1.0, 2.0), {0.0, 1.0}, "g, of the offset, that goes with the pressure"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kCavityPressure};
-    info.clean_in = {Reading::kForce, Reading::kLinerTemperature};
+    info.visible_in = {quantities::kCavityPressure};
+    info.clean_in = {quantities::kMachineForce, quantities::kLinerTemperature};
     info.splitting_tests = {"sensor and setting gauge read at one time, on the cold tire"};
     return info;
   }

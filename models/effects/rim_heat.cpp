@@ -31,7 +31,7 @@ struct RimHeat {
                         "r, conductance of the rim to the air, relative to the tire's"}};
     info.nodes[index_of(Node::kRim)] = true;
     info.faint_on = &is_on_road;  // some K cooler costs a few parts in a thousand of what accelerating takes
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"cell_air_warming", "rubber_memory", "gas_heat_transfer"};
     info.splitting_tests = {"rim thermocouple", "soak with temperature and pressure logged",
                             "load off and on at constant liner temperature"};

@@ -32,7 +32,7 @@ struct RubberMemory {
          {5.0, 60.0, Prior::Scale::kLog},
          "tau_r, of rest or skim in which it comes back"}};
     info.states = {{"memory", 1.0, "s, 1 after long rest"}};
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"flat_spot", "rim_heat"};
     info.splitting_tests = {"load off and on at constant liner temperature", "roll after 10 min, 1 h and 12 h at rest",
                             "the same start at two speeds"};

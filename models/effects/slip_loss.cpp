@@ -21,7 +21,7 @@ struct SlipLoss {
                         "1/C, C = dFx/ds",
                         0.0}};
     info.faint_on = &hides_slip;  // Fx of a towed wheel; no slip in a force read off torque
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"inertia_error"};
     info.splitting_tests = {"constant speed at several drive and brake forces", "the same speed steps at two masses"};
     return info;

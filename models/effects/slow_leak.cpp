@@ -31,7 +31,7 @@ struct SlowLeak {
                        {"growth_per_K", between(-0.05, 0.2), {0.0, 0.05}, "e, of the rate with temperature"}};
     info.states = {{"gas_lost", 0.01, "s, share of the gas that was filled in"}};
     info.faint_on = &is_on_road;  // has no pressure channel, and the loss follows after hours
-    info.visible_in = {Reading::kCavityPressure};
+    info.visible_in = {quantities::kCavityPressure};
     info.confused_with = {"cell_air_warming"};
     info.splitting_tests = {"soak with pressure logged", "setting gauge before and after, at one temperature"};
     return info;

@@ -29,7 +29,7 @@ struct SpeedRecord {
                         0.0},
                        {"growing_share", between(-1.0, 1.0), {-0.3, 0.3}, "g, of the error, in proportion to speed"},
                        {"fixed_share", between(-1.0, 1.0), {-0.2, 0.2}, "o, of the error, that is a fixed speed"}};
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"inertia_error"};
     info.splitting_tests = {"hand tachometer on drum or roller", "revolutions counted over a minute",
                             "ramps of several accelerations with the tire lifted"};

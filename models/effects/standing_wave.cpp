@@ -24,7 +24,7 @@ struct StandingWave {
                         0.0},
                        {"critical_speed_m_s", between(15.0, 50.0), {26.0, 33.0}, "v_c, above which it is there"},
                        {"load_power", between(0.0, 2.0), {0.3, 1.2}, "m, how it goes with load"}};
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"convection_law"};
     info.splitting_tests = {"fine speed steps from 90 to 140 km/h", "fan on and off at 120 km/h"};
     return info;

@@ -34,7 +34,7 @@ struct SurfaceWarming {
     info.states = {{"surface_rise_dK", 10.0, "theta, rise of the body over ambient"},
                    {"skin_rise_dK", 10.0, "theta_s, rise of the skin over ambient"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"cell_air_warming"};
     info.splitting_tests = {"thermometer on the drum's surface", "cold tire on the hot drum",
                             "air temperature read beside the tire"};

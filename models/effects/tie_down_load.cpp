@@ -24,7 +24,7 @@ struct TieDownLoad {
         {"relaxing_share", between(-0.5, 0.8), {0.0, 0.2}, "r, of it, that straps lose as they creep"}};
     info.states = {{"relaxed_share", 1.0, "w, of what the straps will lose, that they have lost"}};
     info.acts_on = &is_tied_down;
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"curvature_exponent", "load_record"};
     info.splitting_tests = {"tie-downs slack and tight", "wheel load cells under the rollers"};
     return info;

@@ -30,7 +30,7 @@ struct TireLossInSkim {
          "b, relative fall with the tire's temperature"},
         {"load_power", between(-1.0, 1.0), {-0.2, 0.2}, "m, how it goes on with load; 0 = the same at every load"}};
     info.acts_on = &has_skim;  // that has a skim
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"load_exponent", "bearing_warmup"};
     info.splitting_tests = {"skim at 50, 100, 200 and 400 N, extrapolated to zero",
                             "drum alone for 30 min, then a cold tire on the hot drum"};

@@ -41,7 +41,7 @@ struct TireTemperature {
          "d, at which the coefficient holds, over that of 25 degC"}};
     info.states = {{"tire_temperature_degC", 10.0, "T, that the loss follows"}};
     info.only_against = kConstantModel;
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"driveline_warming", "wind_and_grade", "rubber_memory"};
     info.splitting_tests = {"the same drive from cold in cold and in warm air", "warm tires on a cold vehicle",
                             "20 min at 120 km/h, then at once 80 km/h"};

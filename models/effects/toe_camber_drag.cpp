@@ -21,7 +21,7 @@ struct ToeCamberDrag {
         {"force_N", between(-50.0, 50.0), {2.0, 12.0, Prior::Scale::kLog}, "F_a, at the tire's reference load", 0.0},
         {"heat_share", between(0.0, 1.0), {0.3, 0.9}, "h, of the drag that heats the rubber"},
         {"load_power", between(0.0, 2.0), {0.5, 1.0}, "m, how it goes with load"}};
-    info.visible_in = {Reading::kForce, Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"tie_down_load", "brake_drag"};
     info.splitting_tests = {"wheel set to zero toe and camber", "toe set to both sides: the drag goes with the square",
                             "coastdown before and after braking"};

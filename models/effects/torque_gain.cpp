@@ -25,8 +25,8 @@ struct TorqueGain {
         "force passes through 0";
     info.parameters = {{"gain_percent", between(-50.0, 50.0), {-2.0, 2.0}, "s, shown over true at 60 N, less one", 0.0},
                        {"power", between(-0.9, 1.0), {-0.2, 0.2}, "n, of the force, by which the share grows"}};
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"load_record"};
     info.splitting_tests = {"dead weights on a lever of known length", "ramps of a drum of known inertia, tire lifted"};
     return info;

@@ -33,8 +33,8 @@ struct TorqueZeroDrift {
                         {-6.0, 6.0},
                         "k, minutes of drift at the rate r that one kelvin of ambient makes"}};
     info.acts_on = &is_indoors;
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"bearing_warmup"};
     info.splitting_tests = {"torque at standstill before and after",
                             "drum alone for 30 min, then a cold tire on the hot drum"};

@@ -35,7 +35,7 @@ struct TreadLinerLag {
          "k, of the tread's share of the cooling"}};
     info.nodes[index_of(Node::kTread)] = true;
     info.faint_on = &is_on_road;  // the loss follows the mean of both, which hardly changes
-    info.visible_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.confused_with = {"clock_shift"};
     info.splitting_tests = {"load and speed steps with an infrared sensor on the tread",
                             "steps up and down: a clock shifts both alike"};

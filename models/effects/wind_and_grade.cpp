@@ -21,7 +21,7 @@ struct WindAndGrade {
         {"slope_percent", between(-5.0, 5.0), {-0.25, 0.25}, "s, rise over run"},
         {"density_ratio", between(0.5, 1.5), {0.96, 1.04}, "r, to dry air of the recorded temperature at 1013 hPa"}};
     info.acts_on = &is_on_road;
-    info.visible_in = {Reading::kForce};
+    info.visible_in = {quantities::kMachineForce};
     info.confused_with = {"toe_camber_drag", "tire_temperature"};
     info.splitting_tests = {"the same stretch in both directions", "an anemometer on the vehicle",
                             "the same drive at two speeds: drag goes with the square"};

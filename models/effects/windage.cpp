@@ -21,8 +21,8 @@ struct Windage {
     info.parameters = {
         {"force_N", between(-20.0, 50.0), {0.3, 3.0, Prior::Scale::kLog}, "F_v, of one tire at 80 km/h", 0.0},
         {"speed_power", between(0.5, 4.0), {1.8, 2.2}, "n, power of the speed"}};
-    info.visible_in = {Reading::kForce};
-    info.clean_in = {Reading::kLinerTemperature, Reading::kCavityPressure};
+    info.visible_in = {quantities::kMachineForce};
+    info.clean_in = {quantities::kLinerTemperature, quantities::kCavityPressure};
     info.splitting_tests = {"drum alone and with the tire in skim, at several speeds",
                             "speed sweep with the tire's temperature logged: windage leaves it as it is",
                             "smooth covers over the sides of tire and rim"};

@@ -9,13 +9,12 @@
 
 namespace rollrig::tests {
 
-/// Of the readings, the channels of those that the kind measures.
-inline std::vector<std::string> select_measured(const std::vector<models::Reading>& readings, Machine kind) {
+/// Of the quantities, the headings of those that the kind measures.
+inline std::vector<std::string> select_measured(const std::vector<Quantity>& quantities, Machine kind) {
   std::vector<std::string> selected;
-  for (const models::Reading reading : readings) {
-    const std::string channel = reading == models::Reading::kForce              ? kind->traits.force.header()
-                                : reading == models::Reading::kLinerTemperature ? "liner_temperature_degC"
-                                                                                : "cavity_pressure_kPa";
+  for (const Quantity& quantity : quantities) {
+    const bool is_force = quantity == models::quantities::kMachineForce;
+    const std::string channel = (is_force ? kind->traits.force : quantity).header();
     if (measured_on(kind).count(channel) == 1) selected.push_back(channel);
   }
   return selected;
