@@ -112,22 +112,12 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
                     kept.runs[first.run].file, 0, first.channel.header(), "", "samples of a sensor that works", ""});
 }
 
-/// Whether a run's loss is next to nothing of the simulated, as in a unit a thousand times as large. Of a vehicle on
-/// the road the force need not be a loss.
-bool lacks_loss(const MeasurementSet& set, const RunMisfit& misfit) {
-  constexpr double kLeast = 0.15;  // Assumed: no effect takes so much of a loss
-  if (is_on_road(set.kind->traits)) return false;
-  return std::any_of(misfit.channels.begin(), misfit.channels.end(), [&set](const ChannelMisfit& at) {
-    return at.channel == set.kind->traits.force && at.ratio < kLeast;
-  });
-}
-
 /// Columns and units.
 void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline, int threads, SetChecks& checks) {
   const std::vector<RunMisfit>& misfits = baseline.misfits;
   std::vector<std::size_t> odd;
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
-    if (misfits[r].worst() > kOdd || lacks_loss(kept, misfits[r])) odd.push_back(r);
+    if (misfits[r].worst() > kOdd) odd.push_back(r);
   }
   if (odd.empty()) return;
   const std::optional<Repair> repair = find_repair(kept, odd, Mistakes::kAll, threads);
