@@ -116,11 +116,15 @@ TEST_CASE("a drift of the rolling loss is found, with intervals that hold it at 
   study.drift = -0.06;
   study.run_force_sd_N = 1.0;
   int covered = 0;
+  double sum = 0.0, squares = 0.0, reach = 0.0;
   constexpr int kSeeds = 60;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const CoastdownData data = tests::simulate_coastdowns(study, seed);
     const RoadLoadChecks checks = check_study(data);
     REQUIRE(checks.drifts.size() == 1);
+    sum += checks.drifts[0].time_change;
+    squares += checks.drifts[0].time_change * checks.drifts[0].time_change;
+    reach += 0.5 * (checks.drifts[0].upper_95 - checks.drifts[0].lower_95) / kSeeds;
     CHECK(checks.drifts[0].runs == 10);
     CHECK(checks.drifts[0].time_change == Approx(0.06).margin(0.03));
     CHECK(checks.drifts[0].per_run == Approx(checks.drifts[0].time_change / 9.0));
@@ -130,6 +134,8 @@ TEST_CASE("a drift of the rolling loss is found, with intervals that hold it at 
   }
   INFO(covered);
   CHECK_FALSE(tests::is_rejected(covered, kSeeds, 0.95, 0.01));
+  // no wider than that takes: t of 6 degrees (10 runs, 4 coefficients) times what the seeds scatter by
+  CHECK(reach == Approx(2.447 * std::sqrt((squares - sum * sum / kSeeds) / (kSeeds - 1))).epsilon(0.3));
 }
 
 TEST_CASE("a wind that turns is no drift", "[fast]") {
