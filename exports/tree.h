@@ -44,7 +44,8 @@ Node make_node(const Json& json);
 /// A TOML table likewise.
 Node make_node(const ConfigTable& table);
 
-/// For names that a file's format allows: `name`, or where it is taken the first free of name_2, name_3, ...; taken now.
+/// For names that a file's format allows: `name`, or where it is taken the first free of name_2, name_3, ...; taken
+/// now.
 std::string take_name(const std::string& name, std::set<std::string>& taken);
 
 }  // namespace rollrig::exports

@@ -1,7 +1,6 @@
 #pragma once
 /// Channels over time as panels of one chart: what belongs together is in one panel.
 
-#include <string>
 #include <vector>
 
 #include "report/page.h"

@@ -2,7 +2,6 @@
 /// Inputs, channels, integrals and stores of a drum rig, or of a belt in the place of the drum: one list for both
 /// fidelities.
 
-#include <string>
 #include <vector>
 
 #include "models/corner.h"

@@ -1,7 +1,6 @@
 #pragma once
 /// A list of test cars by their public road load and dynamometer coefficients, each of them simulated.
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

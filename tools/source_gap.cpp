@@ -1,7 +1,5 @@
 #include "tools/source_gap.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <boost/math/tools/minima.hpp>

@@ -2,7 +2,6 @@
 /// The source's own gap: Table 4.3, rolling power on the dynamometer against the model, and which effect could make it.
 
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 

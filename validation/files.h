@@ -9,7 +9,8 @@
 
 namespace rollrig::validation {
 
-// Formats of the files that the generator and the scoring exchange.
+// Formats of the files that the generator and the scoring exchange. They keep their first names: the SHA-256 that were
+// published with the results of a seed (validation/results) cover them.
 constexpr const char* kTruthFormat = "rollrig-blind-bank/1";
 constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
 constexpr const char* kUpperBoundFormat = "rollrig-blind-ceiling/1";

@@ -1,7 +1,6 @@
 #pragma once
 /// Sensors that a rig may be given, and what any channel of a simulated run would read.
 
-#include <string>
 #include <vector>
 
 #include "diagnosis/comparison/prepared_set.h"

@@ -1,7 +1,6 @@
 #pragma once
 /// A measured set made ready for comparison: runs in a fixed order, blocks of samples, whitening, sensor offsets.
 
-#include <string>
 #include <vector>
 
 #include "diagnosis/comparison/eigen_index.h"

@@ -2,7 +2,6 @@
 /// What the diagnosis asks of a kind of machine, of the sets measured on it: <word>.cpp beside this file, one for each
 /// in rigs/machines.def. All other files of the diagnosis ask here and know no kind.
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

@@ -2,7 +2,6 @@
 /// A test on paper: what each open hypothesis says that it would measure.
 
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "diagnosis/comparison/information.h"

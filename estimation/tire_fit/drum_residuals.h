@@ -1,7 +1,6 @@
 #pragma once
 /// Whitened difference between a measured drum set and the quasi-static simulation, with derivatives.
 
-#include <string>
 #include <vector>
 
 #include "estimation/parameters.h"

@@ -1,7 +1,6 @@
 #pragma once
 /// What a tire fit varies, and from where it starts.
 
-#include <string>
 #include <vector>
 
 #include "estimation/parameters.h"

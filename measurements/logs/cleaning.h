@@ -1,8 +1,6 @@
 #pragma once
 /// Spikes of a log, found and taken out.
 
-#include <vector>
-
 #include "measurements/logs/log.h"
 #include "models/sensor.h"
 

@@ -3,7 +3,6 @@
 /// its corrections (§3.2.3.3) and its uncertainty (§4.1.1).
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "scenarios/common/drum_conditions.h"

@@ -21,7 +21,8 @@ std::string clip(const std::string& text, std::size_t width);
 /// "1 run", "2 runs": a number and what it counts, with an s unless it is one.
 std::string format_count(std::size_t count, const std::string& what);
 
-/// What follows the last separator of a name, all of it where there is none: the key of "model.A", the folder of a path.
+/// What follows the last separator of a name, all of it where there is none: the key of "model.A", the folder of a
+/// path.
 std::string last_part(const std::string& name, char separator = '.');
 
 /// A finite number in decimal or scientific notation, with a sign or without, that is the whole of the text.

@@ -1,6 +1,6 @@
 #pragma once
-/// rollrig's baseline along a recorded run on a dynamometer or the road, by its models alone, step by step in the test's
-/// own way.
+/// rollrig's baseline along a recorded run on a dynamometer or the road, by its models alone, step by step in the
+/// test's own way.
 
 #include <map>
 #include <string>

@@ -9,8 +9,8 @@
 namespace rollrig::validation {
 namespace {
 
-using diagnosis::to_index;
 using diagnosis::Diagnosis;
+using diagnosis::to_index;
 using diagnosis::Verdict;
 
 Diagnosis shrink_by_gaussian_process(const LinearizedSet& set) {

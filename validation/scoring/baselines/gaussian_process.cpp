@@ -12,9 +12,9 @@ namespace {
 
 namespace quantities = models::quantities;
 
-using diagnosis::to_index;
 using diagnosis::PreparedSet;
 using diagnosis::Series;
+using diagnosis::to_index;
 
 Eigen::MatrixXd calc_kernel(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double factor) {
   Eigen::MatrixXd squares = -2.0 * a * b.transpose();
