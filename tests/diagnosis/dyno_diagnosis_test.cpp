@@ -21,6 +21,7 @@
 using namespace rollrig;
 using diagnosis::diagnose;
 using diagnosis::Diagnosis;
+using diagnosis::kind_of;
 using diagnosis::Verdict;
 using tests::contains;
 using tests::Ids;
@@ -49,6 +50,14 @@ double calc_rms_of_loss(const measurements::MeasurementSet& a, const measurement
 const Ids kFew{"driveline_warming", "slip_loss", "slow_leak", "rim_heat"};
 
 }  // namespace
+
+TEST_CASE("a loss force may be off by more where it is larger, whatever its sign", "[fast]") {
+  const measurements::MeasurementSet set = make_dyno_set({}, 1);
+  const auto find_tolerance_N = [&](double force_N) { return kind_of(set).calc_force_tolerance(set, force_N); };
+  CHECK(find_tolerance_N(0.0) > 0.0);
+  CHECK(find_tolerance_N(400.0) > find_tolerance_N(100.0) + 50.0);
+  CHECK(find_tolerance_N(-400.0) == find_tolerance_N(400.0));
+}
 
 TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
   const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_dyno_set({}, 2), 3), only(kFew));

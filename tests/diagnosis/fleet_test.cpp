@@ -77,6 +77,24 @@ TEST_CASE("what comes back with a tire on every rig is the tire's", "[fast]") {
   CHECK(found[0].name == "a40");
 }
 
+TEST_CASE("an effect recurs in the widest group of sets, even where a smaller one is surer", "[fast]") {
+  const auto hint = [](const std::string& machine, const std::string& tire) {  // hardly speaks against it
+    FleetMember member = is_clean(machine, tire);
+    member.findings->probability["bearing_warmup"] = 0.5 * kPrior;
+    return member;
+  };
+  const auto of_rig = find_recurrences(
+      {warms("drum-1", "a60"), warms("drum-1", "a60"), hint("drum-1", "a50"), is_clean("drum-2", "a50")});
+  REQUIRE(of_rig.size() == 1);
+  CHECK(of_rig[0].shared == Shared::kMachine);
+  CHECK(of_rig[0].sets == 3);
+  const auto of_tire = find_recurrences(
+      {warms("drum-1", "a50"), warms("drum-1", "a50"), hint("drum-2", "a50"), is_clean("drum-2", "a60")});
+  REQUIRE(of_tire.size() == 1);
+  CHECK(of_tire[0].shared == Shared::kTire);
+  CHECK(of_tire[0].sets == 3);
+}
+
 TEST_CASE("of one tire on one rig it cannot be told whose it is", "[fast]") {
   const auto found = find_recurrences({warms("drum-1", "a40"), warms("drum-1", "a40")});
   REQUIRE(found.size() == 1);

@@ -5,88 +5,13 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/estimation/hand_made_coasts.h"
+
 using namespace rollrig;
-using namespace rollrig::estimation;
+using namespace rollrig::tests;
 using Matrix = Eigen::Matrix2d;
-using Vector = Eigen::Vector2d;
 
 namespace {
-
-constexpr double kMassRatio = 0.13;
-
-/// Decelerations at the two speeds of each run.
-struct Decelerations {
-  std::vector<std::vector<Vector>> loaded;  // runs of each level of pressure
-  std::vector<Vector> drum;
-  std::vector<Vector> wheel;
-};
-
-const Decelerations kScattered{{{{0.061, 0.083}, {0.064, 0.084}, {0.062, 0.088}}, {{0.049, 0.071}, {0.052, 0.072}}},
-                               {{0.0110, 0.0190}, {0.0125, 0.0196}, {0.0117, 0.0215}},
-                               {{0.020, 0.031}, {0.023, 0.030}, {0.024, 0.036}, {0.021, 0.034}}};
-
-/// As scattered, without any scatter of drum and wheel.
-Decelerations make_exact_lifted(std::vector<std::vector<Vector>> loaded) {
-  return {std::move(loaded), {{0.011, 0.019}, {0.011, 0.019}}, {{0.021, 0.032}, {0.021, 0.032}}};
-}
-
-struct Evaluated {
-  CoastSet set;
-  DrumCoastdownFit fit;
-};
-
-void add_run(Evaluated& to, CoastBody body, CoastRun run, const Vector& values_m_s2) {
-  CoastAnalysis analysis;
-  analysis.run = to.set.runs.size();
-  analysis.body = body;
-  for (const double value : values_m_s2) {
-    DecelerationFit at_speed;
-    at_speed.available = !std::isnan(value);
-    at_speed.value_m_s2 = value;
-    at_speed.sd_m_s2 = 0.004;
-    analysis.decelerations.push_back(at_speed);
-  }
-  to.set.runs.push_back(std::move(run));
-  to.fit.analyses.push_back(analysis);
-}
-
-/// Levels at 200, 240, 288 .. kPa; loaded runs go to and fro by turns.
-Evaluated evaluate(const Decelerations& values) {
-  Evaluated result;
-  result.set.drum_diameter_m = 1.7;
-  result.set.drum_inertia_kg_m2 = 1500.0;
-  result.set.speeds_m_s = {12.0, 22.0};
-  result.set.reference_speed_m_s = 21.0;
-  result.set.reference_pressure_Pa = 240e3;
-  result.fit.mass_ratio = kMassRatio;
-  result.fit.directions = {"fro", "to"};
-  double pressure_Pa = 200e3;
-  for (const std::vector<Vector>& level : values.loaded) {
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      CoastRun run;
-      run.pressure_Pa = pressure_Pa;
-      run.direction = result.fit.directions[i % 2];
-      add_run(result, CoastBody::kDrum, run, level[i]);
-    }
-    pressure_Pa *= 1.2;
-  }
-  CoastRun lifted;
-  lifted.state = CoastState::kLifted;
-  for (const Vector& value : values.drum) add_run(result, CoastBody::kDrum, lifted, value);
-  for (const Vector& value : values.wheel) add_run(result, CoastBody::kWheel, lifted, value);
-  const Tables tables = make_tables(result.set, result.fit);
-  for (std::size_t i = 0; i < 2; ++i) {
-    result.fit.points.push_back(evaluate_speed(result.set, tables, result.fit, i));
-  }
-  add_ratios(result.set, tables, result.fit);
-  return result;
-}
-
-Vector calc_mean(const std::vector<Vector>& runs) {
-  Vector sum = Vector::Zero();
-  for (const Vector& run : runs) sum += run;
-  return sum / static_cast<double>(runs.size());
-}
 
 /// Sum over runs of the products of both speeds' deviations.
 Matrix calc_products(const std::vector<Vector>& runs) {
@@ -221,6 +146,23 @@ TEST_CASE("levels off a power law widen the interval of its exponent, and the F 
   const double t = std::sqrt(squares / repeat);
   const double beyond = 1.0 - 2.0 / M_PI * (std::atan(t / std::sqrt(3.0)) + t / std::sqrt(3.0) / (1.0 + t * t / 3.0));
   CHECK(*point.lack_of_fit_p == Approx(beyond).epsilon(1e-6));
+}
+
+TEST_CASE("an exponent takes two pressures, each with a loss above that of the lifted runs", "[fast]") {
+  const std::vector<Vector> first{{0.061, 0.083}, {0.064, 0.084}};
+  CHECK_FALSE(evaluate(make_exact_lifted({first})).fit.points[0].pressure_exponent.has_value());
+  // at the lower speed the second level coasts longer than the lifted drum
+  const Evaluated lower = evaluate(make_exact_lifted({first, {{0.005, 0.071}, {0.006, 0.072}}}));
+  CHECK_FALSE(lower.fit.points[0].pressure_exponent.has_value());
+  CHECK(lower.fit.points[1].pressure_exponent.has_value());
+}
+
+TEST_CASE("a wheel that has a share of the mass must have coasted alone, one without need not", "[fast]") {
+  Decelerations values = kScattered;
+  values.wheel.clear();
+  CHECK(evaluate(values).fit.points[0].levels.empty());
+  const Evaluated without = evaluate(values, 0.0);
+  CHECK(level_of(without, 0, 0).net_m_s2.value == Approx(calc_mean(values.loaded[0])[0] - calc_mean(values.drum)[0]));
 }
 
 TEST_CASE("the exponent moves with the wheel's share of the mass as differences say", "[fast]") {

@@ -64,7 +64,11 @@ TEST_CASE("outside the standard's temperatures, and outside the usual exponents,
   LossConditions from, to;
   from.ambient_K = 288.15;
   to.ambient_K = 298.15;
-  CHECK(convert_loss(from, to, {}).warnings.size() == 1);
+  const estimation::LossConversion cold = convert_loss(from, to, {});
+  CHECK(cold.warnings.size() == 1);
+  REQUIRE(cold.factors.size() == 1);
+  CHECK(cold.factors[0].from == "15 degC");
+  CHECK(cold.factors[0].to == "25 degC");
   from.ambient_K = 293.15;
   CHECK(convert_loss(from, to, {}).warnings.empty());
   LossConditions soft, hard;

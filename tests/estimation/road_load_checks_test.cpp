@@ -73,6 +73,7 @@ TEST_CASE("wind, slope, cold and too few runs fail their own check", "[fast]") {
     INFO(name);
     CHECK(find(checks, name).status == CheckStatus::kFail);
   }
+  CHECK_THAT(find(checks, "speed range").found, Catch::StartsWith("100") && Catch::Contains(" to 15"));
   CHECK(find(checks, "slope, constant").status == CheckStatus::kPass);
 }
 
