@@ -79,6 +79,20 @@ TEST_CASE("defaults are shares of what they change at 80 km/h", "[fast]") {
   CHECK(base.at("tire.thermal.H_gas_W_per_K").prior_sd_SI == Approx(0.15 * thermal.H_gas_W_per_K));
 }
 
+TEST_CASE("a parasitic loss is uncertain by a twentieth of each of its parts, and each by a hundredth of the whole",
+          "[fast]") {
+  auto set = make_set();
+  const double parts_N[] = {6.0, 3.5, 2.5};  // at 80 km/h
+  set.rig->parasitic = {parts_N[0], parts_N[1] / kSpeed_m_s, parts_N[2] / (kSpeed_m_s * kSpeed_m_s)};
+  const auto base = find(set);
+  double power = 1.0;
+  const char* const keys[] = {"parasitic.c0_N", "parasitic.c1_N_s_per_m", "parasitic.c2_N_s2_per_m2"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(base.at(keys[i]).prior_sd_SI * power == Approx(0.05 * parts_N[i] + 0.12));
+    power *= kSpeed_m_s;
+  }
+}
+
 TEST_CASE("an uncertainty of the file wins over the default", "[fast]") {
   auto set = make_set();
   auto& sd = set.tire.standard_uncertainties;

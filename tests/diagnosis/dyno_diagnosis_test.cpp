@@ -59,6 +59,27 @@ TEST_CASE("a loss force may be off by more where it is larger, whatever its sign
   CHECK(find_tolerance_N(-400.0) == find_tolerance_N(400.0));
 }
 
+TEST_CASE("a loss force counts from 20 km/h, a temperature at every speed, both where there is a sample", "[fast]") {
+  measurements::MeasurementSet set = make_dyno_set({}, 1);
+  measurements::MeasuredRun& run = set.runs.front();
+  const std::size_t lost = run.time_s.size() / 2;
+  run.columns.at("liner_temperature_degC")[lost] = std::nan("");
+  const auto find_rows = [&](const Quantity& channel) { return kind_of(set).find_compared_rows(run, channel); };
+  const std::vector<double>& speed_m_s = run.columns.at("speed_km_h");
+  const std::vector<double>& loss_N = run.columns.at("loss_force_N");
+  for (double& loss : run.columns.at("loss_force_N")) loss = std::isnan(loss) ? 3.0 : loss;  // below 20 km/h as well
+  std::size_t slow = 0;
+  for (const std::size_t row : find_rows(models::quantities::kLossForce)) {
+    CHECK(speed_m_s[row] >= 20.0 / 3.6);
+    CHECK_FALSE(std::isnan(loss_N[row]));
+  }
+  for (const std::size_t row : find_rows(models::quantities::kLinerTemperature)) {
+    CHECK(row != lost);
+    slow += speed_m_s[row] < 20.0 / 3.6 ? 1 : 0;
+  }
+  CHECK(slow > 0);
+}
+
 TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
   const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_dyno_set({}, 2), 3), only(kFew));
   INFO(diagnosis::format_summary(found));

@@ -34,7 +34,16 @@ TEST_CASE("an effect's explanation holds all that its declaration knows", "[fast
          {"Equation", "Source", "Own parameters", "Acts on", "Revealed by", "Confused with", "Told from those by"}) {
       CHECK_THAT(text, Contains(title));
     }
-    for (const models::EffectParameter& parameter : info.parameters) CHECK_THAT(text, Contains(parameter.key));
+    for (const models::EffectParameter& parameter : info.parameters) {
+      // from its key to the next parameter's, or to the next title
+      const std::size_t begin = text.find(std::string("\n  ") + parameter.key + ":");
+      REQUIRE(begin != std::string::npos);
+      std::istringstream words(text.substr(begin, text.find(std::string(6, ' '), begin + 3) - begin));
+      std::string prior;
+      for (std::string word; words >> word;) prior += word + " ";
+      const bool is_log = prior.find("on a log scale") != std::string::npos;
+      CHECK(is_log == (parameter.prior.scale == models::Prior::Scale::kLog));
+    }
     for (const std::string& channel : rigs::list_visible(info)) CHECK_THAT(text, Contains(channel));
     for (const std::string& id : info.confused_with) CHECK_THAT(text, Contains(id));
   }

@@ -162,6 +162,9 @@ TEST_CASE("a wrong tire is warned of", "[fast]") {
     const SetChecks checks = check_set(set);
     INFO(file);
     CHECK_THAT(join(checks.warnings), Contains("tire a50 (235/50 R19) fits these runs far better"));
+    // a tire of the same size is the same one, with other numbers
+    set.tire.designation = tests::read_asset_tire("a50").designation;
+    CHECK_THAT(join(check_set(set).warnings), !Contains("tire a50"));
   }
   MeasurementSet truck = short_set();
   truck.tire.values.rolling_resistance.reference_load_N *= 6.0;
