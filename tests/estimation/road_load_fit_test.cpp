@@ -163,13 +163,17 @@ TEST_CASE("with the noise of a satellite sensor the force is met to 1 % by one p
     CoastdownStudy study;
     study.pairs = pairs;
     double worst = 0.0;
-    double slope_squares = 0.0, slope_variances = 0.0;  // the road is level
+    double slope_squares = 0.0, slope_variances = 0.0, wind_squares = 0.0, wind_variances = 0.0;  // level road, calm
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       const RoadLoadFit fit = fit_road_load(simulate_coastdowns(study, seed), with_mass());
       worst = std::max(worst, worst_force(fit, study));
       slope_squares += *fit.slope * *fit.slope;
       slope_variances += fit.slope_sd * fit.slope_sd;
+      REQUIRE(fit.winds.size() == 1);
+      wind_squares += fit.winds[0].wind_m_s * fit.winds[0].wind_m_s;
+      wind_variances += fit.winds[0].sd_m_s * fit.winds[0].sd_m_s;
     }
+    CHECK(std::sqrt(wind_variances / wind_squares) == Approx(1.0).epsilon(0.4));
     CHECK(std::sqrt(slope_variances / slope_squares) == Approx(1.0).epsilon(0.4));
     std::cout << fmt::format("{} pairs, 0.05 m/s at 10 Hz: force within {:.2f} % from 20 to 130 km/h in 40 of 40\n",
                              pairs, 100.0 * worst);

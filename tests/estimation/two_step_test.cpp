@@ -17,6 +17,7 @@ TEST_CASE("the two-step regression finds the tire's law and its cooling on a dru
     INFO(diameter_m << " m");
     CHECK(found.A0_N == Approx(find_truth(set, "tire.rolling_resistance.A0_N")).epsilon(0.03));
     CHECK(found.speed_conductance_W_s_per_m_K == Approx(find_truth(set, "tire.thermal.f_W_s_per_m_K")).epsilon(0.05));
+    CHECK(found.rest_conductance_W_per_K == Approx(find_truth(set, "tire.thermal.z_W_per_K")).epsilon(0.1));
     REQUIRE(found.H_gas_W_per_K.has_value());
     CHECK(*found.H_gas_W_per_K == Approx(find_truth(set, "tire.thermal.H_gas_W_per_K")).epsilon(0.1));
   }
