@@ -44,7 +44,7 @@ double probability_of(const Findings& findings, const std::string& name);
 void require_known_effects(const DiagnosisOptions& options);
 
 /// The diagnosis of a measurement set of any kind, against either baseline.
-/// Method  docs/diagnosis.md
+/// Method  docs/how_the_diagnosis_reasons.md
 /// Errors  InputError: a file lacks what the set's kind needs; an unknown effect; nothing measured.
 ///         RunFailure: no fit converges
 /// Checked tests/diagnosis/diagnosis_test.cpp

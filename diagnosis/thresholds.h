@@ -8,7 +8,8 @@
 
 namespace rollrig::diagnosis {
 
-/// Probabilities before the measurement (docs/diagnosis.md, "Method", hypotheses); what a kind has is shared evenly.
+/// Probabilities before the measurement (docs/how_the_diagnosis_reasons.md, "Which hypotheses are compared");
+/// what a kind has is shared evenly.
 /// Assumed: without a cause as likely as with one; one effect likelier than two; 9 % for a cause outside the catalog.
 struct ComparisonPriors {
   double none = 0.50;

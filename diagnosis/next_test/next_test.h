@@ -21,7 +21,7 @@ std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHy
 
 /// The three tests that tell most an hour. Where the set leaves several causes equally likely, tests that tell any two
 /// of those apart come before all others. None where nothing is open.
-/// Source  docs/diagnosis.md, "Method", next test
+/// Source  docs/how_the_diagnosis_reasons.md, "How the next test is chosen"
 /// Checked tests/diagnosis/next_test_test.cpp
 std::vector<ProposedTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open);
 

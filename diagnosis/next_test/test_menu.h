@@ -22,7 +22,8 @@ struct PlannedTest {
   std::vector<std::string> by_hand = {};  // what is done at the rig beside the runs, a sentence each
 };
 
-constexpr double kVirtualRow_s = 10.0;  // as long as the blocks of a comparison (docs/diagnosis.md, "Method", data)
+/// As long as the blocks of a comparison (docs/how_the_diagnosis_reasons.md, "From samples to residuals").
+constexpr double kVirtualRow_s = 10.0;
 
 /// What the set's own rig, sensors, tire, usual load and pressure allow. Speeds, loads and durations: Assumed, after
 /// the source's tests (§3.2); they are what makes each test's own comparison, not a standard's.

@@ -1,6 +1,6 @@
 #pragma once
 /// Why a measurement and the simulation differ: where, by which unmodeled effect, and how far the gap
-/// shrinks once that effect is added. Method: docs/diagnosis.md.
+/// shrinks once that effect is added. Method: docs/how_the_diagnosis_reasons.md.
 
 #include <functional>
 #include <string>

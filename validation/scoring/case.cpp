@@ -14,8 +14,8 @@ using diagnosis::Verdict;
 
 using Conversion = double (*)(double value, double neutral);
 
-/// What makes the generator's size of an effect's own, where they are not the same number (docs/validation.md,
-/// "Effects").
+/// What makes the generator's size of an effect's own, where they are not the same number (docs/validation_effects.md,
+/// "Meaning of a size").
 const std::map<std::string, Conversion>& size_conversions() {
   static const std::map<std::string, Conversion> conversions{
       {"convection_law", [](double deficit, double neutral) { return neutral - deficit; }},
