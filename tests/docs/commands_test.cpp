@@ -1,4 +1,4 @@
-// Every command in README.md and the tutorial, as it is printed there, in their order.
+// Every command in README.md, the tutorial and the explanations, as it is printed there, in their order.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <sstream>
@@ -50,4 +50,9 @@ TEST_CASE("every command in README.md works as printed, in its order", "[slow]")
 
 TEST_CASE("every command of the tutorial works as printed, in its order", "[slow]") {
   check_commands("docs/tutorial.md", 15);
+}
+
+TEST_CASE("every command of the start page and of the explanations works as printed", "[slow]") {
+  check_commands("docs/index.md", 1);
+  check_commands("docs/how_the_tire_model_works.md", 2);
 }
