@@ -1,5 +1,5 @@
 #pragma once
-/// The page without its data, made from report/web at build time.
+/// The page without its data: page_template.html, made of report/web (CMakeLists.txt).
 
 #include <string_view>
 

@@ -218,7 +218,7 @@ Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_b
   }
   const Measure calibrated = measure_as_calibrated(study, study.null);
   const bool is_judged = !left.before.stretches.empty();
-  if (!is_judged) left.before = left.after = calibrated;  // retuning is not known to help
+  if (!is_judged) left.before = left.after = calibrated;  // recalibration is not known to help
   gap.recalibrated = {gap_of(left.before), gap_of(left.after)};
   gap.as_calibrated.before = gap_of(calibrated);
   gap.as_calibrated.after = cause != nullptr ? gap_of(measure_as_calibrated(study, *cause)) : gap.as_calibrated.before;

@@ -1,12 +1,12 @@
-// Makes the page: one HTML file with scripts, styles and licenses in it, and the same as a C++ source.
-// node build.mjs <page.html> [<page.cpp>]
+// Makes the page: one HTML file with scripts, styles and licenses in it.
+// node build.mjs <page.html>
 import { build } from 'esbuild';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [htmlFile, cppFile] = process.argv.slice(2);
+const [htmlFile] = process.argv.slice(2);
 const read = (...path) => readFileSync(join(here, ...path), 'utf8');
 
 async function bundle(entry) {
@@ -42,16 +42,6 @@ function collectLicenses() {
 const escapeScript = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const escapeHtml = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;');
 
-/// Raw strings of at most so many characters, since compilers limit the length of one.
-function makeCpp(html) {
-  const kMost = 8000;
-  const parts = [];
-  for (let at = 0; at < html.length; at += kMost) parts.push(`    R"~page~(${html.slice(at, at + kMost)})~page~"`);
-  return `// Made by report/web/build.mjs.\n#include "report/page_template.h"\n\n`
-    + `namespace rollrig::report {\nnamespace {\nconstexpr char kTemplate[] =\n${parts.join('\n')};\n}  // namespace\n\n`
-    + `std::string_view page_template() { return {kTemplate, sizeof kTemplate - 1}; }\n\n}  // namespace rollrig::report\n`;
-}
-
 function fill(text, name, value) {
   if (!text.includes(`/*${name}*/`)) throw new Error(`template.html has no place for ${name}`);
   return text.replace(`/*${name}*/`, () => value);
@@ -61,4 +51,3 @@ html = fill(html, 'STYLE', await bundle('style.css'));
 html = fill(html, 'SCRIPT', escapeScript(await bundle('src/main.js')));
 html = fill(html, 'LICENSES', escapeHtml(collectLicenses()));
 writeFileSync(htmlFile, html);
-if (cppFile) writeFileSync(cppFile, makeCpp(html));
