@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "rollrig/measurement_set.h"
 #include "scenarios/common/speed_trace.h"
 #include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
+
+namespace fs = std::filesystem;
 
 namespace rollrig {
 namespace {
@@ -66,6 +70,18 @@ std::string describe_cycle(const std::string& path) {
                      scenarios::calc_distance_m(trace.time_s, trace.speed_m_s) / 1e3, 3.6 * fastest_m_s, standing_s);
 }
 
+bool is_path(const std::string& name) {
+  const std::string extension = fs::path(name).extension().string();
+  return name.find('/') != std::string::npos || extension == ".toml" || extension == ".csv";
+}
+
+/// What a file of the user's is, and the file; of a set its set.toml.
+std::string describe_file(const std::string& given) {
+  const std::string path = fs::is_directory(given) ? (fs::path(given) / "set.toml").string() : given;
+  if (fs::path(path).extension() == ".csv") return describe_cycle(path);
+  return check_file(path).what + "\n" + path + "\n\n" + read_text_file(path);
+}
+
 }  // namespace
 
 const std::vector<std::string>& asset_folders() {
@@ -113,6 +129,7 @@ std::string describe(const std::string& name) {
       return folder == "cycles" ? describe_cycle(path) : path + "\n\n" + read_text_file(path);
     }
   }
+  if (is_path(name)) return describe_file(name);
   throw InputError(unknown_name("scenario, effect or asset", name, known));
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "rollrig/run.h"
 #include "sim/core/error.h"
@@ -41,6 +42,8 @@ void add_sweep_command(CLI::App& app, Action& action);
 void add_regress_command(CLI::App& app, Action& action);
 void add_validate_command(CLI::App& app, Action& action);
 void add_list_command(CLI::App& app, Action& action);
+/// What `list` takes: scenarios, effects and the folders of assets.
+std::vector<std::string> list_kinds();
 void add_convert_command(CLI::App& app, Action& action);
 void add_describe_command(CLI::App& app, Action& action);
 void add_fit_command(CLI::App& app, Action& action);

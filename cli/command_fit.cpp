@@ -21,10 +21,13 @@ struct CoastdownOptions {
 int fit_tire_command(const Options& options) {
   const MeasurementSet set(options.set);
   Output output(options.output);
-  ProgressLine progress("fit tire", options.output.quiet);
-  TireFitOptions how = options.fit;
-  how.progress = progress.callback();
-  const TireFit fit = fit_tire(set, how);
+  TireFit fit;
+  {  // its line is gone before the results are printed
+    ProgressLine progress("fit tire", options.output.quiet);
+    TireFitOptions how = options.fit;
+    how.progress = progress.callback();
+    fit = fit_tire(set, how);
+  }
   output.write(fit);
   output.print(fit.text);
   return fit.suspicion.empty() ? kDone : kDiffers;  // as of validate

@@ -22,18 +22,28 @@ Json list_everything() {
   return json;
 }
 
-int list_command(const std::string& json_file) {
-  const Json all = list_everything();
-  if (!json_file.empty()) write_output(json_file, to_text(all));
-  if (json_file == "-") return kDone;
-  for (const char* kind : {"scenarios", "effects"}) {
+struct ListOptions {
+  std::string kind;  // all where empty
+  std::string json;
+};
+
+int list_command(const ListOptions& options) {
+  Json all = list_everything();
+  if (!options.kind.empty()) {
+    if (!all.contains(options.kind)) throw InputError(unknown_name("kind to list", options.kind, list_kinds()));
+    all = Json{{options.kind, all[options.kind]}};
+  }
+  if (!options.json.empty()) write_output(options.json, to_text(all));
+  if (options.json == "-") return kDone;
+  for (const auto& [kind, items] : all.items()) {
     std::cout << kind << '\n';
-    for (const Json& item : all[kind]) {
+    if (items.empty() || items.front().is_string()) {
+      std::cout << wrap(fmt::format("{}", fmt::join(items.get<std::vector<std::string>>(), "  ")), 2);
+      continue;
+    }
+    for (const Json& item : items) {
       std::cout << "  " << item["name"].get<std::string>() << '\n' << wrap(item["summary"].get<std::string>(), 6);
     }
-  }
-  for (const std::string& kind : asset_folders()) {
-    std::cout << kind << '\n' << wrap(fmt::format("{}", fmt::join(all[kind].get<std::vector<std::string>>(), "  ")), 2);
   }
   return kDone;
 }
@@ -45,16 +55,23 @@ int describe_command(const std::string& name) {
 
 }  // namespace
 
+std::vector<std::string> list_kinds() {
+  std::vector<std::string> kinds{"scenarios", "effects"};
+  kinds.insert(kinds.end(), asset_folders().begin(), asset_folders().end());
+  return kinds;
+}
+
 void add_list_command(CLI::App& app, Action& action) {
-  const auto [command, json] = add_command<std::string>(
+  const auto [command, options] = add_command<ListOptions>(
       app, action, "list", "List scenarios, effects, tires, rigs, vehicles, cycles, sensors", &list_command);
-  command->add_option("--json", *json, "File for the list, - for standard output");
+  command->add_option("kind", options->kind, "What to list: scenarios, effects, tires, ... [all]");
+  command->add_option("--json", options->json, "File for the list, - for standard output");
 }
 
 void add_describe_command(CLI::App& app, Action& action) {
   const auto [command, name] = add_command<std::string>(
       app, action, "describe", "Explain a scenario, an effect, a tire, a rig, a vehicle or sensors", &describe_command);
-  command->add_option("name", *name, "Scenario, effect or asset")->required();
+  command->add_option("name", *name, "Scenario, effect or asset, or a path of a file")->required();
 }
 
 }  // namespace rollrig::cli

@@ -17,8 +17,11 @@ int sweep_command(const Options& options) {
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
   const Sweep sweep(input);
   Output output(options.output);
-  ProgressLine progress("sweep", options.output.quiet);
-  const SweepResult result = sweep.carry_out(progress.callback());
+  SweepResult result;
+  {  // its line is gone before the results are printed
+    ProgressLine progress("sweep", options.output.quiet);
+    result = sweep.carry_out(progress.callback());
+  }
   output.write(result);
   output.print(result.text);
   return kDone;

@@ -24,6 +24,7 @@ std::string words_after(const std::string& what) {
   if (what == "run" || what == "sweep") words = names_of(list_scenarios());
   if (what == "--without" || what == "--only") words = comparable_names();
   if (what == "--explain") words = explainable_names();
+  if (what == "list") words = list_kinds();
   if (what == "completion") words = {"bash", "zsh", "fish"};
   if (what == "describe") {
     words = names_of(list_scenarios());

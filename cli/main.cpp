@@ -1,6 +1,7 @@
 /// rollrig: the command line.
 #include <spdlog/spdlog.h>
 
+#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/help_formatter.h"
 #include "cli/program.h"
+#include "cli/typo.h"
 #include "sim/core/error.h"
 
 namespace rollrig::cli {
@@ -49,6 +51,26 @@ void add_examples(const CLI::App& app) {
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }
 
+/// `rollrig help fit tire` is `rollrig fit tire --help`.
+void add_help_command(CLI::App& app, Action& action) {
+  const auto help = [&app](const std::vector<std::string>& words) {
+    const CLI::App* command = &app;
+    std::string name = app.get_name();
+    for (const std::string& word : words) {
+      const CLI::App* below = find_subcommand(*command, word);
+      if (below == nullptr) throw InputError(unknown_name("command", word, list_subcommands(*command)));
+      name += " " + below->get_name();
+      command = below;
+    }
+    // not by help(), which is that of the command that was given, "help"
+    std::cout << command->get_formatter()->make_help(command, name, CLI::AppFormatMode::Normal);
+    return kDone;
+  };
+  const auto [command, words] =
+      add_command<std::vector<std::string>>(app, action, "help", "Print the help of a command", help);
+  command->add_option("command", *words, "A command, as in: rollrig help fit tire");
+}
+
 /// What was `rollrig blind`.
 void add_moved_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("blind", "")->group("");
@@ -66,7 +88,7 @@ int make_and_run(int argc, char** argv) {
   app.formatter(std::make_shared<HelpFormatter>());
   app.require_subcommand(1);
   app.fallthrough();
-  app.add_option("--log", "What is said on standard error beside results: debug tells of files, phases and iterations")
+  app.add_option("--log", "Log verbosity on standard error; debug shows files, phases and iterations")
       ->check(CLI::IsMember({"debug", "info", "warning", "error", "off"}))
       ->each([](const std::string& level) { spdlog::set_level(spdlog::level::from_str(level)); });
   app.set_version_flag("--version", std::string("rollrig ") + ROLLRIG_VERSION);
@@ -81,6 +103,7 @@ int make_and_run(int argc, char** argv) {
   add_diagnose_command(app, action);
   add_import_command(app, action);
   add_export_command(app, action);
+  add_help_command(app, action);
   add_moved_command(app, action);
   add_convert_command(app, action);
   add_completion_command(app, action);

@@ -32,7 +32,8 @@ std::vector<Listed> list_scenarios();
 std::vector<Listed> list_effects();
 
 /// What a scenario, an effect or an asset is, with its settings or parameters: text within 80 columns, of an asset its
-/// file. Throws InputError with the nearest known name.
+/// file. A name with a '/', or that ends in .toml or .csv, is the path of a file, or of the folder of a set. Throws
+/// InputError with the nearest known name.
 std::string describe(const std::string& name);
 
 }  // namespace rollrig

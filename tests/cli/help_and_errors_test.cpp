@@ -1,11 +1,13 @@
 // What the command line says of itself, of wrong words and of runs that fail.
 #include <catch2/catch.hpp>
 
+#include "build_paths.h"
 #include "tests/cli/longest_line.h"
 #include "tests/support/run_program.h"
 
 using Catch::Contains;
 using rollrig::tests::longest_line;
+using rollrig::tests::read_file;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
 using rollrig::tests::write_file;
@@ -48,6 +50,26 @@ TEST_CASE("help stands everywhere and completion scripts parse", "[fast]") {
   CHECK_THAT(tried.out, Contains("iso_28580") && Contains("a50"));
   CHECK(run_program("completion fish").status == 0);
   CHECK(run_program("completion zsh").status == 0);
+}
+
+TEST_CASE("help is a command as well, a list may be of one kind, and a file of one's own is described", "[fast]") {
+  CHECK(run_program("help").out == run_program("--help").out);
+  CHECK(run_program("help fit tire").out == run_program("fit tire --help").out);
+  const auto no_command = run_program("help fit tyre");
+  CHECK(no_command.status == 2);
+  CHECK_THAT(no_command.err, Contains("nearest  tire"));
+  const auto tires = run_program("list tires");
+  CHECK_THAT(tires.out, Contains("a50") && !Contains("iso_28580") && !Contains("rigs"));
+  CHECK_THAT(run_program("list effects").out, Contains("bearing_warmup") && !Contains("a50"));
+  const auto no_kind = run_program("list tire");
+  CHECK(no_kind.status == 2);
+  CHECK_THAT(no_kind.err, Contains("nearest  tires"));
+  const TemporaryFolder folder;
+  write_file(folder.file("own.toml"), read_file(ROLLRIG_SOURCE_DIR "/assets/tires/a50.toml"));
+  CHECK_THAT(run_program("describe own.toml", folder.path()).out, Contains("tire 'a50'") && Contains("Table 3.1"));
+  const auto no_file = run_program("describe nowhere.toml", folder.path());
+  CHECK(no_file.status == 2);
+  CHECK_THAT(no_file.err, Contains("nowhere.toml"));
 }
 
 TEST_CASE("usage errors name the nearest word and exit with 2", "[fast]") {
