@@ -9,34 +9,34 @@ namespace quantities = models::quantities;
 
 // Errors that do not matter, for the integrator's control: of a mean over one second a few 1e-5 of its
 // usual size, of an energy a few 1e-9 of a test's motor work (1e6 J).
-constexpr double kForceTime_N_s = 1e-3;
-constexpr double kEnergy_J = 5e-3;
-constexpr double kYardstick_J = 1e3;  // has a kink where the motor turns to braking; wanted to a few digits
+constexpr double kDrumForceTimeError_N_s = 1e-3;
+constexpr double kDrumEnergyError_J = 5e-3;
+constexpr double kDrumThroughputError_J = 1e3;  // has a kink where the motor turns to braking; wanted to a few digits
 
 }  // namespace
 
 std::vector<sim::Integral> make_drum_integrals(Detail detail) {
   using Role = sim::Integral::Role;
-  std::vector<sim::Integral> integrals{{"force_reading", Role::kChannel, kForceTime_N_s}};
+  std::vector<sim::Integral> integrals{{"force_reading", Role::kChannel, kDrumForceTimeError_N_s}};
   add_tire_integrals(integrals);
   if (detail == Detail::kMeasured) return integrals;
   const std::vector<sim::Integral> further{
-      {"rolling_resistance", Role::kChannel, kForceTime_N_s},
-      {"parasitic", Role::kChannel, kForceTime_N_s},
-      {"spindle_force", Role::kChannel, kForceTime_N_s},
-      {"contact_load", Role::kChannel, kForceTime_N_s},
-      {sim::kMotorWork, Role::kWorkIn, kEnergy_J},
-      {"motor_throughput", Role::kThroughput, kYardstick_J},
-      {"load_actuator", Role::kWorkIn, kEnergy_J},
-      {"load_changes", Role::kWorkIn, kEnergy_J},
-      {"tire_loss", Role::kDissipated, kEnergy_J},
-      {"slip_loss", Role::kDissipated, kEnergy_J},
-      {"bearing_loss", Role::kDissipated, kEnergy_J},
-      {"tire_damper", Role::kDissipated, kEnergy_J},
-      {"cylinder_damper", Role::kDissipated, kEnergy_J},
-      {"heat_generated", Role::kHeatIn, kEnergy_J},
-      {"heat_to_air", Role::kHeatOut, kEnergy_J},
-      {"heat_to_road", Role::kHeatOut, kEnergy_J},
+      {"rolling_resistance", Role::kChannel, kDrumForceTimeError_N_s},
+      {"parasitic", Role::kChannel, kDrumForceTimeError_N_s},
+      {"spindle_force", Role::kChannel, kDrumForceTimeError_N_s},
+      {"contact_load", Role::kChannel, kDrumForceTimeError_N_s},
+      {sim::kMotorWork, Role::kWorkIn, kDrumEnergyError_J},
+      {"motor_throughput", Role::kThroughput, kDrumThroughputError_J},
+      {"load_actuator", Role::kWorkIn, kDrumEnergyError_J},
+      {"load_changes", Role::kWorkIn, kDrumEnergyError_J},
+      {"tire_loss", Role::kDissipated, kDrumEnergyError_J},
+      {"slip_loss", Role::kDissipated, kDrumEnergyError_J},
+      {"bearing_loss", Role::kDissipated, kDrumEnergyError_J},
+      {"tire_damper", Role::kDissipated, kDrumEnergyError_J},
+      {"cylinder_damper", Role::kDissipated, kDrumEnergyError_J},
+      {"heat_generated", Role::kHeatIn, kDrumEnergyError_J},
+      {"heat_to_air", Role::kHeatOut, kDrumEnergyError_J},
+      {"heat_to_road", Role::kHeatOut, kDrumEnergyError_J},
   };
   integrals.insert(integrals.end(), further.begin(), further.end());
   return integrals;

@@ -17,21 +17,21 @@ using SimTK::Transform;
 namespace {
 
 // Errors that do not matter at a relative tolerance of 1e-6, for the integrator's control.
-constexpr double kAngle_rad = 1.0;
-constexpr double kHeight_m = 1e-9;
-constexpr double kSpeed_rad_s = 1e-8;
-constexpr double kCarriageSpeed_m_s = 1e-8;
-constexpr double kSlipForce_N = 1e-4;
-constexpr double kStateShare = 1e-7;  // of a corner state's scale
-constexpr double kSpeedIntegral_rad = 1e-8;
-constexpr double kCylinderLag_N = 1e-5;
+constexpr double kDrumAngleError_rad = 1.0;
+constexpr double kDrumHeightError_m = 1e-9;
+constexpr double kDrumSpeedError_rad_s = 1e-8;
+constexpr double kDrumCarriageSpeedError_m_s = 1e-8;
+constexpr double kDrumSlipForceError_N = 1e-4;
+constexpr double kDrumStateShare = 1e-7;  // of a corner state's scale
+constexpr double kDrumSpeedIntegralError_rad = 1e-8;
+constexpr double kDrumCylinderLagError_N = 1e-5;
 
 constexpr double kDrumMass_kg = 1000.0;  // no motion depends on it: the drum turns about its center
 
 /// Along -x, in which the surface of a drum moves under the wheel as well.
 const Transform kBackwards(SimTK::Rotation(SimTK::Pi, SimTK::ZAxis));
 
-constexpr SpeedHold kHold{"the motor does not hold", 0.02, 0.2};  // Assumed: a rig would trip
+constexpr SpeedHold kMotorHold{"the motor does not hold", 0.02, 0.2};  // Assumed: a rig would trip
 
 }  // namespace
 
@@ -64,12 +64,12 @@ class MultibodyDrum::Implementation : public SimbodySystem {
       tolerances[q_state(body)] = position;
       tolerances[u_state(body)] = speed;
     };
-    put(drum_, kAngle_rad, kSpeed_rad_s);
-    put(carriage_, kHeight_m, kCarriageSpeed_m_s);
-    put(wheel_, kAngle_rad, kSpeed_rad_s);
-    put_tolerances(0, kSlipForce_N, kStateShare, tolerances);
-    tolerances[own_state()] = kSpeedIntegral_rad;
-    tolerances[own_state() + 1] = kCylinderLag_N;
+    put(drum_, kDrumAngleError_rad, kDrumSpeedError_rad_s);
+    put(carriage_, kDrumHeightError_m, kDrumCarriageSpeedError_m_s);
+    put(wheel_, kDrumAngleError_rad, kDrumSpeedError_rad_s);
+    put_tolerances(0, kDrumSlipForceError_N, kDrumStateShare, tolerances);
+    tolerances[own_state()] = kDrumSpeedIntegralError_rad;
+    tolerances[own_state() + 1] = kDrumCylinderLagError_N;
     return tolerances;
   }
 
@@ -95,7 +95,7 @@ class MultibodyDrum::Implementation : public SimbodySystem {
 
   void observe(double time_s, const double* y, double* values) override {
     const models::InputPort<double> inputs = read_drum_inputs<double>(present_, time_s);
-    if (present_.drive_on) kHold.require(time_s, find_acting(time_s, y).speed_m_s, find_speed_m_s(y));
+    if (present_.drive_on) kMotorHold.require(time_s, find_acting(time_s, y).speed_m_s, find_speed_m_s(y));
     *values++ = present_.drive_on ? inputs.speed_m_s : find_recorded_speed_m_s(time_s, y);
     *values++ = inputs.load_N;
     *values++ = inputs.ambient_K;

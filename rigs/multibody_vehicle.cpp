@@ -19,17 +19,17 @@ namespace {
 
 // Errors that do not matter at a relative tolerance of 1e-6, for the integrator's control. A drive starts
 // afresh at every row of its trace, so that mechanics are held to what the audit of a drive needs.
-constexpr double kAngle_rad = 100.0;
-constexpr double kDistance_m = 100.0;
-constexpr double kHeight_m = 1e-6;
-constexpr double kSpeed_rad_s = 1e-5;
-constexpr double kSpeed_m_s = 1e-5;
-constexpr double kSlipForce_N = 0.5;
-constexpr double kStateShare = 1e-6;  // of a corner state's scale
-constexpr double kSpeedIntegral_m = 1e-5;
+constexpr double kVehicleAngleError_rad = 100.0;
+constexpr double kVehicleDistanceError_m = 100.0;
+constexpr double kVehicleHeightError_m = 1e-6;
+constexpr double kVehicleSpeedError_rad_s = 1e-5;
+constexpr double kVehicleSpeedError_m_s = 1e-5;
+constexpr double kVehicleSlipForceError_N = 0.5;
+constexpr double kVehicleStateShare = 1e-6;  // of a corner state's scale
+constexpr double kVehicleSpeedIntegralError_m = 1e-5;
 
 // Assumed: about the tolerance of drive cycles, 2 mph, and of SAE J1634 at low speed.
-constexpr SpeedHold kHold{"the driver does not keep", 0.02, 0.5};
+constexpr SpeedHold kDriverHold{"the driver does not keep", 0.02, 0.5};
 
 std::vector<Corner<double>*> list_corners(std::vector<Corner<double>>& corners) {
   std::vector<Corner<double>*> list;
@@ -70,16 +70,17 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
       tolerances[q_state(body)] = position;
       tolerances[u_state(body)] = speed;
     };
-    if (bodies_.has_sled()) put(bodies_.sled, is_on_road() ? kDistance_m : kHeight_m, kSpeed_m_s);
-    put(bodies_.heave, kHeight_m, kSpeed_m_s);
-    put(bodies_.body, kHeight_m, kSpeed_m_s);
+    if (bodies_.has_sled())
+      put(bodies_.sled, is_on_road() ? kVehicleDistanceError_m : kVehicleHeightError_m, kVehicleSpeedError_m_s);
+    put(bodies_.heave, kVehicleHeightError_m, kVehicleSpeedError_m_s);
+    put(bodies_.body, kVehicleHeightError_m, kVehicleSpeedError_m_s);
     for (std::size_t i = 0; i < bodies_.wheels.size(); ++i) {
-      put(bodies_.wheels[i].upright, kHeight_m, kSpeed_m_s);
-      put(bodies_.wheels[i].wheel, kAngle_rad, kSpeed_rad_s);
-      if (!is_on_road()) put(bodies_.wheels[i].roller, kAngle_rad, kSpeed_rad_s);
-      put_tolerances(i, kSlipForce_N, kStateShare, tolerances);
+      put(bodies_.wheels[i].upright, kVehicleHeightError_m, kVehicleSpeedError_m_s);
+      put(bodies_.wheels[i].wheel, kVehicleAngleError_rad, kVehicleSpeedError_rad_s);
+      if (!is_on_road()) put(bodies_.wheels[i].roller, kVehicleAngleError_rad, kVehicleSpeedError_rad_s);
+      put_tolerances(i, kVehicleSlipForceError_N, kVehicleStateShare, tolerances);
     }
-    tolerances[own_state()] = kSpeedIntegral_m;
+    tolerances[own_state()] = kVehicleSpeedIntegralError_m;
     return tolerances;
   }
 
@@ -117,7 +118,7 @@ class MultibodyVehicle::Implementation : public SimbodySystem {
     read_vehicle_inputs(present_, time_s, inputs);
     const double recorded_m_s = find_recorded_speed_m_s(time_s, y);
     const DriveEvaluation& at = drive_->evaluation(state_);
-    if (present_.drive_on) kHold.require(time_s, at.acting.speed_m_s, at.speed_m_s);
+    if (present_.drive_on) kDriverHold.require(time_s, at.acting.speed_m_s, at.speed_m_s);
     *values++ = present_.drive_on ? inputs.speed_m_s : recorded_m_s;
     *values++ = inputs.ambient_K;
     if (present_.surface_recorded) *values++ = inputs.surface_K;

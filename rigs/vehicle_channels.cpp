@@ -11,51 +11,51 @@ namespace quantities = models::quantities;
 
 // Errors that do not matter, for the integrator's control: see drum_channels.cpp. A drive cycle moves a
 // few 1e6 J in stretches of a second.
-constexpr double kForceTime_N_s = 0.1;
-constexpr double kDistance_m = 1e-3;
-constexpr double kTime_s = 1e-3;
-constexpr double kEnergy_J = 0.002;  // of one step; a multi-cycle test has 1e5
-constexpr double kYardstick_J = 1e4;
+constexpr double kVehicleIntegralForceTimeError_N_s = 0.1;
+constexpr double kVehicleIntegralDistanceError_m = 1e-3;
+constexpr double kVehicleIntegralTimeError_s = 1e-3;
+constexpr double kVehicleIntegralEnergyError_J = 0.002;  // of one step; a multi-cycle test has 1e5
+constexpr double kVehicleIntegralThroughputError_J = 1e4;
 
 }  // namespace
 
 std::vector<sim::Integral> make_vehicle_integrals(const VehicleLayout& layout) {
   using Role = sim::Integral::Role;
   std::vector<sim::Integral> integrals{
-      {"traction", Role::kChannel, kForceTime_N_s},
-      {"distance", Role::kChannel, kDistance_m},
-      {"counted_time", Role::kChannel, kTime_s},
-      {"counted_distance", Role::kChannel, kDistance_m},
-      {"drive_energy", Role::kChannel, kYardstick_J},
-      {"recuperated_energy", Role::kChannel, kYardstick_J},
-      {sim::kMotorWork, Role::kWorkIn, kEnergy_J},
-      {is_tied_down(layout.machine) ? "rollers" : "rest_of_vehicle", Role::kWorkIn, kEnergy_J},
-      {"throughput", Role::kThroughput, kYardstick_J},
-      {"load_changes", Role::kWorkIn, kEnergy_J},
-      {"tire_loss", Role::kDissipated, kEnergy_J},
-      {"slip_loss", Role::kDissipated, kEnergy_J},
-      {"bearing_loss", Role::kDissipated, kEnergy_J},
-      {"brake_loss", Role::kDissipated, kEnergy_J},
-      {"drag_loss", Role::kDissipated, kEnergy_J},
-      {"tire_damper", Role::kDissipated, kEnergy_J},
-      {"suspension_damper", Role::kDissipated, kEnergy_J},
-      {"heat_generated", Role::kHeatIn, kEnergy_J},
-      {"heat_to_air", Role::kHeatOut, kEnergy_J},
-      {"heat_to_road", Role::kHeatOut, kEnergy_J},
+      {"traction", Role::kChannel, kVehicleIntegralForceTimeError_N_s},
+      {"distance", Role::kChannel, kVehicleIntegralDistanceError_m},
+      {"counted_time", Role::kChannel, kVehicleIntegralTimeError_s},
+      {"counted_distance", Role::kChannel, kVehicleIntegralDistanceError_m},
+      {"drive_energy", Role::kChannel, kVehicleIntegralThroughputError_J},
+      {"recuperated_energy", Role::kChannel, kVehicleIntegralThroughputError_J},
+      {sim::kMotorWork, Role::kWorkIn, kVehicleIntegralEnergyError_J},
+      {is_tied_down(layout.machine) ? "rollers" : "rest_of_vehicle", Role::kWorkIn, kVehicleIntegralEnergyError_J},
+      {"throughput", Role::kThroughput, kVehicleIntegralThroughputError_J},
+      {"load_changes", Role::kWorkIn, kVehicleIntegralEnergyError_J},
+      {"tire_loss", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"slip_loss", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"bearing_loss", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"brake_loss", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"drag_loss", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"tire_damper", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"suspension_damper", Role::kDissipated, kVehicleIntegralEnergyError_J},
+      {"heat_generated", Role::kHeatIn, kVehicleIntegralEnergyError_J},
+      {"heat_to_air", Role::kHeatOut, kVehicleIntegralEnergyError_J},
+      {"heat_to_road", Role::kHeatOut, kVehicleIntegralEnergyError_J},
   };
   for (std::size_t wheel = 0; wheel < layout.wheels.size(); ++wheel) {
     const auto add = [&](const char* name, double tolerance) {
       integrals.push_back({name, Role::kChannel, tolerance});
     };
-    add("loss_force", kForceTime_N_s);
+    add("loss_force", kVehicleIntegralForceTimeError_N_s);
     add_tire_integrals(integrals);
-    add("rolling_resistance", kForceTime_N_s);
-    add("parasitic", kForceTime_N_s);
-    add("longitudinal_force", kForceTime_N_s);
-    add("contact_load", kForceTime_N_s);
-    add("rolling_energy", kEnergy_J);
-    add("counted_rolling_energy", kEnergy_J);
-    add("counted_rrc", kTime_s);
+    add("rolling_resistance", kVehicleIntegralForceTimeError_N_s);
+    add("parasitic", kVehicleIntegralForceTimeError_N_s);
+    add("longitudinal_force", kVehicleIntegralForceTimeError_N_s);
+    add("contact_load", kVehicleIntegralForceTimeError_N_s);
+    add("rolling_energy", kVehicleIntegralEnergyError_J);
+    add("counted_rolling_energy", kVehicleIntegralEnergyError_J);
+    add("counted_rrc", kVehicleIntegralTimeError_s);
   }
   return integrals;
 }

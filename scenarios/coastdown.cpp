@@ -2,7 +2,7 @@
 #include "scenarios/common/coastdown_evaluation.h"
 #include "scenarios/common/vehicle_bench.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::coastdown {
 namespace {
 
 struct Settings {
@@ -83,7 +83,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_coastdown() {
+Scenario make() {
   return make_vehicle_scenario(
       {"coastdown", "Coastdowns of a vehicle on the road or on a dynamometer, and A, B, C from them",
        "Warm-up at constant speed, then pairs of coastdowns in both directions in neutral from 130 km/h to standstill. "
@@ -93,4 +93,4 @@ Scenario scenario_coastdown() {
       "road", &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::coastdown

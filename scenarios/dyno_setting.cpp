@@ -8,7 +8,7 @@
 #include "scenarios/common/vehicle_bench.h"
 #include "sim/core/assets.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::dyno_setting {
 namespace {
 
 using Load = models::RoadLoad<double>;
@@ -217,7 +217,7 @@ Results run(const RunSpec& spec, Settings settings, const VehicleProgram& progra
 
 }  // namespace
 
-Scenario scenario_dyno_setting() {
+Scenario make() {
   Scenario made = make_scenario<Settings, Results>(
       {"dyno_setting", "Dynamometer setting: the rollers' force with which the vehicle coasts down as on the road",
        "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is corrected by "
@@ -231,4 +231,4 @@ Scenario scenario_dyno_setting() {
   return made;
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::dyno_setting

@@ -5,7 +5,7 @@
 #include "scenarios/common/readings.h"
 #include "scenarios/common/recorded_inputs.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::follow_drum {
 namespace {
 
 /// Conditions of which the file gives most.
@@ -115,7 +115,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_follow_drum() {
+Scenario make() {
   return make_drum_scenario(
       {"follow_drum", "Any program of speed and load that a file gives, row by row",
        "Soak at the first row's air, pressure, run-up to its speed at skim load or its own where that is less (none "
@@ -125,4 +125,4 @@ Scenario scenario_follow_drum() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::follow_drum

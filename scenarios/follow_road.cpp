@@ -1,7 +1,7 @@
 /// A vehicle on the road through rows that a file gives: speed, height and air.
 #include "scenarios/common/follow_bench.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::follow_road {
 namespace {
 
 struct FollowRoadConditions : RecordedInputs {
@@ -61,7 +61,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_follow_road() {
+Scenario make() {
   return make_follow_scenario(
       {"follow_road", "A vehicle on the road, through speed, height and air that a file gives, row by row",
        "Run-up to the first row's speed, then speed, height and air as the file has them; its first row is 0 s. All "
@@ -73,4 +73,4 @@ Scenario scenario_follow_road() {
       "", &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::follow_road

@@ -1,7 +1,7 @@
 /// One wheel on its roller through rows that a file gives: speed, load, drive and brake force, air.
 #include "scenarios/common/follow_bench.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::follow_roller {
 namespace {
 
 struct FollowRollerConditions : RecordedInputs {
@@ -53,7 +53,7 @@ Results evaluate(const Settings& settings, const RunSpec&, Outcome& outcome) {
 
 }  // namespace
 
-Scenario scenario_follow_roller() {
+Scenario make() {
   return make_follow_scenario(
       {"follow_roller", "One wheel on its roller, through speed, load and force that a file gives, row by row",
        "Run-up to the first row's speed, then speed, load, longitudinal force and air as the file has them; its first "
@@ -63,4 +63,4 @@ Scenario scenario_follow_roller() {
       "dyno_1m2", &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::follow_roller

@@ -6,7 +6,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::iso_28580 {
 namespace {
 
 struct Settings : CycleSettings {
@@ -121,7 +121,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_iso_28580() {
+Scenario make() {
   return make_drum_scenario(
       {"iso_28580", "Whole ISO 28580 test: soak, pressure, run-up, warm-up, measurement, skim",
        "3 h soak at test temperature; pressure set and verified after 10 min; run-up at skim load; 30 min under "
@@ -132,4 +132,4 @@ Scenario scenario_iso_28580() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::iso_28580

@@ -4,7 +4,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/sweep_evaluation.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::load_sweep {
 namespace {
 
 struct Settings : CycleSettings {
@@ -75,7 +75,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_load_sweep() {
+Scenario make() {
   return make_drum_scenario(
       {"load_sweep", "RRc at several loads, one speed, one cold pressure",
        "Soak, pressure, run-up, then at each load a warm-up cycle (30 min and 3 min skim) and a measurement cycle "
@@ -84,4 +84,4 @@ Scenario scenario_load_sweep() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::load_sweep

@@ -2,7 +2,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/sweep_evaluation.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::pressure_sweep {
 namespace {
 
 struct Settings : CycleSettings {
@@ -70,7 +70,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_pressure_sweep() {
+Scenario make() {
   return make_drum_scenario(
       {"pressure_sweep", "RRc at several cold pressures, one load, one speed",
        "For each pressure: soak, pressure set and verified, run-up, warm-up cycle (30 min and 3 min skim), run-down.",
@@ -78,4 +78,4 @@ Scenario scenario_pressure_sweep() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::pressure_sweep

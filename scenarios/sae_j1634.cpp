@@ -3,7 +3,7 @@
 
 #include "scenarios/common/vehicle_bench.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::sae_j1634 {
 namespace {
 
 struct Settings {
@@ -212,7 +212,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_sae_j1634() {
+Scenario make() {
   return make_vehicle_scenario(
       {"sae_j1634", "SAE J1634 multi-cycle test: city, highway and constant-speed sections with their pauses and soaks",
        "Standard: UDDS 1, 15 s, HFEDS 1, 10 min soak, UDDS 2, constant speed, UDDS 3, 15 s, HFEDS 2, 10 min soak, "
@@ -224,4 +224,4 @@ Scenario scenario_sae_j1634() {
       "dyno_1m2", &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::sae_j1634

@@ -2,7 +2,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::skim {
 namespace {
 
 struct Results {
@@ -48,7 +48,7 @@ Results evaluate(const CycleSettings& settings, const RunSpec& spec, Outcome& ou
 
 }  // namespace
 
-Scenario scenario_skim() {
+Scenario make() {
   return make_drum_scenario(
       {"skim", "Skim test after a warm-up: parasitic loss as measured, and the tire's part in it",
        "Soak, pressure, run-up, 30 min under load, then 3 min at skim load; the last minute is averaged.",
@@ -56,4 +56,4 @@ Scenario scenario_skim() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::skim

@@ -6,7 +6,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::skim_series {
 namespace {
 
 struct Settings : CycleSettings {
@@ -122,7 +122,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_skim_series() {
+Scenario make() {
   return make_drum_scenario(
       {"skim_series", "Skim tests at several small loads, extrapolated to zero load",
        "Soak, pressure, run-up, 30 min under load, then a skim test of 3 min at each of several small loads; a "
@@ -131,4 +131,4 @@ Scenario scenario_skim_series() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::skim_series

@@ -2,7 +2,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/sweep_evaluation.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::speed_sweep {
 namespace {
 
 struct Settings : CycleSettings {
@@ -70,7 +70,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_speed_sweep() {
+Scenario make() {
   return make_drum_scenario(
       {"speed_sweep", "RRc at several speeds, one load, one cold pressure",
        "For each speed: soak, pressure, run-up, warm-up cycle (30 min and 3 min skim), then four measurement cycles "
@@ -79,4 +79,4 @@ Scenario scenario_speed_sweep() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::speed_sweep

@@ -3,7 +3,7 @@
 #include "scenarios/common/readings.h"
 #include "scenarios/common/sweep_evaluation.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::transient_skim {
 namespace {
 
 struct Settings {
@@ -67,7 +67,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_transient_skim() {
+Scenario make() {
   return make_drum_scenario(
       {"transient_skim", "Skim tests spread over the warm-up of a cold tire",
        "Soak, pressure, run-up, then loads of 5 min with a skim test of 3 min after each; the last minute of every "
@@ -76,4 +76,4 @@ Scenario scenario_transient_skim() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::transient_skim

@@ -6,7 +6,7 @@
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
 
-namespace rollrig::scenarios {
+namespace rollrig::scenarios::warm_up {
 
 using boost::math::statistics::simple_ordinary_least_squares;
 
@@ -129,7 +129,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 
 }  // namespace
 
-Scenario scenario_warm_up() {
+Scenario make() {
   return make_drum_scenario(
       {"warm_up", "Warm-up cycle of a soaked tire: loss against temperature",
        "Soak, pressure, run-up, then the warm-up cycle: 30 min under load at constant speed and 3 min skim. Reads off "
@@ -138,4 +138,4 @@ Scenario scenario_warm_up() {
       &plan, &evaluate);
 }
 
-}  // namespace rollrig::scenarios
+}  // namespace rollrig::scenarios::warm_up

@@ -9,9 +9,6 @@
 namespace rollrig::tools {
 namespace {
 
-constexpr double kLowSpeed_m_s = 80.0 / 3.6;
-constexpr double kHighSpeed_m_s = 120.0 / 3.6;
-
 scenarios::RunSpec make_spec(double heat_capacity_J_per_K) {
   scenarios::RunSpec spec = make_source_drive("a50");
   auto& rr = spec.tire.values.rolling_resistance;

@@ -11,6 +11,9 @@
 
 namespace rollrig::tools {
 
+inline constexpr double kLowSpeed_m_s = 80.0 / 3.6;    // §3.3.1.2; notes: not 24.24
+inline constexpr double kHighSpeed_m_s = 120.0 / 3.6;  // §3.3.1.2
+
 /// The source's tires.
 inline const std::array<std::string, 3> kTires{"a40", "a50", "a60"};
 

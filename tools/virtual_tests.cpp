@@ -6,9 +6,6 @@
 namespace rollrig::tools {
 namespace {
 
-constexpr double kLowSpeed_m_s = 80.0 / 3.6;    // §3.3.1.2; notes: not 24.24
-constexpr double kHighSpeed_m_s = 120.0 / 3.6;  // §3.3.1.2
-
 // Weights: standard deviations of the residuals.
 constexpr double kSectionSd = 0.002;     // 0.2 points: what the law is expected to miss, above the rounding of 0.03
 constexpr double kCityFallSd_K = 0.33;   // "~10", "~7", "~5" degC

@@ -36,11 +36,11 @@ OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
 }
 
 /// Sums of squares above the noise, in floors, by stretch: what a resample draws.
-struct Stretch {
+struct StretchSquares {
   double above = 0.0;
   double blocks = 0.0;
 
-  void add(const Stretch& other) {
+  void add(const StretchSquares& other) {
     above += other.above;
     blocks += other.blocks;
   }
@@ -49,8 +49,8 @@ struct Stretch {
 
 /// What is left of some runs.
 struct Measure {
-  std::map<std::pair<std::size_t, std::size_t>, Stretch> stretches;  // by run and phase
-  std::vector<Stretch> channels;                                     // squares in SI
+  std::map<std::pair<std::size_t, std::size_t>, StretchSquares> stretches;  // by run and phase
+  std::vector<StretchSquares> channels;                                     // squares in SI
 };
 
 /// Adds the differences of one run (all series of it), its offsets taken off anew.
@@ -70,7 +70,7 @@ void add_run(const PreparedSet& set, std::size_t run, const Eigen::VectorXd& dif
 }
 
 double gap_of(const Measure& measure) {
-  Stretch sum;
+  StretchSquares sum;
   for (const auto& [where, stretch] : measure.stretches) sum.add(stretch);
   return sum.gap();
 }
@@ -114,15 +114,15 @@ double shrink_percent(double before, double after) { return 100.0 * (1.0 - after
 /// Resamples stretches, the same ones before and after.
 Shrinkage resample(const Measure& before, const Measure& after) {
   constexpr int kResamples = 1000;
-  std::vector<std::pair<Stretch, Stretch>> stretches;
+  std::vector<std::pair<StretchSquares, StretchSquares>> stretches;
   for (const auto& [where, stretch] : before.stretches) stretches.emplace_back(stretch, after.stretches.at(where));
   if (stretches.empty()) return {};  // no run could be simulated
   RandomStream random(1, "shrinkage");
   std::vector<double> percents;
   int not_above = 0;
   for (int i = 0; i < kResamples; ++i) {
-    Stretch sum_before;
-    Stretch sum_after;
+    StretchSquares sum_before;
+    StretchSquares sum_after;
     for (std::size_t k = 0; k < stretches.size(); ++k) {
       const auto drawn = static_cast<std::size_t>(random.uniform() * static_cast<double>(stretches.size()));
       sum_before.add(stretches[drawn].first);

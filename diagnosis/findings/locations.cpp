@@ -14,7 +14,7 @@ constexpr double kLong_s = 900.0;  // Assumed: above it a warm-up shows within a
 constexpr double kBegin_s = 600.0;
 constexpr double kFamilyWise = 0.01;
 
-struct Stretch {
+struct PhaseOfSeries {
   const Series* series = nullptr;
   std::string name;
   double start_s = 0.0;
@@ -22,11 +22,11 @@ struct Stretch {
   std::vector<std::size_t> blocks;
 };
 
-void add_stretches(const PreparedSet& set, const Series& series, std::vector<Stretch>& all) {
+void add_stretches(const PreparedSet& set, const Series& series, std::vector<PhaseOfSeries>& all) {
   const PreparedRun& run = set.runs()[series.run];
   const std::vector<double>& time_s = run.measured.time_s;
   const auto add = [&](std::size_t phase, const std::string& name, double start_s, double end_s) {
-    Stretch stretch{&series, name, start_s, end_s, {}};
+    PhaseOfSeries stretch{&series, name, start_s, end_s, {}};
     for (std::size_t k = 0; k < series.size(); ++k) {
       const bool ends_before = series.time_s[k] >= end_s && end_s < time_s[run.phases[phase].last - 1];
       if (series.phase[k] == phase && series.time_s[k] >= start_s && !ends_before) stretch.blocks.push_back(k);
@@ -55,7 +55,7 @@ struct Scores {
   Eigen::MatrixXd null_steps;    // of base parameters and offsets beside a stretch of size 1
 };
 
-Scores calc_scores(const LinearFit& null, const std::vector<Stretch>& stretches) {
+Scores calc_scores(const LinearFit& null, const std::vector<PhaseOfSeries>& stretches) {
   // A stretch's template is 0 outside its series: templates of different series share a column.
   std::vector<Eigen::Index> column;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -142,7 +142,7 @@ std::vector<Sized> size_jointly(const Scores& scores, std::vector<std::size_t> s
 }
 
 /// Sum of squares above the noise, in noise floors; below 0 where there happens to be less.
-double calc_excess(const Stretch& stretch, const Eigen::VectorXd& difference) {
+double calc_excess(const PhaseOfSeries& stretch, const Eigen::VectorXd& difference) {
   const Series& series = *stretch.series;
   double sum = 0.0;
   for (const std::size_t k : stretch.blocks) {
@@ -161,7 +161,7 @@ Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unkno
   return moved + study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
 }
 
-Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& sized) {
+Location describe(const PreparedSet& set, const PhaseOfSeries& stretch, const Sized& sized) {
   Location location;
   const Quantity& channel = set.channels()[stretch.series->channel];
   location.channel = channel.header();
@@ -180,7 +180,7 @@ Location describe(const PreparedSet& set, const Stretch& stretch, const Sized& s
 
 std::vector<Location> find_locations(const Study& study) {
   const PreparedSet& set = study.set;
-  std::vector<Stretch> stretches;
+  std::vector<PhaseOfSeries> stretches;
   for (const Series& series : set.series()) add_stretches(set, series, stretches);
   const double tail = kFamilyWise / (2.0 * static_cast<double>(stretches.size()));
   const double critical = boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
@@ -195,7 +195,7 @@ std::vector<Location> find_locations(const Study& study) {
   std::vector<Location> locations;
   double of_listed = 0.0;
   double of_others = 0.0;
-  for (const Stretch& stretch : stretches) of_others += calc_excess(stretch, difference);
+  for (const PhaseOfSeries& stretch : stretches) of_others += calc_excess(stretch, difference);
   for (const Sized& sized : listed) {
     const double excess = calc_excess(stretches[sized.stretch], difference);
     of_others -= excess;

@@ -10,7 +10,7 @@ namespace rollrig::diagnosis {
 namespace {
 
 constexpr double kWindow_s = 120.0;
-constexpr double kShortest_s = 240.0;
+constexpr double kShortestDrive_s = 240.0;
 
 const char* name_of_speed(double mean_km_h) {
   if (mean_km_h < 1.0) return "standstill";
@@ -62,7 +62,7 @@ std::vector<Window> join_short(const measurements::MeasuredRun& run, std::vector
   std::vector<Window> joined;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Window& at = windows[i];
-    const bool is_short = run.time_s[at.last - 1] - run.time_s[at.first] < kShortest_s;
+    const bool is_short = run.time_s[at.last - 1] - run.time_s[at.first] < kShortestDrive_s;
     if (is_short && !at.load_begins && !joined.empty()) {
       joined.back().last = at.last;
     } else if (is_short && i + 1 < windows.size() && !windows[i + 1].load_begins) {

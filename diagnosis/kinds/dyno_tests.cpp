@@ -9,7 +9,7 @@ namespace {
 constexpr double kRoadLoad_N = 150.0;  // Assumed: of one wheel at 80 km/h
 constexpr double kHard_N = 1000.0;     // Assumed: what one wheel drives or brakes for minutes
 
-PlannedTest steady_from_cold(const TestConditions& at) {
+PlannedTest dyno_steady_from_cold(const TestConditions& at) {
   RunPlan run = begin_cold(at);
   run.pull(kRoadLoad_N).roll(60.0, at.load_N, kUsual_km_h);
   return make_test("steady_from_cold", "80 km/h for an hour with vehicle and tires cold", 1, {run.finish()});
@@ -22,7 +22,7 @@ PlannedTest rollers_alone(const TestConditions& at) {
                    {run.finish()});
 }
 
-PlannedTest speed_steps_hot(const TestConditions& at) {
+PlannedTest dyno_speed_steps_hot(const TestConditions& at) {
   RunPlan run = begin_warm(at);
   run.pull(kRoadLoad_N);
   for (const double speed_km_h : {120.0, 40.0, 120.0}) run.roll(10.0, at.load_N, speed_km_h);
@@ -38,7 +38,7 @@ PlannedTest drive_and_brake(const TestConditions& at) {
                    {run.finish()});
 }
 
-PlannedTest ramps(const TestConditions& at) {
+PlannedTest dyno_ramps(const TestConditions& at) {
   RunPlan run = begin_warm(at);
   for (int i = 0; i < 6; ++i) run.roll(1.0, at.load_N, 120.0).roll(1.0, at.load_N, 40.0);
   return make_test("ramps", "ramps between 40 and 120 km/h driven by the rollers, up and down, six times", 0,
@@ -57,7 +57,7 @@ PlannedTest ballast(const TestConditions& at) {
                    2, std::move(runs));
 }
 
-PlannedTest pressure_sweep(const TestConditions& at) {
+PlannedTest dyno_pressure_sweep(const TestConditions& at) {
   constexpr double kStep_Pa = 50e3;
   std::vector<measurements::MeasuredRun> runs;
   for (const double step : {-1.0, 1.0}) {
@@ -73,21 +73,21 @@ PlannedTest pressure_sweep(const TestConditions& at) {
                    2, std::move(runs));
 }
 
-PlannedTest rests(const TestConditions& at) {
+PlannedTest dyno_rests(const TestConditions& at) {
   RunPlan run = begin_cold(at);
   run.pull(kRoadLoad_N).roll(30.0, at.load_N, kUsual_km_h).stand(10.0, at.load_N).roll(15.0, at.load_N, kUsual_km_h);
   run.stand(60.0, at.load_N).roll(15.0, at.load_N, kUsual_km_h);
   return make_test("rests", "drive at 80 km/h after a night, after 10 min and after 1 h at rest", 1, {run.finish()});
 }
 
-PlannedTest soak_with_pressure(const TestConditions& at) {
+PlannedTest dyno_soak_with_pressure(const TestConditions& at) {
   RunPlan run = begin_warm(at);
   run.stand(90.0, at.load_N);
   return make_test("soak_with_pressure", "soak for 90 min after a drive, pressure and liner temperature logged", 0,
                    {run.finish()});
 }
 
-PlannedTest rim_thermocouple(const TestConditions& at) {
+PlannedTest dyno_rim_thermocouple(const TestConditions& at) {
   const TestConditions with_rim = read_rim_too(at);
   RunPlan run = begin_warm(with_rim);
   run.roll(20.0, at.load_N, 120.0).stand(45.0, at.load_N);
@@ -95,7 +95,7 @@ PlannedTest rim_thermocouple(const TestConditions& at) {
       "rim_thermocouple", "thermocouple on the rim: 20 min at 120 km/h, then 45 min at rest", 0, {run.finish()}));
 }
 
-PlannedTest warm_surface(const TestConditions& at) {
+PlannedTest dyno_warm_surface(const TestConditions& at) {
   constexpr double kWarmer_K = 15.0;  // Assumed: what a warmed-up roller reaches
   RunPlan run = begin_cold(at);
   run.on_surface(at.ambient_K + kWarmer_K).pull(kRoadLoad_N).roll(40.0, at.load_N, kUsual_km_h);
@@ -109,8 +109,9 @@ std::vector<PlannedTest> make_dyno_tests(const PreparedSet& set) {
   TestConditions at = find_test_conditions(set);
   at.held = {{models::quantities::kLongitudinalForce, 0.0}};
   std::vector<PlannedTest> menu;
-  for (const auto make : {steady_from_cold, rollers_alone, speed_steps_hot, drive_and_brake, ramps, ballast,
-                          pressure_sweep, rests, soak_with_pressure, rim_thermocouple, warm_surface}) {
+  for (const auto make :
+       {dyno_steady_from_cold, rollers_alone, dyno_speed_steps_hot, drive_and_brake, dyno_ramps, ballast,
+        dyno_pressure_sweep, dyno_rests, dyno_soak_with_pressure, dyno_rim_thermocouple, dyno_warm_surface}) {
     menu.push_back(make(at));
   }
   return menu;

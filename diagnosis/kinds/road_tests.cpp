@@ -6,7 +6,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
-PlannedTest steady_from_cold(const TestConditions& at) {
+PlannedTest road_steady_from_cold(const TestConditions& at) {
   RunPlan run = begin_cold(at);
   run.roll(40.0, at.load_N, kUsual_km_h);
   return make_test("steady_from_cold", "80 km/h on a level road for 40 min, vehicle and tires cold", 1, {run.finish()});
@@ -28,14 +28,14 @@ PlannedTest warm_steps(const TestConditions& at) {
                    {run.finish()});
 }
 
-PlannedTest ramps(const TestConditions& at) {
+PlannedTest road_ramps(const TestConditions& at) {
   RunPlan run = begin_warm(at);
   for (int i = 0; i < 8; ++i) run.roll(0.5, at.load_N, 110.0).roll(0.5, at.load_N, 50.0);
   return make_test("ramps", "ramps between 50 and 110 km/h by the motor alone, up and down, eight times, all warm", 0,
                    {run.finish()});
 }
 
-PlannedTest rests(const TestConditions& at) {
+PlannedTest road_rests(const TestConditions& at) {
   RunPlan run = begin_cold(at);
   run.roll(30.0, at.load_N, kUsual_km_h).stand(20.0, at.load_N).roll(15.0, at.load_N, kUsual_km_h);
   run.stand(60.0, at.load_N).roll(15.0, at.load_N, kUsual_km_h);
@@ -66,7 +66,8 @@ std::vector<PlannedTest> make_road_tests(const PreparedSet& set) {
   TestConditions at = find_test_conditions(set);
   at.held = {{models::quantities::kElevation, 0.0}};
   std::vector<PlannedTest> menu;
-  for (const auto make : {steady_from_cold, cold_air, warm_steps, ramps, rests}) menu.push_back(make(at));
+  for (const auto make : {road_steady_from_cold, cold_air, warm_steps, road_ramps, road_rests})
+    menu.push_back(make(at));
   const std::size_t count = menu.size();
   for (std::size_t i = 0; i < count; ++i) menu.push_back(repeat(menu[i]));
   return menu;

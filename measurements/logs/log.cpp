@@ -12,8 +12,6 @@
 namespace rollrig::measurements {
 namespace {
 
-constexpr double kDay_s = 86400.0;
-
 /// Stamps of one log, row after row; a time of day that falls back by more than half a day is of the next day.
 class StampReader {
  public:

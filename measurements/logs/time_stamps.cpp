@@ -14,8 +14,6 @@ namespace {
 
 namespace gregorian = boost::gregorian;
 
-constexpr double kDay_s = 86400.0;
-
 [[noreturn]] void refuse(const std::string& text, const std::string& what) {
   throw std::invalid_argument(fmt::format("'{}' {}", text, what));
 }

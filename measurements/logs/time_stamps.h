@@ -6,6 +6,8 @@
 
 namespace rollrig::measurements {
 
+inline constexpr double kDay_s = 86400.0;
+
 enum class TimeForm { kSeconds, kIso8601, kClock, kSpreadsheetDays };
 
 /// Names of the forms as a mapping file has them, in the order of TimeForm.

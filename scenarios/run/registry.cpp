@@ -4,7 +4,10 @@
 namespace rollrig::scenarios {
 
 // Named one by one, since the linker drops objects of a static library that nothing refers to.
-#define ROLLRIG_SCENARIO(name) Scenario scenario_##name();
+#define ROLLRIG_SCENARIO(name) \
+  namespace name {             \
+  Scenario make();             \
+  }
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
 
@@ -23,7 +26,7 @@ Outcome run_scenario(const RunSpec& spec, const sim::Progress& progress) { retur
 
 const std::vector<const Scenario*>& all_scenarios() {
   static const std::vector<Scenario> scenarios{
-#define ROLLRIG_SCENARIO(name) scenario_##name(),
+#define ROLLRIG_SCENARIO(name) name::make(),
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
   };

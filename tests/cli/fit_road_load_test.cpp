@@ -2,30 +2,20 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <sstream>
 
 #include "sim/core/csv.h"
 #include "sim/core/json.h"
+#include "tests/cli/longest_line.h"
 #include "tests/support/coastdown_study.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace rollrig;
 using Catch::Contains;
+using tests::longest_line;
 using tests::read_file;
 using tests::run_program;
 using tests::TemporaryFolder;
-
-namespace {
-
-std::size_t longest_line(const std::string& text) {
-  std::size_t longest = 0;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) longest = std::max(longest, line.size());
-  return longest;
-}
-
-}  // namespace
 
 TEST_CASE("fit road-load: table of 80 columns, JSON and residuals", "[fast]") {
   const TemporaryFolder folder;

@@ -11,7 +11,7 @@
 #include "tests/support/run_program.h"
 
 using Catch::Contains;
-using json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 using rollrig::tests::read_file;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
@@ -33,12 +33,12 @@ std::string settings_of(const std::string& scenario) {
 }
 
 /// Keys of a result, those of a list's records as "cycles[].load_N".
-std::set<std::string> list_keys(const json& result) {
+std::set<std::string> list_keys(const OrderedJson& result) {
   std::set<std::string> keys;
   for (const auto& [key, value] : result.items()) {
     keys.insert(key);
     if (!value.is_array()) continue;
-    for (const json& record : value) {
+    for (const OrderedJson& record : value) {
       for (const auto& member : record.items()) keys.insert(key + "[]." + member.key());
     }
   }
@@ -60,13 +60,13 @@ std::set<std::string> read_reference(const std::string& scenario) {
 }
 
 /// Lines and tables of the page's first section, in the terminal's spelling of units.
-json read_page(const std::string& path) {
+OrderedJson read_page(const std::string& path) {
   const std::string html = std::regex_replace(read_file(path), std::regex("\u00b0C"), "degC");
   const std::string mark = "id=\"payload\">";
   const std::size_t first = html.find(mark) + mark.size();
-  const json page = json::parse(html.substr(first, html.find("</script>", first) - first));
-  json blocks = json::array();
-  for (const json& block : page["sections"][0]["blocks"]) {
+  const OrderedJson page = OrderedJson::parse(html.substr(first, html.find("</script>", first) - first));
+  OrderedJson blocks = OrderedJson::array();
+  for (const OrderedJson& block : page["sections"][0]["blocks"]) {
     if (block["type"] == "lines" || block["type"] == "table") blocks.push_back(block);
   }
   return blocks;
@@ -82,7 +82,7 @@ std::vector<std::string> find_numbers(std::string text) {
 }
 
 /// Whether a text is a value, to the digits that it shows.
-bool shows(const std::string& text, const json& value) {
+bool shows(const std::string& text, const OrderedJson& value) {
   if (value.is_null()) return text == "-";
   if (value.is_boolean()) return text == (value.get<bool>() ? "yes" : "no");
   if (value.is_string()) return text == value.get<std::string>();
@@ -98,12 +98,12 @@ const std::set<std::string> kRemarks{"  tire file says",   "Wheels simulated", "
                                      "tire N (simulated)", "tire degC"};
 
 /// Every number of the lines is one of the result's, and every single one of the result's is on a line.
-void check_lines(const json& result, const json& lines) {
+void check_lines(const OrderedJson& result, const OrderedJson& lines) {
   std::set<std::string> unseen;
   for (const auto& [key, value] : result.items()) {
     if (!value.is_array()) unseen.insert(key);
   }
-  for (const json& line : lines) {
+  for (const OrderedJson& line : lines) {
     if (kRemarks.count(line["label"].get<std::string>()) > 0) continue;
     const std::string text = line["value"];
     std::vector<std::string> shown = find_numbers(text);
@@ -124,7 +124,7 @@ void check_lines(const json& result, const json& lines) {
 }
 
 /// Keys of the records that a table shows; none where it has a column that is none of theirs.
-std::set<std::string> find_shown(const json& table, const json& records) {
+std::set<std::string> find_shown(const OrderedJson& table, const OrderedJson& records) {
   std::set<std::string> seen;
   if (table["rows"].size() < records.size()) return {};
   for (std::size_t i = 0; i < table["columns"].size(); ++i) {
@@ -144,12 +144,12 @@ std::set<std::string> find_shown(const json& table, const json& records) {
 }
 
 /// Every table shows records of one list, and all that these hold is in a table.
-void check_tables(const json& result, const json& tables) {
+void check_tables(const OrderedJson& result, const OrderedJson& tables) {
   std::set<std::string> unseen;
   for (const std::string& key : list_keys(result)) {
     if (key.find("[].") != std::string::npos) unseen.insert(key);
   }
-  for (const json& table : tables) {
+  for (const OrderedJson& table : tables) {
     std::set<std::string> shown;
     for (const auto& [key, value] : result.items()) {
       if (!value.is_array() || !shown.empty()) continue;
@@ -163,19 +163,19 @@ void check_tables(const json& result, const json& tables) {
 }
 
 /// What the terminal and the page say are the same words, in the same order.
-void check_same_words(const std::string& terminal, const json& blocks) {
+void check_same_words(const std::string& terminal, const OrderedJson& blocks) {
   std::string words;
-  for (const json& block : blocks) {
+  for (const OrderedJson& block : blocks) {
     if (block["type"] == "lines") {
-      for (const json& line : block["lines"]) {
+      for (const OrderedJson& line : block["lines"]) {
         words += line["label"].get<std::string>() + " " + line["value"].get<std::string>() + " ";
       }
       continue;
     }
     words += block["caption"].get<std::string>() + " ";
-    for (const json& column : block["columns"]) words += column["label"].get<std::string>() + " ";
-    for (const json& row : block["rows"]) {
-      for (const json& cell : row) words += cell.get<std::string>() + " ";
+    for (const OrderedJson& column : block["columns"]) words += column["label"].get<std::string>() + " ";
+    for (const OrderedJson& row : block["rows"]) {
+      for (const OrderedJson& cell : row) words += cell.get<std::string>() + " ";
     }
   }
   CHECK_THAT(rollrig::tests::flatten(terminal), Contains(rollrig::tests::flatten(words) + " energy closes to"));
@@ -184,9 +184,9 @@ void check_same_words(const std::string& terminal, const json& blocks) {
 }  // namespace
 
 TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's results", "[fast]") {
-  const json scenarios = json::parse(run_program("list --json -").out)["scenarios"];
+  const OrderedJson scenarios = OrderedJson::parse(run_program("list --json -").out)["scenarios"];
   CHECK(scenarios.size() >= 14);
-  for (const json& scenario : scenarios) {
+  for (const OrderedJson& scenario : scenarios) {
     const std::string name = scenario["name"];
     DYNAMIC_SECTION(name) {
       const TemporaryFolder folder;
@@ -194,12 +194,12 @@ TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's r
       const auto run = run_program("run " + options + " --json run.json --html run.html", folder.path());
       INFO(run.err << run.out);
       REQUIRE(run.status == 0);
-      const json result = json::parse(read_file(folder.file("run.json")))["result"];
+      const OrderedJson result = OrderedJson::parse(read_file(folder.file("run.json")))["result"];
       CHECK(list_keys(result) == read_reference(name));
-      const json blocks = read_page(folder.file("run.html"));
+      const OrderedJson blocks = read_page(folder.file("run.html"));
       REQUIRE(!blocks.empty());
-      json tables = json::array();
-      for (const json& block : blocks) {
+      OrderedJson tables = OrderedJson::array();
+      for (const OrderedJson& block : blocks) {
         if (block["type"] == "lines") check_lines(result, block["lines"]);
         if (block["type"] == "table") tables.push_back(block);
       }

@@ -18,16 +18,16 @@ using exports::Texts;
 
 namespace {
 
-using File = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
+using MatFile = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
 using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 
-File open(const std::string& path) {
-  File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close);
+MatFile open(const std::string& path) {
+  MatFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), Mat_Close);
   REQUIRE(file);
   return file;
 }
 
-Variable read(const File& file, const char* name) {
+Variable read(const MatFile& file, const char* name) {
   Variable variable(Mat_VarRead(file.get(), name), Mat_VarFree);
   INFO(name);
   REQUIRE(variable);
@@ -73,7 +73,7 @@ Texts texts(matvar_t& cell) {
 TEST_CASE(".mat holds the recording to the bit, with units, phases, results and manifest", "[fast]") {
   const tests::ExportedRun run;
   REQUIRE(tests::run_program("export result --mat run.mat --hdf5 run.h5", run.folder().path()).status == 0);
-  const File file = open(run.folder().file("run.mat"));
+  const MatFile file = open(run.folder().file("run.mat"));
   const Variable recording = read(file, "recording");
   const CsvTable csv = run.recording();
   for (const std::string& column : csv.columns()) {
@@ -117,7 +117,7 @@ TEST_CASE(".mat holds what else a tree can have, under names that MATLAB reads",
   CHECK(bytes == exports::make_mat(tree));
   const tests::TemporaryFolder folder;
   tests::write_file(folder.file("tree.mat"), bytes);
-  const File file = open(folder.file("tree.mat"));
+  const MatFile file = open(folder.file("tree.mat"));
   const Variable read_inner = read(file, "inner");
   CHECK(numbers(field(read_inner, "run_1_2")) == Column{1.0});
   CHECK(numbers(field(read_inner, "run_1_2_2")) == Column{2.0});
@@ -137,7 +137,7 @@ TEST_CASE(".mat holds what else a tree can have, under names that MATLAB reads",
 TEST_CASE(".mat of a set has a struct a run", "[fast]") {
   const tests::ExportedRun run;
   REQUIRE(tests::run_program("export set --mat set.mat", run.folder().path()).status == 0);
-  const File file = open(run.folder().file("set.mat"));
+  const MatFile file = open(run.folder().file("set.mat"));
   const Variable runs = read(file, "runs");
   matvar_t& warm_up = field(runs, "warm_up_80");
   CHECK(text(field(warm_up, "id")) == "warm-up-80");

@@ -2,20 +2,21 @@
 #include <catch2/catch.hpp>
 
 #include "build_paths.h"
-#include "scenarios/common/speed_trace.h"
 #include "scenarios/common/vehicle_bench.h"
 #include "sim/core/assets.h"
-#include "tests/support/vehicle_fixture.h"
+#include "tests/rigs/vehicles_on.h"
 
 using namespace rollrig;
 using rigs::VehicleIntegral;
 using rigs::WheelIntegral;
+using tests::city;
 using tests::coasting;
 using tests::driving;
 using tests::find_total;
 using tests::kFront;
 using tests::kRear;
 using tests::make_program;
+using tests::name_of;
 using tests::VehicleFixture;
 
 namespace {
@@ -45,23 +46,9 @@ sim::Program short_drive() {
                        driving("stop", 4.0, 8.0, 0.0), driving("stand again", 10.0, 0.0, 0.0)});
 }
 
-sim::Program city() {
-  const scenarios::SpeedTrace trace = scenarios::read_speed_trace("udds");
-  sim::Phase phase = driving("city", 1.0, 0.0, 0.0);
-  phase.segments.clear();
-  for (std::size_t i = 0; i + 1 < trace.time_s.size(); ++i) {
-    phase.segments.push_back(
-        tests::vehicle_segment(trace.time_s[i + 1] - trace.time_s[i], trace.speed_m_s[i], trace.speed_m_s[i + 1]));
-    phase.segments.back().max_step_s = 0.0;
-  }
-  return make_program({phase});
-}
-
 double of_wheel(const sim::Recording<double>& recording, WheelIntegral integral, std::size_t wheel) {
   return recording.final_integrals[rigs::index_of(integral, wheel)];
 }
-
-const char* name_of(bool multibody) { return multibody ? "multibody" : "quasi-static"; }
 
 }  // namespace
 

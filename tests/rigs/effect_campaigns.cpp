@@ -69,7 +69,7 @@ sim::Recording<Jet> run_drum_with_derivatives(const std::string& rig, const Effe
   return recording;
 }
 
-Campaign make_tire_campaign(Machine kind, const std::string& rig) {
+EffectCampaign make_tire_campaign(Machine kind, const std::string& rig) {
   return {kind,
           kind->traits.force.header(),
           {"load", "skim", "fast"},
@@ -168,8 +168,8 @@ std::set<std::string> measured_on(tests::Machine kind) {
   return channels;
 }
 
-const std::vector<Campaign>& campaigns() {
-  static const std::vector<Campaign> all{
+const std::vector<EffectCampaign>& campaigns() {
+  static const std::vector<EffectCampaign> all{
       make_tire_campaign(tests::kDrum, "drum_2m"),
       make_tire_campaign(tests::kFlatBelt, "flat_belt"),
       {tests::kDyno,

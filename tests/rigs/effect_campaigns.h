@@ -16,7 +16,7 @@ namespace rollrig::tests {
 using Effects = std::vector<models::ActiveEffect>;
 
 /// Runs on one kind of rig that show every effect that can be seen there.
-struct Campaign {
+struct EffectCampaign {
   tests::Machine kind;
   std::string force_channel;                // the fidelities are compared in it, and in temperature
   std::vector<std::string> settled_phases;  // at whose end force and temperature hold still
@@ -31,6 +31,6 @@ struct Campaign {
 std::set<std::string> measured_on(tests::Machine kind);
 
 /// One campaign for each kind of rig that has a fast and a multibody fidelity.
-const std::vector<Campaign>& campaigns();
+const std::vector<EffectCampaign>& campaigns();
 
 }  // namespace rollrig::tests

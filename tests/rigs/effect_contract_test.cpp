@@ -11,7 +11,7 @@
 using namespace rollrig;
 using models::Effect;
 using models::EffectInfo;
-using tests::Campaign;
+using tests::EffectCampaign;
 using tests::Effects;
 using tests::measured_on;
 using tests::models_for;
@@ -43,7 +43,7 @@ bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
 }
 
-void check_is_baseline(const Campaign& campaign, const Effects& effects, const std::string& model,
+void check_is_baseline(const EffectCampaign& campaign, const Effects& effects, const std::string& model,
                        const sim::Recording<double>& baseline) {
   const auto recording = campaign.run_quasi_static(effects, model);
   for (const std::string& channel : measured_on(campaign.kind)) {
@@ -67,7 +67,7 @@ double find_change(const std::vector<double>& changed, const std::vector<double>
 constexpr double kVisible = 1e-3;  // of a channel's span
 constexpr double kFaint = 1e-2;
 
-void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, const std::string& model,
+void check_shows_where_it_says(const EffectCampaign& campaign, const Effect& effect, const std::string& model,
                                const sim::Recording<double>& baseline) {
   const auto on = campaign.run_quasi_static(at_size(effect, effect.info.parameters[0].prior.high), model);
   const bool faint = effect.info.faint_on(campaign.kind->traits);
@@ -87,7 +87,7 @@ void check_shows_where_it_says(const Campaign& campaign, const Effect& effect, c
   }
 }
 
-void check_audits_and_fidelities(const Campaign& campaign, const Effects& effects, const std::string& model) {
+void check_audits_and_fidelities(const EffectCampaign& campaign, const Effects& effects, const std::string& model) {
   const auto multibody = campaign.run_multibody(effects, model);
   const auto quasi_static = campaign.run_quasi_static(effects, model);
   CHECK_NOTHROW(multibody.audit.require_closed(campaign.audit_limit));
@@ -116,7 +116,7 @@ std::size_t find_most_sensitive(const std::vector<Jet>& channel) {
   return best;
 }
 
-void check_derivative(const Campaign& campaign, const Effect& effect, const std::string& model) {
+void check_derivative(const EffectCampaign& campaign, const Effect& effect, const std::string& model) {
   const models::EffectParameter& size = effect.info.parameters[0];
   const double center = size.prior.center();
   const double step = 1e-3 * (size.prior.high - size.prior.low);
@@ -137,7 +137,7 @@ void check_derivative(const Campaign& campaign, const Effect& effect, const std:
   }
 }
 
-void check_on_campaign(const Campaign& campaign, const Effect& effect, const std::string& model,
+void check_on_campaign(const EffectCampaign& campaign, const Effect& effect, const std::string& model,
                        const sim::Recording<double>& baseline) {
   const EffectInfo& info = effect.info;
   std::string name = info.id + " on " + campaign.kind->word;
@@ -166,7 +166,7 @@ void check_on_campaign(const Campaign& campaign, const Effect& effect, const std
 }  // namespace
 
 TEST_CASE("every effect keeps the contract", "[fast][contract]") {
-  for (const Campaign& campaign : tests::campaigns()) {
+  for (const EffectCampaign& campaign : tests::campaigns()) {
     std::map<std::string, sim::Recording<double>> baselines;
     for (const models::TireModel* model : models::all_tire_models()) {
       baselines[model->info.id] = campaign.run_quasi_static({}, model->info.id);
@@ -181,7 +181,7 @@ TEST_CASE("every effect keeps the contract", "[fast][contract]") {
 
 TEST_CASE("both audits close on every tire model with no effect and with every one, and the fidelities agree",
           "[fast][contract]") {
-  for (const Campaign& campaign : tests::campaigns()) {
+  for (const EffectCampaign& campaign : tests::campaigns()) {
     Effects all;
     for (const Effect* effect : models::all_effects()) {
       all.push_back(tests::make_active(*effect, usual_values(effect->info)));

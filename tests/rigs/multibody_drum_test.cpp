@@ -11,13 +11,13 @@ using tests::DrumFixture;
 
 namespace {
 
-const double kSpeed_m_s = 80.0 / 3.6;
+const double kDrumSpeed_m_s = 80.0 / 3.6;
 
 /// Skim, then a load step, so that everything has been disturbed.
 sim::Program load_step(double load_N, double hold_s = 120.0) {
   sim::Program program;
-  program.phases = {tests::rolling("skim", 20.0, kSpeed_m_s, 200.0),
-                    tests::rolling("load", hold_s, kSpeed_m_s, load_N)};
+  program.phases = {tests::rolling("skim", 20.0, kDrumSpeed_m_s, 200.0),
+                    tests::rolling("load", hold_s, kDrumSpeed_m_s, load_N)};
   return program;
 }
 
@@ -38,13 +38,13 @@ DrumFixture with_constant_coefficient(double rrc) {
 }
 
 /// A rig that was run through a program and can be looked into at its end.
-struct Ran {
+struct DrumRun {
   models::Corner<double> corner;
   rigs::MultibodyDrum drum;
   sim::Recording<double> recording;
   double end_s;
 
-  Ran(const DrumFixture& fixture, const sim::Program& program)
+  DrumRun(const DrumFixture& fixture, const sim::Program& program)
       : corner(fixture.corner()), drum(corner, fixture.rig, fixture.start(), false) {
     sim::CvodesIntegrator integrator(drum, fixture.cvodes);
     recording = sim::simulate<double>(drum, integrator, program);
@@ -57,13 +57,13 @@ struct Ran {
 
 TEST_CASE("the load asked for is the load at the contact, wheel weight included", "[fast]") {
   for (const double load_N : {200.0, 4800.0, 7649.0}) {
-    Ran ran(DrumFixture(), load_step(load_N));
+    DrumRun ran(DrumFixture(), load_step(load_N));
     CHECK(ran.forces().contact_load_N == Approx(load_N).epsilon(1e-6));
   }
   DrumFixture heavy;  // a rig and a wheel twice as heavy press no harder
   heavy.rig.carriage.mass_kg *= 2.0;
   heavy.tire.values.geometry.wheel_mass_kg *= 2.0;
-  Ran ran(heavy, load_step(5400.0));
+  DrumRun ran(heavy, load_step(5400.0));
   CHECK(ran.forces().contact_load_N == Approx(5400.0).epsilon(1e-6));
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("without loss a free-rolling wheel has no hub moment and the drum no t
   for (const double factor : {1e3, 1.0, 1e-2}) {
     DrumFixture fixture = without_loss();
     fixture.cvodes.tolerance_factor = factor;
-    Ran ran(fixture, load_step(5400.0));
+    DrumRun ran(fixture, load_step(5400.0));
     INFO("tolerances times " << factor);
     const rigs::DrumForces at_end = ran.forces();
     const double nothing = 1e-6 * std::max(1.0, factor);  // N m, N
@@ -85,7 +85,7 @@ TEST_CASE("a prescribed coefficient comes back by the torque method and by the f
   constexpr double kRrc = 0.008;
   const DrumFixture fixture = with_constant_coefficient(kRrc);
   for (const double load_N : {200.0, 5400.0}) {
-    Ran ran(fixture, load_step(load_N));
+    DrumRun ran(fixture, load_step(load_N));
     const rigs::DrumForces at = ran.forces();
     const double radius_m = fixture.rig.drum.diameter_m / 2.0;
     const double by_torque = (at.motor_torque_Nm / radius_m - at.parasitic_N) / load_N;
@@ -99,32 +99,32 @@ TEST_CASE("the same on a drum of another size: the contact takes the surface's o
   constexpr double kRrc = 0.008;
   DrumFixture fixture = with_constant_coefficient(kRrc);
   fixture.rig.drum.diameter_m = 1.2;
-  Ran ran(fixture, load_step(5400.0));
+  DrumRun ran(fixture, load_step(5400.0));
   const rigs::DrumForces at = ran.forces();
-  CHECK(at.surface_speed_m_s == Approx(kSpeed_m_s).epsilon(1e-8));
-  CHECK(at.drum_speed_rad_s == Approx(kSpeed_m_s / 0.6).epsilon(1e-8));
+  CHECK(at.surface_speed_m_s == Approx(kDrumSpeed_m_s).epsilon(1e-8));
+  CHECK(at.drum_speed_rad_s == Approx(kDrumSpeed_m_s / 0.6).epsilon(1e-8));
   CHECK((at.motor_torque_Nm / 0.6 - at.parasitic_N) / 5400.0 == Approx(kRrc).epsilon(1e-6));
   CHECK(at.spindle_force_N * (1.0 + at.loaded_radius_m / 0.6) / 5400.0 == Approx(kRrc).epsilon(1e-6));
 }
 
 TEST_CASE("force read off the contact is Simbody's reaction at the spindle, at the same instant", "[fast]") {
-  Ran ran(DrumFixture(), load_step(5400.0));
+  DrumRun ran(DrumFixture(), load_step(5400.0));
   const rigs::DrumForces at = ran.forces();
   CHECK(at.spindle_reaction_N == Approx(at.spindle_force_N).epsilon(1e-9));
   CHECK(at.hub_moment_Nm == Approx(0.0).margin(1e-9));
 }
 
 TEST_CASE("the wheel rolls with its loaded radius", "[fast]") {
-  Ran ran(DrumFixture(), load_step(5400.0));
+  DrumRun ran(DrumFixture(), load_step(5400.0));
   const rigs::DrumForces at = ran.forces();
   CHECK(at.loaded_radius_m == Approx(0.7176 / 2.0 - 5400.0 / 220000.0).epsilon(1e-6));
-  CHECK(at.wheel_speed_rad_s * at.loaded_radius_m == Approx(kSpeed_m_s).epsilon(1e-5));
+  CHECK(at.wheel_speed_rad_s * at.loaded_radius_m == Approx(kDrumSpeed_m_s).epsilon(1e-5));
 }
 
 TEST_CASE("both audits close on a test with every transient, and slip of the baseline is a numerical trace", "[fast]") {
   sim::Program program = load_step(6865.0, 600.0);
   sim::Phase up = tests::rolling("up", 60.0, 0.0, 200.0);
-  up.segments = {tests::drum_segment(60.0, 0.0, kSpeed_m_s, 200.0)};
+  up.segments = {tests::drum_segment(60.0, 0.0, kDrumSpeed_m_s, 200.0)};
   program.phases.insert(program.phases.begin(), up);
   const auto recording = DrumFixture().run_multibody(program);
   CHECK_NOTHROW(recording.audit.require_closed(sim::kAuditLimit));
@@ -173,8 +173,8 @@ TEST_CASE("an explicit method with small steps follows the same motion", "[fast]
   DrumFixture fixture;
   models::Corner<double> corner = fixture.corner();
   rigs::MultibodyDrum drum(corner, fixture.rig, fixture.start(), false);
-  const sim::Segment first = tests::drum_segment(1.0, kSpeed_m_s, kSpeed_m_s, 200.0);
-  const sim::Segment second = tests::drum_segment(0.2, kSpeed_m_s, kSpeed_m_s, 5400.0);
+  const sim::Segment first = tests::drum_segment(1.0, kDrumSpeed_m_s, kDrumSpeed_m_s, 200.0);
+  const sim::Segment second = tests::drum_segment(0.2, kDrumSpeed_m_s, kDrumSpeed_m_s, 5400.0);
   std::vector<double> y(drum.state_count());
   drum.initialize(first, 0.0, y.data());
   drum.begin_segment(second, 0.0, y.data(), nullptr);
@@ -211,8 +211,8 @@ TEST_CASE("two rigs at once do not disturb each other", "[fast]") {
   DrumFixture small;
   small.rig.drum.diameter_m = 1.2;
   const double alone_Nm = DrumFixture().run_multibody(load_step(5400.0)).channel("drum_torque_Nm").back();
-  Ran first(DrumFixture(), load_step(5400.0));
-  Ran second(small, load_step(4000.0));
+  DrumRun first(DrumFixture(), load_step(5400.0));
+  DrumRun second(small, load_step(4000.0));
   CHECK(first.recording.channel("drum_torque_Nm").back() == alone_Nm);
   CHECK(first.forces().contact_load_N == Approx(5400.0).epsilon(1e-6));
   CHECK(second.forces().contact_load_N == Approx(4000.0).epsilon(1e-6));

@@ -18,16 +18,16 @@ using tests::VehicleFixture;
 
 namespace {
 
-constexpr double kSpeed_m_s = 80.0 / 3.6;
+constexpr double kVehicleSpeed_m_s = 80.0 / 3.6;
 
 /// A vehicle that was run through a program and can be looked into at its end.
-struct Ran {
+struct VehicleRun {
   std::vector<models::Corner<double>> corners;
   rigs::MultibodyVehicle vehicle;
   sim::Recording<double> recording;
   double end_s;
 
-  Ran(const VehicleFixture& fixture, const sim::Program& program)
+  VehicleRun(const VehicleFixture& fixture, const sim::Program& program)
       : corners(fixture.corners()), vehicle(corners, fixture.layout(), fixture.start(), false) {
     sim::CvodesIntegrator integrator(vehicle, fixture.cvodes);
     recording = sim::simulate<double>(vehicle, integrator, program);
@@ -37,7 +37,7 @@ struct Ran {
 };
 
 sim::Program hold(double duration_s = 60.0) {
-  return make_program({driving("hold", duration_s, kSpeed_m_s, kSpeed_m_s)});
+  return make_program({driving("hold", duration_s, kVehicleSpeed_m_s, kVehicleSpeed_m_s)});
 }
 
 VehicleFixture make_uneven(const char* rig, double front_drive) {
@@ -57,7 +57,7 @@ double calc_rolling_mass_kg(const VehicleFixture& fixture) {
 TEST_CASE("what the rollers push, the tie-downs hold: the ground's forces sum to nothing", "[fast]") {
   for (const double front_drive : {1.0, 0.0, 0.5}) {
     const VehicleFixture fixture = make_uneven("dyno_1m2", front_drive);
-    Ran ran(fixture, hold());
+    VehicleRun ran(fixture, hold());
     const rigs::VehicleForces at = ran.forces();
     double rollers_N = 0.0, spindles_N = 0.0, lift_N = 0.0, roller_weight_N = 0.0;
     for (const auto& wheel : at.wheels) {
@@ -79,7 +79,7 @@ TEST_CASE("tie-downs carry the drive force less what the tires lose on their way
   // give way by x, so that the wheels stand off the tops of their rollers and their loads push as well: x/(R +
   // r_l).
   const VehicleFixture fixture = make_uneven("dyno_1m2", 0.0);
-  Ran ran(fixture, hold());
+  VehicleRun ran(fixture, hold());
   double expected_N = 0.0;
   const double given_way_m = -ran.forces().tie_down_N / fixture.rig.tie_down.stiffness_N_per_m;
   for (const auto& wheel : ran.forces().wheels) {
@@ -93,15 +93,15 @@ TEST_CASE("tie-downs carry the drive force less what the tires lose on their way
 
 TEST_CASE("each wheel rolls with its own loaded radius, each roller at the speed asked for", "[fast]") {
   const VehicleFixture fixture = make_uneven("dyno_1m2", 0.0);
-  Ran ran(fixture, hold());
+  VehicleRun ran(fixture, hold());
   const auto layout = fixture.layout();
   for (std::size_t i = 0; i < 4; ++i) {
     const auto wheel = ran.forces().wheels[i];
     INFO(layout.wheels[i].position);
     CHECK(wheel.contact_load_N == Approx(layout.wheels[i].static_load_N).epsilon(2e-5));
     CHECK(wheel.loaded_radius_m == Approx(0.7176 / 2.0 - layout.wheels[i].static_load_N / 220000.0).epsilon(2e-5));
-    CHECK(wheel.wheel_speed_rad_s * wheel.loaded_radius_m == Approx(kSpeed_m_s).epsilon(1e-4));
-    CHECK(wheel.roller_speed_rad_s * 0.6 == Approx(kSpeed_m_s).epsilon(1e-5));
+    CHECK(wheel.wheel_speed_rad_s * wheel.loaded_radius_m == Approx(kVehicleSpeed_m_s).epsilon(1e-4));
+    CHECK(wheel.roller_speed_rad_s * 0.6 == Approx(kVehicleSpeed_m_s).epsilon(1e-5));
   }
 }
 
@@ -113,13 +113,14 @@ TEST_CASE("without loss no torque, no slip, no force: at any tolerance", "[fast]
       fixture.take_losses_away();
       fixture.vehicle.body.drag_area_m2 = 0.0;
       fixture.cvodes.tolerance_factor = factor;
-      Ran ran(fixture, make_program({driving("hold", 30.0, kSpeed_m_s, kSpeed_m_s), coasting(kSpeed_m_s, 1.0, 60.0)}));
+      VehicleRun ran(fixture, make_program({driving("hold", 30.0, kVehicleSpeed_m_s, kVehicleSpeed_m_s),
+                                            coasting(kVehicleSpeed_m_s, 1.0, 60.0)}));
       INFO(rig << ", tolerances times " << factor);
       const rigs::VehicleForces at = ran.forces();
       // In a contact as stiff as the baseline's, a slip of 1e-7 m/s makes 0.1 N: that is 5e-9 of the speed.
       for (const auto& wheel : at.wheels) CHECK(std::abs(wheel.contact_force_N) < 0.05 * std::max(1.0, factor));
       CHECK(std::abs(at.tie_down_N) < 1e-3 * factor);
-      CHECK(at.speed_m_s == Approx(kSpeed_m_s).epsilon(1e-7));
+      CHECK(at.speed_m_s == Approx(kVehicleSpeed_m_s).epsilon(1e-7));
     }
   }
 }
@@ -127,7 +128,7 @@ TEST_CASE("without loss no torque, no slip, no force: at any tolerance", "[fast]
 TEST_CASE("on the road the spindles push the body, which the road pushes through the wheels", "[fast]") {
   // Coasting: the body's own deceleration times its mass is drag and what the spindles hold back.
   VehicleFixture fixture("road", true);
-  Ran ran(fixture, make_program({coasting(35.0, 30.0)}));
+  VehicleRun ran(fixture, make_program({coasting(35.0, 30.0)}));
   const rigs::VehicleForces at = ran.forces();
   double contact_N = 0.0, loss_N = 0.0, rolling_N = 0.0;
   for (const auto& wheel : at.wheels) {
@@ -157,7 +158,7 @@ TEST_CASE("accelerating on the road shifts load from the front to the rear by th
   }
   constexpr double kAcceleration_m_s2 = 1.0;
   const auto program = make_program({driving("hold", 5.0, 10.0, 10.0), driving("faster", 15.0, 10.0, 25.0)});
-  Ran ran(fixture, program);
+  VehicleRun ran(fixture, program);
   const auto at = ran.forces();
   const double radius_m = at.wheels[0].loaded_radius_m;
   const double unsprung_kg =
@@ -214,8 +215,8 @@ TEST_CASE("two vehicles at once do not disturb each other", "[fast]") {
   const VehicleFixture on_rollers("dyno_1m2", true);
   const VehicleFixture on_road("road", true);
   const double alone_N = on_rollers.run_multibody(hold(10.0)).channel("loss_force_front_left_N").back();
-  Ran first(on_rollers, hold(10.0));
-  Ran second(on_road, hold(10.0));
+  VehicleRun first(on_rollers, hold(10.0));
+  VehicleRun second(on_road, hold(10.0));
   CHECK(first.recording.channel("loss_force_front_left_N").back() == alone_N);
   CHECK(first.forces().wheels[0].roller_speed_rad_s > 0.0);
   CHECK(second.forces().wheels[0].roller_speed_rad_s == 0.0);
@@ -245,7 +246,7 @@ TEST_CASE("the temperatures of every wheel are asked whether they are possible, 
   };
   const VehicleFixture fixture("dyno_1m2", true);
   const sim::Program stand = make_program({driving("stand", 5.0, 0.0, 0.0)});
-  Ran ran(fixture, stand);
+  VehicleRun ran(fixture, stand);
   check_each(ran.vehicle, ran.recording.final_state, ran.corners.size());
   std::vector<models::Corner<double>> corners = fixture.corners();
   const rigs::QuasiStaticVehicle<double> quasi_static(corners, fixture.layout(), fixture.start(), false);

@@ -14,7 +14,7 @@ using tests::VehicleFixture;
 
 namespace {
 
-constexpr double kSpeed_m_s = 27.0;
+constexpr double kUnevenSpeed_m_s = 27.0;
 constexpr double kLoad_N = 4700.0;
 constexpr double kRrc = 0.0083;
 
@@ -58,14 +58,15 @@ rigs::VehicleForces find_first_forces(const VehicleFixture& fixture, const sim::
 TEST_CASE("a drum that starts rolling is in equilibrium at its first instant", "[fast]") {
   const DrumFixture fixture = make_uneven_fixture();
   const double radius_m = 0.5 * fixture.rig.drum.diameter_m;
-  const rigs::DrumForces at = find_first_forces(fixture, tests::drum_segment(60.0, kSpeed_m_s, kSpeed_m_s, kLoad_N));
+  const rigs::DrumForces at =
+      find_first_forces(fixture, tests::drum_segment(60.0, kUnevenSpeed_m_s, kUnevenSpeed_m_s, kLoad_N));
   CHECK(at.contact_load_N == Approx(kLoad_N).epsilon(1e-9));
-  CHECK(at.surface_speed_m_s == Approx(kSpeed_m_s).epsilon(1e-12));
-  CHECK(at.wheel_speed_rad_s * at.loaded_radius_m == Approx(kSpeed_m_s).epsilon(1e-12));
-  CHECK(at.drum_speed_rad_s * radius_m == Approx(kSpeed_m_s).epsilon(1e-12));
+  CHECK(at.surface_speed_m_s == Approx(kUnevenSpeed_m_s).epsilon(1e-12));
+  CHECK(at.wheel_speed_rad_s * at.loaded_radius_m == Approx(kUnevenSpeed_m_s).epsilon(1e-12));
+  CHECK(at.drum_speed_rad_s * radius_m == Approx(kUnevenSpeed_m_s).epsilon(1e-12));
   // The motor's power is all that is lost, and nothing else moves the tire.
   CHECK(at.motor_torque_Nm * at.drum_speed_rad_s ==
-        Approx((kRrc * kLoad_N + at.parasitic_N) * kSpeed_m_s).epsilon(1e-9));
+        Approx((kRrc * kLoad_N + at.parasitic_N) * kUnevenSpeed_m_s).epsilon(1e-9));
   CHECK(at.hub_moment_Nm == Approx(0.0).margin(1e-6));
 }
 
@@ -74,15 +75,17 @@ TEST_CASE("a vehicle that starts rolling is in equilibrium at its first instant,
   for (const char* rig : {"dyno_1m2", "road"}) {
     const VehicleFixture fixture = make_uneven_fixture(rig, true);
     const auto layout = fixture.layout();
-    const rigs::VehicleForces at = find_first_forces(fixture, tests::driving("hold", 60.0, kSpeed_m_s, kSpeed_m_s));
+    const rigs::VehicleForces at =
+        find_first_forces(fixture, tests::driving("hold", 60.0, kUnevenSpeed_m_s, kUnevenSpeed_m_s));
     for (std::size_t i = 0; i < at.wheels.size(); ++i) {
       INFO(rig << ", " << layout.wheels[i].position);
       CHECK(at.wheels[i].contact_load_N == Approx(layout.wheels[i].static_load_N).epsilon(1e-9));
-      CHECK(at.wheels[i].wheel_speed_rad_s * at.wheels[i].loaded_radius_m == Approx(kSpeed_m_s).epsilon(1e-9));
+      CHECK(at.wheels[i].wheel_speed_rad_s * at.wheels[i].loaded_radius_m == Approx(kUnevenSpeed_m_s).epsilon(1e-9));
       if (fixture.rig.kind == tests::kRoad) continue;
-      CHECK(at.wheels[i].roller_speed_rad_s * 0.5 * fixture.rig.drum.diameter_m == Approx(kSpeed_m_s).epsilon(1e-9));
+      CHECK(at.wheels[i].roller_speed_rad_s * 0.5 * fixture.rig.drum.diameter_m ==
+            Approx(kUnevenSpeed_m_s).epsilon(1e-9));
     }
-    CHECK(at.speed_m_s == Approx(kSpeed_m_s).epsilon(1e-9));
+    CHECK(at.speed_m_s == Approx(kUnevenSpeed_m_s).epsilon(1e-9));
   }
 }
 
@@ -92,15 +95,15 @@ TEST_CASE("the drum follows a ramp from its first moment: the motor gives the to
   constexpr double kAcceleration_m_s2 = 0.9;
   constexpr double kHold_s = 20.0;
   for (const double ramp_s : {0.1, 0.35, 1.0, 5.0}) {
-    const double end_m_s = kSpeed_m_s + kAcceleration_m_s2 * ramp_s;
+    const double end_m_s = kUnevenSpeed_m_s + kAcceleration_m_s2 * ramp_s;
     sim::Phase up;
     up.name = "up";
-    up.segments = {tests::drum_segment(ramp_s, kSpeed_m_s, end_m_s, kLoad_N)};
+    up.segments = {tests::drum_segment(ramp_s, kUnevenSpeed_m_s, end_m_s, kLoad_N)};
     models::Corner<double> corner = fixture.corner();
     rigs::MultibodyDrum drum(corner, fixture.rig, fixture.start(), false);
     sim::CvodesIntegrator integrator(drum, fixture.cvodes);
     const auto recording = sim::simulate<double>(
-        drum, integrator, make_program({tests::rolling("hold", kHold_s, kSpeed_m_s, kLoad_N), up}));
+        drum, integrator, make_program({tests::rolling("hold", kHold_s, kUnevenSpeed_m_s, kLoad_N), up}));
     INFO("after " << ramp_s << " s");
     // By the controller alone it would lag by up to 0.9/(3 e) = 0.11 m/s.
     const rigs::DrumForces at = drum.find_forces(kHold_s + ramp_s, recording.final_state.data());

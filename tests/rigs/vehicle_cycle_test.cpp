@@ -2,28 +2,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "scenarios/common/speed_trace.h"
 #include "scenarios/common/vehicle_bench.h"
-#include "tests/support/vehicle_fixture.h"
+#include "tests/rigs/vehicles_on.h"
 
 using namespace rollrig;
 using rigs::VehicleIntegral;
+using tests::city;
 using tests::find_total;
 using tests::VehicleFixture;
 
 namespace {
-
-sim::Program city() {
-  const scenarios::SpeedTrace trace = scenarios::read_speed_trace("udds");
-  sim::Phase phase = tests::driving("city", 1.0, 0.0, 0.0);
-  phase.segments.clear();
-  for (std::size_t i = 0; i + 1 < trace.time_s.size(); ++i) {
-    phase.segments.push_back(
-        tests::vehicle_segment(trace.time_s[i + 1] - trace.time_s[i], trace.speed_m_s[i], trace.speed_m_s[i + 1]));
-    phase.segments.back().max_step_s = 0.0;
-  }
-  return tests::make_program({phase});
-}
 
 /// Distance is the trace's, audits close, and what the hubs gave is what was lost.
 void check_city(const VehicleFixture& fixture, bool multibody) {

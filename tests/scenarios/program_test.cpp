@@ -42,7 +42,7 @@ void check_equal(const sim::Recording<double>& a, const sim::Recording<double>& 
   }
 }
 
-double value_at(const scenarios::Outcome& outcome, const char* channel, double time_s) {
+double channel_at(const scenarios::Outcome& outcome, const char* channel, double time_s) {
   return outcome.recording.channel(channel)[outcome.recording.row_at(time_s)];
 }
 
@@ -73,12 +73,12 @@ TEST_CASE("energy closes whatever the rows ask for", "[fast]") {
 
 TEST_CASE("a load holds until the next row, all else goes straight", "[fast]") {
   const auto outcome = follow(kEverything);
-  CHECK(value_at(outcome, "load_N", 299.0) == Approx(5400.0));
-  CHECK(value_at(outcome, "load_N", 300.0) == Approx(200.0));
-  CHECK(value_at(outcome, "load_N", 450.0) == 0.0);
-  CHECK(3.6 * value_at(outcome, "speed_km_h", 530.0) == Approx(100.0));
-  CHECK(value_at(outcome, "ambient_degC", 150.0) == Approx(298.4));
-  CHECK(value_at(outcome, "speed_km_h", 1000.0) == 0.0);
+  CHECK(channel_at(outcome, "load_N", 299.0) == Approx(5400.0));
+  CHECK(channel_at(outcome, "load_N", 300.0) == Approx(200.0));
+  CHECK(channel_at(outcome, "load_N", 450.0) == 0.0);
+  CHECK(3.6 * channel_at(outcome, "speed_km_h", 530.0) == Approx(100.0));
+  CHECK(channel_at(outcome, "ambient_degC", 150.0) == Approx(298.4));
+  CHECK(channel_at(outcome, "speed_km_h", 1000.0) == 0.0);
   // 80 km/h for 500 s, to 120 in 60 s, 120 for 300 s, to 0 in 40 s, 200 s of rest, to 60 in 50 s, 60 for 250 s
   const double expected_km = (80.0 * 500.0 + 100.0 * 60.0 + 120.0 * 300.0 + 60.0 * 40.0 + 30.0 * 50.0 + 60.0 * 250.0);
   CHECK(tests::number(outcome, "distance_km") == Approx(expected_km / 3600.0));
@@ -125,7 +125,7 @@ TEST_CASE("what memory a tire starts with goes by its rest, and into the set", "
   const std::vector<std::string> short_soak{"soak_h=0", "pressure_check_min=0", "effects.flat_spot.excess_percent=6"};
   const auto start_N = [&](std::vector<std::string> settings) {
     settings.insert(settings.end(), short_soak.begin(), short_soak.end());
-    return value_at(follow(rows, settings), "rolling_resistance_N", 5.0);
+    return channel_at(follow(rows, settings), "rolling_resistance_N", 5.0);
   };
   const double soaked_N = start_N({});
   const double rested_N = start_N({"rest_before_min=30"});

@@ -15,7 +15,7 @@ double RunStart::recovered_in_rest(double time_s) const {
 
 const std::vector<const EffectKind*>& effect_kinds() {
   static const std::vector<const EffectKind*> kinds{
-#define ROLLRIG_EFFECT(id) &kind_##id,
+#define ROLLRIG_EFFECT(id) &id::kind,
 #include "validation/generator/effects.def"
 #undef ROLLRIG_EFFECT
   };

@@ -167,7 +167,10 @@ struct EffectKind {
   bool outside = false;         // of the catalog
 };
 
-#define ROLLRIG_EFFECT(id) extern const EffectKind kind_##id;
+#define ROLLRIG_EFFECT(id)      \
+  namespace id {                \
+  extern const EffectKind kind; \
+  }
 #include "validation/generator/effects.def"
 #undef ROLLRIG_EFFECT
 

@@ -11,7 +11,7 @@
 namespace rollrig::validation {
 namespace {
 
-struct Options {
+struct PlanCommandOptions {
   PlanOrder order;
   bool drawn = false;
   bool quiet = false;
@@ -31,7 +31,7 @@ std::string summarize(const std::vector<FollowUpPlan>& plans, const std::string&
   return text;
 }
 
-int plan_command(Options options) {
+int plan_command(PlanCommandOptions options) {
   PlanOrder& order = options.order;
   if (options.drawn) order.choice = Choice::kDrawn;
   order.answers = place_in(order.set, "answers", order.answers);
@@ -49,7 +49,7 @@ int plan_command(Options options) {
 }  // namespace
 
 void add_plan_command(CLI::App& app, cli::Action& action) {
-  const auto [command, options] = cli::add_command<Options>(
+  const auto [command, options] = cli::add_command<PlanCommandOptions>(
       app, action, "plan",
       "Write the follow-up test of each case whose causes cannot be told apart, the truth unopened, for follow-up",
       plan_command);

@@ -10,12 +10,12 @@
 namespace rollrig::validation {
 namespace {
 
-struct Options {
+struct ReleaseCheckOptions {
   std::string record;
   bool write = false;
 };
 
-int release_check_command(const Options& options) {
+int release_check_command(const ReleaseCheckOptions& options) {
   const Json now = list_decision_settings();
   if (options.write) {
     write_output(options.record, now.dump(1) + "\n");
@@ -40,7 +40,7 @@ int release_check_command(const Options& options) {
 }  // namespace
 
 void add_release_check_command(CLI::App& app, cli::Action& action) {
-  const auto [command, options] = cli::add_command<Options>(
+  const auto [command, options] = cli::add_command<ReleaseCheckOptions>(
       app, action, "release-check",
       "Compare what decides a diagnosis with what it was when a validation set was answered", release_check_command);
   command->add_option("record", options->record, "File with the settings of that validation set")->required();

@@ -92,7 +92,7 @@ report::Page make_score_page(const Score& score, const std::string& set) {
   return page;
 }
 
-struct Options {
+struct ScoreCommandOptions {
   ScoreOrder order;
   ScoreOptions how;
   std::string json;
@@ -118,7 +118,7 @@ void fill_places(ScoreOrder& order) {
   order.drawn_tests = find_tests(Choice::kDrawn);
 }
 
-int score_command(Options options) {
+int score_command(ScoreCommandOptions options) {
   const cli::OutputFiles files({{"--json", options.json}, {"--markdown", options.markdown}, {"--html", options.html}});
   fill_places(options.order);
   Score score = score_cases(read_cases(options.order), options.how);
@@ -135,8 +135,8 @@ int score_command(Options options) {
 }  // namespace
 
 void add_score_command(CLI::App& app, cli::Action& action) {
-  const auto [command, options] =
-      cli::add_command<Options>(app, action, "score", "Open the truth and score the answers", score_command);
+  const auto [command, options] = cli::add_command<ScoreCommandOptions>(
+      app, action, "score", "Open the truth and score the answers", score_command);
   ScoreOrder& order = options->order;
   add_set_to(*command, order.set);
   command->add_option("--hash", order.hash, "SHA-256 that truth.json must have [what truth.sha256 says]");

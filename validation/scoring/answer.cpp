@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace rollrig::validation {
 namespace {
 
-constexpr const char* kFormat = "rollrig-blind-answer/1";
+constexpr const char* kAnswerFormat = "rollrig-blind-answer/1";
 
 double read_number(const Json& json) {
   return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -73,7 +73,7 @@ bool operator==(const Settings& a, const Settings& b) {
 std::string hash_program() { return calc_sha256(read_bytes("/proc/self/exe")); }
 
 Json make_answer_json(const Answer& answer) {
-  Json json = {{"format", kFormat},
+  Json json = {{"format", kAnswerFormat},
                {"set", answer.number},
                {"set_sha256", answer.set_sha256},
                {"program_sha256", answer.settings.program_sha256},
@@ -87,8 +87,8 @@ Json make_answer_json(const Answer& answer) {
 }
 
 Answer read_answer_json(const Json& json) {
-  if (json.at("format") != kFormat) {
-    throw InputError({"not an answer to a case", "", 0, "format", json.at("format").dump(), kFormat, ""});
+  if (json.at("format") != kAnswerFormat) {
+    throw InputError({"not an answer to a case", "", 0, "format", json.at("format").dump(), kAnswerFormat, ""});
   }
   Answer answer;
   answer.number = json.at("set").get<std::string>();

@@ -11,7 +11,7 @@
 namespace rollrig::validation {
 namespace {
 
-constexpr const char* kFormat = "rollrig-validation-settings/1";
+constexpr const char* kSettingsFormat = "rollrig-validation-settings/1";
 
 Json describe(const models::Effect& effect) {
   const models::EffectInfo& info = effect.info;
@@ -39,7 +39,7 @@ std::string name_of(const std::string& pointer) {
 }  // namespace
 
 Json list_decision_settings() {
-  Json settings = {{"format", kFormat}, {"thresholds", list_thresholds()}, {"effects", Json::object()}};
+  Json settings = {{"format", kSettingsFormat}, {"thresholds", list_thresholds()}, {"effects", Json::object()}};
   for (const models::Effect* effect : models::all_effects()) settings["effects"][effect->info.id] = describe(*effect);
   return settings;
 }
@@ -73,10 +73,10 @@ SettingsComparison compare_settings(const Json& recorded, const Json& now) {
 Json read_settings(const std::string& file) {
   try {
     Json settings = Json::parse(read_text_file(file));
-    if (settings.at("format") == kFormat && settings.at("effects").is_object()) return settings;
+    if (settings.at("format") == kSettingsFormat && settings.at("effects").is_object()) return settings;
   } catch (const Json::exception&) {  // said below
   }
-  throw InputError({"no record of a validation set's settings", file, 0, "format", "", kFormat, ""});
+  throw InputError({"no record of a validation set's settings", file, 0, "format", "", kSettingsFormat, ""});
 }
 
 }  // namespace rollrig::validation

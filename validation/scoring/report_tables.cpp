@@ -39,7 +39,7 @@ Table make_figures(const Score& score) {
   return table;
 }
 
-Table make_baselines(const Score& score) {
+Table make_baseline_table(const Score& score) {
   Table table{"Baselines", {"figure"}, {}};
   for (const BaselineScore& baseline : score.baselines) table.columns.push_back(baseline.label);
   for (const Figure& figure : score.figures) {
@@ -109,7 +109,7 @@ std::string cell(std::string text) {
 
 std::vector<Table> make_score_tables(const Score& score) {
   std::vector<Table> tables{make_figures(score),
-                            make_baselines(score),
+                            make_baseline_table(score),
                             make_tallies("By effect", score.by_effect),
                             make_tallies("By campaign", score.by_campaign),
                             make_tallies("By size", score.by_size_class),

@@ -2,10 +2,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/hand_fed_corner.h"
+#include "tests/models/effects/heat_balance.h"
 
 using namespace rollrig;
 using models::Node;
+using tests::check_heat_balance;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
@@ -19,12 +20,6 @@ models::Context<double> insulated(tests::Machine kind) {
   context.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
   context.tire.thermal.H_gas_W_per_K = 0.0;
   return context;
-}
-
-void check_heat_balance(HandFedCorner<double>& at) {
-  const double stored_W = at.stored_heat_rate_W();
-  const auto& heat = at.now.heat;
-  CHECK(stored_W == Approx(heat.heat_in_W - heat.to_air_W - heat.to_road_W).margin(1e-3));
 }
 
 }  // namespace

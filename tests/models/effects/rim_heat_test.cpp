@@ -2,11 +2,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/support/hand_fed_corner.h"
+#include "tests/models/effects/heat_balance.h"
 
 using namespace rollrig;
 using models::index_of;
 using models::Node;
+using tests::check_heat_balance;
 using tests::HandFedCorner;
 using tests::make_context_on;
 using tests::switch_on;
@@ -15,12 +16,6 @@ namespace {
 
 models::ActiveEffect rim_at(double conductance_W_per_K, double gas_share = 0.5) {
   return switch_on("rim_heat", {conductance_W_per_K, gas_share, 7.0, 0.4});
-}
-
-void check_heat_balance(HandFedCorner<double>& at) {
-  const double stored_W = at.stored_heat_rate_W();
-  const auto& heat = at.now.heat;
-  CHECK(stored_W == Approx(heat.heat_in_W - heat.to_air_W - heat.to_road_W).margin(1e-3));
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ constexpr double kLag_s = 24.0;  // of the gas behind the rubber
 double integral_of_warm_up(double t) { return t < 0.0 ? 0.0 : 20.0 * (t + kLag_s * (std::exp(-t / kLag_s) - 1.0)); }
 
 constexpr double kRadius_m = 0.8535;  // of the drum of tests/support/uneven_machines.h
-const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kNoReading = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -79,7 +79,7 @@ TEST_CASE("the torque's zero starts to drift at its rate and comes to rest by ra
 
 TEST_CASE("the zero's drift is one force, on the drum's torque by its radius, on the dyno as it is", "[fast]") {
   const std::vector<double> time_s{1000.0, 1600.0, 2200.0};  // counted from the run's start
-  const std::vector<double> values{30.0, kNan, 32.0};
+  const std::vector<double> values{30.0, kNoReading, 32.0};
   const auto drift = switch_on("torque_zero_drift", {3.0, 1000.0, 0.0});
   auto context = tests::make_context_on(tests::kDrum);
   context.surface_curvature_per_m = 1.0 / 0.85;
@@ -182,7 +182,7 @@ TEST_CASE("rows without a sample stay so, and the others bridge them by straight
   const std::vector<double> time_s = rows_every(1.0, 60.0);
   const auto line = means_of([](double t) { return 300.0 * t + 0.5 * 0.02 * t * t; }, time_s);
   auto gappy = line;
-  for (const std::size_t k : {0u, 20u, 30u, 31u, 32u, 33u, 60u}) gappy[k] = kNan;
+  for (const std::size_t k : {0u, 20u, 30u, 31u, 32u, 33u, 60u}) gappy[k] = kNoReading;
   const auto shifted = shift(4.25, time_s, gappy);
   for (std::size_t k = 0; k < line.size(); ++k) {
     CHECK(std::isnan(shifted[k]) == std::isnan(gappy[k]));
@@ -191,7 +191,7 @@ TEST_CASE("rows without a sample stay so, and the others bridge them by straight
   // to the bit where there is no shift, in short and in empty records
   const auto unshifted = shift(0.0, time_s, gappy);
   for (std::size_t k = 0; k < line.size(); ++k) CHECK((std::isnan(gappy[k]) || unshifted[k] == gappy[k]));
-  CHECK(std::isnan(shift(3.0, {0.0, 1.0, 2.0}, {kNan, kNan, kNan})[1]));
+  CHECK(std::isnan(shift(3.0, {0.0, 1.0, 2.0}, {kNoReading, kNoReading, kNoReading})[1]));
   CHECK(shift(3.0, {0.0}, {5.0}) == std::vector<double>{5.0});
   CHECK(shift(3.0, {}, {}).empty());
 }

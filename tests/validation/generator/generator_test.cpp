@@ -12,6 +12,7 @@
 #include "sim/core/file_io.h"
 #include "tests/support/run_program.h"
 #include "tests/validation/generator/generated_set.h"
+#include "tests/validation/generator/planned_case.h"
 #include "validation/files.h"
 
 namespace fs = std::filesystem;
@@ -19,14 +20,6 @@ using namespace rollrig;
 using namespace rollrig::tests;
 
 namespace {
-
-std::map<std::string, std::string> read_folder(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) files[fs::relative(entry.path(), folder).string()] = read_file(entry.path().string());
-  }
-  return files;
-}
 
 std::map<std::string, std::string> make_files(const std::string& arguments) {
   const TemporaryFolder folder;

@@ -18,8 +18,9 @@ namespace rollrig::tests {
 
 inline std::map<std::string, std::string> read_folder(const std::string& folder) {
   std::map<std::string, std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    files[entry.path().filename().string()] = read_file(entry.path().string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    files[std::filesystem::relative(entry.path(), folder).string()] = read_file(entry.path().string());
   }
   return files;
 }

@@ -14,7 +14,7 @@ constexpr Eigen::Index kPoints = 150;
 
 Eigen::MatrixXd spread_over(double length) { return Eigen::VectorXd::LinSpaced(kPoints, 0.0, length); }
 
-Eigen::VectorXd draw_noise(std::uint64_t seed) {
+Eigen::VectorXd draw_unit_noise(std::uint64_t seed) {
   RandomStream random(seed, "gaussian process");
   Eigen::VectorXd noise(kPoints);
   for (double& value : noise) value = random.normal();
@@ -31,13 +31,13 @@ TEST_CASE("a smooth function is predicted where it was not seen, through noise",
   const Eigen::MatrixXd seen = spread_over(6.0);
   const Eigen::MatrixXd unseen = seen.array() + 0.02;
   const auto truth = [](const Eigen::MatrixXd& x) -> Eigen::VectorXd { return 10.0 * x.array().sin(); };
-  const validation::GaussianProcess process(seen, truth(seen) + draw_noise(1), kNoise);
+  const validation::GaussianProcess process(seen, truth(seen) + draw_unit_noise(1), kNoise);
   CHECK(rms(truth(unseen) - process.predict(unseen)) < 0.1 * rms(truth(unseen)));
 }
 
 TEST_CASE("of white noise next to nothing is predicted", "[fast]") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    const validation::GaussianProcess process(spread_over(6.0), draw_noise(seed), kNoise);
+    const validation::GaussianProcess process(spread_over(6.0), draw_unit_noise(seed), kNoise);
     CHECK(rms(process.predict(spread_over(6.0))) < 0.35);
   }
 }

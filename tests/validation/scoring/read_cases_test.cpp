@@ -16,7 +16,7 @@ using namespace rollrig::tests;
 
 namespace {
 
-validation::ScoreOrder make_order(const ValidationSetFolder& made) {
+validation::ScoreOrder make_score_order(const ValidationSetFolder& made) {
   validation::ScoreOrder order;
   order.set = made.root;
   order.answers = made.root + "/answers";
@@ -69,13 +69,13 @@ TEST_CASE("a truth of other cases is not scored", "[fast]") {
 TEST_CASE("answers that lack are counted, with the command that mends it", "[fast]") {
   const ValidationSetFolder made;
   answer_all(made);
-  CHECK(validation::read_cases(make_order(made)).size() == 3);
+  CHECK(validation::read_cases(make_score_order(made)).size() == 3);
   fs::remove(made.answer("0003"));
-  CHECK_THROWS_WITH(validation::read_cases(make_order(made)),
+  CHECK_THROWS_WITH(validation::read_cases(make_score_order(made)),
                     Contains("1 of 3 cases") && Contains("rollrig_validation run " + made.root));
   answer_all(made);
   write_file(made.root + "/sets/0001/set.toml", "changed after it was answered\n");
-  CHECK_THROWS_WITH(validation::read_cases(make_order(made)), Contains("1 of 3 cases"));
+  CHECK_THROWS_WITH(validation::read_cases(make_score_order(made)), Contains("1 of 3 cases"));
 }
 
 TEST_CASE("fits that know the cause are of effects of the catalog", "[fast]") {
@@ -135,7 +135,7 @@ TEST_CASE("what the catalog calls confusable with a truth is left out with it, e
 TEST_CASE("an upper bound of another validation set is refused, one of this validation set read", "[fast]") {
   const ValidationSetFolder made;
   answer_all(made);
-  validation::ScoreOrder order = make_order(made);
+  validation::ScoreOrder order = make_score_order(made);
   order.upper_bound = made.root + "/upper_bound.json";
   const auto write_bound = [&](const std::string& sha256) {
     const Json json = {{"truth_sha256", sha256},

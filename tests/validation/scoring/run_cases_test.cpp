@@ -14,7 +14,7 @@ using namespace rollrig::tests;
 
 namespace {
 
-validation::RunOrder make_order(const ValidationSetFolder& made, const std::vector<std::string>& only = {}) {
+validation::RunOrder make_run_order(const ValidationSetFolder& made, const std::vector<std::string>& only = {}) {
   validation::RunOrder order{made.root, made.root + "/answers", validation::plan_tasks(made.root, only, {})};
   order.threads = 2;
   return order;
@@ -24,7 +24,7 @@ validation::RunOrder make_order(const ValidationSetFolder& made, const std::vect
 
 TEST_CASE("each set has an answer, and a set that cannot be diagnosed an answer that says so", "[fast]") {
   const ValidationSetFolder made;
-  const validation::RunTally tally = validation::run_cases(make_order(made));
+  const validation::RunTally tally = validation::run_cases(make_run_order(made));
   CHECK(tally.made == 3);
   CHECK(tally.failures.size() == 3);
   const auto answer = validation::find_answer(made.root + "/answers", "0002").value();
@@ -34,45 +34,45 @@ TEST_CASE("each set has an answer, and a set that cannot be diagnosed an answer 
 
 TEST_CASE("what is answered is kept, unless the case, the comparison or the file is another", "[fast]") {
   const ValidationSetFolder made;
-  validation::run_cases(make_order(made));
+  validation::run_cases(make_run_order(made));
   const std::string first = read_file(made.answer("0001"));
-  CHECK(validation::run_cases(make_order(made)).kept == 3);
+  CHECK(validation::run_cases(make_run_order(made)).kept == 3);
   CHECK(read_file(made.answer("0001")) == first);
   write_file(made.root + "/sets/0001/set.toml", "no set, other\n");
   fs::remove(made.answer("0002"));
   write_file(made.answer("0003"), "{\"format\": \"rollrig-blind-an");
-  CHECK(validation::run_cases(make_order(made)).made == 3);
+  CHECK(validation::run_cases(make_run_order(made)).made == 3);
   write_file(made.root + "/sets/0001/run.csv", "");  // a file more is another set
-  CHECK(validation::run_cases(make_order(made)).made == 1);
-  CHECK(validation::run_cases(make_order(made, {"rim_heat"})).made == 3);
-  CHECK(validation::run_cases(make_order(made, {"rim_heat"})).kept == 3);
+  CHECK(validation::run_cases(make_run_order(made)).made == 1);
+  CHECK(validation::run_cases(make_run_order(made, {"rim_heat"})).made == 3);
+  CHECK(validation::run_cases(make_run_order(made, {"rim_heat"})).kept == 3);
 }
 
 TEST_CASE("an answer of another program is not kept", "[fast]") {
   const ValidationSetFolder made;
-  validation::run_cases(make_order(made));
+  validation::run_cases(make_run_order(made));
   validation::Answer answer = validation::find_answer(made.root + "/answers", "0001").value();
   answer.settings.program_sha256 = std::string(64, '0');
   validation::write_answer(made.root + "/answers", answer);
-  CHECK(validation::run_cases(make_order(made)).made == 1);
+  CHECK(validation::run_cases(make_run_order(made)).made == 1);
 }
 
 TEST_CASE("the truth is not opened: without it, or where it is no file, the answers are the same", "[fast]") {
   const ValidationSetFolder made;
-  validation::run_cases(make_order(made));
+  validation::run_cases(make_run_order(made));
   const std::string blind = validation::find_answer(made.root + "/answers", "0002").value().failure;
   fs::remove(made.truth);
   fs::remove_all(made.root + "/answers");
-  CHECK(validation::run_cases(make_order(made)).made == 3);
+  CHECK(validation::run_cases(make_run_order(made)).made == 3);
   fs::create_directory(made.truth);  // cannot be opened even by root
   fs::remove_all(made.root + "/answers");
-  CHECK(validation::run_cases(make_order(made)).made == 3);
+  CHECK(validation::run_cases(make_run_order(made)).made == 3);
   CHECK(validation::find_answer(made.root + "/answers", "0002").value().failure == blind);
 }
 
 TEST_CASE("processes share the sets: each is answered by one", "[fast]") {
   const ValidationSetFolder made;
-  validation::RunOrder order = make_order(made);
+  validation::RunOrder order = make_run_order(made);
   order.ranks = 2;
   CHECK(validation::run_cases(order).made == 2);
   order.rank = 1;

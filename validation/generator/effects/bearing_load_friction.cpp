@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::bearing_load_friction {
 namespace {
 
 constexpr double kReference_N = 5400.0;
@@ -32,7 +32,7 @@ void make_palmgren(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_bearing_load_friction{
+const EffectKind kind{
     "bearing_load_friction",
     {"N", "friction at 5.4 kN and at speed", 0.0, 0.0, 50.0, log_normal(0.3, 3.0, 0.15, 5.0)},
     {{"sliding_and_rolling",
@@ -43,4 +43,4 @@ const EffectKind kind_bearing_load_friction{
       "Palmgren's moment under load, P^(1 + y), y 0 to 0.55 from roller to ball bearings, whatever the speed",
       make_palmgren}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::bearing_load_friction

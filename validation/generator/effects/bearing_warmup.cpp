@@ -4,7 +4,7 @@
 #include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::bearing_warmup {
 namespace {
 
 constexpr double kSoaked_degC = 25.0;
@@ -82,7 +82,7 @@ void make_arrhenius(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_bearing_warmup{
+const EffectKind kind{
     "bearing_warmup",
     {"1/K", "relative fall of c0 + c1 v per K, from soaked at 25 degC to steady at 80 km/h", 0.0, 0.0, 0.2,
      log_normal(0.005, 0.04, 0.002, 0.06)},
@@ -95,4 +95,4 @@ const EffectKind kind_bearing_warmup{
       "with speed",
       make_arrhenius}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::bearing_warmup

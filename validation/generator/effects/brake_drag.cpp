@@ -2,7 +2,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::brake_drag {
 namespace {
 
 void make_worn_off(Making& of) {
@@ -35,7 +35,7 @@ void make_hot_disc(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_brake_drag{
+const EffectKind kind{
     "brake_drag",
     {"N", "drag of one wheel right after strong braking", 0.0, 0.0, 100.0, log_normal(2.0, 12.0, 1.2, 18.0)},
     {{"worn_off", "set by brakings with the square of their force, worn off over distance instead of time",
@@ -44,4 +44,4 @@ const EffectKind kind_brake_drag{
     kVehicleGrounds,
     kVehicleGrounds};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::brake_drag

@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::brake_heat {
 namespace {
 
 /// Heat to bead and gas from the last store on the way, which empties within `delay_s`.
@@ -45,7 +45,7 @@ void make_share(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_brake_heat{
+const EffectKind kind{
     "brake_heat",
     {"percent", "share of the brake power that reaches the tire in town, where the disc is cooled at 40 km/h", 0.0, 0.0,
      100.0, log_normal(2.0, 15.0, 1.5, 20.0)},
@@ -56,4 +56,4 @@ const EffectKind kind_brake_heat{
     kVehicleGrounds,
     kDynoGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::brake_heat

@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::cavity_volume {
 namespace {
 
 constexpr double kReference_N = 5400.0;
@@ -59,7 +59,7 @@ void make_segment(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_cavity_volume{
+const EffectKind kind{
     "cavity_volume",
     {"percent", "smaller volume at 5.4 kN and the reference pressure than without load", 0.0, 0.0, 10.0,
      log_normal(0.15, 1.0, 0.1, 1.4)},
@@ -72,4 +72,4 @@ const EffectKind kind_cavity_volume{
       "follows the pressure; growth with v^2; works on the gas",
       make_segment}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::cavity_volume

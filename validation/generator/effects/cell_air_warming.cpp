@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::cell_air_warming {
 namespace {
 
 void make_air_and_walls(Making& of) {
@@ -49,7 +49,7 @@ void make_ventilated(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_cell_air_warming{
+const EffectKind kind{
     "cell_air_warming",
     {"K", "rise after long running at 80 km/h and the reference load", 0.0, -20.0, 20.0,
      log_normal(1.0, 6.0, 0.7, 8.0)},
@@ -61,4 +61,4 @@ const EffectKind kind_cell_air_warming{
       "heat^(2/3); rests cool it",
       make_ventilated}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::cell_air_warming

@@ -4,7 +4,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::clock_shift {
 namespace {
 
 void shift_row(RunRecord& record, std::size_t row, double shift_s) {
@@ -34,7 +34,7 @@ void make_set_anew(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_clock_shift{
+const EffectKind kind{
     "clock_shift",
     {"s", "delay of temperature and pressure in the record against torque", 0.0, -25.0, 25.0,
      log_normal(0.5, 10.0, 0.2, 20.0), true},
@@ -46,4 +46,4 @@ const EffectKind kind_clock_shift{
       "the logger's clock runs fast or slow and is set anew time and again: the shift is a saw-tooth about the size",
       make_set_anew}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::clock_shift

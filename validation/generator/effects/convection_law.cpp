@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::convection_law {
 namespace {
 
 /// Laminar and turbulent parts of the boundary layer.
@@ -26,7 +26,7 @@ void make_fan(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_convection_law{
+const EffectKind kind{
     "convection_law",
     {"1", "exponent of the speed-dependent cooling over speed at 80 km/h", 1.0, 0.5, 1.0, normal(0.6, 1.0, 0.52, 0.96)},
     {{"boundary_layers", "a part with sqrt(v) beside one with v; f holds at 80 km/h", make_boundary_layers},
@@ -34,4 +34,4 @@ const EffectKind kind_convection_law{
     kEveryGround,
     kRigGrounds};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::convection_law

@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::curvature_exponent {
 namespace {
 
 void make_straight(Making& of) {
@@ -27,7 +27,7 @@ void make_power(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_curvature_exponent{
+const EffectKind kind{
     "curvature_exponent",
     {"1", "exponent of the correction factor near 1, at the reference load", 1.0, -1.0, 3.0, normal(0.6, 1.4, 0.3, 1.7),
      false, 0.08},
@@ -37,4 +37,4 @@ const EffectKind kind_curvature_exponent{
     kRigGrounds | kRoadGround,
     kDynoGround | kRoadGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::curvature_exponent

@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::drafting {
 namespace {
 
 void make_drafting(Making& of) {
@@ -25,11 +25,11 @@ void make_drafting(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_drafting{"drafting",
-                               {"percent", "drag saved in the wake", 0.0, 0.0, 80.0, log_normal(10.0, 30.0, 8.0, 40.0)},
-                               {{"only", "the drag falls and comes back over stretches of some km", make_drafting}},
-                               kRoadGrounds,
-                               kRoadGrounds,
-                               true};
+const EffectKind kind{"drafting",
+                      {"percent", "drag saved in the wake", 0.0, 0.0, 80.0, log_normal(10.0, 30.0, 8.0, 40.0)},
+                      {{"only", "the drag falls and comes back over stretches of some km", make_drafting}},
+                      kRoadGrounds,
+                      kRoadGrounds,
+                      true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::drafting

@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::driveline_warming {
 namespace {
 
 constexpr double kHeating = 1.6;  // Assumed: of the steady rise, with oil as cold as soaked
@@ -71,7 +71,7 @@ void make_walther(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_driveline_warming{
+const EffectKind kind{
     "driveline_warming",
     {"N", "friction of one wheel, soaked at 23 degC", 0.0, 0.0, 200.0, log_normal(3.0, 25.0, 2.0, 35.0)},
     {{"vogel",
@@ -84,4 +84,4 @@ const EffectKind kind_driveline_warming{
     kVehicleGrounds,
     kVehicleGrounds};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::driveline_warming

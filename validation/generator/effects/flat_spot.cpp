@@ -5,7 +5,7 @@
 #include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::flat_spot {
 namespace {
 
 void make_two_depths(Making& of) {
@@ -45,7 +45,7 @@ void make_second_order(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_flat_spot{
+const EffectKind kind{
     "flat_spot",
     {"percent", "higher loss after long standing", 0.0, 0.0, 100.0, log_normal(1.0, 8.0, 0.6, 12.0)},
     {{"two_depths", "square of a depth of two parts, each rolled out over its own distance, faster in warm rubber",
@@ -57,4 +57,4 @@ const EffectKind kind_flat_spot{
     kEveryGround,
     kRigGrounds};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::flat_spot

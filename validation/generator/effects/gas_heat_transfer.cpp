@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::gas_heat_transfer {
 namespace {
 
 void make_stirred(Making& of) {
@@ -30,11 +30,11 @@ void make_density(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_gas_heat_transfer{
+const EffectKind kind{
     "gas_heat_transfer",
     {"1", "coefficient at 80 km/h and the reference pressure over the one that is otherwise true", 1.0, 0.05, 10.0,
      log_normal(0.3, 2.0, 0.2, 3.0), false, 0.3},
     {{"stirred", "what differs has a part at rest and one with v^0.8", make_stirred},
      {"density", "what differs goes with the gas's density to the power 0.8, whatever the speed", make_density}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::gas_heat_transfer

@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::heater_radiation {
 namespace {
 
 void make_heater_radiation(Making& of) {
@@ -25,7 +25,7 @@ void make_heater_radiation(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_heater_radiation{
+const EffectKind kind{
     "heater_radiation",
     {"W", "heat into the tread while on", 0.0, 0.0, 2000.0, log_normal(40.0, 200.0, 30.0, 300.0)},
     {{"only", "on and off by turns of a drawn period, whatever the tire does", make_heater_radiation}},
@@ -33,4 +33,4 @@ const EffectKind kind_heater_radiation{
     kRigGrounds,
     true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::heater_radiation

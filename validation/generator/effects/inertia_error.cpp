@@ -3,7 +3,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/machine.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::inertia_error {
 namespace {
 
 /// Adds the force of what turns and is not reckoned with: on the road to that of the vehicle, else to that of the rig.
@@ -37,7 +37,7 @@ void make_soft(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_inertia_error{
+const EffectKind kind{
     "inertia_error",
     {"percent", "true over reckoned inertia of drum, roller or vehicle, less one", 0.0, -30.0, 30.0,
      log_normal(0.3, 4.0, 0.25, 6.0), true},
@@ -46,4 +46,4 @@ const EffectKind kind_inertia_error{
     kEveryGround,
     kEveryGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::inertia_error

@@ -5,7 +5,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::load_cross_talk {
 namespace {
 
 /// Angle d (1 - b + b sqrt(x)), x the load over the reference load: seats that close give way less and less.
@@ -29,7 +29,7 @@ void make_fixed(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_load_cross_talk{
+const EffectKind kind{
     "load_cross_talk",
     {"mrad", "angle of the load off the vertical at the reference load", 0.0, -5.0, 5.0,
      log_normal(0.08, 0.5, 0.05, 0.8), true},
@@ -39,4 +39,4 @@ const EffectKind kind_load_cross_talk{
     kRigGrounds,
     kDrumGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::load_cross_talk

@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::load_exponent {
 namespace {
 
 void make_two_powers(Making& of) {
@@ -29,7 +29,7 @@ void make_straight(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_load_exponent{
+const EffectKind kind{
     "load_exponent",
     {"1", "exponent of the loss over load at the reference load", 1.0, 0.3, 2.0, normal(0.85, 1.15, 0.7, 1.3), false,
      0.02},
@@ -40,4 +40,4 @@ const EffectKind kind_load_exponent{
       "the coefficient is a straight line of the load, 1 + (b - 1)(x - 1), as in the regression of SAE J1269",
       make_straight}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::load_exponent

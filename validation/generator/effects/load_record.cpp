@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::load_record {
 namespace {
 
 constexpr double kMostOff = 0.97;  // a tire cannot pull
@@ -31,11 +31,11 @@ void make_bent(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_load_record{
+const EffectKind kind{
     "load_record",
     {"percent", "true over recorded load at the reference load, less one", 0.0, -30.0, 30.0,
      log_normal(1.0, 5.0, 0.7, 7.0), true},
     {{"scale_or_offset", "mostly a scale or mostly an offset, never one alone", make_scale_or_offset},
      {"bent", "an error that grows with the square of the load beside a scale, nothing without load", make_bent}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::load_record

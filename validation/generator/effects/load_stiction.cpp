@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::load_stiction {
 namespace {
 
 void make_load_stiction(Making& of) {
@@ -24,7 +24,7 @@ void make_load_stiction(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_load_stiction{
+const EffectKind kind{
     "load_stiction",
     {"N", "half of the width of the hysteresis", 0.0, 0.0, 1000.0, log_normal(50.0, 160.0, 40.0, 180.0)},
     {{"only", "play: the load stays short by the size after a rise and above by it after a fall", make_load_stiction}},
@@ -32,4 +32,4 @@ const EffectKind kind_load_stiction{
     kDrumGround,
     true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::load_stiction

@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::pressure_exponent {
 namespace {
 
 void make_regression(Making& of) {
@@ -28,7 +28,7 @@ void make_stiffness(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_pressure_exponent{
+const EffectKind kind{
     "pressure_exponent",
     {"1", "exponent of the loss over pressure at the reference pressure", 0.4, 0.0, 2.0, normal(0.25, 0.55, 0.1, 0.7),
      false, 0.02},
@@ -41,4 +41,4 @@ const EffectKind kind_pressure_exponent{
       "slope of the exponent at the reference pressure",
       make_stiffness}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::pressure_exponent

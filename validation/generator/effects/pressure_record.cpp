@@ -3,7 +3,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::pressure_record {
 namespace {
 
 void make_warming(Making& of) {
@@ -26,11 +26,10 @@ void make_scale(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_pressure_record{
-    "pressure_record",
-    {"kPa", "reading less true pressure at 35 degC and the reference pressure", 0.0, -100.0, 100.0,
-     log_normal(2.0, 15.0, 1.3, 20.0), true},
-    {{"warming", "an offset with a share that goes with the temperature", make_warming},
-     {"scale", "an error of a scale that bends, at the reference pressure", make_scale}}};
+const EffectKind kind{"pressure_record",
+                      {"kPa", "reading less true pressure at 35 degC and the reference pressure", 0.0, -100.0, 100.0,
+                       log_normal(2.0, 15.0, 1.3, 20.0), true},
+                      {{"warming", "an offset with a share that goes with the temperature", make_warming},
+                       {"scale", "an error of a scale that bends, at the reference pressure", make_scale}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::pressure_record

@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::rim_heat {
 namespace {
 
 /// What the rim takes.
@@ -68,7 +68,7 @@ void make_one_node(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_rim_heat{
+const EffectKind kind{
     "rim_heat",
     {"W/K", "conductance from gas and bead to the rim", 0.0, 0.0, 50.0, log_normal(0.5, 4.0, 0.3, 6.5)},
     {{"well_and_disc",
@@ -79,4 +79,4 @@ const EffectKind kind_rim_heat{
       "rim of one node that takes heat from gas and bead and loses to the air in a straight line of the speed",
       make_one_node}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::rim_heat

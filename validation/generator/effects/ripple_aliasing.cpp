@@ -4,7 +4,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::ripple_aliasing {
 namespace {
 
 void make_ripple_aliasing(Making& of) {
@@ -23,13 +23,12 @@ void make_ripple_aliasing(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_ripple_aliasing{
-    "ripple_aliasing",
-    {"N", "amplitude of the first order", 0.0, 0.0, 50.0, log_normal(1.0, 5.0, 0.8, 7.0)},
-    {{"only", "sines of the angle of drum or roller at the rows, so that constant speeds beat slowly",
-      make_ripple_aliasing}},
-    kRigGrounds,
-    kRigGrounds,
-    true};
+const EffectKind kind{"ripple_aliasing",
+                      {"N", "amplitude of the first order", 0.0, 0.0, 50.0, log_normal(1.0, 5.0, 0.8, 7.0)},
+                      {{"only", "sines of the angle of drum or roller at the rows, so that constant speeds beat slowly",
+                        make_ripple_aliasing}},
+                      kRigGrounds,
+                      kRigGrounds,
+                      true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::ripple_aliasing

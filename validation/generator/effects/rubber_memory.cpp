@@ -5,7 +5,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::rubber_memory {
 namespace {
 
 void make_two_parts(Making& of) {
@@ -57,7 +57,7 @@ void make_second_order(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_rubber_memory{
+const EffectKind kind{
     "rubber_memory",
     {"percent", "higher loss after long rest", 0.0, 0.0, 100.0, log_normal(1.0, 8.0, 0.6, 12.0)},
     {{"two_parts",
@@ -69,4 +69,4 @@ const EffectKind kind_rubber_memory{
       "rest or in skim by one of first order",
       make_second_order}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::rubber_memory

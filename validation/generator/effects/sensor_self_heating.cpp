@@ -4,7 +4,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::sensor_self_heating {
 namespace {
 
 void make_sensor_self_heating(Making& of) {
@@ -24,7 +24,7 @@ void make_sensor_self_heating(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_sensor_self_heating{
+const EffectKind kind{
     "sensor_self_heating",
     {"K", "excess of the reading at standstill", 0.0, 0.0, 50.0, log_normal(1.5, 6.0, 1.0, 9.0)},
     {{"only", "first order from the start of each run, less in moving gas", make_sensor_self_heating}},
@@ -32,4 +32,4 @@ const EffectKind kind_sensor_self_heating{
     kRigGrounds,
     true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::sensor_self_heating

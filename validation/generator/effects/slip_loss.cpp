@@ -5,7 +5,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::slip_loss {
 namespace {
 
 /// Force times slip, from the motor or brake, into the tread.
@@ -40,7 +40,7 @@ void make_tanh(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_slip_loss{
+const EffectKind kind{
     "slip_loss",
     {"kN", "force over slip where both are small", std::numeric_limits<double>::infinity(), 5.0,
      std::numeric_limits<double>::infinity(), log_normal(60.0, 250.0, 45.0, 330.0)},
@@ -50,4 +50,4 @@ const EffectKind kind_slip_loss{
     kDynoGround,
     kDynoGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::slip_loss

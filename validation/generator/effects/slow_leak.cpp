@@ -5,7 +5,7 @@
 #include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::slow_leak {
 namespace {
 
 constexpr double kAir_kPa = 101.325;
@@ -56,7 +56,7 @@ void make_permeation(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_slow_leak{
+const EffectKind kind{
     "slow_leak",
     {"kPa/h",
      "loss of pressure at the reference pressure; through a hole with gas at 25 degC, through rubber at 40 degC", 0.0,
@@ -66,4 +66,4 @@ const EffectKind kind_slow_leak{
       "with the gauge pressure, and by Arrhenius' law faster in warm rubber; what leaves takes its enthalpy along",
       make_permeation}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::slow_leak

@@ -3,7 +3,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/machine.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::speed_interference {
 namespace {
 
 void make_speed_interference(Making& of) {
@@ -19,13 +19,12 @@ void make_speed_interference(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_speed_interference{
-    "speed_interference",
-    {"N", "reading too much at the peak; 25 times that on the road, where all wheels count", 0.0, -50.0, 50.0,
-     log_normal(0.8, 4.0, 0.6, 6.0), true},
-    {{"only", "a skewed resonance over speed, added to the reading", make_speed_interference}},
-    kEveryGround,
-    kEveryGround,
-    true};
+const EffectKind kind{"speed_interference",
+                      {"N", "reading too much at the peak; 25 times that on the road, where all wheels count", 0.0,
+                       -50.0, 50.0, log_normal(0.8, 4.0, 0.6, 6.0), true},
+                      {{"only", "a skewed resonance over speed, added to the reading", make_speed_interference}},
+                      kEveryGround,
+                      kEveryGround,
+                      true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::speed_interference

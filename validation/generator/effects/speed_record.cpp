@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::speed_record {
 namespace {
 
 void make_growing(Making& of) {
@@ -27,13 +27,12 @@ void make_offset(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_speed_record{
-    "speed_record",
-    {"percent", "true over recorded speed at 80 km/h, less one", 0.0, -30.0, 30.0, log_normal(1.0, 10.0, 0.7, 12.0),
-     true},
-    {{"growing", "a scale with a part that grows with speed", make_growing},
-     {"offset", "a scale beside a fixed speed, which is there from walking pace on", make_offset}},
-    kEveryGround,
-    kEveryGround};
+const EffectKind kind{"speed_record",
+                      {"percent", "true over recorded speed at 80 km/h, less one", 0.0, -30.0, 30.0,
+                       log_normal(1.0, 10.0, 0.7, 12.0), true},
+                      {{"growing", "a scale with a part that grows with speed", make_growing},
+                       {"offset", "a scale beside a fixed speed, which is there from walking pace on", make_offset}},
+                      kEveryGround,
+                      kEveryGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::speed_record

@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::standing_wave {
 namespace {
 
 constexpr double kSpeed120_m_s = 120.0 / 3.6;
@@ -37,7 +37,7 @@ void make_soft_square(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_standing_wave{
+const EffectKind kind{
     "standing_wave",
     {"N", "further loss at 120 km/h and the reference load", 0.0, 0.0, 50.0, log_normal(0.5, 4.0, 0.25, 6.0)},
     {{"exponential", "exp((v - v_c)/s) - 1 above the critical speed, with a power of the load; heats the rubber",
@@ -45,4 +45,4 @@ const EffectKind kind_standing_wave{
      {"soft_square", "square of a soft corner s ln(1 + exp((v - v_c)/s)), with a power of the load; heats the rubber",
       make_soft_square}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::standing_wave

@@ -4,7 +4,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/machine.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::surface_texture {
 namespace {
 
 void make_surface_texture(Making& of) {
@@ -29,7 +29,7 @@ void make_surface_texture(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_surface_texture{
+const EffectKind kind{
     "surface_texture",
     {"percent", "fall of the loss as the surface wears in; on a road patches differ by five times that", 0.0, 0.0, 80.0,
      log_normal(5.0, 15.0, 4.0, 20.0)},
@@ -39,4 +39,4 @@ const EffectKind kind_surface_texture{
     kEveryGround,
     true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::surface_texture

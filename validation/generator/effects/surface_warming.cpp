@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::surface_warming {
 namespace {
 
 void make_skin_and_body(Making& of) {
@@ -45,7 +45,7 @@ void make_cooled_body(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_surface_warming{
+const EffectKind kind{
     "surface_warming",
     {"K", "rise after long running at 80 km/h and the reference load", 0.0, -30.0, 60.0,
      log_normal(2.0, 15.0, 1.3, 20.0)},
@@ -54,4 +54,4 @@ const EffectKind kind_surface_warming{
      {"cooled_body", "one body, driven by the heat of the tire, that the air cools faster with speed",
       make_cooled_body}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::surface_warming

@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::tie_down_load {
 namespace {
 
 void make_creeping(Making& of) {
@@ -29,7 +29,7 @@ void make_relaxing(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_tie_down_load{
+const EffectKind kind{
     "tie_down_load",
     {"N", "further load of one wheel, just tied down", 0.0, -500.0, 3000.0, log_normal(50.0, 400.0, 30.0, 600.0)},
     {{"creeping", "falls with the logarithm of time as straps creep, rises with the pull of the wheel", make_creeping},
@@ -38,4 +38,4 @@ const EffectKind kind_tie_down_load{
     kDynoGround,
     kDynoGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::tie_down_load

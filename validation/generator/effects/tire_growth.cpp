@@ -3,7 +3,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::tire_growth {
 namespace {
 
 void make_tire_growth(Making& of) {
@@ -18,7 +18,7 @@ void make_tire_growth(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_tire_growth{
+const EffectKind kind{
     "tire_growth",
     {"percent", "further load at 120 km/h, of the reference load", 0.0, 0.0, 50.0, log_normal(2.0, 8.0, 1.5, 12.0)},
     {{"only", "load rises with about the square of the speed by the same amount at every load", make_tire_growth}},
@@ -26,4 +26,4 @@ const EffectKind kind_tire_growth{
     kRigGrounds,
     true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::tire_growth

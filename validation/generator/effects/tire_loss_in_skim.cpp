@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::tire_loss_in_skim {
 namespace {
 
 void make_hyperbola(Making& of) {
@@ -35,7 +35,7 @@ void make_power(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_tire_loss_in_skim{
+const EffectKind kind{
     "tire_loss_in_skim",
     {"N", "further loss of the tire at the skim load and 25 degC", 0.0, 0.0, 50.0, log_normal(0.3, 3.0, 0.15, 5.0)},
     {{"hyperbola",
@@ -48,4 +48,4 @@ const EffectKind kind_tire_loss_in_skim{
     kDrumGround,
     kDrumGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::tire_loss_in_skim

@@ -5,7 +5,7 @@
 #include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::tire_temperature {
 namespace {
 
 void make_power(Making& of) {
@@ -29,7 +29,7 @@ void make_arrhenius(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_tire_temperature{
+const EffectKind kind{
     "tire_temperature",
     {"1/K", "relative fall of the loss per K at the temperature where the coefficient holds", 0.0, 0.0, 0.1,
      log_normal(0.008, 0.03, 0.006, 0.035)},
@@ -44,4 +44,4 @@ const EffectKind kind_tire_temperature{
     kConstantGround,
     kConstantGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::tire_temperature

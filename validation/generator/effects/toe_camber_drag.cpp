@@ -4,7 +4,7 @@
 
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::toe_camber_drag {
 namespace {
 
 void make_saturating(Making& of) {
@@ -37,7 +37,7 @@ void make_arctangent(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_toe_camber_drag{
+const EffectKind kind{
     "toe_camber_drag",
     {"N", "drag at the reference load and 30 degC, of one wheel", 0.0, 0.0, 50.0, log_normal(2.0, 12.0, 1.2, 18.0)},
     {{"saturating",
@@ -49,4 +49,4 @@ const EffectKind kind_toe_camber_drag{
     kEveryGround,
     kEveryGround};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::toe_camber_drag

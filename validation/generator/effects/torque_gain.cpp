@@ -4,7 +4,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::torque_gain {
 namespace {
 
 constexpr double kReference_N = 60.0;
@@ -29,7 +29,7 @@ void make_with_air(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_torque_gain{
+const EffectKind kind{
     "torque_gain",
     {"percent", "error of scale at a force of 60 N and air of 25 degC", 0.0, -20.0, 20.0, normal(-2.0, 2.0, -4.0, 4.0),
      false, 0.3},
@@ -38,4 +38,4 @@ const EffectKind kind_torque_gain{
       "a scale that moves with the temperature of the air, g (1 + k (T - 25 degC)); also on a force at a roller",
       make_with_air}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::torque_gain

@@ -4,7 +4,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/recorder.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::torque_zero_drift {
 namespace {
 
 constexpr double kSpan_s = 1800.0;  // over which the size is a mean rate
@@ -35,7 +35,7 @@ void make_creep(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_torque_zero_drift{
+const EffectKind kind{
     "torque_zero_drift",
     {"N/10min", "mean rate over the first 30 min of a run, as force at the drum's surface", 0.0, -10.0, 10.0,
      normal(-0.5, 0.5, -1.2, 1.2), false, 0.04},
@@ -47,4 +47,4 @@ const EffectKind kind_torque_zero_drift{
       "zeroed before each run; then the gauge's creep with the logarithm of time, and a part that follows the air",
       make_creep}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::torque_zero_drift

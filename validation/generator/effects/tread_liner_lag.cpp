@@ -5,7 +5,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/plant.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::tread_liner_lag {
 namespace {
 
 void make_layers(Making& of) {
@@ -34,7 +34,7 @@ void make_two_nodes(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_tread_liner_lag{
+const EffectKind kind{
     "tread_liner_lag",
     {"W/K", "conductance between the middles of the two halves of the wall", std::numeric_limits<double>::infinity(),
      5.0, std::numeric_limits<double>::infinity(), log_normal(30.0, 150.0, 20.0, 230.0)},
@@ -47,4 +47,4 @@ const EffectKind kind_tread_liner_lag{
       "tread, the sensor and the gas see the liner",
       make_two_nodes}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::tread_liner_lag

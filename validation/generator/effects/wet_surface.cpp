@@ -6,7 +6,7 @@
 #include "validation/generator/effect.h"
 #include "validation/generator/machine.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::wet_surface {
 namespace {
 
 /// A spell of water, which rises and dries within minutes.
@@ -46,7 +46,7 @@ void make_wet_surface(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_wet_surface{
+const EffectKind kind{
     "wet_surface",
     {"W/K", "further cooling of the tread at 80 km/h while wet", 0.0, 0.0, 500.0, log_normal(10.0, 50.0, 8.0, 80.0)},
     {{"only",
@@ -57,4 +57,4 @@ const EffectKind kind_wet_surface{
     kEveryGround,
     true};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::wet_surface

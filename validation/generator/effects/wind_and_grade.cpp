@@ -5,7 +5,7 @@
 #include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::wind_and_grade {
 namespace {
 
 /// What comes with the wind beside its speed: drag of its side part and a slope, in proportion to its strength.
@@ -69,7 +69,7 @@ void make_turning_road(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_wind_and_grade{
+const EffectKind kind{
     "wind_and_grade",
     {"m/s", "mean wind against the vehicle", 0.0, -20.0, 20.0, normal(-5.0, 5.0, -8.0, 8.0), false, 0.8},
     {{"gusts",
@@ -83,4 +83,4 @@ const EffectKind kind_wind_and_grade{
     kRoadGrounds,
     kRoadGrounds};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::wind_and_grade

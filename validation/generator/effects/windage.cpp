@@ -4,7 +4,7 @@
 #include "sim/core/units.h"
 #include "validation/generator/effect.h"
 
-namespace rollrig::generator {
+namespace rollrig::generator::windage {
 namespace {
 
 void make_disc_and_pump(Making& of) {
@@ -29,7 +29,7 @@ void make_power(Making& of) {
 
 }  // namespace
 
-const EffectKind kind_windage{
+const EffectKind kind{
     "windage",
     {"N", "force at 80 km/h, of one wheel", 0.0, 0.0, 50.0, log_normal(0.3, 3.0, 0.15, 5.0)},
     {{"disc_and_pump",
@@ -38,4 +38,4 @@ const EffectKind kind_windage{
       make_disc_and_pump},
      {"power", "a power of the speed, 1.8 to 2.2, in air of one density; no heat", make_power}}};
 
-}  // namespace rollrig::generator
+}  // namespace rollrig::generator::windage
