@@ -31,6 +31,13 @@ target_include_directories(rollrig_options INTERFACE "${PROJECT_SOURCE_DIR}")
 # Asserts inside Eigen's kernels cost a multiple of the arithmetic; nothing of Simbody depends on them.
 target_compile_definitions(rollrig_options INTERFACE $<$<CONFIG:Release>:EIGEN_NO_DEBUG>)
 
+# What does not compute: twice as fast to compile, and none the slower to use.
+function(rollrig_optimize_little)
+  foreach(target IN LISTS ARGN)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endforeach()
+endfunction()
+
 # Sanitizers: -DROLLRIG_SANITIZE=address,undefined
 set(ROLLRIG_SANITIZE "" CACHE STRING "Value for -fsanitize=, or empty")
 if(ROLLRIG_SANITIZE)
