@@ -28,6 +28,8 @@ add_library(rollrig_simbody INTERFACE)
 target_include_directories(rollrig_simbody SYSTEM INTERFACE ${Simbody_INCLUDE_DIR})
 target_link_libraries(rollrig_simbody INTERFACE SimTKsimbody SimTKmath SimTKcommon)
 
+# What tools/install_packages.sh unpacked, since it is needed for its files alone.
+list(APPEND CMAKE_PREFIX_PATH "${PROJECT_SOURCE_DIR}/build/packages/usr")
 # SUNDIALS: found by hand, since its configuration file asks for MPI and other solvers. Only the static
 # CVODES is used, and only by the target rollrig_cvodes (see sim/CMakeLists.txt).
 find_path(SUNDIALS_INCLUDE_DIR cvodes/cvodes.h REQUIRED)
