@@ -24,7 +24,7 @@ endforeach()
 include(GNUInstallDirs)
 add_library(rollrig_options INTERFACE)
 # A kind of machine that leaves an answer out does not compile.
-target_compile_options(rollrig_options INTERFACE -Wall -Wextra -Wconversion -Wshadow=local
+target_compile_options(rollrig_options INTERFACE -Wall -Wextra -Wconversion $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>
                                                  -Werror=missing-field-initializers
                                                  $<$<BOOL:${ROLLRIG_WERROR}>:-Werror>)
 target_include_directories(rollrig_options INTERFACE "${PROJECT_SOURCE_DIR}")

@@ -3,7 +3,6 @@
 #include "scenarios/common/vehicle_bench.h"
 
 namespace rollrig::scenarios::coastdown {
-namespace {
 
 struct Settings {
   VehicleConditions conditions;
@@ -80,8 +79,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_vehicle_scenario(

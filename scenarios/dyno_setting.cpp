@@ -9,7 +9,6 @@
 #include "sim/core/assets.h"
 
 namespace rollrig::scenarios::dyno_setting {
-namespace {
 
 using Load = models::RoadLoad<double>;
 
@@ -214,8 +213,6 @@ Results run(const RunSpec& spec, Settings settings, const VehicleProgram& progra
   }
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   Scenario made = make_scenario<Settings, Results>(

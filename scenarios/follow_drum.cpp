@@ -6,7 +6,6 @@
 #include "scenarios/common/recorded_inputs.h"
 
 namespace rollrig::scenarios::follow_drum {
-namespace {
 
 /// Conditions of which the file gives most.
 struct FollowDrumConditions : DrumConditions {
@@ -112,8 +111,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   return {measure_rows(conditions.run), read_tire_course(outcome.recording, *conditions.pressure_Pa),
           read_stretches(conditions, spec, outcome.recording)};
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

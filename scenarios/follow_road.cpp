@@ -2,7 +2,6 @@
 #include "scenarios/common/follow_bench.h"
 
 namespace rollrig::scenarios::follow_road {
-namespace {
 
 struct FollowRoadConditions : RecordedInputs {
   template <class Self, class Visit>
@@ -58,8 +57,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
           -audit.find_term_J("tire_loss"),       -audit.find_term_J("drag_loss"),
           -audit.find_term_J("gravity"),         outcome.recording.channel(quantities::kLinerTemperature).back()};
 }
-
-}  // namespace
 
 Scenario make() {
   return make_follow_scenario(

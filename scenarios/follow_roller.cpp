@@ -2,7 +2,6 @@
 #include "scenarios/common/follow_bench.h"
 
 namespace rollrig::scenarios::follow_roller {
-namespace {
 
 struct FollowRollerConditions : RecordedInputs {
   template <class Self, class Visit>
@@ -50,8 +49,6 @@ Results evaluate(const Settings& settings, const RunSpec&, Outcome& outcome) {
           recording.channel(quantities::kLossForce).back(),
           read_tire_course(recording, *settings.conditions.pressure_Pa)};
 }
-
-}  // namespace
 
 Scenario make() {
   return make_follow_scenario(

@@ -7,7 +7,6 @@
 #include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::iso_28580 {
-namespace {
 
 struct Settings : CycleSettings {
   int measurement_cycles = 0;
@@ -118,8 +117,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

@@ -5,7 +5,6 @@
 #include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios::load_sweep {
-namespace {
 
 struct Settings : CycleSettings {
   std::vector<double> loads_N;
@@ -72,8 +71,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   if (has_two_values(loads_of(settings, spec))) results.load_exponent = fit_power(load_N, loss_N);
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

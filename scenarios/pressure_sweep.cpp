@@ -3,7 +3,6 @@
 #include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios::pressure_sweep {
-namespace {
 
 struct Settings : CycleSettings {
   std::vector<double> pressures_Pa{250e3, 280e3, 300e3};  // §3.2.4.2
@@ -67,8 +66,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

@@ -4,7 +4,6 @@
 #include "scenarios/common/vehicle_bench.h"
 
 namespace rollrig::scenarios::sae_j1634 {
-namespace {
 
 struct Settings {
   VehicleConditions conditions;
@@ -209,8 +208,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.total = add_up(results.sections);
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_vehicle_scenario(

@@ -3,7 +3,6 @@
 #include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::skim {
-namespace {
 
 struct Results {
   Cycle cycle;
@@ -45,8 +44,6 @@ Results evaluate(const CycleSettings& settings, const RunSpec& spec, Outcome& ou
   results.tire_share_N = calc_mean(recording, spec, window, quantities::kRollingResistance);
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

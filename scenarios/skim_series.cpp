@@ -7,7 +7,6 @@
 #include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::skim_series {
-namespace {
 
 struct Settings : CycleSettings {
   std::vector<double> skim_loads_N{400.0, 300.0, 200.0, 100.0, 50.0};
@@ -119,8 +118,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   results.zero_load = extrapolate(results.points, mean_sd / spec.rig.lever_m());
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

@@ -3,7 +3,6 @@
 #include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios::speed_sweep {
-namespace {
 
 struct Settings : CycleSettings {
   std::vector<double> speeds_m_s{40.0 / 3.6, 80.0 / 3.6, 120.0 / 3.6};  // §3.2.5
@@ -67,8 +66,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   if (results.cycles.size() > 1) results.rrc_rise = results.cycles.back().rrc / results.cycles.front().rrc - 1.0;
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

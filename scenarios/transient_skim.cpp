@@ -4,7 +4,6 @@
 #include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios::transient_skim {
-namespace {
 
 struct Settings {
   DrumConditions conditions;
@@ -64,8 +63,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   return {cycles, first.parasitic_N - last.parasitic_N, first.rolling_resistance_N - last.rolling_resistance_N,
           last.parasitic_N, calc_rrc_uncertainty(last, spec).offset_canceled * last.loaded.load_N};
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

@@ -10,8 +10,6 @@ namespace rollrig::scenarios::warm_up {
 
 using boost::math::statistics::simple_ordinary_least_squares;
 
-namespace {
-
 struct Settings : CycleSettings {
   double start_window_s = 0.0;
   double band_low_K = 0.0;
@@ -126,8 +124,6 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
       fmt::format("{:.0f} to {:.0f} degC", settings.band_low_K - kZeroCelsius_K, settings.band_high_K - kZeroCelsius_K);
   return results;
 }
-
-}  // namespace
 
 Scenario make() {
   return make_drum_scenario(

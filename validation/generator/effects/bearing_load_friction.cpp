@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::bearing_load_friction {
-namespace {
 
 constexpr double kReference_N = 5400.0;
 
@@ -29,8 +28,6 @@ void make_palmgren(Making& of) {
     now.rig_force_N += force_N * std::pow(std::max(0.0, now.load_N) / kReference_N, power);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "bearing_load_friction",

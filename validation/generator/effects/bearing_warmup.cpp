@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::bearing_warmup {
-namespace {
 
 constexpr double kSoaked_degC = 25.0;
 
@@ -79,8 +78,6 @@ void make_arrhenius(Making& of) {
     rates[1] = (to_housing_W - lost_W) / (time_s * cooling_W_per_K);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "bearing_warmup",

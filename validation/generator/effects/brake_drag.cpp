@@ -3,7 +3,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::brake_drag {
-namespace {
 
 void make_worn_off(Making& of) {
   const double force_N = of.size;
@@ -32,8 +31,6 @@ void make_hot_disc(Making& of) {
     rates[0] = (1.0 - rubbing[0]) * now.brake_N * now.speed_m_s / full_J - rubbing[0] / cooling_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "brake_drag",

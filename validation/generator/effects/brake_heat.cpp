@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::brake_heat {
-namespace {
 
 /// Heat to bead and gas from the last store on the way, which empties within `delay_s`.
 void heat_tire(double stored_J, double delay_s, double gas_share, Instant& now) {
@@ -42,8 +41,6 @@ void make_share(Making& of) {
     rates[0] = share * now.brake_N * now.speed_m_s - bound_J[0] / delay_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "brake_heat",

@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::cavity_volume {
-namespace {
 
 constexpr double kReference_N = 5400.0;
 constexpr double kFollows_s = 0.5;  // Assumed: about as the load settles
@@ -56,8 +55,6 @@ void make_segment(Making& of) {
   of.effect.act = [=](const double* state, Instant& now) { now.volume_rate_per_s += rate_per_s(state, now); };
   of.effect.rates = [=](const double* state, const Instant& now, double* rates) { rates[0] = rate_per_s(state, now); };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "cavity_volume",

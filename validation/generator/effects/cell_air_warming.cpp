@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::cell_air_warming {
-namespace {
 
 void make_air_and_walls(Making& of) {
   const double rise_dK = of.size;
@@ -46,8 +45,6 @@ void make_ventilated(Making& of) {
     rates[0] = (heat - rise[0] * std::sqrt(std::abs(rise[0]))) / time_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "cell_air_warming",

@@ -5,7 +5,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::clock_shift {
-namespace {
 
 void shift_row(RunRecord& record, std::size_t row, double shift_s) {
   record.liner_degC[row] = record.sample(record.liner, row, shift_s);
@@ -31,8 +30,6 @@ void make_set_anew(Making& of) {
     shift_row(record, row, -late_s * (1.0 + swing * saw));
   });
 }
-
-}  // namespace
 
 const EffectKind kind{
     "clock_shift",

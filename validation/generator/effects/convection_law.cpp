@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::convection_law {
-namespace {
 
 /// Laminar and turbulent parts of the boundary layer.
 void make_boundary_layers(Making& of) {
@@ -23,8 +22,6 @@ void make_fan(Making& of) {
     now.air_speed_m_s = kSpeed80_m_s * std::sqrt(exponent * x * x + 1.0 - exponent);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "convection_law",

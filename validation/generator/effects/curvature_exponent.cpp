@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::curvature_exponent {
-namespace {
 
 void make_straight(Making& of) {
   const double exponent = of.size;
@@ -24,8 +23,6 @@ void make_power(Making& of) {
     now.loss_factor *= std::pow(now.curvature_factor, exponent - 1.0);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "curvature_exponent",

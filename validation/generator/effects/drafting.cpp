@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::drafting {
-namespace {
 
 void make_drafting(Making& of) {
   const double share = 0.01 * of.size;
@@ -22,8 +21,6 @@ void make_drafting(Making& of) {
     now.drag_factor *= 1.0 - share * near;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{"drafting",
                       {"percent", "drag saved in the wake", 0.0, 0.0, 80.0, log_normal(10.0, 30.0, 8.0, 40.0)},

@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::driveline_warming {
-namespace {
 
 constexpr double kHeating = 1.6;  // Assumed: of the steady rise, with oil as cold as soaked
 
@@ -68,8 +67,6 @@ void make_walther(Making& of) {
     rates[0] = (kHeating * oil.rise_dK * now.speed_m_s / kSpeed80_m_s * friction(rise_dK[0]) - rise_dK[0]) / oil.time_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "driveline_warming",

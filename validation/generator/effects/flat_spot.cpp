@@ -6,7 +6,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::flat_spot {
-namespace {
 
 void make_two_depths(Making& of) {
   const double excess = 0.01 * of.size;
@@ -42,8 +41,6 @@ void make_second_order(Making& of) {
     rates[0] = -flat[0] * std::abs(flat[0]) * pace * now.speed_m_s / distance_m;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "flat_spot",

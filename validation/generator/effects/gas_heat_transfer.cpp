@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::gas_heat_transfer {
-namespace {
 
 void make_stirred(Making& of) {
   const double excess = of.size - 1.0;
@@ -27,8 +26,6 @@ void make_density(Making& of) {
     now.gas_link_factor *= std::max(0.05, 1.0 + excess * std::pow(dense, 0.8));
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "gas_heat_transfer",

@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::heater_radiation {
-namespace {
 
 void make_heater_radiation(Making& of) {
   const double power_W = of.size;
@@ -22,8 +21,6 @@ void make_heater_radiation(Making& of) {
     now.tread_heat_W += power_W * on;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "heater_radiation",

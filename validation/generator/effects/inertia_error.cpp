@@ -4,7 +4,6 @@
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator::inertia_error {
-namespace {
 
 /// Adds the force of what turns and is not reckoned with: on the road to that of the vehicle, else to that of the rig.
 auto find_excess(const Making& of) {
@@ -34,8 +33,6 @@ void make_soft(Making& of) {
     rates[0] = now.acceleration_m_s2 - behind_m_s[0] / follows_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "inertia_error",

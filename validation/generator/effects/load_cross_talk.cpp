@@ -6,7 +6,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::load_cross_talk {
-namespace {
 
 /// Angle d (1 - b + b sqrt(x)), x the load over the reference load: seats that close give way less and less.
 void make_bending(Making& of) {
@@ -26,8 +25,6 @@ void make_fixed(Making& of) {
   trace_rows(
       of, [=](RunRecord& record, std::size_t row) { record.force[row] += record.lever * record.load_N[row] * sine; });
 }
-
-}  // namespace
 
 const EffectKind kind{
     "load_cross_talk",

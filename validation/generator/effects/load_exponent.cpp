@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::load_exponent {
-namespace {
 
 void make_two_powers(Making& of) {
   const double excess = of.size - 1.0;
@@ -26,8 +25,6 @@ void make_straight(Making& of) {
     now.loss_factor *= std::max(kLeast, 1.0 + excess * (load - 1.0));
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "load_exponent",

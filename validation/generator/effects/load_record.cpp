@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::load_record {
-namespace {
 
 constexpr double kMostOff = 0.97;  // a tire cannot pull
 
@@ -28,8 +27,6 @@ void make_bent(Making& of) {
     now.load_N *= 1.0 + std::max(-kMostOff, more);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "load_record",

@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::load_stiction {
-namespace {
 
 void make_load_stiction(Making& of) {
   const double band_N = of.size;
@@ -21,8 +20,6 @@ void make_load_stiction(Making& of) {
     rates[0] = std::copysign(beyond_N, apart_N) / follows_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "load_stiction",

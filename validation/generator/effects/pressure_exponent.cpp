@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::pressure_exponent {
-namespace {
 
 void make_regression(Making& of) {
   const double excess = of.size - of.specimen.pressure_exponent;
@@ -25,8 +24,6 @@ void make_stiffness(Making& of) {
     now.loss_factor *= std::pow(carcass + (1.0 - carcass) * p, -power);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "pressure_exponent",

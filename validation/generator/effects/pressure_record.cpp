@@ -4,7 +4,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::pressure_record {
-namespace {
 
 void make_warming(Making& of) {
   const double offset_kPa = of.size;
@@ -23,8 +22,6 @@ void make_scale(Making& of) {
     record.pressure_kPa[row] += offset_kPa * x * (1.0 + bend * (x - 1.0));
   });
 }
-
-}  // namespace
 
 const EffectKind kind{"pressure_record",
                       {"kPa", "reading less true pressure at 35 degC and the reference pressure", 0.0, -100.0, 100.0,

@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::rim_heat {
-namespace {
 
 /// What the rim takes.
 struct Taken {
@@ -65,8 +64,6 @@ void make_one_node(Making& of) {
     rates[0] = (find_taken_W(rim_degC[0], now) - air_W_per_K * (rim_degC[0] - now.ambient_degC)) / capacity_J_per_K;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "rim_heat",

@@ -5,7 +5,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::ripple_aliasing {
-namespace {
 
 void make_ripple_aliasing(Making& of) {
   const double amplitude_N = of.size;
@@ -20,8 +19,6 @@ void make_ripple_aliasing(Making& of) {
     }
   };
 }
-
-}  // namespace
 
 const EffectKind kind{"ripple_aliasing",
                       {"N", "amplitude of the first order", 0.0, 0.0, 50.0, log_normal(1.0, 5.0, 0.8, 7.0)},

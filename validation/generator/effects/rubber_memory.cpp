@@ -6,7 +6,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::rubber_memory {
-namespace {
 
 void make_two_parts(Making& of) {
   const double excess = 0.01 * of.size;
@@ -54,8 +53,6 @@ void make_second_order(Making& of) {
     rates[0] = (1.0 - rested[0]) * (1.0 - work) / recovery_s - rested[0] * std::abs(rested[0]) * work / decay_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "rubber_memory",

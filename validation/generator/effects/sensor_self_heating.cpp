@@ -5,7 +5,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::sensor_self_heating {
-namespace {
 
 void make_sensor_self_heating(Making& of) {
   const double rise_dK = of.size;
@@ -21,8 +20,6 @@ void make_sensor_self_heating(Making& of) {
     }
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "sensor_self_heating",

@@ -6,7 +6,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::slip_loss {
-namespace {
 
 /// Force times slip, from the motor or brake, into the tread.
 template <class Slip>
@@ -37,8 +36,6 @@ void make_tanh(Making& of) {
     return grip_N / stiffness_N * std::atanh(std::min(kMostOfGrip, force_N / grip_N));
   });
 }
-
-}  // namespace
 
 const EffectKind kind{
     "slip_loss",

@@ -6,7 +6,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::slow_leak {
-namespace {
 
 constexpr double kAir_kPa = 101.325;
 
@@ -53,8 +52,6 @@ void make_permeation(Making& of) {
            std::exp(activation_K * (1.0 / 313.15 - 1.0 / warm_K));
   });
 }
-
-}  // namespace
 
 const EffectKind kind{
     "slow_leak",

@@ -4,7 +4,6 @@
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator::speed_interference {
-namespace {
 
 void make_speed_interference(Making& of) {
   const double peak_N = of.size;
@@ -16,8 +15,6 @@ void make_speed_interference(Making& of) {
     record.force[row] += of_vehicle * record.lever * peak_N * (1.0 - 0.6 * off) / (1.0 + off * off);
   });
 }
-
-}  // namespace
 
 const EffectKind kind{"speed_interference",
                       {"N", "reading too much at the peak; 25 times that on the road, where all wheels count", 0.0,

@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::speed_record {
-namespace {
 
 void make_growing(Making& of) {
   const double error = 0.01 * of.size;
@@ -24,8 +23,6 @@ void make_offset(Making& of) {
     return recorded_m_s + error * ((1.0 - offset_share) * recorded_m_s + offset_share * kSpeed80_m_s * there);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{"speed_record",
                       {"percent", "true over recorded speed at 80 km/h, less one", 0.0, -30.0, 30.0,

@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::standing_wave {
-namespace {
 
 constexpr double kSpeed120_m_s = 120.0 / 3.6;
 
@@ -34,8 +33,6 @@ void make_soft_square(Making& of) {
     now.heating_force_N += force_N * above * above * std::pow(load, load_power);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "standing_wave",

@@ -5,7 +5,6 @@
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator::surface_texture {
-namespace {
 
 void make_surface_texture(Making& of) {
   constexpr double kRunWay_m = 6e4;
@@ -26,8 +25,6 @@ void make_surface_texture(Making& of) {
     rates[0] = on_road ? 0.0 : now.speed_m_s * now.load_N / now.specimen->reference_load_N / kRunWay_m;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "surface_texture",

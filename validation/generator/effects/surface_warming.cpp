@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::surface_warming {
-namespace {
 
 void make_skin_and_body(Making& of) {
   const double rise_dK = of.size;
@@ -42,8 +41,6 @@ void make_cooled_body(Making& of) {
     rates[0] = (heat - cooling * rise[0]) / time_s;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "surface_warming",

@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::tie_down_load {
-namespace {
 
 void make_creeping(Making& of) {
   const double load_N = of.size;
@@ -26,8 +25,6 @@ void make_relaxing(Making& of) {
     now.load_N += load_N * (1.0 + relaxing * std::expm1(-now.time_s / time_s));
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "tie_down_load",

@@ -4,7 +4,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::tire_growth {
-namespace {
 
 void make_tire_growth(Making& of) {
   const double growth = 0.01 * of.size;
@@ -15,8 +14,6 @@ void make_tire_growth(Making& of) {
     now.load_N += growth * now.specimen->reference_load_N * std::pow(now.speed_m_s / kSpeed120_m_s, power);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "tire_growth",

@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::tire_loss_in_skim {
-namespace {
 
 void make_hyperbola(Making& of) {
   const double force_N = of.size;
@@ -32,8 +31,6 @@ void make_power(Making& of) {
                            std::exp(-fall_per_K * (now.rubber_degC - 25.0));
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "tire_loss_in_skim",

@@ -6,7 +6,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::tire_temperature {
-namespace {
 
 void make_power(Making& of) {
   const double fall_per_K = of.size;
@@ -26,8 +25,6 @@ void make_arrhenius(Making& of) {
     now.loss_factor *= std::exp(activation_K * (1.0 / (now.rubber_degC + kZeroCelsius_K) - 1.0 / reference_K));
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "tire_temperature",

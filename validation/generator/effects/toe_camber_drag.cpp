@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::toe_camber_drag {
-namespace {
 
 void make_saturating(Making& of) {
   const double force_N = of.size;
@@ -34,8 +33,6 @@ void make_arctangent(Making& of) {
     now.rig_force_N += (1.0 - heat_share) * drag_N;
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "toe_camber_drag",

@@ -5,7 +5,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::torque_gain {
-namespace {
 
 constexpr double kReference_N = 60.0;
 
@@ -26,8 +25,6 @@ void make_with_air(Making& of) {
     record.force[row] += gain * (1.0 + per_K * (record.ambient_degC[row] - 25.0)) * record.force[row];
   });
 }
-
-}  // namespace
 
 const EffectKind kind{
     "torque_gain",

@@ -5,7 +5,6 @@
 #include "validation/generator/recorder.h"
 
 namespace rollrig::generator::torque_zero_drift {
-namespace {
 
 constexpr double kSpan_s = 1800.0;  // over which the size is a mean rate
 
@@ -32,8 +31,6 @@ void make_creep(Making& of) {
     record.force[row] += record.lever * (scale_N * std::log1p(record.time_s[row] / onset_s) + air_N);
   });
 }
-
-}  // namespace
 
 const EffectKind kind{
     "torque_zero_drift",

@@ -6,7 +6,6 @@
 #include "validation/generator/plant.h"
 
 namespace rollrig::generator::tread_liner_lag {
-namespace {
 
 void make_layers(Making& of) {
   const double halves_W_per_K = of.size;
@@ -31,8 +30,6 @@ void make_two_nodes(Making& of) {
     wall = {2, 0.5 * between_W_per_K, skew, tread_share};
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "tread_liner_lag",

@@ -7,7 +7,6 @@
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator::wet_surface {
-namespace {
 
 /// A spell of water, which rises and dries within minutes.
 struct Spell {
@@ -43,8 +42,6 @@ void make_wet_surface(Making& of) {
     now.rig_force_N += film * wet * drag_N * cooling_W_per_K * std::pow(x, 1.6);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "wet_surface",

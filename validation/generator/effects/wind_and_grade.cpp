@@ -6,7 +6,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::wind_and_grade {
-namespace {
 
 /// What comes with the wind beside its speed: drag of its side part and a slope, in proportion to its strength.
 auto draw_side_and_slope(Making& of) {
@@ -66,8 +65,6 @@ void make_turning_road(Making& of) {
     add_side_and_slope(now);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "wind_and_grade",

@@ -5,7 +5,6 @@
 #include "validation/generator/effect.h"
 
 namespace rollrig::generator::windage {
-namespace {
 
 void make_disc_and_pump(Making& of) {
   const double force_N = of.size;
@@ -26,8 +25,6 @@ void make_power(Making& of) {
     now.rig_force_N += force_N * std::pow(now.speed_m_s / kSpeed80_m_s, power);
   };
 }
-
-}  // namespace
 
 const EffectKind kind{
     "windage",
