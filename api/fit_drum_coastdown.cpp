@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "api/data.h"
 #include "report/fit_pages.h"
 #include "report/text.h"
 #include "rollrig/fit.h"

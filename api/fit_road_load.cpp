@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "api/data.h"
 #include "estimation/road_load/road_load_report.h"
 #include "report/fit_pages.h"
 #include "report/text.h"

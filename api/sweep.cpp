@@ -8,7 +8,6 @@
 
 #include <boost/algorithm/string/split.hpp>
 
-#include "api/data.h"
 #include "api/run_document.h"
 #include "report/list_pages.h"
 #include "report/text.h"

@@ -2,9 +2,6 @@
 /// Timed figures belong here, not in tests.
 #include <benchmark/benchmark.h>
 
-#include "rigs/multibody_vehicle.h"
-#include "rigs/quasi_static_vehicle.h"
-#include "scenarios/common/coastdown_evaluation.h"
 #include "scenarios/common/vehicle_bench.h"
 #include "scenarios/run/run_spec.h"
 

@@ -11,7 +11,6 @@
 #include "diagnosis/findings/locations.h"
 #include "diagnosis/findings/open_questions.h"
 #include "diagnosis/findings/verdict.h"
-#include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/next_test/next_test.h"
 #include "sim/core/error.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "diagnosis/kinds/measurement_kind.h"
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/terms/term.h"
 #include "report/blocks.h"

@@ -4,7 +4,6 @@
 #include "diagnosis/output/summary.h"
 #include "report/blocks.h"
 #include "report/diagnosis_page.h"
-#include "report/diagnosis_sections.h"
 #include "sim/core/text.h"
 
 namespace rollrig::report {

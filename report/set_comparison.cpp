@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "diagnosis/comparison/report_unit.h"
-#include "diagnosis/kinds/measurement_kind.h"
 #include "report/blocks.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "diagnosis/kinds/measurement_kind.h"
 #include "estimation/parameters.h"
 #include "report/blocks.h"
 #include "report/fit_pages.h"

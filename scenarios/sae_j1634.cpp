@@ -1,5 +1,4 @@
 /// SAE J1634 multi-cycle test on a dynamometer, in the standard's order or the source's (§3.4.4).
-#include <cmath>
 
 #include "scenarios/common/vehicle_bench.h"
 

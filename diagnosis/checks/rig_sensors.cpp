@@ -3,7 +3,6 @@
 #include <functional>
 #include <stdexcept>
 
-#include "diagnosis/kinds/measurement_kind.h"
 #include "rigs/trace_effects.h"
 
 namespace rollrig::diagnosis {

@@ -6,7 +6,6 @@
 #include <boost/algorithm/string/erase.hpp>
 #include <cmath>
 
-#include "diagnosis/output/explain.h"
 #include "diagnosis/terms/term.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"

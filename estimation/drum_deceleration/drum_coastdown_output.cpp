@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "estimation/drum_deceleration/drum_coastdown.h"
 #include "sim/core/csv.h"

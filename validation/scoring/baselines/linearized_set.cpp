@@ -7,7 +7,6 @@
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/screen.h"
-#include "diagnosis/kinds/measurement_kind.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 
