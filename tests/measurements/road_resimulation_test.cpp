@@ -118,7 +118,7 @@ TEST_CASE("on the road the simulator's vehicle pulls as much", "[fast]") {
       measurements::Resimulation(run, *set.kind).simulate(set, run, corner).channel("traction_force_N");
   const std::vector<double>& quarter = simulated.channel("traction_force_N");
   const double density_ratio = 98.21e3 / kStandardAtmosphere_Pa;  // of the rig's air, at the same temperature
-  for (const std::size_t row : {300, 600, 900}) {
+  for (const std::size_t row : {300U, 600U, 900U}) {
     const double v = run.columns.at("speed_km_h")[row];
     const double drag_N = 0.5 * kStandardAtmosphere_Pa / (287.05 * 293.15) * fixture.vehicle.body.drag_area_m2 * v * v;
     CHECK(resimulated[row] - (1.0 - density_ratio) * drag_N == Approx(4.0 * quarter[row]).epsilon(2e-3));

@@ -58,13 +58,13 @@ class HandFedCorner {
   }
 
   /// Integrates all states at these inputs.
-  void advance(double duration_s, std::size_t steps = 400) {
+  void advance(double duration_s, int steps = 400) {
     namespace odeint = boost::numeric::odeint;
     odeint::runge_kutta4<std::vector<S>, double> stepper;
-    const double step_s = duration_s / static_cast<double>(steps);
+    const double step_s = duration_s / steps;
     odeint::integrate_n_steps(
         stepper, [this](const std::vector<S>& at, std::vector<S>& rates_at, double) { evaluate(at, rates_at); }, x, 0.0,
-        step_s, steps);
+        step_s, static_cast<std::size_t>(steps));
     evaluate();
   }
 

@@ -26,7 +26,7 @@ TEST_CASE("EX30: one efficiency from two sections gives the others within 3 %, t
   const double efficiency = fit_efficiency(simulated, certificate, {2, 3});
   CHECK(efficiency > 0.80);
   CHECK(efficiency < 0.90);
-  for (const std::size_t i : {1, 4, 5, 6, 7}) {
+  for (const std::size_t i : {1U, 4U, 5U, 6U, 7U}) {
     INFO(certificate[i].phase << " " << certificate[i].kind);
     CHECK(simulated[i].per_m(efficiency) == Approx(certificate[i].per_m()).epsilon(0.03));
   }
@@ -42,13 +42,13 @@ TEST_CASE("EX30: at constant speed the wheels need the road load over the distan
   const auto simulated = simulate_multi_cycle({}, certificate);
   const auto vehicle = rigs::read_vehicle(read_config(find_asset("vehicles", "volvo_ex30")));
   const double force_N = models::calc_road_load_N(*vehicle.road_load, 65.0 * 0.44704);
-  for (const std::size_t i : {3, 7}) {
+  for (const std::size_t i : {3U, 7U}) {
     CHECK(simulated[i].distance_m == Approx(certificate[i].distance_m).epsilon(1e-4));
     // Ramps: kinetic energy given once and taken back but for the last meters, less drag on the way.
     CHECK((simulated[i].drive_J - simulated[i].recuperated_J) / simulated[i].distance_m ==
           Approx(force_N).epsilon(0.01));
   }
-  for (const std::size_t i : {0, 2, 4, 6}) CHECK(simulated[i].distance_m == Approx(11990.4).epsilon(1e-3));  // 7.45 mi
+  for (const std::size_t i : {0U, 2U, 4U, 6U}) CHECK(simulated[i].distance_m == Approx(11990.4).epsilon(1e-3));  // 7.45 mi
 }
 
 TEST_CASE("EX30: warm-up of the tires explains part of the cold first section, more for tires that lose more",
