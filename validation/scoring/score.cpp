@@ -126,7 +126,7 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
   std::size_t lacking = 0;
   std::size_t all = 0;
   for (Truth& truth : read_truths(order.set, order.hash)) {
-    if (order.truth_was_left_out && truth.effects.empty()) continue;
+    if (order.truth_was_left_out && (truth.effects.empty() || truth.outside)) continue;  // known-cause skips these
     ++all;
     std::optional<Answer> answer = find_answer_to(order.set, order.answers, truth.number);
     if (!answer.has_value()) {

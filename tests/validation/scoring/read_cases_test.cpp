@@ -95,6 +95,20 @@ TEST_CASE("fits that know the cause are of effects of the catalog", "[fast]") {
   CHECK(without_twins[0].without == std::vector<std::string>{"rim_heat", "windage"});
 }
 
+TEST_CASE("with the truth left out, those cases are scored that a fit with known cause answers", "[fast]") {
+  const ValidationSetFolder made;
+  validation::ScoreOrder order = make_order(made);
+  order.answers = made.root + "/answers-left-out";
+  order.truth_was_left_out = true;
+  const auto truths = validation::read_truths(made.root, "");
+  validation::run_cases(
+      {made.root, order.answers,
+       validation::plan_known_cause(truths, validation::KnownCause::kLeftOut, {"rim_heat", "windage"})});
+  const auto cases = validation::read_cases(order);
+  REQUIRE(cases.size() == 1);
+  CHECK(cases[0].truth.number == "0002");
+}
+
 TEST_CASE("twins of a truth are what its own set could not tell from it, and no cause that misses it", "[fast]") {
   const ValidationSetFolder made;
   answer_all(made);
