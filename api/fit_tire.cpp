@@ -40,7 +40,7 @@ std::string format_fit(const measurements::MeasurementSet& set, const estimation
                         channel.samples, channel.whitened_rms);
   }
   const estimation::TwoStepEstimate& two_step = fit.two_step;
-  text += wrap(fmt::format("two-step regression of the source (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "
+  text += wrap(fmt::format("two-step regression (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "
                            "{:.4g} 1/degC, B1 {:.4g} s/(m degC), z {:.4g} W/K, f {:.4g} W s/(m K){}",
                            two_step.A0_N, two_step.A1_N_s_per_m, two_step.B0_per_K, two_step.B1_s_per_m_K,
                            two_step.rest_conductance_W_per_K, two_step.speed_conductance_W_s_per_m_K,

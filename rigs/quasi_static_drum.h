@@ -15,7 +15,7 @@ namespace rollrig::rigs {
 /// Validity  slow against the load cylinder's and the speed controller's settling (a few seconds)
 /// Energy    at a knot where load or speed jump, kinetic and spring energy jump; that is the term
 ///           "load_changes" of the mechanical audit
-/// Source    momentum of the wheel and of the surface under it; source §3.2.3.2
+/// Source    momentum of the wheel and of the surface under it; §3.2.3.2
 /// Checked   tests/rigs/fidelities_test.cpp
 template <class S>
 class QuasiStaticDrum : public QuasiStaticRig<S> {

@@ -17,7 +17,7 @@ constexpr std::size_t kRollerInputCount = kDrumInputCount + 1;
 ///           D v + X s v, of the roller (F_rr - F_rr/(1 + r_l k) + F_par + j m_r a + X) v; s left out of D
 /// Symbols   as in rolling_wheel.h; Fx recorded force of the wheel on its roller, which is that of the contact; m_r
 ///           equivalent mass of the roller, j factor on it (1 in the baseline)
-/// Source    momentum of the wheel and of the surface under it; source §3.2.3.2
+/// Source    momentum of the wheel and of the surface under it; §3.2.3.2
 template <class S>
 class RecordedRoller : public RecordedWheel<S> {
  public:

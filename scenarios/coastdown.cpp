@@ -86,7 +86,7 @@ Scenario make() {
        "Warm-up at constant speed, then pairs of coastdowns in both directions in neutral from 130 km/h to standstill. "
        "Slope and wind of the road, where given, turn round with the direction. A, B, C by generalized least squares "
        "on force against speed, at reference conditions (20 degC, 98.21 kPa, still air).",
-       "source §3.4.1, §3.4.3, (3.20); SAE J2263"},
+       "Kolekar and Narasimhan (2024) §3.4.1, §3.4.3, (3.20); SAE J2263"},
       "road", &plan, &evaluate);
 }
 

@@ -220,7 +220,7 @@ Scenario make() {
        "Two highway cycles, then coastdowns from 130 km/h on the rollers; the force of the rollers is corrected by "
        "what the road load and the force found differ, and the whole is done again, until they agree. The road load "
        "is given, the vehicle's own, or found by coastdowns on rig road.",
-       "source §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N"},
+       "Kolekar and Narasimhan (2024) §3.4.3; SAE J2264; UN GTR 15 Annex 4 for the criterion of 10 N"},
       &plan, &run);
   made.runs_on = &models::is_tied_down;
   made.default_rig = "dyno_1m2";

@@ -125,7 +125,7 @@ Scenario make() {
        "load at 80 km/h, of which the last minute is the measurement; 3 min skim at 200 N, of which the last "
        "minute gives the parasitic loss. With measurement_cycles, further cycles of 10 min load and 3 min skim "
        "follow, and the last of them is the measurement. Ranges are found from the load signal.",
-       "ISO 28580:2009 as in source §3.2.1, §3.2.3, B.2"},
+       "ISO 28580:2009 as in Kolekar and Narasimhan (2024) §3.2.1, §3.2.3, B.2"},
       &plan, &evaluate);
 }
 

@@ -77,7 +77,7 @@ Scenario make() {
       {"load_sweep", "RRc at several loads, one speed, one cold pressure",
        "Soak, pressure, run-up, then at each load a warm-up cycle (30 min and 3 min skim) and a measurement cycle "
        "(10 min and 3 min skim), without a pause; the measurement cycle is reported.",
-       "source §3.2.4.1, §4.1.3, Tables 3.3 and 3.4"},
+       "Kolekar and Narasimhan (2024) §3.2.4.1, §4.1.3, Tables 3.3 and 3.4"},
       &plan, &evaluate);
 }
 

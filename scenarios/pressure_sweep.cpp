@@ -71,7 +71,7 @@ Scenario make() {
   return make_drum_scenario(
       {"pressure_sweep", "RRc at several cold pressures, one load, one speed",
        "For each pressure: soak, pressure set and verified, run-up, warm-up cycle (30 min and 3 min skim), run-down.",
-       "source §3.2.4.2, §4.1.4, (4.1)"},
+       "Kolekar and Narasimhan (2024) §3.2.4.2, §4.1.4, (4.1)"},
       &plan, &evaluate);
 }
 

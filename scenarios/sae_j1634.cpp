@@ -21,7 +21,8 @@ struct Settings {
   static void visit(Self& p, Visit&& visit) {
     VehicleConditions::visit(p.conditions, visit);
     visit(Field{"variant", any_number(),
-                "standard: 40 CFR 600.116-12(a) and SAE J1634; source: §3.4.4, no key-on pauses, end at 80 km/h"},
+                "standard: 40 CFR 600.116-12(a) and SAE J1634; source: Kolekar and Narasimhan (2024) §3.4.4, no key-on "
+                "pauses, end at 80 km/h"},
           p.variant);
     visit(Field{"pause_s", between(0.0, 600.0), "Key-on pause between city and highway, standard order", 15.0},
           p.pause_s);
@@ -216,7 +217,7 @@ Scenario make() {
        "constant speeds 105 and 80 km/h. Of each section, for one tire: energy of rolling resistance by the model "
        "and by the constant ISO coefficient, temperatures, mean coefficient; for the vehicle: energy at the wheels. On "
        "rig road a vehicle with [road_load] needs exactly that at the wheels, and its tires nothing of their own.",
-       "SAE J1634 as fixed by 40 CFR 600.116-12(a); source §3.4.4, §3.4.5, Tables 4.4 and 4.5"},
+       "SAE J1634 as fixed by 40 CFR 600.116-12(a); Kolekar and Narasimhan (2024) §3.4.4, §3.4.5, Tables 4.4 and 4.5"},
       "dyno_1m2", &plan, &evaluate);
 }
 

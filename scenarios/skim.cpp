@@ -49,7 +49,7 @@ Scenario make() {
   return make_drum_scenario(
       {"skim", "Skim test after a warm-up: parasitic loss as measured, and the tire's part in it",
        "Soak, pressure, run-up, 30 min under load, then 3 min at skim load; the last minute is averaged.",
-       "source §3.2.1 items 5 and 6, §5.2"},
+       "Kolekar and Narasimhan (2024) §3.2.1 items 5 and 6, §5.2"},
       &plan, &evaluate);
 }
 

@@ -124,7 +124,7 @@ Scenario make() {
       {"skim_series", "Skim tests at several small loads, extrapolated to zero load",
        "Soak, pressure, run-up, 30 min under load, then a skim test of 3 min at each of several small loads; a "
        "straight line through the forces gives the loss at zero load.",
-       "source §5.2"},
+       "Kolekar and Narasimhan (2024) §5.2"},
       &plan, &evaluate);
 }
 

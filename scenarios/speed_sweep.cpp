@@ -72,7 +72,7 @@ Scenario make() {
       {"speed_sweep", "RRc at several speeds, one load, one cold pressure",
        "For each speed: soak, pressure, run-up, warm-up cycle (30 min and 3 min skim), then four measurement cycles "
        "(10 min and 3 min skim), run-down; the measurement cycles are averaged.",
-       "source §3.2.5, §4.1.5"},
+       "Kolekar and Narasimhan (2024) §3.2.5, §4.1.5"},
       &plan, &evaluate);
 }
 

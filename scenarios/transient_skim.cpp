@@ -69,7 +69,7 @@ Scenario make() {
       {"transient_skim", "Skim tests spread over the warm-up of a cold tire",
        "Soak, pressure, run-up, then loads of 5 min with a skim test of 3 min after each; the last minute of every "
        "load and skim is averaged, and F_r is taken with the skim test that follows.",
-       "source §3.2.7, §4.1.7"},
+       "Kolekar and Narasimhan (2024) §3.2.7, §4.1.7"},
       &plan, &evaluate);
 }
 

@@ -130,7 +130,7 @@ Scenario make() {
       {"warm_up", "Warm-up cycle of a soaked tire: loss against temperature",
        "Soak, pressure, run-up, then the warm-up cycle: 30 min under load at constant speed and 3 min skim. Reads off "
        "the loss at the start and at the end, and its relative fall per degC between two liner temperatures.",
-       "source §3.2.6, §4.1.6, §6"},
+       "Kolekar and Narasimhan (2024) §3.2.6, §4.1.6, §6"},
       &plan, &evaluate);
 }
 

@@ -64,11 +64,11 @@ std::string write_equations(const std::string& file) {
       comment += (content.empty() ? "" : content.substr(1)) + "\n";
       continue;
     }
-    if (has_equation) page += fmt::format("#### `{}`\n\n```text\n{}```\n\n", find_name(lines, i), comment);
+    if (has_equation) page += fmt::format("##### `{}`\n\n```text\n{}```\n\n", find_name(lines, i), comment);
     comment.clear();
     has_equation = false;
   }
-  return page.empty() ? "" : fmt::format("### {}\n\n{}", file, page);
+  return page.empty() ? "" : fmt::format("#### {}\n\n{}", file, page);
 }
 
 /// What effects or tire models declare of themselves.
@@ -95,11 +95,13 @@ std::string write_assumed_row(const std::string& file, const std::vector<std::st
   std::string words =
       text::trim_copy_if(lines[line].substr(at + std::string(kAssumed).size()), text::is_any_of(": \","));
   static const std::regex continued("^\\s*(///?|#|\")\\s*(.*)$");
+  static const std::regex next_part("(Equation|Symbols|Validity|Energy|Errors|Accuracy|Checked|Source) ");
   std::smatch more;
   constexpr std::size_t kMost = 4;
   for (std::size_t i = line + 1; i < std::min(lines.size(), line + kMost); ++i) {
     const bool ends = text::ends_with(words, ".") || text::ends_with(words, ";") || text::ends_with(words, "}");
     if (ends || !std::regex_match(lines[i], more, continued) || lines[i].find(kAssumed) != std::string::npos) break;
+    if (std::regex_search(more[2].first, lines[i].cend(), next_part, std::regex_constants::match_continuous)) break;
     words += " " + text::trim_copy_if(more[2].str(), text::is_any_of(" \","));
   }
   const std::string shown = code.empty() ? "" : "`" + escape_cell(code) + "`";
@@ -134,6 +136,7 @@ Rows list_assumed() {
     const std::vector<std::string> lines = read_lines(file);
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (lines[i].find(kAssumed) == std::string::npos || (is_declared && is_in_words(lines[i]))) continue;
+      if (lines[i].find("says \"Assumed:\"") != std::string::npos) continue;  // of a file's other numbers
       rows.push_back(write_assumed_row(file, lines, i));
     }
   }

@@ -26,7 +26,7 @@ struct PlannedTest {
 constexpr double kVirtualRow_s = 10.0;
 
 /// What the set's own rig, sensors, tire, usual load and pressure allow. Speeds, loads and durations: Assumed, after
-/// the source's tests (§3.2); they are what makes each test's own comparison, not a standard's.
+/// the tests of Kolekar and Narasimhan (2024, §3.2); they are what makes each test's own comparison, not a standard's.
 /// Set-up takes half an hour (Assumed: wheel mounted, inflated, sensors zeroed), a soak of tire and bearings to the
 /// ambient 3 h before each run that starts cold (ISO 28580, thermal conditioning of passenger-car tires), and speed
 /// changes go at 1 km/h a second (Assumed). Where a run need not start cold, its first half hour warms the tire and is

@@ -15,8 +15,9 @@ struct BearingLoadFriction {
         "show it, so it is counted as loss of the tire";
     info.equation = "F_par <- F_par + F_b Fz/(5.4 kN)";
     info.source =
-        "source §3.2.3.2 takes the parasitic loss at skim load for that under load; a bearing's friction moment goes "
-        "with its load (coefficient of friction, bearing makers' catalogs). Assumed: 0.3 to 3 N at 5.4 kN";
+        "Kolekar and Narasimhan (2024) §3.2.3.2 takes the parasitic loss at skim load for that under load; a bearing's "
+        "friction moment goes with its load (coefficient of friction, bearing makers' catalogs). Assumed: 0.3 to 3 N "
+        "at 5.4 kN";
     info.parameters = {
         {"force_N", between(0.0, 50.0), {0.3, 3.0, Prior::Scale::kLog}, "F_b, at the surface, at 5.4 kN", 0.0}};
     info.acts_on = &is_indoors;

@@ -20,10 +20,10 @@ struct BearingWarmup {
         "d(theta)/dt = D x f exp(b (D - theta)) - (1 - a + a x) theta, theta = T_b - T_amb, x = v/v_ref, v_ref = 80 "
         "km/h, f = (c0 + c1 v)/(c0 + c1 v_ref), T_0 = 25 degC, a = 0.4";
     info.source =
-        "source §4.1.7, §5.2. Assumed: b 0.005 to 0.04 /K and 10 to 60 min, where h = 1; D; heating by the bearings' "
-        "own friction power; h, of the quadratic term, from 0 (air drag, which does not feel the grease) to 1; a, of "
-        "the cooling, by air that the drum moves; the exponent of the heating levels off at 3; r = 1: parasitic "
-        "coefficients taken on a warm rig. Not soaked: warm before the rest";
+        "Kolekar and Narasimhan (2024) §4.1.7, §5.2. Assumed: b 0.005 to 0.04 /K and 10 to 60 min, where h = 1; D; "
+        "heating by the bearings' own friction power; h, of the quadratic term, from 0 (air drag, which does not feel "
+        "the grease) to 1; a, of the cooling, by air that the drum moves; the exponent of the heating levels off at 3; "
+        "r = 1: parasitic coefficients taken on a warm rig. Not soaked: warm before the rest";
     info.parameters = {
         {"fall_per_K",
          between(-0.2, 0.2),

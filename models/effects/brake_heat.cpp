@@ -18,11 +18,12 @@ struct BrakeHeat {
         "C_rim/(UA + UA_air). With a rim node linked to the tire (rim_heat), Q (1 + UA_air/UA) goes into that node "
         "instead, of which Q reaches tire and gas in the end";
     info.source =
-        "source §4.2.2, §4.4.1: brakes left out. No tire model has heat to the rim, so E counts what the brake adds "
-        "to a rim that else exchanges nothing. Assumed: w, since most of a disc's heat goes straight to the air; a "
-        "rim of 6 to 10 kg of light alloy, UA 0.5 to 4 W/K and UA_air 4 to 30 W/K (0.5 m2 in moving air), hence tau 3 "
-        "to 30 min; tau_d, a disc of 3 to 6 kJ/K that loses 10 to 40 W/K to rim and air; g, the rim's well faces the "
-        "gas, its beads the liner's side of the rubber; 1 - d, what pads and hot air give to the rim at once";
+        "Kolekar and Narasimhan (2024) §4.2.2, §4.4.1: brakes left out. No tire model has heat to the rim, so E counts "
+        "what the brake adds to a rim that else exchanges nothing. Assumed: w, since most of a disc's heat goes "
+        "straight to the air; a rim of 6 to 10 kg of light alloy, UA 0.5 to 4 W/K and UA_air 4 to 30 W/K (0.5 m2 in "
+        "moving air), hence tau 3 to 30 min; tau_d, a disc of 3 to 6 kJ/K that loses 10 to 40 W/K to rim and air; g, "
+        "the rim's well faces the gas, its beads the liner's side of the rubber; 1 - d, what pads and hot air give to "
+        "the rim at once";
     info.parameters = {
         {"share_percent", between(0.0, 100.0), {2.0, 15.0, Prior::Scale::kLog}, "w, of the brake's power", 0.0},
         {"time_constant_min", between(0.5, 600.0), {3.0, 30.0, Prior::Scale::kLog}, "tau, of the rim"},

@@ -130,8 +130,8 @@ struct ClockShift {
         "T(t) <- T(t - d), p(t) <- p(t - d), as means over the same samples; rows without a sample stay so, and are "
         "bridged by straight lines";
     info.source =
-        "source B.1: torque and temperature are logged apart and synchronized afterwards. Assumed: 0.5 to 10 s; a "
-        "constant shift, the same for temperature and pressure";
+        "Kolekar and Narasimhan (2024) B.1: torque and temperature are logged apart and synchronized afterwards. "
+        "Assumed: 0.5 to 10 s; a constant shift, the same for temperature and pressure";
     info.parameters = {{"shift_s",
                         between(-600.0, 600.0),
                         {0.5, 10.0, Prior::Scale::kLog, true},

@@ -17,10 +17,11 @@ struct ConvectionLaw {
         "f v <- f (q + v_0 (w/v_0)^(1 - (1-s) d) - w), w^2 = q^2 + u^2, q = v + sqrt(v^2 (1 - s d) + s d v_0^2 + u^2) "
         "- sqrt(v^2 + u^2): n = 1 - d about v_0; with s = 0 v_0 (v/v_0)^n, with s = 1 a fan whose air adds by squares";
     info.source =
-        "source (3.18) has a conductance linear in speed; forced convection of turbulent flow goes with v^0.8 "
-        "(Incropera et al., Fundamentals of Heat and Mass Transfer, chapter 7). Assumed: exponent n 0.6 to 1, d = 1 - "
-        "n, or a fan whose air speed is not the roller's; v_0, at which the tire file's f holds; u, which keeps the "
-        "power finite at standstill and is the air that moves there without a fan; s, any part of d by the fan";
+        "Kolekar and Narasimhan (2024) (3.18) has a conductance linear in speed; forced convection of turbulent flow "
+        "goes with v^0.8 (Incropera et al., Fundamentals of Heat and Mass Transfer, chapter 7). Assumed: exponent n "
+        "0.6 to 1, d = 1 - n, or a fan whose air speed is not the roller's; v_0, at which the tire file's f holds; u, "
+        "which keeps the power finite at standstill and is the air that moves there without a fan; s, any part of d by "
+        "the fan";
     info.parameters = {
         {"exponent_deficit", between(-0.5, 1.0), {0.0, 0.4}, "d, 1 less the exponent n", 0.0},
         {"reference_speed_m_s", between(2.0, 60.0), {14.0, 30.0, Prior::Scale::kLog}, "v_0, at which f v holds"},

@@ -12,7 +12,7 @@ struct CurvatureExponent {
     info.id = "curvature_exponent";
     info.summary = "Loss goes from one drum to another with a power of the standard's correction factor other than one";
     info.equation = "F_rr <- F_rr K^(n - 1), so that F_rr goes with K^n; K = 1 on the tire's reference drum";
-    info.source = "source (3.1), after ISO 28580. Assumed: n 0.6 to 1.4";
+    info.source = "Kolekar and Narasimhan (2024) (3.1), after ISO 28580. Assumed: n 0.6 to 1.4";
     info.parameters = {{"exponent", between(-1.0, 3.0), {0.6, 1.4}, "n, power of the correction factor", 1.0}};
     info.faint_on = &is_drum;  // no change at all where the drum is the reference drum
     info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};

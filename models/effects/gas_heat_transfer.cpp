@@ -16,9 +16,9 @@ struct GasHeatTransfer {
         "temperature sooner or later";
     info.equation = "H <- H h^(1 - s + s |v|/v_ref), not above 3 H; v_ref = 80 km/h";
     info.source =
-        "source §3.3.2.2: H is another author's, not measured. As a ratio to the tire file's H, so that 1 is the "
-        "baseline for every tire. Assumed: h, 1 to 8 W/K where files have about 4; s, since a turning tire stirs its "
-        "gas, so that what is off may go with speed";
+        "Kolekar and Narasimhan (2024) §3.3.2.2: H is another author's, not measured. As a ratio to the tire file's H, "
+        "so that 1 is the baseline for every tire. Assumed: h, 1 to 8 W/K where files have about 4; s, since a turning "
+        "tire stirs its gas, so that what is off may go with speed";
     info.parameters = {{"transfer_ratio",
                         between(0.02, 50.0),
                         {0.25, 2.0, Prior::Scale::kLog},

@@ -12,7 +12,7 @@ struct LoadExponent {
     info.id = "load_exponent";
     info.summary = "Rolling resistance goes with a power of the load other than one, at equal temperature";
     info.equation = "F_rr <- F_rr (Fz/Fz_ref)^(b - 1), so that F_rr goes with Fz^b";
-    info.source = "source (3.7) and §3.3.1.3. Assumed: b 0.85 to 1.15";
+    info.source = "Kolekar and Narasimhan (2024) (3.7) and §3.3.1.3. Assumed: b 0.85 to 1.15";
     info.parameters = {{"exponent", between(0.3, 2.0), {0.85, 1.15}, "b, exponent of the load", 1.0}};
     info.faint_on = &is_on_road;  // one load
     info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};

@@ -15,8 +15,9 @@ struct PressureExponent {
         "where one pressure is run";
     info.equation = "F_rr <- F_rr (p/p_ref)^-d, so that F_rr goes with p^-(a + d); a of the tire file";
     info.source =
-        "source §2.2.2.3: 0.3 to 0.5 in the tests that it quotes. As a difference, since each tire file has its own "
-        "a, at which the effect does nothing. Assumed: a + d from 0.25 to 0.55 about the usual 0.4";
+        "Kolekar and Narasimhan (2024) §2.2.2.3: 0.3 to 0.5 in the tests that it quotes. As a difference, since each "
+        "tire file has its own a, at which the effect does nothing. Assumed: a + d from 0.25 to 0.55 about the usual "
+        "0.4";
     info.parameters = {{"exponent_shift", between(-1.0, 1.0), {-0.15, 0.15}, "d, exponent less the tire file's", 0.0}};
     info.faint_on = &is_on_road;  // one pressure
     info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};

@@ -15,9 +15,10 @@ struct RimHeat {
         "C_rim dT_rim/dt = (1 - g) U (T - T_rim) + g U (T_gas - T_rim) - r a (T_rim - T_amb); a: what the tire has to "
         "the air at that speed, (1 - road share) z + f v";
     info.source =
-        "source §3.3.2.1 leaves the rim out. Assumed: U of two bead seats and of gas at the well; 6 to 10 kg of light "
-        "alloy; g about a half (bead seats, well of the rim), r: 4 to 30 W/K of 0.5 m2 in moving air, with the part "
-        "that goes with speed as large as the tire's; the rim starts at the tire's temperature";
+        "Kolekar and Narasimhan (2024) §3.3.2.1 leaves the rim out. Assumed: U of two bead seats and of gas at the "
+        "well; 6 to 10 kg of light alloy; g about a half (bead seats, well of the rim), r: 4 to 30 W/K of 0.5 m2 in "
+        "moving air, with the part that goes with speed as large as the tire's; the rim starts at the tire's "
+        "temperature";
     info.parameters = {{"conductance_W_per_K",
                         between(0.0, 100.0),
                         {0.5, 4.0, Prior::Scale::kLog},

@@ -13,8 +13,9 @@ struct SlipLoss {
     info.summary = "Drive and brake force make the tire slip, and the work of the slip heats the rubber";
     info.equation = "slip s = Fx/C at the contact, loss Fx s = Fx^2/C, P_slip = Fx^2 v/C into the rubber";
     info.source =
-        "source §1.6 (drive and brake torque left out). As compliance 1/C, so that 0 is the baseline's stiff contact. "
-        "Assumed: C 60 to 250 kN, 10 to 45 times a car tire's load; all of it stays in the rubber";
+        "Kolekar and Narasimhan (2024) §1.6 (drive and brake torque left out). As compliance 1/C, so that 0 is the "
+        "baseline's stiff contact. Assumed: C 60 to 250 kN, 10 to 45 times a car tire's load; all of it stays in the "
+        "rubber";
     info.parameters = {{"compliance_per_kN",
                         between(0.0, 0.1),
                         {1.0 / 250.0, 1.0 / 60.0, Prior::Scale::kLog},

@@ -19,10 +19,10 @@ struct SlowLeak {
         "m/m_0 <- (m/m_0)(1 - s), ds/dt = r exp(e (T - 40 degC))/(p_cold + p_amb) tanh(p/p_0); p_0 = 10 kPa: no "
         "overpressure, no leak";
     info.source =
-        "source (3.14) has the gas sealed. Assumed: r, since sound rubber lets through some kPa a month, and a tire "
-        "that loses more than 2 kPa an hour is mended; the pressure that drives it hardly changes; e, a hole knows no "
-        "temperature, while gas goes through rubber with 25 to 45 kJ/mol, 0.03 to 0.055 /K at 40 degC, of a warm "
-        "tire; T of the liner; tight before the run, whose cold pressure is read at its start";
+        "Kolekar and Narasimhan (2024) (3.14) has the gas sealed. Assumed: r, since sound rubber lets through some kPa "
+        "a month, and a tire that loses more than 2 kPa an hour is mended; the pressure that drives it hardly changes; "
+        "e, a hole knows no temperature, while gas goes through rubber with 25 to 45 kJ/mol, 0.03 to 0.055 /K at 40 "
+        "degC, of a warm tire; T of the liner; tight before the run, whose cold pressure is read at its start";
     info.parameters = {{"rate_kPa_per_h",
                         between(0.0, 100.0),
                         {0.2, 2.0, Prior::Scale::kLog},

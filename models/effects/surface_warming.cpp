@@ -19,9 +19,9 @@ struct SurfaceWarming {
         "T_surface <- T_surface + (1 - a) theta + a theta_s, tau d(theta)/dt = D (v Fz/(v_ref Fz_ref))^n - theta, "
         "tau_s d(theta_s)/dt likewise; tau_s = 4 min, v_ref = 80 km/h";
     info.source =
-        "source §3.3.2.1 (heat to the road in z). A road is new under every turn, so it acts on drums and rollers. "
-        "Assumed: 2 to 15 K, 10 to 40 min; n, a power of load times speed; a skin that warms by itself, tau_s and its "
-        "share a up to about a third. Not soaked: warm before the rest";
+        "Kolekar and Narasimhan (2024) §3.3.2.1 (heat to the road in z). A road is new under every turn, so it acts on "
+        "drums and rollers. Assumed: 2 to 15 K, 10 to 40 min; n, a power of load times speed; a skin that warms by "
+        "itself, tau_s and its share a up to about a third. Not soaked: warm before the rest";
     info.parameters = {
         {"rise_dK",
          between(-30.0, 60.0),

@@ -17,8 +17,8 @@ struct TieDownLoad {
         "another run, "
         "tau = 15 min";
     info.source =
-        "source §3.4.2 (vehicle held by tie-downs). Assumed: 50 to 400 N a wheel; straps that creep, r, tau; tied "
-        "down anew before a run, but for one right after another";
+        "Kolekar and Narasimhan (2024) §3.4.2 (vehicle held by tie-downs). Assumed: 50 to 400 N a wheel; straps that "
+        "creep, r, tau; tied down anew before a run, but for one right after another";
     info.parameters = {
         {"added_load_N", between(-1000.0, 3000.0), {50.0, 400.0, Prior::Scale::kLog}, "dF, of one wheel", 0.0},
         {"relaxing_share", between(-0.5, 0.8), {0.0, 0.2}, "r, of it, that straps lose as they creep"}};

@@ -16,8 +16,8 @@ struct TireLossInSkim {
         "F_rr <- F_rr + F_s ((Fz + F_0)/(F_skim + F_0))^m exp(-b (T - 25 degC)) tanh(Fz/F_0); F_0 = 20 N: below it "
         "the contact is lost";
     info.source =
-        "source §4.1.7, §5.2: what is measured in skim depends on the tire's temperature. Assumed: F_s, some tenths "
-        "of such a loss; exponential fall, power of the load, F_0";
+        "Kolekar and Narasimhan (2024) §4.1.7, §5.2: what is measured in skim depends on the tire's temperature. "
+        "Assumed: F_s, some tenths of such a loss; exponential fall, power of the load, F_0";
     info.parameters = {
         {"force_N",
          between(-20.0, 20.0),

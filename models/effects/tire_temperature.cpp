@@ -20,10 +20,10 @@ struct TireTemperature {
         "Fz/(v_r Fz_ref), L factor of all effects on the loss, e among them; g = (v_0 + v)/(v_0 + v_r); v_r = 80 "
         "km/h, v_0 = z/f";
     info.source =
-        "source (3.4), (3.8) to (3.14), with the heat balance in units of that at 80 km/h, 25 degC and the reference "
-        "load, where the coefficient of ISO 28580 holds. Assumed: B, half to twice that of Figure 3.13; tau and D of "
-        "tires from small to large; d, since a coefficient off a label may be of another tire's test; z/f of the "
-        "tire's file or its class. Right after another run the tire begins D above its start";
+        "Kolekar and Narasimhan (2024) (3.4), (3.8) to (3.14), with the heat balance in units of that at 80 km/h, 25 "
+        "degC and the reference load, where the coefficient of ISO 28580 holds. Assumed: B, half to twice that of "
+        "Figure 3.13; tau and D of tires from small to large; d, since a coefficient off a label may be of another "
+        "tire's test; z/f of the tire's file or its class. Right after another run the tire begins D above its start";
     info.parameters = {
         {"fall_per_K",
          between(-0.1, 0.2),

@@ -16,9 +16,10 @@ struct TorqueZeroDrift {
         "torque <- torque + R D, loss force <- loss force + D; D = r (tau (1 - exp(-t/tau)) + k (T_amb - T_amb0)), "
         "t and T_amb0 from the run's start";
     info.source =
-        "source §3.2.1, item 4: the torque sensor's +-0.9 N m. Assumed: 0 to 0.5 N per 10 min, with time or ambient; "
-        "first order in time (electronics and flange warm up), k up to ten minutes of drift a kelvin. Taken at a "
-        "row's time, which is its mean but for r dt^2/(24 tau), and half a sample at the run's two ends";
+        "Kolekar and Narasimhan (2024) §3.2.1, item 4: the torque sensor's +-0.9 N m. Assumed: 0 to 0.5 N per 10 min, "
+        "with time or ambient; first order in time (electronics and flange warm up), k up to ten minutes of drift a "
+        "kelvin. Taken at a row's time, which is its mean but for r dt^2/(24 tau), and half a sample at the run's two "
+        "ends";
     info.parameters = {{"drift_N_per_h",
                         between(-100.0, 100.0),
                         {0.3, 3.0, Prior::Scale::kLog, true},

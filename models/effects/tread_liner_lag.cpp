@@ -18,10 +18,10 @@ struct TreadLinerLag {
         "cooling to air and road; liner: the rest; between them 4 s (1 - s) G, which is G for two halves; F_rr sees "
         "(1 - q) T_liner + q T_tread, since each part's loss follows its own temperature";
     info.source =
-        "source §3.3.2.1, §4.2.2: one lumped node. As a share, since a conductance has no value at which it does "
-        "nothing, and so that no time constant goes to 0 with the size. Assumed: G, 0.45 m2 and 1 to 4 mm of rubber "
-        "of 0.25 W/(m K); s about a half (tread, belts and their rubber), h (heat evenly by mass = 1), k (most of the "
-        "air and all of the road act on the tread)";
+        "Kolekar and Narasimhan (2024) §3.3.2.1, §4.2.2: one lumped node. As a share, since a conductance has no value "
+        "at which it does nothing, and so that no time constant goes to 0 with the size. Assumed: G, 0.45 m2 and 1 to "
+        "4 mm of rubber of 0.25 W/(m K); s about a half (tread, belts and their rubber), h (heat evenly by mass = 1), "
+        "k (most of the air and all of the road act on the tread)";
     info.parameters = {
         {"tread_share", between(0.0, 0.95), {0.3, 0.7}, "s, of the rubber's heat capacity that is the tread's", 0.0},
         {"conductance_W_per_K",

@@ -12,7 +12,7 @@ struct Combined : CombinedLaw, OneNode {
     info.equation =
         "F_rr = K (p/p_ref)^-a (Fz/Fz_ref) (A0 + A1 v) exp(-(B0 + B1 v) T); C dT/dt = F_rr v - (z + f v)(T - T_amb) - "
         "H (T - T_gas), C_gas dT_gas/dt = H (T - T_gas)";
-    info.source = "source (3.4), (3.8) to (3.14)";
+    info.source = "Kolekar and Narasimhan (2024) (3.4), (3.8) to (3.14)";
     info.nodes = {{Node::kLiner, "rubber"}};
     info.tables = {"rolling_resistance", "thermal"};
     return info;

@@ -10,7 +10,7 @@ struct ConstantRrc : OneNode {
     info.id = kConstantModel;
     info.summary = "The loss is a constant share of the load, as most vehicle simulators have it";
     info.equation = "F_rr = RRc Fz; temperatures as in the model combined";
-    info.source = "source §2.2.1: the coefficient by which ISO 28580 describes a tire";
+    info.source = "Kolekar and Narasimhan (2024) §2.2.1: the coefficient by which ISO 28580 describes a tire";
     info.nodes = {{Node::kLiner, "rubber"}};
     info.tables = {"thermal", "constant"};
     info.loss_follows_heat = false;

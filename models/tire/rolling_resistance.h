@@ -6,7 +6,7 @@
 
 namespace rollrig::models {
 
-/// A = A0 + A1 v [N] and B = B0 + B1 v [1/K] at one load and speed (source (3.6)).
+/// A = A0 + A1 v [N] and B = B0 + B1 v [1/K] at one load and speed (3.6).
 template <class S>
 struct LossCoefficients {
   S A_N{};
@@ -14,7 +14,7 @@ struct LossCoefficients {
 };
 
 /// Coefficients at a load.
-/// Equation  without a map  A = (Fz/Fz_ref) (A0 + A1 v), B = B0 + B1 v      (source (3.4), (3.5))
+/// Equation  without a map  A = (Fz/Fz_ref) (A0 + A1 v), B = B0 + B1 v      (3.4), (3.5)
 ///           with a map     A0, A1, B0, B1 linear in load between two entries (§3.3.1.3)
 ///           below the tire's lowest speed v_low, v stands for v_low
 /// Validity  outside the map the nearest entry holds and A goes in proportion to the load, as in (3.5). Lines
@@ -47,7 +47,7 @@ LossCoefficients<S> calc_loss_coefficients(const TireParameters<S>& tire, const 
 /// Symbols   p gauge pressure [Pa], p_ref reference [Pa], a pressure exponent [1], T tire temperature;
 ///           speed v [m/s], load Fz [N]; given in K, T stands in degC in the exponential
 /// Validity  p > 0. Fitted above 20 km/h (§4.2.1). Assumed: it holds from standstill up
-/// Energy    F_rr v is taken from the motion and heats the rubber (source (3.8))
+/// Energy    F_rr v is taken from the motion and heats the rubber (3.8)
 /// Source    (3.2) to (3.5); (3.5) is the same law with A divided by RRc_ISO Fz/1000
 /// Checked   tests/models/rolling_resistance_test.cpp
 template <class S>

@@ -18,12 +18,12 @@ struct TwoNode : CombinedLaw, OneNode {
         "T_c) - H (T_c - T_gas); Q = F_rr v, P friction of the contact; F_rr of the model combined at T = m T_t + (1 "
         "- m) T_c; of z the road's share acts on T_t - T_surface; C, H, z, f: [thermal]";
     info.source =
-        "source (3.8) to (3.14), of whose one node (§3.3.2.1) these are two parts; tread, carcass and gas as bodies, "
-        "with the heat of sliding in the tread: B. Shyrokau and D. Harsh, Tire model with temperature effects for "
-        "Formula SAE vehicle, Applied Sciences 9 (2019) 5328, section 3.1. Assumed: the carcass gives heat to the "
-        "outside through the tread alone, since most of the outer surface that moving air and road reach is the "
-        "tread's; heat of rolling resistance in both, there in the carcass alone; T in proportion, since each part's "
-        "loss follows its own temperature (then m = h)";
+        "Kolekar and Narasimhan (2024) (3.8) to (3.14), of whose one node (§3.3.2.1) these are two parts; tread, "
+        "carcass and gas as bodies, with the heat of sliding in the tread: B. Shyrokau and D. Harsh, Tire model with "
+        "temperature effects for Formula SAE vehicle, Applied Sciences 9 (2019) 5328, section 3.1. Assumed: the "
+        "carcass gives heat to the outside through the tread alone, since most of the outer surface that moving air "
+        "and road reach is the tread's; heat of rolling resistance in both, there in the carcass alone; T in "
+        "proportion, since each part's loss follows its own temperature (then m = h)";
     info.nodes = {{Node::kLiner, "carcass"}, {Node::kTread, "tread"}};
     info.tables = {"rolling_resistance", "thermal"};
     // Assumed: usual values of passenger-car tires, the tread with its belts. Masses of the parts are weighed or read
