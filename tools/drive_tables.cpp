@@ -27,7 +27,7 @@ Rows list_sections(const Drives& drives) {
     const std::vector<double> published = read_published_tire(kPublishedFolder, tire).sections();
     std::vector<double> found;
     for (const DriveSection& section : drives.at(tire)) found.push_back(section.difference());
-    rows.push_back(section_row(tire + ", source", published) + " |");
+    rows.push_back(section_row(tire + ", published", published) + " |");
     rows.push_back(section_row(tire + ", virtual", found) +
                    fmt::format(" {:.2f} |", 100.0 * find_rms(found, published)));
   }
@@ -36,7 +36,7 @@ Rows list_sections(const Drives& drives) {
 
 void add_figure_3_13(DriveTables& tables) {
   const std::vector<double> published = read_published_tire(kPublishedFolder, "a50").sections();
-  tables.figure_3_13 = {section_row("source", published) + " |"};
+  tables.figure_3_13 = {section_row("published", published) + " |"};
   for (const double C_J_per_K : {18040.0, 25300.0}) {
     const CoolingFit fit = fit_cooling_to_figure_3_13(published, C_J_per_K);
     tables.figure_3_13.push_back(section_row(fmt::format("C {:.0f} J/K", C_J_per_K), fit.differences) +
@@ -52,10 +52,10 @@ Rows list_table_5_1(const Drives& drives) {
   Rows rows;
   for (const std::string& tire : kTires) {
     read_published_table(expected_file("table_5_1"), tire, [&](TableReader& reader) {
-      const auto source = [&reader](const char* key) { return reader.number({key, any_number(), ""}); };
-      rows.push_back(fmt::format("| {}, source | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |", tire, source("city"),
-                                 source("highway"), source("overall"), source("iso"),
-                                 100.0 * source("difference_percent")));
+      const auto published = [&reader](const char* key) { return reader.number({key, any_number(), ""}); };
+      rows.push_back(fmt::format("| {}, published | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.0f} |", tire,
+                                 published("city"), published("highway"), published("overall"), published("iso"),
+                                 100.0 * published("difference_percent")));
     });
     const EnergyRow row = make_energy_row(drives.at(tire));
     rows.push_back(fmt::format("| {}, virtual | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.1f} |", tire, row.city,
@@ -70,9 +70,10 @@ Rows list_table_4_2() {
   Rows rows;
   for (const std::string tire : {"a40", "a60"}) {
     read_published_table(expected_file("table_4_2"), tire + "_less_a50", [&](TableReader& reader) {
-      const auto source = [&reader](const char* key) { return reader.number({key, any_number(), ""}); };
-      rows.push_back(fmt::format("| {} - a50 | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |", tire, source("measured"),
-                                 source("model"), energy[tire].model_Wh - energy["a50"].model_Wh, source("iso"),
+      const auto published = [&reader](const char* key) { return reader.number({key, any_number(), ""}); };
+      rows.push_back(fmt::format("| {} - a50 | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |", tire,
+                                 published("measured"), published("model"),
+                                 energy[tire].model_Wh - energy["a50"].model_Wh, published("iso"),
                                  energy[tire].iso_Wh - energy["a50"].iso_Wh));
     });
   }
