@@ -41,9 +41,9 @@ std::string edit_runs(const std::string& program) {
 
 const std::string kFirst = "campaign/1-warm-up-120.csv";
 const std::string kNoPackages =
-    "mkdir bin && ln -s /bin/cat /usr/bin/dirname bin && cd bin && echo 'echo 1000' > id &&"
+    "mkdir bin && ln -s /bin/cat /usr/bin/dirname bin && cd bin && echo 'echo 1000' > id && echo exit 0 > dpkg &&"
     "echo 'for p; do case $p in -*|libceres-dev|libsimbody-dev) ;; *) echo $p=install ok installed;; esac; done' >"
-    " dpkg-query && chmod +x id dpkg-query";
+    " dpkg-query && chmod +x *";
 
 /// In the order of the page; a section with several messages has several.
 const std::vector<Mistake> kMistakes{
