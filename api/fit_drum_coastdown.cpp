@@ -8,7 +8,7 @@
 namespace rollrig {
 namespace {
 
-std::string format_fit(const estimation::CoastSet& set, const estimation::DrumCoastdownFit& fit) {
+std::string format_drum_coastdown(const estimation::CoastSet& set, const estimation::DrumCoastdownFit& fit) {
   std::size_t missed = 0, doubled = 0, other = 0, rows = 0;
   for (const estimation::CoastAnalysis& analysis : fit.analyses) {
     rows += analysis.coast.time_s.size();
@@ -33,7 +33,7 @@ Report fit_drum_coastdown(const std::string& set_file, const std::string& data) 
   const auto set = std::make_shared<const estimation::CoastSet>(estimation::read_coast_set(set_file, data));
   const auto fit = std::make_shared<const estimation::DrumCoastdownFit>(estimation::fit_drum_coastdown(*set));
   Report report;
-  report.text = format_fit(*set, *fit);
+  report.text = format_drum_coastdown(*set, *fit);
   report.json = to_text(estimation::make_coastdown_json(*set, *fit));
   report.make_files = [set, fit, json = report.json] {
     return FolderFiles{{"fit.json", json},

@@ -70,8 +70,8 @@ std::string format_checks(const RoadLoadChecks& checks) {
   return text;
 }
 
-std::string format_fit(const std::string& path, const CoastdownFile& file, const RoadLoadFitOptions& options,
-                       const RoadLoadFit& fit, const RoadLoadChecks& checks) {
+std::string format_road_load(const std::string& path, const CoastdownFile& file, const RoadLoadFitOptions& options,
+                             const RoadLoadFit& fit, const RoadLoadChecks& checks) {
   std::string text =
       wrap(fmt::format("fit road-load   {} ({})   {}, {}", path, file.is_trace ? "speed trace" : "times through bins",
                        format_count(file.data.runs.size(), "run"), format_count(fit.points.size(), "speed bin")),
@@ -143,7 +143,7 @@ RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& option
   RoadLoad result;
   result.coefficients = list_coefficients(*fit);
   result.warnings = fit->warnings;
-  result.text = format_fit(path, *file, options, *fit, checks);
+  result.text = format_road_load(path, *file, options, *fit, checks);
   result.json = to_text(estimation::make_road_load_json(*file, options, *fit, checks));
   result.make_files = [file, fit, json = result.json] {
     return FolderFiles{{"road_load.json", json}, {"residuals.csv", estimation::write_road_load_residuals(*file, *fit)}};

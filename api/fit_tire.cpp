@@ -32,7 +32,7 @@ scenarios::ResultTable make_table(const estimation::TireFit& fit) {
   return table;
 }
 
-std::string format_fit(const measurements::MeasurementSet& set, const estimation::TireFit& fit) {
+std::string format_tire_fit(const measurements::MeasurementSet& set, const estimation::TireFit& fit) {
   std::string text = fmt::format("fit tire   set {}   tire {}   rig {}\n", set.name, set.tire.name, set.rig->name);
   text += report::format_table(make_table(fit));
   for (const estimation::ChannelFit& channel : fit.channels) {
@@ -89,7 +89,7 @@ TireFit fit_tire(const MeasurementSet& measured, const TireFitOptions& options) 
   }
   result.warnings = fit->warnings;
   result.suspicion = checks.suspicion;
-  result.text = format_fit(*set, *fit);
+  result.text = format_tire_fit(*set, *fit);
   result.json = to_text(estimation::make_fit_json(*set, *fit));
   result.make_files = [fit, json = result.json] {
     return FolderFiles{{fit->tire.name + ".toml", models::write_tire(fit->tire, fit->notes)}, {"fit.json", json}};

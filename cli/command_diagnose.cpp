@@ -12,7 +12,7 @@
 namespace rollrig::cli {
 namespace {
 
-struct Options {
+struct DiagnoseOptions {
   std::string set;
   std::string explain;
   OutputOptions output;
@@ -22,7 +22,7 @@ struct Options {
   int threads = 0;
 };
 
-void require_consistent(const Options& options) {
+void require_consistent(const DiagnoseOptions& options) {
   if (options.set.empty() == options.explain.empty()) {
     throw usage_error(
         options.set.empty() ? "nothing to diagnose or to explain" : "a set and --explain exclude each other",
@@ -36,12 +36,12 @@ void require_consistent(const Options& options) {
 }
 
 /// What the options ask for; `progress` shows how far it is.
-DiagnosisOptions make_options(const Options& options, ProgressLine& progress) {
+DiagnosisOptions make_options(const DiagnoseOptions& options, ProgressLine& progress) {
   return {options.comparison.without, options.comparison.only, options.threads, progress.callback()};
 }
 
 /// A folder of sets.
-int diagnose_all(const Options& options, const std::vector<std::string>& sets) {
+int diagnose_all(const DiagnoseOptions& options, const std::vector<std::string>& sets) {
   Output output(options.output);
   const FleetDiagnosis fleet = [&] {
     ProgressLine progress("diagnose", options.output.quiet);
@@ -66,7 +66,7 @@ std::string write_plan(const FolderFiles& files, OutputFolder& folder) {
   return fmt::format("next test written to {0}/: {0}/plan.txt says how\n", folder.path());
 }
 
-int diagnose_command(const Options& options) {
+int diagnose_command(const DiagnoseOptions& options) {
   require_consistent(options);
   if (!options.explain.empty()) {
     std::cout << explain_effect(options.explain);
@@ -99,7 +99,7 @@ int diagnose_command(const Options& options) {
 }  // namespace
 
 void add_diagnose_command(CLI::App& app, Action& action) {
-  const auto [command, options] = add_command<Options>(
+  const auto [command, options] = add_command<DiagnoseOptions>(
       app, action, "diagnose", "Why a measurement and the simulation differ: where, by which effect, how much",
       &diagnose_command);
   command->add_option("set", options->set, "Folder of a measurement set, or its set.toml; or a folder of such folders");

@@ -6,19 +6,19 @@
 namespace rollrig::cli {
 namespace {
 
-struct Options {
+struct FitTireOptions {
   std::string set;
   OutputOptions output;
   TireFitOptions fit;
 };
 
-struct CoastdownOptions {
+struct FitDrumCoastdownOptions {
   std::string set;
   std::string data;
   OutputOptions output;
 };
 
-int fit_tire_command(const Options& options) {
+int fit_tire_command(const FitTireOptions& options) {
   const MeasurementSet set(options.set);
   Output output(options.output);
   TireFit fit;
@@ -33,7 +33,7 @@ int fit_tire_command(const Options& options) {
   return fit.suspicion.empty() ? kDone : kDiffers;  // as of validate
 }
 
-int fit_drum_coastdown_command(const CoastdownOptions& options) {
+int fit_drum_coastdown_command(const FitDrumCoastdownOptions& options) {
   Output output(options.output);
   const Report fit = fit_drum_coastdown(options.set, options.data);
   output.write(fit);
@@ -42,7 +42,7 @@ int fit_drum_coastdown_command(const CoastdownOptions& options) {
 }
 
 void add_fit_drum_coastdown(CLI::App& fit, Action& action) {
-  const auto [command, options] = add_command<CoastdownOptions>(
+  const auto [command, options] = add_command<FitDrumCoastdownOptions>(
       fit, action, "drum-coastdown", "Rolling resistance from coast-downs of a drum, tire loaded and lifted",
       &fit_drum_coastdown_command);
   command->add_option("set", options->set, "Set of coast-downs (.toml)")->required();
@@ -57,7 +57,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("fit", "Fit a model to measurements");
   command->require_subcommand(1);
   add_fit_road_load(*command, action);
-  const auto [tire, options] = add_command<Options>(
+  const auto [tire, options] = add_command<FitTireOptions>(
       *command, action, "tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds", &fit_tire_command);
   add_fit_drum_coastdown(*command, action);
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();

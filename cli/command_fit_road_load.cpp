@@ -16,7 +16,7 @@ namespace {
 constexpr double kPerKmh = 1.0 / 3.6;
 constexpr const char* kKeys[]{"A_N", "B_N_per_km_h", "C_N_per_km_h2"};  // whose units --bounds has
 
-struct Options {
+struct FitRoadLoadOptions {
   std::string csv;
   OutputOptions output;
   std::string bounds;
@@ -65,7 +65,7 @@ RoadLoadBounds parse_bounds(const std::string& given) {
   return bounds;
 }
 
-void set_mass(const Options& options, RoadLoadFitOptions& to) {
+void set_mass(const FitRoadLoadOptions& options, RoadLoadFitOptions& to) {
   if (options.per_mass) {
     if (options.mass_kg.has_value() || options.effective_mass_kg.has_value() || options.rotating_mass_kg.has_value()) {
       throw usage_error("--per-mass and a mass exclude each other", "--per-mass", "", "one of them");
@@ -87,7 +87,7 @@ void set_mass(const Options& options, RoadLoadFitOptions& to) {
   to.rotating_mass_kg = *options.effective_mass_kg - *options.mass_kg;
 }
 
-RoadLoadFitOptions make_fit_options(const Options& options) {
+RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
   RoadLoadFitOptions to;
   set_mass(options, to);
   to.drag_area_m2 = options.drag_area_m2;
@@ -106,7 +106,7 @@ RoadLoadFitOptions make_fit_options(const Options& options) {
   return to;
 }
 
-int fit_road_load_command(const Options& options) {
+int fit_road_load_command(const FitRoadLoadOptions& options) {
   const RoadLoadFitOptions how = make_fit_options(options);
   Output output(options.output);
   const RoadLoad fit = fit_road_load(options.csv, how, options.sessions);
@@ -115,7 +115,7 @@ int fit_road_load_command(const Options& options) {
   return kDone;
 }
 
-void add_vehicle_options(CLI::App& command, Options& options) {
+void add_vehicle_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--mass", options.mass_kg, "Test mass, kg")->check(CLI::PositiveNumber);
   command.add_option("--rotating-mass", options.rotating_mass_kg, "Mass that rotates, kg [3 % of --mass]")
       ->check(CLI::NonNegativeNumber);
@@ -125,7 +125,7 @@ void add_vehicle_options(CLI::App& command, Options& options) {
       ->check(CLI::PositiveNumber);
 }
 
-void add_method_options(CLI::App& command, Options& options) {
+void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--reference-temperature", options.reference_temperature_degC, "degC [20]")
       ->check(CLI::Range(-50.0, 60.0));
   command.add_option("--reference-pressure", options.reference_pressure_kPa, "Sets the air density, kPa [98.21]")
@@ -146,7 +146,7 @@ void add_method_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_fit_road_load(CLI::App& fit, Action& action) {
-  const auto [command, options] = add_command<Options>(
+  const auto [command, options] = add_command<FitRoadLoadOptions>(
       fit, action, "road-load", "A, B, C from coastdowns on a road or a dyno", &fit_road_load_command);
   command->add_option("csv", options->csv, "Speed traces, or times through speed bins")->required();
   add_vehicle_options(*command, *options);

@@ -11,7 +11,7 @@
 namespace rollrig::cli {
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::string mapping;
   std::string data;
   OutputOptions output;
@@ -32,7 +32,7 @@ std::string format_checks(const std::string& folder) {
   return text;
 }
 
-int import_command(const Options& options) {
+int import_command(const ImportOptions& options) {
   Output output(options.output);
   const Report imported = import_logs(options.mapping, options.data);
   output.write(imported);
@@ -45,7 +45,7 @@ int import_command(const Options& options) {
 }  // namespace
 
 void add_import_command(CLI::App& app, Action& action) {
-  const auto [command, options] = add_command<Options>(
+  const auto [command, options] = add_command<ImportOptions>(
       app, action, "import", "Join a torque log and a tire log, each on its own clock, into a measurement set",
       &import_command);
   command->add_option("mapping", options->mapping, "Mapping file (.toml): columns, units, time stamps, runs")

@@ -11,13 +11,13 @@
 namespace rollrig::cli {
 namespace {
 
-struct Options {
+struct RunOptions {
   RunInput run;
   OutputOptions output;
   std::string set_folder;
 };
 
-int run_command(const Options& options) {
+int run_command(const RunOptions& options) {
   const Run run(options.run);
   if (!options.set_folder.empty() && !run.writes_set()) {
     throw usage_error(fmt::format("scenario '{}' writes no measurement set", run.scenario()), "--write-set",
@@ -71,7 +71,7 @@ void add_run_options(CLI::App& command, RunInput& input) {
 }
 
 void add_run_command(CLI::App& app, Action& action) {
-  const auto [command, options] = add_command<Options>(app, action, "run", "Run a scenario on a rig", &run_command);
+  const auto [command, options] = add_command<RunOptions>(app, action, "run", "Run a scenario on a rig", &run_command);
   add_run_options(*command, options->run);
   command->add_option("--write-set", options->set_folder, "Folder for the run as a measurement set");
   options->output.add_to(*command, "File for result.json, - for standard output",

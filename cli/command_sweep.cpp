@@ -6,13 +6,13 @@
 namespace rollrig::cli {
 namespace {
 
-struct Options {
+struct SweepOptions {
   SweepInput sweep;
   std::vector<std::string> vary;
   OutputOptions output;
 };
 
-int sweep_command(const Options& options) {
+int sweep_command(const SweepOptions& options) {
   SweepInput input = options.sweep;
   for (const std::string& text : options.vary) input.axes.push_back(read_sweep_axis(text));
   const Sweep sweep(input);
@@ -31,7 +31,7 @@ int sweep_command(const Options& options) {
 
 void add_sweep_command(CLI::App& app, Action& action) {
   const auto [command, options] =
-      add_command<Options>(app, action, "sweep", "Run a scenario at every point of a grid", &sweep_command);
+      add_command<SweepOptions>(app, action, "sweep", "Run a scenario at every point of a grid", &sweep_command);
   add_run_options(*command, options->sweep.run);
   command->add_option("--vary", options->vary, "key=a,b,c or key=from:to:step; may be repeated")
       ->required()
