@@ -4,36 +4,27 @@
 
 #include "cli/command.h"
 #include "cli/output_files.h"
-#include "exports/hdf5_file.h"
-#include "exports/mat_file.h"
-#include "exports/source.h"
-#include "sim/core/error.h"
-#include "sim/core/file_io.h"
+#include "rollrig/export.h"
 
 namespace rollrig::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string source;
   std::string mat;
   std::string hdf5;
   bool quiet = false;
 };
 
-/// Refuses what could not be written, before anything is.
-OutputFiles check_places(const Options& options) {
+int export_command(const ExportOptions& options) {
   if (options.mat.empty() && options.hdf5.empty()) {
-    throw InputError({"no file to write is given", "command line", 0, "", "", "--mat FILE, --hdf5 FILE, or both", ""});
+    throw usage_error("no file to write is given", "", "", "--mat FILE, --hdf5 FILE, or both");
   }
-  return OutputFiles({{"--mat", options.mat}, {"--hdf5", options.hdf5}});
-}
-
-int export_command(const Options& options) {
-  const OutputFiles files = check_places(options);
-  const exports::Group tree = exports::read_source(options.source);
+  const OutputFiles files({{"--mat", options.mat}, {"--hdf5", options.hdf5}});
+  const Export made = read_export(options.source);
   // Both are made before one is written.
-  const std::string mat = options.mat.empty() ? "" : exports::make_mat(tree);
-  const std::string hdf5 = options.hdf5.empty() ? "" : exports::make_hdf5(tree);
+  const std::string mat = options.mat.empty() ? "" : made.make_mat();
+  const std::string hdf5 = options.hdf5.empty() ? "" : made.make_hdf5();
   files.require_no_input();
   if (!mat.empty()) write_output(options.mat, mat);
   if (!hdf5.empty()) write_output(options.hdf5, hdf5);
@@ -47,7 +38,7 @@ int export_command(const Options& options) {
 }  // namespace
 
 void add_export_command(CLI::App& app, Action& action) {
-  const auto [command, options] = add_command<Options>(
+  const auto [command, options] = add_command<ExportOptions>(
       app, action, "export", "Write a result, a measurement set or a recording for MATLAB (.mat) or as HDF5",
       &export_command);
   command

@@ -16,19 +16,19 @@ std::string drum_text(double curvature_per_m) {
   return curvature_per_m == 0.0 ? "flat" : fmt::format("{:.4g} m", 2.0 / curvature_per_m);
 }
 
-void add_factor(LossConversion& conversion, ConversionFactor factor) {
+void add_factor(ConversionFactors& conversion, ConversionFactor factor) {
   conversion.force_factor *= factor.factor;
   conversion.factors.push_back(std::move(factor));
 }
 
-void add_drum(LossConversion& conversion, double from_per_m, double to_per_m, double tire_diameter_m) {
+void add_drum(ConversionFactors& conversion, double from_per_m, double to_per_m, double tire_diameter_m) {
   if (from_per_m == to_per_m) return;
   add_factor(conversion,
              {fmt::format("drum, tire {:.4g} m", tire_diameter_m), "(3.1)", drum_text(from_per_m), drum_text(to_per_m),
               models::calc_drum_correction(from_per_m, to_per_m, tire_diameter_m / 2.0)});
 }
 
-void add_drum_and_tire(const LossConditions& from, const LossConditions& to, LossConversion& conversion) {
+void add_drum_and_tire(const LossConditions& from, const LossConditions& to, ConversionFactors& conversion) {
   const bool drums = from.drum_curvature_per_m.has_value() && to.drum_curvature_per_m.has_value();
   const bool tires = from.tire_diameter_m.has_value() && to.tire_diameter_m.has_value();
   if (drums && !from.tire_diameter_m.has_value()) {
@@ -47,7 +47,7 @@ void add_drum_and_tire(const LossConditions& from, const LossConditions& to, Los
   if (drums) add_drum(conversion, 0.0, *to.drum_curvature_per_m, *to.tire_diameter_m);
 }
 
-void add_pressure(double from_Pa, double to_Pa, double exponent, LossConversion& conversion) {
+void add_pressure(double from_Pa, double to_Pa, double exponent, ConversionFactors& conversion) {
   constexpr double kLowest = 0.3;  // §2.2.2.3
   constexpr double kHighest = 0.5;
   if (from_Pa == to_Pa) return;
@@ -67,7 +67,7 @@ double require_ambient_correction(double ambient_K, const char* option) {
                     ""});
 }
 
-void add_ambient(double from_K, double to_K, LossConversion& conversion) {
+void add_ambient(double from_K, double to_K, ConversionFactors& conversion) {
   const double from = require_ambient_correction(from_K, "--from-ambient");
   const double to = require_ambient_correction(to_K, "--to-ambient");
   if (from_K == to_K) return;
@@ -82,7 +82,7 @@ void add_ambient(double from_K, double to_K, LossConversion& conversion) {
   }
 }
 
-void add_load(double from_N, double to_N, double exponent, LossConversion& conversion) {
+void add_load(double from_N, double to_N, double exponent, ConversionFactors& conversion) {
   if (from_N == to_N) return;
   add_factor(conversion, {fmt::format("load, exponent {:.4g}", exponent), "(3.5)", fmt::format("{:.5g} N", from_N),
                           fmt::format("{:.5g} N", to_N), std::pow(to_N / from_N, exponent)});
@@ -90,16 +90,16 @@ void add_load(double from_N, double to_N, double exponent, LossConversion& conve
 
 }  // namespace
 
-LossConversion convert_loss(const LossConditions& from, const LossConditions& to,
-                            const ConversionExponents& exponents) {
-  LossConversion conversion;
+ConversionFactors convert_loss(const LossConditions& from, const LossConditions& to, double pressure_exponent,
+                               double load_exponent) {
+  ConversionFactors conversion;
   add_drum_and_tire(from, to, conversion);
   if (from.pressure_Pa.has_value() && to.pressure_Pa.has_value()) {
-    add_pressure(*from.pressure_Pa, *to.pressure_Pa, exponents.pressure, conversion);
+    add_pressure(*from.pressure_Pa, *to.pressure_Pa, pressure_exponent, conversion);
   }
   if (from.ambient_K.has_value() && to.ambient_K.has_value()) add_ambient(*from.ambient_K, *to.ambient_K, conversion);
   if (from.load_N.has_value() && to.load_N.has_value()) {
-    add_load(*from.load_N, *to.load_N, exponents.load, conversion);
+    add_load(*from.load_N, *to.load_N, load_exponent, conversion);
   }
   return conversion;
 }

@@ -1,42 +1,10 @@
 #pragma once
 /// A measured loss carried from one set of conditions to another, factor by factor (`rollrig convert`).
 
-#include <optional>
-#include <string>
-#include <vector>
-
+#include "include/rollrig/convert.h"
 #include "models/tire/pressure_factor.h"
 
 namespace rollrig::estimation {
-
-/// Where a loss was measured, or is wanted. What is absent is the same on both sides.
-struct LossConditions {
-  std::optional<double> drum_curvature_per_m;  // 1/R; 0 for the flat road
-  std::optional<double> tire_diameter_m;       // outer
-  std::optional<double> pressure_Pa;           // gauge
-  std::optional<double> ambient_K;
-  std::optional<double> load_N;
-};
-
-struct ConversionExponents {
-  double pressure = models::kPressureExponent;  // a of (p/p_ref)^-a
-  double load = 1.0;                            // of the force: 1 is (3.5), RRc independent of load
-};
-
-/// One line of the conversion, its conditions as text with their unit.
-struct ConversionFactor {
-  std::string name;
-  std::string equation;
-  std::string from;
-  std::string to;
-  double factor = 1.0;
-};
-
-struct LossConversion {
-  std::vector<ConversionFactor> factors;
-  double force_factor = 1.0;  // the product, on a force
-  std::vector<std::string> warnings;
-};
 
 /// Every factor between two conditions, of a force. A condition given on one side alone is not converted.
 /// Equation  (3.1) for drums, (2.1) for the tire's diameter, (p_2/p_1)^-a of (3.4),
@@ -47,6 +15,7 @@ struct LossConversion {
 /// Source    the equations named; ISO 28580 for the air
 /// Errors    InputError: a drum without a tire diameter, air so cold that the correction has no sense
 /// Checked   tests/estimation/loss_conversion_test.cpp
-LossConversion convert_loss(const LossConditions& from, const LossConditions& to, const ConversionExponents& exponents);
+ConversionFactors convert_loss(const LossConditions& from, const LossConditions& to,
+                               double pressure_exponent = models::kPressureExponent, double load_exponent = 1.0);
 
 }  // namespace rollrig::estimation

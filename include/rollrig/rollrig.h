@@ -2,11 +2,14 @@
 /// The whole of the API: docs/api.md.
 
 #include "assets.h"
+#include "convert.h"
 #include "diagnose.h"
 #include "error.h"
+#include "export.h"
 #include "fit.h"
 #include "measurement_set.h"
 #include "progress.h"
+#include "regress.h"
 #include "result.h"
 #include "run.h"
 #include "sweep.h"

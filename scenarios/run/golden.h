@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/regress.h"
 #include "scenarios/run/scenario.h"
 
 namespace rollrig::scenarios {
@@ -17,14 +18,6 @@ struct GoldenValue {
   double relative_tolerance = 0.0;
 
   double tolerance() const;
-};
-
-/// Comparison of one run with its golden.
-struct GoldenComparison {
-  std::size_t compared = 0;
-  std::vector<std::string> problems;  // one line each; empty when all is within tolerance
-  std::string worst_quantity;
-  double worst_share = 0.0;  // |difference| / tolerance of the worst value
 };
 
 /// Every number of the result and about 30 samples of every channel, with default tolerances.

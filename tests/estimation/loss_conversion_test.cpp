@@ -7,11 +7,10 @@
 
 using namespace rollrig;
 using estimation::convert_loss;
-using estimation::LossConditions;
 
 namespace {
 
-double factor(const LossConditions& from, const LossConditions& to) { return convert_loss(from, to, {}).force_factor; }
+double factor(const LossConditions& from, const LossConditions& to) { return convert_loss(from, to).force_factor; }
 
 /// Drums and tires in m, kPa, degC, N.
 LossConditions make(double drum_m, double tire_m, double pressure_kPa, double ambient_degC, double load_N) {
@@ -25,7 +24,7 @@ TEST_CASE("a50 from the 2 m drum to 1.2 m gains 8.45 %, as the source applies it
   from.drum_curvature_per_m = 1.0;
   from.tire_diameter_m = 0.7176;
   to.drum_curvature_per_m = 1.0 / 0.6;
-  const auto conversion = convert_loss(from, to, {});
+  const auto conversion = convert_loss(from, to);
   CHECK(conversion.force_factor == Approx(1.0845).margin(5e-5));
   REQUIRE(conversion.factors.size() == 1);
   CHECK(conversion.factors[0].equation == "(3.1)");
@@ -38,11 +37,11 @@ TEST_CASE("there and back is one, whatever changes; a way over a third place is 
   CHECK(factor(a, b) * factor(b, a) == Approx(1.0).epsilon(1e-12));
   CHECK(factor(a, flat) * factor(flat, b) == Approx(factor(a, b)).epsilon(1e-12));
   CHECK(factor(a, a) == 1.0);
-  CHECK(convert_loss(a, a, {}).factors.empty());
+  CHECK(convert_loss(a, a).factors.empty());
 }
 
 TEST_CASE("the product is that of the lines, each of the sign that physics asks for", "[fast]") {
-  const auto conversion = convert_loss(make(2.0, 0.7, 250, 25, 5000), make(1.2, 0.6, 280, 22, 5500), {});
+  const auto conversion = convert_loss(make(2.0, 0.7, 250, 25, 5000), make(1.2, 0.6, 280, 22, 5500));
   double product = 1.0;
   for (const auto& line : conversion.factors) {
     product *= line.factor;
@@ -57,29 +56,29 @@ TEST_CASE("the product is that of the lines, each of the sign that physics asks 
 
 TEST_CASE("what is given on one side alone is not converted", "[fast]") {
   LossConditions from = make(2.0, 0.7, 250, 25, 5000), to;
-  CHECK(convert_loss(from, to, {}).factors.empty());
+  CHECK(convert_loss(from, to).factors.empty());
 }
 
 TEST_CASE("outside the standard's temperatures, and outside the usual exponents, a warning is given", "[fast]") {
   LossConditions from, to;
   from.ambient_K = 288.15;
   to.ambient_K = 298.15;
-  const estimation::LossConversion cold = convert_loss(from, to, {});
+  const ConversionFactors cold = convert_loss(from, to);
   CHECK(cold.warnings.size() == 1);
   REQUIRE(cold.factors.size() == 1);
   CHECK(cold.factors[0].from == "15 degC");
   CHECK(cold.factors[0].to == "25 degC");
   from.ambient_K = 293.15;
-  CHECK(convert_loss(from, to, {}).warnings.empty());
+  CHECK(convert_loss(from, to).warnings.empty());
   LossConditions soft, hard;
   soft.pressure_Pa = 200e3;
   hard.pressure_Pa = 250e3;
-  CHECK(convert_loss(soft, hard, {0.6, 1.0}).warnings.size() == 1);
+  CHECK(convert_loss(soft, hard, 0.6).warnings.size() == 1);
 }
 
 TEST_CASE("a drum without the tire's diameter cannot be converted", "[fast]") {
   LossConditions from, to;
   from.drum_curvature_per_m = 1.0;
   to.drum_curvature_per_m = 0.0;
-  CHECK_THROWS_AS(convert_loss(from, to, {}), InputError);
+  CHECK_THROWS_AS(convert_loss(from, to), InputError);
 }

@@ -93,7 +93,7 @@ TEST_CASE("what is installed shows the API alone", "[fast]") {
   REQUIRE(symbols.status == 0);
   CHECK_THAT(symbols.out, Contains("rollrig::Run::carry_out"));
   CHECK_THAT(symbols.out, Contains("rollrig::InputError::InputError"));
-  for (const char* inside : {"rollrig::scenarios", "rollrig::models",
+  for (const char* inside : {"rollrig::scenarios", "rollrig::models", "rollrig::exports",
                              "rollrig::diagnosis::", "rollrig::sim::", " rollrig::read_config", "CVode"}) {
     INFO(inside);
     std::istringstream lines(symbols.out);

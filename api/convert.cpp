@@ -1,0 +1,139 @@
+#include "rollrig/convert.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "estimation/loss_conversion.h"
+#include "models/tire/tire_file.h"
+#include "report/text.h"
+#include "sim/core/assets.h"
+#include "sim/core/text.h"
+
+namespace rollrig {
+namespace {
+
+/// An option and its value in SI units, if it has one.
+using Given = std::pair<const char*, std::optional<double>>;
+
+/// Refuses values outside a range. `key` ends in the unit in which messages show them.
+void require_in_range(const Range& range_SI, const char* key, const char* allowed, const std::vector<Given>& all) {
+  for (const auto& [option, value_SI] : all) {
+    if (!value_SI.has_value() || (std::isfinite(*value_SI) && range_SI.contains(*value_SI))) continue;
+    throw InputError({fmt::format("{} is out of range", option), "command line", 0, option,
+                      fmt::format("{:g}", unit_of_key(key).from_si(*value_SI)), allowed, ""});
+  }
+}
+
+void require_both(const Given& from, const Given& to) {
+  if (from.second.has_value() == to.second.has_value()) return;
+  const auto [given, missing] =
+      from.second.has_value() ? std::pair(from.first, to.first) : std::pair(to.first, from.first);
+  throw InputError(
+      {fmt::format("{} is given without {}", given, missing), "command line", 0, missing, "", "both, or neither", ""});
+}
+
+void check_conversion(const ConversionInput& input) {
+  const LossConditions& from = input.from;
+  const LossConditions& to = input.to;
+  const Given drum{"--from-drum", from.drum_curvature_per_m}, to_drum{"--to-drum", to.drum_curvature_per_m};
+  const Given tire{"--tire-diameter", from.tire_diameter_m}, to_tire{"--to-tire-diameter", to.tire_diameter_m};
+  const Given pressure{"--from-pressure", from.pressure_Pa}, to_pressure{"--to-pressure", to.pressure_Pa};
+  const Given air{"--from-ambient", from.ambient_K}, to_air{"--to-ambient", to.ambient_K};
+  const Given load{"--load", from.load_N}, to_load{"--to-load", to.load_N};
+  const Range air_K = between(-60.0 + kZeroCelsius_K, 80.0 + kZeroCelsius_K);
+  require_in_range(positive(), "force_N", "a number > 0 in N", {{"--force", input.loss.force_N}, load, to_load});
+  require_in_range(positive(), "rrc", "a number > 0 in N/kN", {{"--rrc", input.loss.rrc_N_per_kN}});
+  require_in_range(positive(), "diameter_m", "a number > 0 in m", {tire, to_tire});
+  require_in_range(non_negative(), "curvature_per_m", "a curvature >= 0 in 1/m", {drum, to_drum});
+  require_in_range(positive(), "pressure_kPa", "a number > 0 in kPa, gauge", {pressure, to_pressure});
+  require_in_range(air_K, "ambient_degC", "a number >= -60 and <= 80 in degC", {air, to_air});
+  require_in_range(between(-1.0, 3.0), "exponent", "-1 to 3", {{"--pressure-exponent", input.pressure_exponent}});
+  require_in_range(between(0.0, 3.0), "exponent", "0 to 3", {{"--load-exponent", input.load_exponent}});
+  if (input.loss.force_N.has_value() == input.loss.rrc_N_per_kN.has_value()) {
+    throw InputError(
+        {"a loss is given once", "command line", 0, "--force", "", "either --force <N> or --rrc <N/kN>", ""});
+  }
+  require_both(drum, to_drum);
+  require_both(pressure, to_pressure);
+  require_both(air, to_air);
+  if (to.load_N.has_value()) require_both(load, to_load);
+  if (to.tire_diameter_m.has_value()) require_both(tire, to_tire);
+}
+
+/// What the tire says where the input does not say it.
+void apply_tire(ConversionInput& input) {
+  if (input.tire.empty()) return;
+  const models::TireFile tire = models::read_tire(read_config(find_asset("tires", input.tire)));
+  if (!input.from.tire_diameter_m.has_value()) input.from.tire_diameter_m = tire.values.geometry.outer_diameter_m;
+  if (!input.pressure_exponent.has_value() && tire.has_rolling_resistance) {
+    input.pressure_exponent = tire.values.rolling_resistance.pressure_exponent;
+  }
+}
+
+/// The loss before and after. RRc goes with the force over the load.
+void apply_factor(const ConversionInput& input, ConvertedLoss& converted) {
+  const std::optional<double> load_N = input.from.load_N;
+  const double rrc_factor = converted.force_factor * (load_N ? *load_N / input.to.load_N.value_or(*load_N) : 1.0);
+  Loss& from = converted.given;
+  from = input.loss;
+  if (load_N.has_value() && from.force_N.has_value()) from.rrc_N_per_kN = 1e3 * *from.force_N / *load_N;
+  if (load_N.has_value() && !from.force_N.has_value()) from.force_N = 1e-3 * *from.rrc_N_per_kN * *load_N;
+  if (from.force_N.has_value()) converted.result.force_N = *from.force_N * converted.force_factor;
+  if (from.rrc_N_per_kN.has_value()) converted.result.rrc_N_per_kN = *from.rrc_N_per_kN * rrc_factor;
+}
+
+Json make_loss_json(const Loss& loss) {
+  Json json = Json::object();
+  if (loss.force_N.has_value()) json["force_N"] = *loss.force_N;
+  if (loss.rrc_N_per_kN.has_value()) json["rrc_N_per_kN"] = *loss.rrc_N_per_kN;
+  return json;
+}
+
+Json make_conversion_json(const ConvertedLoss& converted) {
+  Json json = {{"format", "rollrig-conversion/1"}, {"given", make_loss_json(converted.given)}};
+  json["factors"] = Json::array();
+  for (const auto& [name, equation, from, to, factor] : converted.factors) {
+    json["factors"].push_back({{"name", name}, {"equation", equation}, {"from", from}, {"to", to}, {"factor", factor}});
+  }
+  json["force_factor"] = converted.force_factor;
+  json["result"] = make_loss_json(converted.result);
+  if (!converted.warnings.empty()) json["warnings"] = converted.warnings;
+  return json;
+}
+
+std::string format_loss(const Loss& loss) {
+  std::string text;
+  if (loss.force_N.has_value()) text = fmt::format("{:.5g} N", *loss.force_N);
+  if (!loss.rrc_N_per_kN.has_value()) return text;
+  return text + fmt::format("{}{:.5g} N/kN", text.empty() ? "" : ", ", *loss.rrc_N_per_kN);
+}
+
+std::string format_conversion(const ConvertedLoss& converted) {
+  scenarios::ResultTable table{"", {"factor", "equation", "from", "to", "of the force"}, {}};
+  for (const auto& [name, equation, from, to, factor] : converted.factors) {
+    table.rows.push_back({name, equation, from, to, fmt::format("{:.4f}", factor)});
+  }
+  table.rows.push_back({"product", "", "", "", fmt::format("{:.4f}", converted.force_factor)});
+  std::string text = "convert   " + format_loss(converted.given) + "\n" + report::format_table(table);
+  text += fmt::format("  converted  {}\n", format_loss(converted.result));
+  for (const std::string& warning : converted.warnings) text += wrap("warning: " + warning, 2);
+  return text;
+}
+
+}  // namespace
+
+ConvertedLoss convert_loss(const ConversionInput& given) {
+  ConversionInput input = given;
+  apply_tire(input);
+  check_conversion(input);
+  ConvertedLoss converted;
+  static_cast<ConversionFactors&>(converted) = estimation::convert_loss(
+      input.from, input.to, input.pressure_exponent.value_or(models::kPressureExponent), input.load_exponent);
+  apply_factor(input, converted);
+  converted.text = format_conversion(converted);
+  converted.json = to_text(make_conversion_json(converted));
+  return converted;
+}
+
+}  // namespace rollrig

@@ -1,0 +1,14 @@
+#include "rollrig/export.h"
+
+#include "exports/hdf5_file.h"
+#include "exports/mat_file.h"
+#include "exports/source.h"
+
+namespace rollrig {
+
+Export read_export(const std::string& source) {
+  const auto tree = std::make_shared<const exports::Group>(exports::read_source(source));
+  return {[tree] { return exports::make_mat(*tree); }, [tree] { return exports::make_hdf5(*tree); }};
+}
+
+}  // namespace rollrig

@@ -1,0 +1,22 @@
+#pragma once
+/// Results, measurement sets and recordings as files for MATLAB and Python. Content of the files: docs/export.md.
+
+#include <functional>
+#include <string>
+
+#pragma GCC visibility push(default)
+namespace rollrig {
+
+/// Makes the bytes of a file. The same source gives the same bytes.
+struct Export {
+  std::function<std::string()> make_mat;  // MATLAB, version 5; throws InputError for a variable of more than 2 GB
+  std::function<std::string()> make_hdf5;
+};
+
+/// Reads a result folder (of `rollrig run --out`), a measurement set (its folder or set.toml), or a recording.csv.
+/// Example  write_folder("exported", {{"run.mat", read_export("results").make_mat()}});
+/// Errors   InputError: none of these; a file is missing or wrong
+Export read_export(const std::string& source);
+
+}  // namespace rollrig
+#pragma GCC visibility pop
