@@ -117,19 +117,11 @@ struct Campaign {
 
 constexpr int kMostRuns = 6;
 
-/// What the runs of a dynamometer campaign are: as its laboratory has them, or all of one sort.
-enum class DynoRuns { kAsUsual, kMultiCycle, kConstantSpeeds };
-
 struct CampaignOrder {
   std::uint64_t seed = 1;
   int runs = kMostRuns;  // the first of the campaign
-  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+  std::string run_kind;  // of all runs; empty: as the laboratory has them
 };
-
-/// One of several kinds of campaign, by seed. It does not depend on the effect.
-Campaign draw_drum_campaign(const CampaignOrder& order, const Specimen& specimen);
-Campaign draw_dyno_campaign(const CampaignOrder& order, const Specimen& specimen);
-Campaign draw_road_campaign(const CampaignOrder& order, const Specimen& specimen);
 
 /// Slow swing and slope of the air about `mean_degC`, within a degree or so.
 Air draw_air(Draws& draws, double mean_degC);

@@ -19,20 +19,26 @@ namespace rollrig::generator {
 struct Wall;
 struct RunRecord;
 
-/// Where an effect is to be found: on which machine, and on the road against which law.
-using Grounds = unsigned;  // bits
-constexpr Grounds kDrumGround = 1;
-constexpr Grounds kDynoGround = 2;
-constexpr Grounds kRoadGround = 4;      // against the combined law
-constexpr Grounds kConstantGround = 8;  // road, against a constant coefficient
-constexpr Grounds kNowhere = 0;
-constexpr Grounds kRigGrounds = kDrumGround | kDynoGround;
-constexpr Grounds kRoadGrounds = kRoadGround | kConstantGround;
-constexpr Grounds kVehicleGrounds = kDynoGround | kRoadGrounds;
-constexpr Grounds kEveryGround = kRigGrounds | kRoadGrounds;
+/// Where an effect may be found: a machine, and the law against which its sets are judged.
+struct Ground {
+  const Machine& machine;
+  bool constant_rrc;
+};
+
+/// What effects ask of a ground. They never ask which kind of machine it is, so that a new kind has its effects.
+using Where = bool (*)(const Ground& ground);
+bool everywhere(const Ground& ground);
+bool on_rigs(const Ground& ground);
+bool on_carriages(const Ground& ground);
+bool on_rollers(const Ground& ground);
+bool on_vehicles(const Ground& ground);  // on the road, or one wheel on rollers
+bool on_roads(const Ground& ground);
+bool against_constant_law(const Ground& ground);
+bool against_combined_law(const Ground& ground);
+bool off_reference_drum(const Ground& ground);  // where curvature counts, against the combined law
 
 /// As a message names them.
-std::string list_grounds(Grounds grounds);
+std::string list_grounds(Where where);
 
 /// State of rig or vehicle at one instant; forces are those of one wheel. The first part is given, the second what
 /// enter() may change beside load and air, the third what act() may change, the last what rates() may read.
@@ -161,10 +167,10 @@ struct EffectSize {
 struct EffectKind {
   const char* id;
   EffectSize size;
-  std::vector<Form> forms;      // drawn evenly
-  Grounds acts = kRigGrounds;   // where it can be made
-  Grounds drawn = kRigGrounds;  // where validation sets have it: the others hardly change with it
-  bool outside = false;         // of the catalog
+  std::vector<Form> forms;  // drawn evenly
+  Where acts = on_rigs;     // where it can be made
+  Where drawn = on_rigs;    // where validation sets have it: the others hardly change with it
+  bool outside = false;     // of the catalog
 };
 
 #define ROLLRIG_EFFECT(id)      \

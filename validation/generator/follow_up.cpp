@@ -23,11 +23,11 @@ class PlannedTable {
  public:
   PlannedTable(const std::string& file, const Machine& machine) : file_(file), table_(CsvTable::read(file)) {
     std::vector<std::string> required;
-    for (const GivenColumn& column : machine.given_columns()) required.emplace_back(column.name);
+    for (const GivenColumn& column : machine.given_columns) required.emplace_back(column.name);
     for (const std::string& column : required) {
       if (table_.has(column) && table_.row_count() >= 2) continue;
       throw problem("no such column with two rows or more", column, "",
-                    fmt::format("the given columns of a {} set: {}", machine.name(), fmt::join(required, ", ")));
+                    fmt::format("the given columns of a {} set: {}", machine.word, fmt::join(required, ", ")));
     }
     check_rows();
   }
@@ -90,7 +90,7 @@ std::vector<Leg> make_legs(const PlannedTable& table, const Machine& machine, do
   double way_m = 0.0;
   for (std::size_t i = 0; i + 1 < time_s.size(); ++i) {
     const double span_s = time_s[i + 1] - time_s[i];
-    const double step_s = machine.has_knots() ? 1.0 : span_s;
+    const double step_s = machine.has_knots ? 1.0 : span_s;
     for (double from_s = 0.0; from_s < span_s; from_s += step_s) {
       const auto between = [&](const std::vector<double>& values, double at_s) {
         return values[i] + at_s / span_s * (values[i + 1] - values[i]);
@@ -153,7 +153,7 @@ TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double
   try {
     const Json json = Json::parse(read_text_file(file));
     require(json, "format", validation::kPlanFormat);
-    require(json, "kind", order.machine->name());
+    require(json, "kind", order.machine->word);
     plan.set_sha256 = json.at("set_sha256").get<std::string>();
     for (const Json& run : json.at("runs")) plan.runs.push_back(read_run(folder, run, order, road_load_N));
   } catch (const Json::exception& error) {

@@ -20,9 +20,9 @@ const Form& choose_form(const SetOrder& order, std::size_t i) {
 bool draw_constant_rrc(const SetOrder& order) {
   Draws draws(order.seed, "baseline");
   const bool drawn = draws.happens(0.5);
-  const Grounds grounds = find_common_grounds(order.effects, *order.machine, false);
-  if ((grounds & kConstantGround) == 0) return false;
-  if ((grounds & kRoadGround) == 0) return true;
+  const Laws laws = find_common_laws(order.effects, *order.machine, false);
+  if (!laws.constant_rrc) return false;
+  if (!laws.combined) return true;
   return order.constant_rrc.value_or(drawn);
 }
 
@@ -31,8 +31,8 @@ bool draw_constant_rrc(const SetOrder& order) {
 Laboratory draw_laboratory(const SetOrder& order) {
   Laboratory lab;
   lab.specimen = draw_specimen(order.seed, *order.machine, draw_constant_rrc(order), order.nominal_base);
-  lab.campaign = order.machine->draw_campaign({order.seed, order.runs, order.dyno_runs}, lab.specimen);
-  lab.sensors = draw_sensors(order.seed, order.machine->channels());
+  lab.campaign = order.machine->draw_campaign({order.seed, order.runs, order.run_kind}, lab.specimen);
+  lab.sensors = draw_sensors(order.seed, order.machine->channels);
   return lab;
 }
 
@@ -71,7 +71,7 @@ std::vector<RunRecord> record_all(const Specimen& specimen, const Campaign& camp
 
 Columns columns_of(const RunRecord& record) {
   Columns columns{record.force};
-  if (record.specimen->machine->channels().size() > 1) {
+  if (record.specimen->machine->channels.size() > 1) {
     columns.push_back(record.liner_degC);
     columns.push_back(record.pressure_kPa);
   }
@@ -82,7 +82,7 @@ Columns measure(std::uint64_t seed, const Laboratory& lab, const RunPlan& run, c
                 bool noise_free) {
   Columns columns = columns_of(record);
   for (std::size_t i = 0; i < columns.size() && !noise_free; ++i) {
-    const Channel& channel = lab.specimen.machine->channels()[i];
+    const Channel& channel = lab.specimen.machine->channels[i];
     apply_sensor(lab.sensors[i], {seed, run.session, run.id}, channel, record.time_s, columns[i]);
     drop_samples(seed, run.id, channel, columns[i]);
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "validation/generator/laboratory.h"
@@ -13,7 +14,7 @@ std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
   std::string text = fmt::format("format = \"rollrig-measurements/1\"\nname = \"{}\"\n", order.name);
   text += "tire = \"tire.toml\"\n";
   const Machine& machine = *lab.specimen.machine;
-  text += machine.write_set_keys(lab.specimen) + write_sensors(machine.channels(), lab.sensors);
+  text += machine.write_set_keys(lab.specimen) + write_sensors(machine.channels, lab.sensors);
   for (const RunPlan& run : lab.campaign.runs) {
     text += fmt::format("\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"{1}\"\n", run.id, run.session);
     text += fmt::format("initial_tire_temperature_degC = {:.10g}\ncold_pressure_kPa = {:.10g}\n", run.initial_degC,
@@ -28,10 +29,10 @@ std::string write_set_file(const SetOrder& order, const Laboratory& lab) {
 
 std::string write_header(const Machine& machine, const RunPlan& run) {
   std::string text;
-  for (const GivenColumn& column : machine.given_columns()) text += fmt::format("{},", column.name);
+  for (const GivenColumn& column : machine.given_columns) text += fmt::format("{},", column.name);
   if (run.surface_degC.has_value()) text += "surface_temperature_degC,";
   if (!run.hung_Nm.empty()) text += "hung_torque_Nm,";
-  for (const Channel& channel : machine.channels()) text += fmt::format("{},", channel.name);
+  for (const Channel& channel : machine.channels) text += fmt::format("{},", channel.name);
   text.back() = '\n';
   return text;
 }
@@ -41,7 +42,7 @@ std::string write_run_file(const RunPlan& run, const RunRecord& record, const Co
   std::string text = write_header(machine, run);
   const auto out = std::back_inserter(text);
   for (std::size_t row = 0; row < record.time_s.size(); ++row) {
-    for (const GivenColumn& column : machine.given_columns()) {
+    for (const GivenColumn& column : machine.given_columns) {
       if (text.back() != '\n') text += ',';
       fmt::format_to(out, fmt::runtime(column.format), (record.*column.values)[row]);
     }
@@ -61,7 +62,7 @@ Files write_files(const SetOrder& order, const Laboratory& lab, const std::vecto
   Files files;
   files["set.toml"] = write_set_file(order, lab);
   files["tire.toml"] = write_tire(lab.specimen);
-  files[lab.specimen.machine->file_name()] = lab.specimen.machine->write_file(lab.specimen);
+  files[lab.specimen.machine->file_name] = lab.specimen.machine->write_file(lab.specimen);
   for (std::size_t r = 0; r < records.size(); ++r) {
     const RunPlan& run = lab.campaign.runs[r];
     const Columns columns = measure(order.seed, lab, run, records[r], noise_free);
@@ -90,8 +91,7 @@ Json find_signal(const Laboratory& lab, const std::vector<RunRecord>& with, cons
     }
   }
   Json signal;
-  for (std::size_t i = 0; i < channels; ++i)
-    signal[lab.specimen.machine->channels()[i].name] = std::sqrt(sum[i] / count);
+  for (std::size_t i = 0; i < channels; ++i) signal[lab.specimen.machine->channels[i].name] = std::sqrt(sum[i] / count);
   return signal;
 }
 
@@ -109,8 +109,8 @@ Json describe(const SetOrder& order, const Laboratory& lab) {
                 {"campaign", lab.campaign.name},
                 {"runs", lab.campaign.runs.size()},
                 {"noise_free", order.noise_free}};
-  if (&machine != all_machines().front()) truth["kind"] = machine.name();
-  if ((machine.grounds() & kConstantGround) != 0) truth["baseline"] = name_of_law(lab.specimen);
+  if (&machine != all_machines().front()) truth["kind"] = machine.word;
+  if (machine.has_constant_law) truth["baseline"] = name_of_law(lab.specimen);
   truth["effects"] = Json::array();
   truth["base"] = std::move(base);
   return truth;
@@ -128,13 +128,14 @@ Files follow_up(const SetOrder& order, std::vector<RunPlan> further) {
   return write_files(order, lab, record_all(lab.specimen, lab.campaign, effects), order.noise_free);
 }
 
-Grounds find_common_grounds(const std::vector<std::string>& effects, const Machine& machine, bool drawn) {
-  Grounds grounds = machine.grounds();
-  for (const std::string& id : effects) {
-    const EffectKind& effect = *find_effect_kind(id);
-    grounds &= drawn ? effect.drawn : effect.acts;
-  }
-  return grounds;
+Laws find_common_laws(const std::vector<std::string>& effects, const Machine& machine, bool drawn) {
+  const auto has_all = [&](bool constant_rrc) {
+    return std::all_of(effects.begin(), effects.end(), [&](const std::string& id) {
+      const EffectKind& effect = *find_effect_kind(id);
+      return (drawn ? effect.drawn : effect.acts)({machine, constant_rrc});
+    });
+  };
+  return {has_all(false), machine.has_constant_law && has_all(true)};
 }
 
 MadeSet make_set(const SetOrder& order, bool with_counterfactual) {

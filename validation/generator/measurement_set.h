@@ -21,7 +21,7 @@ struct SetOrder {
   std::vector<std::string> forms;       // one an effect; none: drawn
   std::vector<SizeClass> size_classes;  // one an effect; none: sizes from all that are drawn
   const Machine* machine = all_machines().front();
-  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+  std::string run_kind;              // of all runs; empty: as the laboratory has them
   std::optional<bool> constant_rrc;  // of a road set; none: drawn among what the effects allow
   int runs = kMostRuns;
   bool noise_free = false;
@@ -37,8 +37,16 @@ struct MadeSet {
   Json truth;
 };
 
-/// Where all of `effects` are to be found together; with `drawn`, where validation sets have them.
-Grounds find_common_grounds(const std::vector<std::string>& effects, const Machine& machine, bool drawn);
+/// Laws against which a set may be judged.
+struct Laws {
+  bool combined = false;
+  bool constant_rrc = false;
+
+  bool any() const { return combined || constant_rrc; }
+};
+
+/// Against which all of `effects` are to be found together on a machine; with `drawn`, as validation sets have them.
+Laws find_common_laws(const std::vector<std::string>& effects, const Machine& machine, bool drawn);
 
 /// Makes a set. Its files are a function of the order and nothing else.
 MadeSet make_set(const SetOrder& order, bool with_counterfactual);

@@ -62,23 +62,25 @@ void require_form(const EffectKind& kind, const std::string& form) {
 /// Throws InputError where one of the effects has no place on a machine; with `drawn`, where sets do not have it.
 void check_grounds(const std::vector<std::string>& ids, const Machine& machine, bool drawn) {
   for (const std::string& id : ids) {
-    if (find_common_grounds({id}, machine, drawn) != kNowhere) continue;
+    if (find_common_laws({id}, machine, drawn).any()) continue;
     const EffectKind& effect = *find_effect_kind(id);
-    throw refuse(fmt::format("{} has no {} on a {}", id, drawn ? "visible trace" : "place", machine.name()), "--kind",
-                 machine.name(), list_grounds(drawn ? effect.drawn : effect.acts));
+    throw refuse(fmt::format("{} has no {} on a {}", id, drawn ? "visible trace" : "place", machine.word), "--kind",
+                 machine.word, list_grounds(drawn ? effect.drawn : effect.acts));
   }
 }
 
 /// Whether the law of a road set is a constant coefficient, where that is said.
-std::optional<bool> read_baseline(const std::string& name, Grounds machine, Grounds common) {
+std::optional<bool> read_baseline(const std::string& name, const Machine& machine, const Laws& common) {
   if (name.empty()) return std::nullopt;
-  if ((machine & kConstantGround) == 0) {
-    throw refuse("rig sets have the combined law", "--baseline", name, "--kind road beside it");
+  if (!machine.has_constant_law) {
+    throw refuse(fmt::format("a {} set has the combined law alone", machine.word), "--baseline", name,
+                 fmt::format("no baseline, or another kind: {}", list_grounds(against_constant_law)));
   }
   require_known("baseline", "--baseline", name, {"combined", "constant_rrc"});
   const bool is_constant = name == "constant_rrc";
-  if ((common & (is_constant ? kConstantGround : kRoadGround)) != 0) return is_constant;
-  throw refuse("the effect has no place against this law", "--baseline", name, list_grounds(common));
+  if (is_constant ? common.constant_rrc : common.combined) return is_constant;
+  throw refuse("the effect has no place against this law", "--baseline", name,
+               is_constant ? "combined" : "constant_rrc");
 }
 
 }  // namespace
@@ -110,22 +112,25 @@ void read_case(const CaseWords& words, SetOrder& order) {
   }
   order.machine = &find_machine(words.kind);
   check_grounds(order.effects, *order.machine, false);
-  const Grounds common = find_common_grounds(order.effects, *order.machine, false);
-  if (common == kNowhere) throw refuse("these effects are not found against one law", "--effect", words.effects, "");
-  order.constant_rrc = read_baseline(words.baseline, order.machine->grounds(), common);
+  const Laws common = find_common_laws(order.effects, *order.machine, false);
+  if (!common.any()) throw refuse("these effects are not found against one law", "--effect", words.effects, "");
+  order.constant_rrc = read_baseline(words.baseline, *order.machine, common);
 }
 
 std::vector<CampaignChoice> read_campaigns(const std::string& name) {
   if (name == kMixed) return mixed_campaigns();
-  std::vector<std::string> known{kMixed};
-  for (const Machine* machine : all_machines()) known.emplace_back(machine->name());
+  std::vector<std::string> known = machine_words();
+  known.insert(known.begin(), kMixed);
   require_known("kind", "--kind", name, known);
   return {{"", &find_machine(name)}};
 }
 
 void check_drawn(const ValidationSetOrder& order) {
   for (const std::string& id : order.effects) {
-    if (find_effect_kind(id)->drawn != kNowhere) continue;
+    const bool is_drawn = std::any_of(all_machines().begin(), all_machines().end(), [&](const Machine* machine) {
+      return find_common_laws({id}, *machine, true).any();
+    });
+    if (is_drawn) continue;
     throw refuse(fmt::format("{} has no visible trace on any kind", id), "--effects", id, "other effects");
   }
   if (order.kind != kMixed) check_grounds(order.effects, *order.campaigns.front().machine, true);

@@ -15,7 +15,7 @@ std::vector<std::string> read_effects(const std::string& list);
 
 /// What make-case is told of its case.
 struct CaseWords {
-  std::string kind = all_machines().front()->name();
+  std::string kind = all_machines().front()->word;
   std::string baseline;  // empty: drawn
   std::string effects = kNone;
   std::string sizes;  // empty: drawn

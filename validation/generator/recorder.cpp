@@ -159,8 +159,8 @@ Collector simulate(const Specimen& specimen, const Effects& effects, const RunPl
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (i > 0 && legs[i].load_N != legs[i - 1].load_N) step = {legs[i - 1].load_N, legs[i].start_s};
     plant.enter(legs[i], step.before_N, step.time_s);
-    state = specimen.machine->has_knots() ? march_leg(plant, legs[i], std::move(state), collector)
-                                          : integrate_leg(plant, legs[i], step, std::move(state), collector);
+    state = specimen.machine->has_knots ? march_leg(plant, legs[i], std::move(state), collector)
+                                        : integrate_leg(plant, legs[i], step, std::move(state), collector);
   }
   return collector;
 }

@@ -41,7 +41,7 @@ struct Identified {
   double truth = 0.0;
 };
 
-class Machine;
+struct Machine;
 
 /// Everything of the laboratory that stays the same over a set. Values in the units of their names.
 struct Specimen {
@@ -59,8 +59,8 @@ struct Specimen {
   double reference_load_N = 5400.0;
   double reference_pressure_kPa = 280.0;
   double pressure_exponent = 0.4;
-  double drum_diameter_m = 2.0;
-  double drum_inertia_kg_m2 = 0.0;
+  double drum_diameter_m = 2.0;     // of the drum or roller, or of each drum under a belt
+  double drum_inertia_kg_m2 = 0.0;  // about its axis, of a belt of all that moves
   double ambient_degC = 25.0;
   double skim_load_N = 200.0;
 

@@ -99,10 +99,10 @@ class KnownSet {
 
   /// Effects of the catalog that validation sets may have in such a case.
   std::vector<const EffectKind*> rivals() const {
-    const Grounds law = lab_.specimen.constant_rrc ? kConstantGround : ~kConstantGround;
+    const Ground ground{*order_.machine, lab_.specimen.constant_rrc};
     std::vector<const EffectKind*> found;
     for (const EffectKind* kind : effect_kinds()) {
-      if (!kind->outside && (kind->drawn & order_.machine->grounds() & law) != 0) found.push_back(kind);
+      if (!kind->outside && kind->drawn(ground)) found.push_back(kind);
     }
     return found;
   }

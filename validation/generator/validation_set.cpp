@@ -30,7 +30,7 @@ std::vector<CampaignChoice> find_campaigns(const std::vector<CampaignChoice>& ca
                                            const std::vector<std::string>& effects) {
   std::vector<CampaignChoice> found;
   for (const CampaignChoice& campaign : campaigns) {
-    if (find_common_grounds(effects, *campaign.machine, true) != kNowhere) found.push_back(campaign);
+    if (find_common_laws(effects, *campaign.machine, true).any()) found.push_back(campaign);
   }
   return found;
 }
@@ -94,7 +94,7 @@ MadeSet make_planned(const ValidationSetOrder& order, const Plan& plan, const st
   set.sizes.resize(set.effects.size());
   set.seed = mix_seed(order.seed, "set/" + name);
   set.machine = campaign.machine;
-  set.dyno_runs = campaign.dyno_runs;
+  set.run_kind = campaign.run_kind;
   set.runs = std::min(order.runs, campaign.runs);
   MadeSet made = make_set(set, order.counterfactual);
   if (order.kind == kMixed) made.truth["campaign_kind"] = campaign.name;
@@ -109,7 +109,7 @@ Json describe(const ValidationSetOrder& order) {
                 {"pairs", order.pairs}};
   if (order.singles > 0) truth["singles"] = order.singles;
   if (order.outside > 0) truth["outside"] = order.outside;
-  if (order.kind != all_machines().front()->name()) truth["kind"] = order.kind;
+  if (order.kind != all_machines().front()->word) truth["kind"] = order.kind;
   truth["sets"] = Json::object();
   return truth;
 }
@@ -120,12 +120,12 @@ InputError no_truth(const std::string& what) {
   return InputError({"not the truth of a case: " + what, "", 0, "", "", kAllowed, ""});
 }
 
-DynoRuns read_dyno_runs(const Json& truth) {
+std::string read_run_kind(const Json& truth) {
   const std::string name = truth.value("campaign_kind", "");
   for (const CampaignChoice& campaign : mixed_campaigns()) {
-    if (name == campaign.name) return campaign.dyno_runs;
+    if (name == campaign.name) return campaign.run_kind;
   }
-  return DynoRuns::kAsUsual;
+  return "";
 }
 
 void read_effect(const Json& effect, SetOrder& order) {
@@ -142,14 +142,11 @@ void read_effect(const Json& effect, SetOrder& order) {
 }  // namespace
 
 std::vector<CampaignChoice> mixed_campaigns() {
-  const Machine* drum = &find_machine("drum");
-  const Machine* dyno = &find_machine("dyno");
-  return {{"full_drum", drum, 6},
-          {"short_drum", drum, 3},
-          {"dyno_multi_cycle", dyno, 6, DynoRuns::kMultiCycle},
-          {"dyno_constant_speed", dyno, 6, DynoRuns::kConstantSpeeds},
-          {"dyno_mixed", dyno, 6},
-          {"road", &find_machine("road"), 6}};
+  std::vector<CampaignChoice> choices;
+  for (const Machine* machine : all_machines()) {
+    for (const auto& [name, runs, run_kind] : machine->mixed) choices.push_back({name, machine, runs, run_kind});
+  }
+  return choices;
 }
 
 std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside) {
@@ -195,8 +192,8 @@ SetOrder read_order(const Json& truth) {
     order.seed = truth.at("seed").get<std::uint64_t>();
     order.runs = truth.at("runs").get<int>();
     order.noise_free = truth.at("noise_free").get<bool>();
-    order.machine = &find_machine(truth.value("kind", all_machines().front()->name()));
-    order.dyno_runs = read_dyno_runs(truth);
+    order.machine = &find_machine(truth.value("kind", all_machines().front()->word));
+    order.run_kind = read_run_kind(truth);
     if (truth.contains("baseline")) order.constant_rrc = truth.at("baseline") == "constant_rrc";
     for (const Json& effect : truth.at("effects")) read_effect(effect, order);
   } catch (const Json::exception& error) {

@@ -17,8 +17,8 @@ using Progress = std::function<void(std::size_t done, std::size_t of)>;
 struct CampaignChoice {
   const char* name;  // "" where all cases are of one kind
   const Machine* machine = all_machines().front();
-  int runs = kMostRuns;  // at most
-  DynoRuns dyno_runs = DynoRuns::kAsUsual;
+  int runs = kMostRuns;       // at most
+  const char* run_kind = "";  // of all its runs; empty: as the laboratory has them
 };
 
 constexpr const char* kMixed = "mixed";

@@ -114,7 +114,8 @@ int list_command() {
 void add_make_case(CLI::App& app, cli::Action& action) {
   const auto [command, options] = cli::add_command<CaseOptions>(
       app, action, "make-case", "One case: a measurement set with a hidden cause", make_case_command);
-  command->add_option("--kind", options->words.kind, "drum, dyno or road [drum]");
+  command->add_option("--kind", options->words.kind,
+                      fmt::format("{} [{}]", fmt::join(machine_words(), ", "), options->words.kind));
   command->add_option("--baseline", options->words.baseline, "Of a road set: combined or constant_rrc [drawn]");
   command->add_option("--effect", options->words.effects, "Effect, two as a,b, or none [none]");
   command->add_option("--size", options->words.sizes, "Its size in its own unit, for two a,b [drawn]");
@@ -140,8 +141,9 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   const auto add_count = [command](const char* option, int& count, const char* what) {
     command->add_option(option, count, fmt::format("{} [{}]", what, count))->check(CLI::Range(0, kMostCases));
   };
-  command->add_option("--kind", order.kind,
-                      fmt::format("mixed: a campaign drawn for each case; or drum, dyno or road [{}]", order.kind));
+  command->add_option(
+      "--kind", order.kind,
+      fmt::format("mixed: a campaign drawn for each case; or {} [{}]", fmt::join(machine_words(), ", "), order.kind));
   command->add_option("--seed", order.seed, "Decides all that is drawn [1]");
   add_count("--singles", order.singles, "Cases of one effect, small, middle and large in turn");
   add_count("--each", order.each, "Cases of each effect");
@@ -158,7 +160,7 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
 /// As `rollrig_blind bank` was called.
 ValidationSetOrder make_old_defaults() {
   ValidationSetOrder order;
-  order.kind = all_machines().front()->name();
+  order.kind = all_machines().front()->word;
   order.each = 20;
   order.none = 100;
   order.singles = order.pairs = order.outside = 0;

@@ -38,6 +38,10 @@ TEST_CASE("without effect and noise a drum set is within 0.2 noise floors of the
   check_kind("--kind drum", 12);
 }
 
+TEST_CASE("without effect and noise a flat-belt set is within 0.2 noise floors of the baseline", "[fast]") {
+  check_kind("--kind flat_belt", 6);
+}
+
 TEST_CASE("without effect and noise a dyno set is within 0.2 noise floors of the baseline", "[fast]") {
   check_kind("--kind dyno", 6);
 }

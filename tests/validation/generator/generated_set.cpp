@@ -13,7 +13,6 @@
 #include "rigs/standstill_grid.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
-#include "tests/support/machines.h"
 #include "tests/support/run_program.h"
 #include "tests/validation/generator/vehicle_resimulation.h"
 
@@ -29,14 +28,15 @@ std::vector<std::string> find_channels(const measurements::MeasurementSet& set) 
   return channels;
 }
 
-/// Sums squares of a difference over rows, a drum's torque 30 s after changes of load or acceleration left out.
+/// Sums squares of a difference over rows, the force on a carriage 30 s after changes of load or acceleration left out.
 class FloorSum {
  public:
   explicit FloorSum(const measurements::MeasurementSet& set) : set_(set) {}
 
   void add(const measurements::MeasuredRun& run, const std::string& channel, const std::vector<double>& other) {
     std::vector<bool> settled(run.time_s.size(), true);
-    if (channel == "drum_torque_Nm") settled = measurements::find_settled_rows(run);
+    const models::MachineTraits& machine = set_.kind->traits;
+    if (has_skim(machine) && channel == machine.force.header()) settled = measurements::find_settled_rows(run);
     const std::vector<double>& own = run.columns.at(channel);
     for (std::size_t row = 0; row < own.size(); ++row) {
       if (std::isnan(own[row]) || std::isnan(other[row]) || !settled[row]) continue;
@@ -58,7 +58,8 @@ class FloorSum {
   std::map<std::string, double> count_;
 };
 
-sim::Recording<double> resimulate_drum(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run) {
+sim::Recording<double> resimulate_tire_rig(const measurements::MeasurementSet& set,
+                                           const measurements::MeasuredRun& run) {
   models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), {});
   rigs::RigStart<double> start;
   start.tire_temperature_K = run.initial_tire_temperature_K;
@@ -69,7 +70,7 @@ sim::Recording<double> resimulate_drum(const measurements::MeasurementSet& set, 
   rigs::QuasiStaticDrum<double> drum(corner, start, false, rigs::Detail::kMeasured);
   sim::FixedGridIntegrator<double> integrator(drum);
   return sim::simulate<double>(drum, integrator,
-                               rigs::refine_near_standstill(measurements::make_recorded_program(run, *tests::kDrum),
+                               rigs::refine_near_standstill(measurements::make_recorded_program(run, *set.kind),
                                                             rigs::index_of(rigs::DrumInput::kSpeed)));
 }
 
@@ -120,12 +121,12 @@ double calc_floor(const measurements::MeasurementSet& set, const std::string& ch
 Floors compare_with_baseline(const measurements::MeasurementSet& set) {
   FloorSum sum(set);
   for (const measurements::MeasuredRun& run : set.runs) {
-    if (set.kind != tests::kDrum) {
+    if (!has_skim(set.kind->traits)) {
       const auto baseline = resimulate_vehicle(set, run);
       for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.at(channel));
       continue;
     }
-    const sim::Recording<double> baseline = resimulate_drum(set, run);
+    const sim::Recording<double> baseline = resimulate_tire_rig(set, run);
     for (const std::string& channel : find_channels(set)) sum.add(run, channel, baseline.channel(channel));
   }
   return sum.take();

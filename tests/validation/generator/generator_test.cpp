@@ -72,6 +72,7 @@ TEST_CASE("the same order gives the same set to the bit, another seed another se
 TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
   const std::map<std::string, std::string> options{
       {"drum", "--kind drum"},
+      {"flat_belt", "--kind flat_belt --runs 2"},
       {"dyno", "--kind dyno --runs 1"},
       {"road (combined)", "--kind road --baseline combined --runs 2"},
       {"road (constant_rrc)", "--kind road --baseline constant_rrc --runs 2"}};
@@ -95,7 +96,7 @@ TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
 
 TEST_CASE("a validation set of each kind has what its kind shows, and effects outside of the catalog where asked",
           "[fast]") {
-  for (const std::string kind : {"drum", "dyno", "road"}) {
+  for (const std::string kind : {"drum", "flat_belt", "dyno", "road"}) {
     const TemporaryFolder folder;
     const auto made = run_validation(
         fmt::format("make --kind {} --seed 7305 --singles 0 --each 1 --none 1 --pairs 3 --outside 9 --runs 1 "
@@ -115,6 +116,8 @@ TEST_CASE("a validation set of each kind has what its kind shows, and effects ou
     CHECK(effects.count("slip_loss") == (kind == "dyno" ? 1 : 0));
     CHECK(effects.count("wind_and_grade") == (kind == "road" ? 1 : 0));
     CHECK(effects.count("windage") == (kind == "road" ? 0 : 1));
+    CHECK(effects.count("tire_loss_in_skim") == (kind == "drum" || kind == "flat_belt" ? 1 : 0));
+    CHECK(effects.count("curvature_exponent") == (kind == "drum" ? 0 : 1));
   }
 }
 
@@ -128,6 +131,18 @@ TEST_CASE("what a kind does not show is refused, with the kinds that do", "[fast
   CHECK(run_validation("make-case --kind drum --baseline combined --effect none --out nowhere").status == 2);
   CHECK(run_validation("make --kind drum --effects brake_heat --out nowhere").status == 2);
   CHECK_FALSE(fs::exists("nowhere"));
+}
+
+TEST_CASE("messages and --help name every kind of machine", "[fast]") {
+  const std::string refused = run_validation("make-case --kind drums --effect none --out nowhere").err;
+  for (const char* command : {"make", "make-case"}) {
+    const std::string help = run_validation(std::string(command) + " --help").out;
+    for (const rigs::MachineKind* kind : rigs::machine_kinds()) {
+      INFO(command);
+      CHECK_THAT(help, Catch::Contains(kind->word));
+      CHECK_THAT(refused, Catch::Contains(kind->word));
+    }
+  }
 }
 
 TEST_CASE("no file of a set names an effect, a seed or a true value", "[fast]") {

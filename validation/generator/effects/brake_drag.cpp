@@ -38,7 +38,7 @@ const EffectKind kind{
     {{"worn_off", "set by brakings with the square of their force, worn off over distance instead of time",
       make_worn_off},
      {"hot_disc", "pads rub as long as the disc is hot: set by the energy of brakings, gone with time", make_hot_disc}},
-    kVehicleGrounds,
-    kVehicleGrounds};
+    on_vehicles,
+    on_vehicles};
 
 }  // namespace rollrig::generator::brake_drag

@@ -50,7 +50,7 @@ const EffectKind kind{
       "excess heat in a disc that loses to the air faster with speed, led to a rim and from there to bead and gas",
       make_disc_and_rim},
      {"share", "a fixed share of the brake's power, late by one first-order delay, whatever the speed", make_share}},
-    kVehicleGrounds,
-    kDynoGround};
+    on_vehicles,
+    on_rollers};
 
 }  // namespace rollrig::generator::brake_heat

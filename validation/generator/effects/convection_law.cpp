@@ -28,7 +28,7 @@ const EffectKind kind{
     {"1", "exponent of the speed-dependent cooling over speed at 80 km/h", 1.0, 0.5, 1.0, normal(0.6, 1.0, 0.52, 0.96)},
     {{"boundary_layers", "a part with sqrt(v) beside one with v; f holds at 80 km/h", make_boundary_layers},
      {"fan", "a fan whose air speed adds by squares; f holds at 80 km/h", make_fan}},
-    kEveryGround,
-    kRigGrounds};
+    everywhere,
+    on_rigs};
 
 }  // namespace rollrig::generator::convection_law

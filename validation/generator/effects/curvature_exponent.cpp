@@ -31,7 +31,7 @@ const EffectKind kind{
     {{"straight", "what the curvature adds counts n-fold, K -> 1 + n (K - 1), the more the higher the load",
       make_straight},
      {"power", "the correction factor to the power n, at every load", make_power}},
-    kRigGrounds | kRoadGround,
-    kDynoGround | kRoadGround};
+    against_combined_law,
+    off_reference_drum};
 
 }  // namespace rollrig::generator::curvature_exponent

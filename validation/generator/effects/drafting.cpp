@@ -25,8 +25,8 @@ void make_drafting(Making& of) {
 const EffectKind kind{"drafting",
                       {"percent", "drag saved in the wake", 0.0, 0.0, 80.0, log_normal(10.0, 30.0, 8.0, 40.0)},
                       {{"only", "the drag falls and comes back over stretches of some km", make_drafting}},
-                      kRoadGrounds,
-                      kRoadGrounds,
+                      on_roads,
+                      on_roads,
                       true};
 
 }  // namespace rollrig::generator::drafting

@@ -78,7 +78,7 @@ const EffectKind kind{
       "a mechanical part beside a power of the viscosity of gear oil by Walther (ASTM D341), at the temperature of oil "
       "that its own friction warms",
       make_walther}},
-    kVehicleGrounds,
-    kVehicleGrounds};
+    on_vehicles,
+    on_vehicles};
 
 }  // namespace rollrig::generator::driveline_warming

@@ -51,7 +51,7 @@ const EffectKind kind{
       "one depth, rolled out over distance by a law of second order, 1/(1 + s/s_0), with Arrhenius' law of the "
       "temperature; loss in proportion to it",
       make_second_order}},
-    kEveryGround,
-    kRigGrounds};
+    everywhere,
+    on_rigs};
 
 }  // namespace rollrig::generator::flat_spot

@@ -26,8 +26,8 @@ const EffectKind kind{
     "heater_radiation",
     {"W", "heat into the tread while on", 0.0, 0.0, 2000.0, log_normal(40.0, 200.0, 30.0, 300.0)},
     {{"only", "on and off by turns of a drawn period, whatever the tire does", make_heater_radiation}},
-    kRigGrounds,
-    kRigGrounds,
+    on_rigs,
+    on_rigs,
     true};
 
 }  // namespace rollrig::generator::heater_radiation

@@ -40,7 +40,7 @@ const EffectKind kind{
      log_normal(0.3, 4.0, 0.25, 6.0), true},
     {{"rigid", "a factor on the inertia", make_rigid},
      {"soft", "hanging on through a soft coupling that follows the speed with a lag of first order", make_soft}},
-    kEveryGround,
-    kEveryGround};
+    everywhere,
+    everywhere};
 
 }  // namespace rollrig::generator::inertia_error

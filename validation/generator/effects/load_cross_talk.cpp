@@ -33,7 +33,7 @@ const EffectKind kind{
     {{"bending", "Fz sin(d) with an angle that has a fixed part and one that grows with the root of the load",
       make_bending},
      {"fixed", "Fz sin(d) with a fixed angle", make_fixed}},
-    kRigGrounds,
-    kDrumGround};
+    on_rigs,
+    on_carriages};
 
 }  // namespace rollrig::generator::load_cross_talk

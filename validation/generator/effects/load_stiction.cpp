@@ -25,8 +25,8 @@ const EffectKind kind{
     "load_stiction",
     {"N", "half of the width of the hysteresis", 0.0, 0.0, 1000.0, log_normal(50.0, 160.0, 40.0, 180.0)},
     {{"only", "play: the load stays short by the size after a rise and above by it after a fall", make_load_stiction}},
-    kDrumGround,
-    kDrumGround,
+    on_carriages,
+    on_carriages,
     true};
 
 }  // namespace rollrig::generator::load_stiction

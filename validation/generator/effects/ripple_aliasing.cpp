@@ -24,8 +24,8 @@ const EffectKind kind{"ripple_aliasing",
                       {"N", "amplitude of the first order", 0.0, 0.0, 50.0, log_normal(1.0, 5.0, 0.8, 7.0)},
                       {{"only", "sines of the angle of drum or roller at the rows, so that constant speeds beat slowly",
                         make_ripple_aliasing}},
-                      kRigGrounds,
-                      kRigGrounds,
+                      on_rigs,
+                      on_rigs,
                       true};
 
 }  // namespace rollrig::generator::ripple_aliasing

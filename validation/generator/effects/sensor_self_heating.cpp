@@ -25,8 +25,8 @@ const EffectKind kind{
     "sensor_self_heating",
     {"K", "excess of the reading at standstill", 0.0, 0.0, 50.0, log_normal(1.5, 6.0, 1.0, 9.0)},
     {{"only", "first order from the start of each run, less in moving gas", make_sensor_self_heating}},
-    kRigGrounds,
-    kRigGrounds,
+    on_rigs,
+    on_rigs,
     true};
 
 }  // namespace rollrig::generator::sensor_self_heating

@@ -44,7 +44,7 @@ const EffectKind kind{
     {{"brush", "brush model with parabolic pressure, F over slip bends down to the friction limit; heats the tread",
       make_brush},
      {"tanh", "force as grip x tanh(C s/grip) of the slip; heats the tread", make_tanh}},
-    kDynoGround,
-    kDynoGround};
+    on_rollers,
+    on_rollers};
 
 }  // namespace rollrig::generator::slip_loss

@@ -20,8 +20,8 @@ const EffectKind kind{"speed_interference",
                       {"N", "reading too much at the peak; 25 times that on the road, where all wheels count", 0.0,
                        -50.0, 50.0, log_normal(0.8, 4.0, 0.6, 6.0), true},
                       {{"only", "a skewed resonance over speed, added to the reading", make_speed_interference}},
-                      kEveryGround,
-                      kEveryGround,
+                      everywhere,
+                      everywhere,
                       true};
 
 }  // namespace rollrig::generator::speed_interference

@@ -29,7 +29,7 @@ const EffectKind kind{"speed_record",
                        log_normal(1.0, 10.0, 0.7, 12.0), true},
                       {{"growing", "a scale with a part that grows with speed", make_growing},
                        {"offset", "a scale beside a fixed speed, which is there from walking pace on", make_offset}},
-                      kEveryGround,
-                      kEveryGround};
+                      everywhere,
+                      everywhere};
 
 }  // namespace rollrig::generator::speed_record

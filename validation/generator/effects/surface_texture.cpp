@@ -32,8 +32,8 @@ const EffectKind kind{
      log_normal(5.0, 15.0, 4.0, 20.0)},
     {{"only", "exponential in runs and way rolled on a rig; on a road rough and smooth patches of some km by turns",
       make_surface_texture}},
-    kEveryGround,
-    kEveryGround,
+    everywhere,
+    everywhere,
     true};
 
 }  // namespace rollrig::generator::surface_texture

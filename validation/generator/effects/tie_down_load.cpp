@@ -32,7 +32,7 @@ const EffectKind kind{
     {{"creeping", "falls with the logarithm of time as straps creep, rises with the pull of the wheel", make_creeping},
      {"relaxing", "straps of a spring and a damper relax to a lower load over minutes, whatever the wheel does",
       make_relaxing}},
-    kDynoGround,
-    kDynoGround};
+    on_rollers,
+    on_rollers};
 
 }  // namespace rollrig::generator::tie_down_load

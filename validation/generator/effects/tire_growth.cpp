@@ -19,8 +19,8 @@ const EffectKind kind{
     "tire_growth",
     {"percent", "further load at 120 km/h, of the reference load", 0.0, 0.0, 50.0, log_normal(2.0, 8.0, 1.5, 12.0)},
     {{"only", "load rises with about the square of the speed by the same amount at every load", make_tire_growth}},
-    kRigGrounds,
-    kRigGrounds,
+    on_rigs,
+    on_rigs,
     true};
 
 }  // namespace rollrig::generator::tire_growth

@@ -42,7 +42,7 @@ const EffectKind kind{
      {"power",
       "a power of the load over that in skim, gone without load; falls exponentially from 25 degC on; heats the rubber",
       make_power}},
-    kDrumGround,
-    kDrumGround};
+    on_carriages,
+    on_carriages};
 
 }  // namespace rollrig::generator::tire_loss_in_skim

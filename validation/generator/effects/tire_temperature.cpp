@@ -38,7 +38,7 @@ const EffectKind kind{
       "Arrhenius' law exp(E/R (1/T - 1/T_0)) instead of an exponential; heated by the loss, cooled by air and road "
       "with the speed",
       make_arrhenius}},
-    kConstantGround,
-    kConstantGround};
+    against_constant_law,
+    against_constant_law};
 
 }  // namespace rollrig::generator::tire_temperature

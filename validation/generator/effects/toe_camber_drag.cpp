@@ -43,7 +43,7 @@ const EffectKind kind{
      {"arctangent",
       "cornering stiffness of the load as sin(2 atan(x/x_0)), whatever the temperature; a share heats the rubber",
       make_arctangent}},
-    kEveryGround,
-    kEveryGround};
+    everywhere,
+    everywhere};
 
 }  // namespace rollrig::generator::toe_camber_drag

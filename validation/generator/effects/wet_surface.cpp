@@ -50,8 +50,8 @@ const EffectKind kind{
       "in most runs wet for some minutes, then drying: cooling towards the wet bulb with sqrt(v), drag with v^1.6, six "
       "times as much on a road",
       make_wet_surface}},
-    kEveryGround,
-    kEveryGround,
+    everywhere,
+    everywhere,
     true};
 
 }  // namespace rollrig::generator::wet_surface

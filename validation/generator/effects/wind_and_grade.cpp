@@ -77,7 +77,7 @@ const EffectKind kind{
       "mean wind that the turns of the road bring more or less against the vehicle, by distance, drag of its side "
       "part, and a slope in proportion",
       make_turning_road}},
-    kRoadGrounds,
-    kRoadGrounds};
+    on_roads,
+    on_roads};
 
 }  // namespace rollrig::generator::wind_and_grade

@@ -1,4 +1,5 @@
-/// Trips on the road: traffic in town, in the country and on the motorway, over hills, in all seasons.
+/// A vehicle on the road. The traction force is measured. Driven are trips in the traffic of town, country and
+/// motorway, over hills, in all seasons.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +8,9 @@
 #include <cmath>
 
 #include "sim/core/units.h"
-#include "validation/generator/campaign.h"
+#include "validation/generator/machine.h"
 
-namespace rollrig::generator {
-namespace {
+namespace rollrig::generator::road {
 
 using boost::math::constants::two_pi;
 
@@ -104,9 +104,7 @@ std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N)
   return make_legs(trace, hills, load_N);
 }
 
-}  // namespace
-
-Campaign draw_road_campaign(const CampaignOrder& order, const Specimen& specimen) {
+Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen) {
   constexpr std::array<const char*, 3> kKinds{"commute", "motorway", "journey"};
   Draws draws(order.seed, "campaign");
   const double year_degC = draws.uniform(8.0, 18.0);
@@ -136,4 +134,53 @@ Campaign draw_road_campaign(const CampaignOrder& order, const Specimen& specimen
   return campaign;
 }
 
-}  // namespace rollrig::generator
+bool gives(const Specimen& specimen, Base which) {
+  if (specimen.constant_rrc) return which >= Base::kMass;
+  return which <= Base::kF || (which >= Base::kMass && which < Base::kRrc);
+}
+
+std::string write_set_keys(const Specimen& specimen) {
+  return fmt::format("kind = \"road\"\nvehicle = \"vehicle.toml\"\nbaseline = \"{}\"\n", name_of_law(specimen));
+}
+
+std::string write_file(const Specimen& specimen) {
+  return "format = \"rollrig-vehicle/1\"\nname = \"car\"\n" + write_identified(specimen, Base::kMass, Base::kDragArea) +
+         fmt::format("tires = {:.0f}\n\n[powertrain]\nregeneration_limit_m_s2 = {:.10g}\n", specimen.tires,
+                     specimen.regeneration_m_s2) +
+         fmt::format("regeneration_fade_km_h = {:.10g}\n", 3.6 * specimen.regeneration_fade_m_s);
+}
+
+/// The vehicle's bearings are in what is called its tires' loss.
+void draw_own(std::uint64_t, Specimen& specimen) {
+  for (const Base none : {Base::kC0, Base::kC1, Base::kC2}) specimen.base[static_cast<std::size_t>(none)].truth = 0.0;
+}
+
+double calc_curvature_factor(const Specimen& specimen) {
+  return specimen.constant_rrc ? 1.0 : calc_flat_factor(specimen);
+}
+
+double calc_moving_mass_kg(const Specimen& specimen, double, double) {
+  return specimen.truth(Base::kMass) + specimen.truth(Base::kRotatingMass);
+}
+
+// Assumed: a force on the road has unevenness, gusts and gear noise in it, less than a trip in traffic has.
+const Machine machine{
+    "road",
+    "vehicle.toml",
+    Measured::kVehicle,
+    false,
+    true,
+    true,
+    {columns::kTime, columns::kSpeed, {"elevation_m", &RunRecord::elevation_m, "{:.9g}"}, columns::kAmbient},
+    {{"traction_force_N", "vehicle", {8.0, 40.0, 13.0, 60.0, 0.0}}},
+    {{"road", 6, ""}},
+    gives,
+    write_set_keys,
+    write_file,
+    draw_own,
+    draw_campaign,
+    calc_curvature_factor,
+    find_unit_lever,
+    calc_moving_mass_kg};
+
+}  // namespace rollrig::generator::road

@@ -1,4 +1,5 @@
-/// What is driven on a vehicle dynamometer: published cycles, constant speeds, and both mixed, cold and after rests.
+/// One wheel of a vehicle that is tied down on rollers. The loss force between hub and roller is measured. Driven are
+/// published cycles, constant speeds, and both mixed, cold and after rests.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,10 +8,9 @@
 #include "sim/core/assets.h"
 #include "sim/core/csv.h"
 #include "sim/core/units.h"
-#include "validation/generator/campaign.h"
+#include "validation/generator/machine.h"
 
-namespace rollrig::generator {
-namespace {
+namespace rollrig::generator::dyno {
 
 /// Adds a cycle of the project's assets.
 void drive(const std::string& cycle, SpeedTrace& trace) {
@@ -122,23 +122,15 @@ std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N,
   return make_legs(trace, load_N, specimen);
 }
 
-/// The sort of a run, where the order asks for one sort alone.
-RunKind choose_kind(RunKind what, DynoRuns dyno_runs) {
-  if (dyno_runs == DynoRuns::kMultiCycle) what.kind = "multi-cycle";
-  if (dyno_runs == DynoRuns::kConstantSpeeds) what.kind = "constant speeds";
-  return what;
-}
-
-}  // namespace
-
-Campaign draw_dyno_campaign(const CampaignOrder& order, const Specimen& specimen) {
+Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen) {
   constexpr Cooling kCooling{12.0, 20.0, 45.0};  // Assumed
   Draws draws(order.seed, "campaign");
   const CampaignKind& kind = draws.pick(campaign_kinds());
   const double load_N = 50.0 * draws.whole(88, 112);
   Campaign campaign{kind.name, {}};
   for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(order.runs), kind.runs.size()); ++i) {
-    const RunKind what = choose_kind(kind.runs[i], order.dyno_runs);
+    RunKind what = kind.runs[i];
+    if (!order.run_kind.empty()) what.kind = order.run_kind.c_str();
     Draws own(order.seed, fmt::format("run/{}", i));
     RunPlan run = start_run(own, i, what, kCooling, specimen);
     run.legs = draw_legs(own, what.kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
@@ -147,4 +139,40 @@ Campaign draw_dyno_campaign(const CampaignOrder& order, const Specimen& specimen
   return campaign;
 }
 
-}  // namespace rollrig::generator
+void draw_own(std::uint64_t seed, Specimen& specimen) {
+  Draws draws(seed, "specimen/roller");
+  specimen.drum_diameter_m = draws.happens(0.7) ? 1.2 : 1.2192;  // 1.2192 m: the 48 inch roller
+  specimen.drum_inertia_kg_m2 = round_to(draws.uniform(90.0, 150.0), 3);
+}
+
+std::string write_file(const Specimen& specimen) {
+  return rig::write_file(specimen, 1, rig::write_drum("roller", specimen));
+}
+
+double calc_moving_mass_kg(const Specimen&, double, double) { return 0.0; }  // the rig compensates it
+
+// Assumed: a loss is the difference of two torques, so it is noisier than a drum's torque.
+const Machine machine{
+    "dyno",
+    "rig.toml",
+    Measured::kWheel,
+    false,
+    false,
+    true,
+    {columns::kTime,
+     columns::kSpeed,
+     columns::kLoad,
+     {"longitudinal_force_N", &RunRecord::longitudinal_N, "{:.9g}"},
+     columns::kAmbient},
+    {{"loss_force_N", "torque", {0.6, 0.25, 60.0, 1.0, 0.0}}, columns::kLiner, columns::kPressure},
+    {{"dyno_multi_cycle", 6, "multi-cycle"}, {"dyno_constant_speed", 6, "constant speeds"}, {"dyno_mixed", 6, ""}},
+    rig::gives,
+    rig::write_set_keys,
+    write_file,
+    draw_own,
+    draw_campaign,
+    rig::calc_drum_factor,
+    find_unit_lever,
+    calc_moving_mass_kg};
+
+}  // namespace rollrig::generator::dyno

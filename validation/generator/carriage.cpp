@@ -1,11 +1,11 @@
-#include "validation/generator/campaign.h"
+#include "validation/generator/carriage.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace rollrig::generator {
+namespace rollrig::generator::carriage {
 namespace {
 
 /// Builds the legs of a run from what an operator would do.
@@ -129,46 +129,6 @@ Legs up_and_down(Draws& draws, const Habits& habits) {
   return course.take();
 }
 
-/// Each has warm-ups, fast running, a load sweep, skims within a run, and a run at another pressure.
-const std::vector<CampaignKind>& campaign_kinds() {
-  static const std::vector<CampaignKind> kinds{{"tire maker",
-                                                {{"warm-up 80", "day-1"},
-                                                 {"transient skim", "day-1"},
-                                                 {"speed steps", "day-1"},
-                                                 {"load sweep", "day-2"},
-                                                 {"warm-up 120", "day-2"},
-                                                 {"warm-up 80", "day-2", 220}}},
-                                               {"university",
-                                                {{"warm-up 120", "day-1"},
-                                                 {"load sweep", "day-1", 0, 240},
-                                                 {"warm-up 40", "day-2"},
-                                                 {"transient skim", "day-2", 320},
-                                                 {"up and down", "day-3"},
-                                                 {"speed steps", "day-3", 0, 180}}},
-                                               {"car maker",
-                                                {{"speed steps", "day-1"},
-                                                 {"transient skim", "day-1", 0, 120},
-                                                 {"load sweep", "day-1"},
-                                                 {"warm-up 80", "day-2"},
-                                                 {"speed steps", "day-2", 240},
-                                                 {"warm-up 120", "day-2", 0, 150}}},
-                                               {"test house",
-                                                {{"warm-up 80", "day-1"},
-                                                 {"load sweep", "day-1"},
-                                                 {"load sweep", "day-2", 230},
-                                                 {"speed steps", "day-2"},
-                                                 {"transient skim", "day-3"},
-                                                 {"warm-up 130", "day-3"}}},
-                                               {"institute",
-                                                {{"up and down", "day-1"},
-                                                 {"warm-up 80", "day-1", 310},
-                                                 {"transient skim", "day-1", 0, 200},
-                                                 {"speed steps", "day-2"},
-                                                 {"load sweep", "day-2"},
-                                                 {"transient skim", "day-2", 250}}}};
-  return kinds;
-}
-
 Legs draw_legs(Draws& draws, const Habits& habits, const std::string& kind) {
   if (kind == "speed steps") return speed_steps(draws, habits);
   if (kind == "load sweep") return load_sweep(draws, habits);
@@ -190,10 +150,10 @@ Habits draw_habits(Draws& draws, const Specimen& specimen) {
 
 }  // namespace
 
-Campaign draw_drum_campaign(const CampaignOrder& order, const Specimen& specimen) {
+Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen, const std::vector<CampaignKind>& kinds) {
   constexpr Cooling kCooling{8.0, 14.0, 60.0};  // Assumed
   Draws draws(order.seed, "campaign");
-  const CampaignKind& kind = draws.pick(campaign_kinds());
+  const CampaignKind& kind = draws.pick(kinds);
   const Habits habits = draw_habits(draws, specimen);
   Campaign campaign{kind.name, {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(order.runs); ++i) {
@@ -206,4 +166,12 @@ Campaign draw_drum_campaign(const CampaignOrder& order, const Specimen& specimen
   return campaign;
 }
 
-}  // namespace rollrig::generator
+double calc_moving_mass_kg(const Specimen& specimen, double load_N, double target_load_N) {
+  const double drum_m = 0.5 * specimen.drum_diameter_m;
+  const double drum_kg = specimen.drum_inertia_kg_m2 / (drum_m * drum_m);
+  if (target_load_N <= 0.0) return drum_kg;  // the wheel is off the drum
+  const double wheel_m = 0.5 * specimen.outer_diameter_m - load_N / specimen.vertical_N_per_m;
+  return drum_kg + specimen.spin_inertia_kg_m2 / (wheel_m * wheel_m);
+}
+
+}  // namespace rollrig::generator::carriage
