@@ -121,9 +121,10 @@ MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind) {
 
 std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set) {
   const std::string word = reader.text_or("kind", "");
-  set.kind = rigs::find_machine_kind_if_any(!word.empty() ? word : reader.has("vehicle") ? "road" : "drum");
-  if (set.kind == nullptr) reader.text("kind", rigs::set_words());  // throws
-  if (is_on_road(set.kind->traits)) {
+  set.kind = rigs::find_machine_kind_if_any(word);
+  if (!word.empty() && set.kind == nullptr) reader.text("kind", rigs::set_words());  // throws
+  if (word.empty() && reader.has("vehicle")) set.kind = &rigs::find_kind_without_rig(&models::is_any);
+  if (set.kind != nullptr && !set.kind->names_rig()) {
     const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
     set.vehicle = rigs::read_vehicle(read_config(path));
     set.vehicle->content = read_text_file(path);
@@ -132,11 +133,11 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
   const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));
   set.rig = rigs::read_rig(read_config(path));
   set.rig->content = read_text_file(path);
-  if (is_on_road(set.rig->kind->traits)) {
+  if (!set.rig->kind->names_rig()) {
     throw reader.problem("rig", fmt::format("rig '{}' is a road, where a set names a vehicle", set.rig->name),
                          "a rig of another kind, or vehicle = ... with kind = \"road\"");
   }
-  if (!word.empty() && set.kind != set.rig->kind) {
+  if (set.kind != nullptr && set.kind != set.rig->kind) {
     throw reader.problem("kind", fmt::format("kind is '{}', but the rig '{}' is of another kind", word, set.rig->name),
                          "the rig's kind");
   }

@@ -40,11 +40,11 @@ struct MeasuredRun {
 struct MeasurementSet {
   std::string path;  // of set.toml
   std::string name;
-  const MachineKind* kind = &rigs::find_machine_kind("drum");
+  const MachineKind* kind = nullptr;
   models::Baseline baseline = models::Baseline::kCombined;
   models::TireFile tire;
-  std::optional<rigs::RigFile> rig;          // all kinds but road
-  std::optional<rigs::VehicleFile> vehicle;  // road
+  std::optional<rigs::RigFile> rig;          // of a kind that names a rig
+  std::optional<rigs::VehicleFile> vehicle;  // of the other kinds
   models::SensorSet sensors;
   std::vector<Quantity> assumed_sensors;  // channels of which the set says nothing: those of its kind
   std::vector<MeasuredRun> runs;

@@ -81,6 +81,13 @@ const MachineKind& find_machine_kind(const std::string& word) {
   throw std::invalid_argument("no kind of machine '" + word + "'");
 }
 
+const MachineKind& find_kind_without_rig(bool (*has_trait)(const models::MachineTraits&)) {
+  for (const MachineKind* kind : machine_kinds()) {
+    if (!kind->names_rig() && has_trait(kind->traits)) return *kind;
+  }
+  throw std::invalid_argument("no kind of machine with this trait goes without a rig");
+}
+
 bool is_force(const Quantity& column) {
   return std::any_of(machine_kinds().begin(), machine_kinds().end(),
                      [&](const MachineKind* kind) { return kind->traits.force == column; });

@@ -10,6 +10,8 @@
 
 namespace rollrig::rigs {
 
+struct RigFile;
+
 /// A column of a run's file.
 struct Column {
   Quantity quantity;
@@ -49,6 +51,10 @@ struct MachineKind {
   RunColumns columns;
   models::SensorSet default_sensors;  // where a set gives none; empty where it has to
   const char* follow_scenario;        // that carries out such a run as a file gives it
+  RigFile (*make_rig)();              // of sets and scenarios that name a vehicle and no rig; nullptr: they name one
+
+  /// Whether sets and scenarios name a rig.
+  bool names_rig() const { return make_rig == nullptr; }
 };
 
 /// All kinds, in the order of machines.def.
@@ -59,6 +65,8 @@ std::vector<std::string> set_words();
 const MachineKind* find_machine_kind_if_any(const std::string& word);
 /// The same, of a word that is known. Throws std::invalid_argument.
 const MachineKind& find_machine_kind(const std::string& word);
+/// The kind with a trait whose sets and scenarios name no rig. Throws std::invalid_argument.
+const MachineKind& find_kind_without_rig(bool (*has_trait)(const models::MachineTraits&));
 
 /// Whether a column is the force channel of some kind.
 bool is_force(const Quantity& column);

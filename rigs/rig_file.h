@@ -106,7 +106,7 @@ struct RigFile {
   std::string path;
   std::string content;  // as read, for the manifest's hash
   std::string name;
-  const MachineKind* kind = &find_machine_kind("drum");
+  const MachineKind* kind = nullptr;
   std::string conductances_of;  // the rig at which a tire's conductances hold here as well; empty: its own
   DrumParameters drum;          // of each roller on a dyno
   BeltParameters belt;

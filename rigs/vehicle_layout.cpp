@@ -51,8 +51,7 @@ models::RoadLoad<double> scale(const models::RoadLoad<double>& load, double fact
 /// All but the wheels, for a share of the vehicle.
 VehicleLayout make_body(const VehicleFile& vehicle, const RigFile& rig, double ambient_K,
                         const models::RoadLoad<double>& set_load, double share) {
-  VehicleLayout layout;
-  layout.machine = rig.kind->traits;
+  VehicleLayout layout{rig.kind->traits};
   layout.share = share;
   layout.mass_kg = share * vehicle.body.mass_kg;
   layout.rotating_mass_kg = share * vehicle.body.rotating_mass_kg;

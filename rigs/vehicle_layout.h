@@ -26,7 +26,7 @@ struct WheelPlace {
 /// The whole vehicle on its wheels, or one wheel with its share of mass and force. What that wheel does not drive or
 /// brake itself reaches it through the roller or the body, as the force of the other wheels would.
 struct VehicleLayout {
-  models::MachineTraits machine = find_machine_kind("dyno").traits;
+  models::MachineTraits machine;
   double share = 1.0;  // of the vehicle that is simulated
   double mass_kg = 0.0;
   double rotating_mass_kg = 0.0;
@@ -38,11 +38,11 @@ struct VehicleLayout {
   double driver_bandwidth_rad_s = 0.0;  // of the rollers' common speed as well
   double roller_radius_m = 0.0;         // 0 on the road
   double body_height_m = 0.0;           // of the center of gravity above rollers or road
-  TieDownParameters tie_down;
+  TieDownParameters tie_down = {};
   /// Force of the rollers against the vehicle (§3.4.3, (3.20)); on the road, the road load of a vehicle
   /// that is given by it alone.
-  models::RoadLoad<double> resistance;
-  std::vector<WheelPlace> wheels;
+  models::RoadLoad<double> resistance = {};
+  std::vector<WheelPlace> wheels = {};
 };
 
 /// Names of an axle's wheels from left to right: by its side, of dual tires also outer and inner; a single wheel has

@@ -27,7 +27,7 @@ struct PlanWords {
 };
 
 PlanWords find_words(const MachineKind& kind) {
-  if (is_on_road(kind.traits)) return {"vehicle", "the vehicle", "On the road"};
+  if (!kind.names_rig()) return {"vehicle", "the vehicle", "On the road"};
   return {"rig", "the rig", "At the rig"};
 }
 
@@ -193,7 +193,7 @@ std::map<std::string, std::string> write_plan(const MeasurementSet& set, const D
     files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], *set.kind);
   }
   files["tire.toml"] = set.tire.content.empty() ? models::write_tire(set.tire) : set.tire.content;
-  if (is_on_road(set.kind->traits)) {
+  if (!set.kind->names_rig()) {
     files["vehicle.toml"] = set.vehicle->content.empty() ? rigs::write_vehicle(*set.vehicle) : set.vehicle->content;
   } else {
     files["rig.toml"] = set.rig->content.empty() ? rigs::write_rig(*set.rig) : set.rig->content;

@@ -36,14 +36,14 @@ std::string make_run_table(const ImportedRun& run) {
 }
 
 std::string make_set_toml(const Mapping& mapping, const Import& imported) {
-  const bool on_road = is_on_road(mapping.set.kind->traits);
   std::string text = "# Made by rollrig import; import.json says how.\n";
   for (const ClockEstimate& clock : imported.clocks) {
     text += fmt::format("# clock of {}: shift {:.3f} +- {:.3f} s (1 sd)\n", quote(clock.tire_log), clock.clock.shift_s,
                         clock.calc_shift_sd_s());
   }
   text += fmt::format("{}name = {}\ntire = \"tire.toml\"\n{}\nbaseline = {}\n", write_set_format(*mapping.set.kind),
-                      quote(mapping.set.name), on_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
+                      quote(mapping.set.name),
+                      mapping.set.kind->names_rig() ? "rig = \"rig.toml\"" : "vehicle = \"vehicle.toml\"",
                       quote(mapping.baseline));
   text += write_sensors(imported.sensors);
   for (const ImportedRun& run : imported.runs) text += make_run_table(run);
@@ -151,7 +151,7 @@ std::map<std::string, std::string> make_set_files(const Mapping& mapping, const 
   std::map<std::string, std::string> files;
   files["set.toml"] = make_set_toml(mapping, imported);
   files["tire.toml"] = mapping.set.tire.content;
-  files[is_on_road(mapping.set.kind->traits) ? "vehicle.toml" : "rig.toml"] = mapping.machine_content;
+  files[mapping.set.kind->names_rig() ? "rig.toml" : "vehicle.toml"] = mapping.machine_content;
   for (const ImportedRun& run : imported.runs) files[run.plan.id + ".csv"] = make_run_csv(run.rows);
   files["marks.csv"] = make_marks_csv(imported);
   files["import.json"] = to_text(make_import_json(mapping, imported));

@@ -19,7 +19,8 @@ const MachineKind& machine_drum() {
         measure(quantities::kCavityPressure),
         measure(quantities::kGasTemperature)}},
       {},
-      "follow_drum"};
+      "follow_drum",
+      nullptr};
   return kind;
 }
 

@@ -26,7 +26,8 @@ const MachineKind& machine_dyno() {
        make_usual_sensor(quantities::kLinerTemperature),
        make_usual_sensor(quantities::kGasTemperature),
        make_usual_sensor(quantities::kCavityPressure)},
-      "follow_roller"};
+      "follow_roller",
+      nullptr};
   return kind;
 }
 

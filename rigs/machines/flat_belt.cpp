@@ -25,7 +25,8 @@ const MachineKind& machine_flat_belt() {
                                 {{kBeltForce, {0.45, 0.1, 60.0, 0.25, 0.0}},
                                  make_usual_sensor(quantities::kLinerTemperature),
                                  make_usual_sensor(quantities::kCavityPressure)},
-                                "follow_drum"};
+                                "follow_drum",
+                                nullptr};
   return kind;
 }
 

@@ -1,7 +1,22 @@
 /// A vehicle on the road. The traction force is known from its motor, and nothing of its tires.
-#include "rigs/machine.h"
+#include "rigs/rig_file.h"
 
 namespace rollrig::rigs {
+
+const MachineKind& machine_road();
+
+namespace {
+
+/// Standard air over a level road.
+RigFile make_road() {
+  RigFile road;
+  road.name = "road";
+  road.kind = &machine_road();
+  road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
+  return road;
+}
+
+}  // namespace
 
 /// Sensors. Traction force: 10 N offset, 215 N drift in 13 s (wind, surface and slope), 140 N noise, Assumed: as one
 /// car's trips leave over a fit of the road load (259 N rms, correlated over 13 s).
@@ -17,7 +32,8 @@ const MachineKind& machine_road() {
                                  {},
                                  {{quantities::kTractionForce, any_number(), "force at the wheels"}}},
                                 {{quantities::kTractionForce, {10.0, 215.0, 13.0, 140.0, 0.0}}},
-                                "follow_road"};
+                                "follow_road",
+                                &make_road};
   return kind;
 }
 

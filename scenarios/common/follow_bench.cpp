@@ -14,7 +14,7 @@ measurements::MeasurementSet make_set(const RunSpec& spec, const measurements::M
   set.kind = spec.rig.kind;
   set.baseline = spec.baseline;
   set.tire = spec.tire;
-  if (is_on_road(set.kind->traits)) {
+  if (!set.kind->names_rig()) {
     set.vehicle = spec.vehicle;
   } else {
     set.rig = spec.rig;

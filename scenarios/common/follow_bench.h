@@ -23,9 +23,9 @@ Scenario make_follow_scenario(ScenarioText text, std::string default_rig,
   const auto plan = +[](const Settings& settings, const RunSpec& spec) { return settings.conditions.make_rows(spec); };
   Scenario scenario = make_rig_scenario(std::move(text), plan, evaluate, &simulate_rows,
                                         [](const RunSpec& spec) { make_follow_context(spec, {}); });
-  scenario.runs_on = &models::is_tied_down;
   scenario.default_rig = std::move(default_rig);
   scenario.has_vehicle = !scenario.has_rig();
+  scenario.runs_on = scenario.has_vehicle ? &models::is_on_road : &models::is_tied_down;
   scenario.fidelities = {Fidelity::kQuasiStatic};
   scenario.writes_sets = true;
   return scenario;

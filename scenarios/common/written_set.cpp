@@ -83,11 +83,12 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
   const rigs::MachineKind& kind = *spec.rig.kind;
   const models::SensorSet sensors = spec.sensors.value_or(models::SensorSet{});
   const std::vector<Quantity> columns = find_columns(kind, outcome.recording, sensors);
-  const bool is_road = is_on_road(kind.traits);
+  const bool names_rig = kind.names_rig();
   std::map<std::string, std::string> files;
   std::string set = fmt::format("{}name = \"{}\"\n{}tire = \"tire.toml\"\n{}\nbaseline = \"{}\"\n",
-                                measurements::write_set_format(kind), name, is_road ? "kind = \"road\"\n" : "",
-                                is_road ? "vehicle = \"vehicle.toml\"" : "rig = \"rig.toml\"",
+                                measurements::write_set_format(kind), name,
+                                names_rig ? "" : fmt::format("kind = \"{}\"\n", kind.set_word),
+                                names_rig ? "rig = \"rig.toml\"" : "vehicle = \"vehicle.toml\"",
                                 spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
   set += measurements::write_sensors(sensors);
   for (const SetRun& run : outcome.set_runs) {
@@ -96,8 +97,8 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
   }
   files["set.toml"] = set;
   files["tire.toml"] = models::write_tire(spec.tire);
-  files[is_road ? "vehicle.toml" : "rig.toml"] =
-      is_road ? rigs::write_vehicle(*spec.vehicle) : rigs::write_rig(spec.rig);
+  files[names_rig ? "rig.toml" : "vehicle.toml"] =
+      names_rig ? rigs::write_rig(spec.rig) : rigs::write_vehicle(*spec.vehicle);
   return files;
 }
 

@@ -75,21 +75,12 @@ std::optional<models::SensorSet> read_run_sensors(TableReader& reader, const std
 }
 
 void check_rig_kind(const RunSpec& spec) {
-  if (!spec.scenario->has_rig() || spec.scenario->runs_on(spec.rig.kind->traits)) return;
+  if (spec.scenario->runs_on(spec.rig.kind->traits)) return;
   throw InputError(
       {fmt::format("scenario '{}' cannot be carried out on rig '{}', which is of kind \"{}\"", spec.scenario->text.name,
                    spec.rig.name, spec.rig.kind->word),
        spec.rig.path, 0, "kind", "",
        fmt::format("a rig of kind \"{}\"", fmt::join(rigs::list_machines(spec.scenario->runs_on), "\" or \"")), ""});
-}
-
-/// The road: standard air over the plane (formats.md names no rig for a vehicle on the road).
-rigs::RigFile make_road() {
-  rigs::RigFile road;
-  road.name = "road";
-  road.kind = &rigs::find_machine_kind("road");
-  road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
-  return road;
 }
 
 void read_machines(RunDocument& document, RunSpec& spec) {
@@ -98,7 +89,7 @@ void read_machines(RunDocument& document, RunSpec& spec) {
     spec.rig = document.read_file("rig", "rigs", document.reader.text_or("rig", scenario.default_rig), &rigs::read_rig);
   } else {
     document.refuse("rig", scenario);
-    spec.rig = make_road();
+    spec.rig = rigs::find_kind_without_rig(scenario.runs_on).make_rig();
   }
   if (scenario.has_vehicle) {
     const std::string name = document.reader.text_or("vehicle", "source_car");

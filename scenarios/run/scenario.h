@@ -85,7 +85,7 @@ using PreparedRun = std::function<Outcome(const sim::Progress&)>;
 struct Scenario {
   ScenarioText text;
   bool (*runs_on)(const models::MachineTraits&) = &models::has_skim;  // machines on which it can be carried out
-  std::string default_rig = "drum_2m";                                // empty: the road, which has no rig
+  std::string default_rig = "drum_2m";                                // empty: it names no rig
   bool has_vehicle = false;
   std::vector<Fidelity> fidelities{Fidelity::kMultibody, Fidelity::kQuasiStatic};  // the first unless asked otherwise
   bool writes_sets = false;                                                        // with sensors, of the rig's kind

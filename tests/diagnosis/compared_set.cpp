@@ -55,6 +55,7 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
   set.name = "simulated";
   set.tire = read_asset_tire();
   set.rig = read_asset_rig();  // where tests are nearly equally good, one drum has to be chosen
+  set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");
   for (measurements::MeasuredRun& run : runs) {
     models::Corner<double> corner(rigs::make_context(set.tire, *set.rig, set.baseline), effects);

@@ -28,6 +28,7 @@ measurements::MeasurementSet measure_constant(const rigs::RigFile& rig) {
   set.tire.has_constant = true;
   set.tire.values.constant.rrc = kRrc;
   set.rig = rig;
+  set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");
   measurements::MeasuredRun run;
   run.id = "steady";
@@ -68,6 +69,7 @@ TEST_CASE("a weight hung on the drum's circumference is the force that it is, on
   for (const double diameter_m : {1.707, 2.5}) {
     measurements::MeasurementSet set;
     set.rig = tests::make_uneven_drum();
+    set.kind = set.rig->kind;
     set.rig->drum.diameter_m = diameter_m;
     const double arm_m = diameter_m / 2.0;
     INFO(diameter_m << " m");

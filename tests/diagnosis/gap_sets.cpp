@@ -61,6 +61,7 @@ measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect
   set.name = "simulated";
   set.tire = read_asset_tire();
   set.rig = make_uneven_drum();
+  set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset(sensors);
   for (std::size_t i = 0; i < runs; ++i) {
     measurements::MeasuredRun run = plan_run(plans[i], set.rig->skim.load_N);

@@ -29,6 +29,7 @@ measurements::MeasurementSet make_set() {
   set.name = "campaign";
   set.tire = tests::read_asset_tire();
   set.rig = tests::read_asset_rig();
+  set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");
   measurements::MeasuredRun run;
   run.id = "one";

@@ -1,6 +1,7 @@
 // Kinds of machines: what the registry knows, and the words of older files.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <stdexcept>
 
 #include "rigs/rig_file.h"
 #include "sim/core/assets.h"
@@ -40,5 +41,16 @@ TEST_CASE("a measured column of a kind is one of its own, and its force is among
     for (const auto& [channel, sensor] : kind->default_sensors) {
       CHECK(std::count(measured.begin(), measured.end(), channel) == 1);
     }
+  }
+}
+
+TEST_CASE("a kind whose sets name a vehicle and no rig has one of its own kind, in standard air", "[fast]") {
+  CHECK(&rigs::find_kind_without_rig(&models::is_on_road) == tests::kRoad);
+  CHECK_THROWS_AS(rigs::find_kind_without_rig(&models::has_skim), std::invalid_argument);
+  for (const tests::Machine kind : rigs::machine_kinds()) {
+    if (kind->names_rig()) continue;
+    const rigs::RigFile rig = kind->make_rig();
+    CHECK(rig.kind == kind);
+    CHECK(rig.environment.ambient_pressure_Pa == kStandardAtmosphere_Pa);
   }
 }

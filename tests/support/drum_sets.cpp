@@ -56,6 +56,7 @@ measurements::MeasurementSet simulate_campaign(const Campaign& campaign, std::ui
   set.name = "simulated";
   set.tire = read_asset_tire(campaign.tire);
   set.rig = make_uneven_drum();
+  set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");
   for (std::size_t part = 0; part < campaign.parts.size(); ++part) {
     const auto& [scenario, settings] = campaign.parts[part];

@@ -41,6 +41,7 @@ measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std
   set.name = "simulated";
   set.tire = read_asset_tire(tire);
   set.rig = rig;
+  set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset(sensors);
   for (const double speed_km_h : {80.0, 120.0}) {
     set.runs.push_back(make_run(tire, speed_km_h, fidelity, rig));
