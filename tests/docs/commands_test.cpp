@@ -34,6 +34,9 @@ const std::vector<NotRun> kNotRun{
 /// Pages whose commands take more than some seconds in all; each has a test case of its own.
 const std::set<std::string> kSlowPages{"README.md", "docs/diagnosis.md", "docs/tutorial.md", "docs/validation.md"};
 
+/// Pages on which every indented line is printed by a command of the page.
+const std::set<std::string> kPagesWithOutput{"docs/convert.md", "docs/how_the_tire_model_works.md"};
+
 std::vector<std::string> list_pages() {
   std::vector<std::string> pages{"README.md", "CONTRIBUTING.md"};
   for (const auto& entry : fs::directory_iterator(ROLLRIG_SOURCE_DIR "/docs")) {
@@ -45,7 +48,7 @@ std::vector<std::string> list_pages() {
 
 struct PageLines {
   std::vector<std::string> commands;   // in blocks ```sh
-  std::vector<std::string> elsewhere;  // indented, or in blocks of another kind
+  std::vector<std::string> elsewhere;  // indented, or in blocks of another kind; not in equations
 };
 
 PageLines read_lines(const std::string& page) {
@@ -53,11 +56,13 @@ PageLines read_lines(const std::string& page) {
   std::istringstream in(rollrig::read_text_file(ROLLRIG_SOURCE_DIR "/" + page));
   std::string fence;
   for (std::string line; std::getline(in, line);) {
-    if (line.rfind("```", 0) == 0) {
+    if (line.rfind("```", 0) == 0 || line == "$$") {
       fence = fence.empty() ? line : "";
+    } else if (fence == "$$") {
+      continue;
     } else if (fence == "```sh") {
       lines.commands.push_back(line);
-    } else if (!fence.empty() || (line.rfind("    ", 0) == 0 && line[4] != ' ')) {
+    } else if (!fence.empty() || line.rfind("    ", 0) == 0) {
       lines.elsewhere.push_back(line);
     }
   }
@@ -65,6 +70,7 @@ PageLines read_lines(const std::string& page) {
 }
 
 bool looks_like_command(const std::string& line) {
+  if (line.rfind("     ", 0) == 0) return false;  // goes on from the line before
   std::istringstream words(line);
   std::string first;
   std::string second;
@@ -94,7 +100,9 @@ void lay_out_clone(const TemporaryFolder& folder) {
 void check_commands(const std::string& page) {
   const TemporaryFolder folder;
   lay_out_clone(folder);
-  for (const std::string& command : read_lines(page).commands) {
+  const PageLines lines = read_lines(page);
+  std::string printed;
+  for (const std::string& command : lines.commands) {
     if (find_not_run(command) != nullptr) continue;
     if (command.rfind("build/release/examples/", 0) == 0 && !fs::exists(folder.file("build/release/examples"))) {
       WARN("not run, since the examples are not built: " << command);
@@ -104,7 +112,11 @@ void check_commands(const std::string& page) {
     const ProgramResult result = run_other("sh", "typed.sh", folder.path());
     INFO(page << ": " << command << "\n" << result.out << result.err);
     CHECK(result.status == 0);
+    printed += result.out;
   }
+  if (kPagesWithOutput.count(page) == 0) return;
+  CHECK_FALSE(lines.elsewhere.empty());
+  for (const std::string& line : lines.elsewhere) CHECK_THAT(flatten(printed), Catch::Contains(flatten(line)));
 }
 
 }  // namespace
