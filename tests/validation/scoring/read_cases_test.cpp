@@ -97,7 +97,7 @@ TEST_CASE("fits that know the cause are of effects of the catalog", "[fast]") {
 
 TEST_CASE("with the truth left out, those cases are scored that a fit with known cause answers", "[fast]") {
   const ValidationSetFolder made;
-  validation::ScoreOrder order = make_order(made);
+  validation::ScoreOrder order = make_score_order(made);
   order.answers = made.root + "/answers-left-out";
   order.truth_was_left_out = true;
   const auto truths = validation::read_truths(made.root, "");
