@@ -9,6 +9,7 @@
 #include "scenarios/common/speed_trace.h"
 #include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
+#include "sim/core/columns.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
@@ -21,13 +22,13 @@ std::string describe_scenario(const scenarios::Scenario& scenario) {
   std::string text = scenario.text.name + ": scenario\n" + wrap(scenario.text.summary, 2) + '\n';
   text += "Procedure\n" + wrap(scenario.text.procedure, 2) + "Source\n" + wrap(scenario.text.source, 2);
   text += "Settings (--set key=value)\n";
+  std::vector<std::vector<std::string>> settings, results;
   for (const scenarios::SettingInfo& setting : scenario.settings) {
     const std::string range = setting.range.empty() ? "" : ", " + setting.range;
-    text += fmt::format("  {} [{}{}]\n", setting.key, setting.fallback, range) + wrap(setting.doc, 6);
+    settings.push_back({setting.key, fmt::format("{} [{}{}]", setting.doc, setting.fallback, range)});
   }
-  text += "Results\n";
-  for (const scenarios::ResultInfo& result : scenario.results) text += "  " + result.key + '\n' + wrap(result.doc, 6);
-  return text;
+  for (const scenarios::ResultInfo& result : scenario.results) results.push_back({result.key, result.doc});
+  return text + text_columns(settings) + "Results\n" + text_columns(results);
 }
 
 std::string join_or_none(const std::vector<std::string>& words) {
@@ -38,13 +39,15 @@ std::string describe_effect(const models::EffectInfo& info) {
   std::string text = info.id + ": effect\n" + wrap(info.summary, 2) + '\n';
   text += "Equation\n" + wrap(info.equation, 2) + "Source\n" + wrap(info.source, 2);
   text += fmt::format("Parameters ([effects.{}])\n", info.id);
+  std::vector<std::vector<std::string>> rows;
   for (const models::EffectParameter& parameter : info.parameters) {
     const std::string off = parameter.off.has_value() ? fmt::format(", off at {}", *parameter.off) : "";
-    text += fmt::format("  {} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]\n", parameter.key, parameter.prior.center(),
-                        parameter.prior.low, parameter.prior.high, parameter.prior.either_sign ? ", either sign" : "",
-                        parameter.range.to_string(), off) +
-            wrap(parameter.doc, 6);
+    rows.push_back({parameter.key,
+                    fmt::format("{} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]", parameter.doc, parameter.prior.center(),
+                                parameter.prior.low, parameter.prior.high,
+                                parameter.prior.either_sign ? ", either sign" : "", parameter.range.to_string(), off)});
   }
+  text += text_columns(rows);
   text += "Acts on\n" + wrap(join_or_none(rigs::list_machines(info.acts_on)), 2);
   if (info.only_against != nullptr) text += "Acts only against\n  the baseline constant_rrc\n";
   const std::vector<std::string> faint = rigs::list_machines(info.faint_on);
@@ -65,9 +68,12 @@ std::string describe_cycle(const std::string& path) {
     standing_s += trace.time_s[i] - trace.time_s[i - 1];
   }
   const double fastest_m_s = *std::max_element(trace.speed_m_s.begin(), trace.speed_m_s.end());
-  return fmt::format("{}\n\n{}: drive cycle, {}, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill\n",
-                     path, trace.name, format_count(trace.time_s.size(), "row"), trace.duration_s(),
-                     scenarios::calc_distance_m(trace.time_s, trace.speed_m_s) / 1e3, 3.6 * fastest_m_s, standing_s);
+  return path + "\n\n" +
+         wrap(fmt::format("{}: drive cycle, {}, {:.0f} s, {:.3f} km, at most {:.1f} km/h, {:.0f} s at standstill",
+                          trace.name, format_count(trace.time_s.size(), "row"), trace.duration_s(),
+                          scenarios::calc_distance_m(trace.time_s, trace.speed_m_s) / 1e3, 3.6 * fastest_m_s,
+                          standing_s),
+              0);
 }
 
 bool is_path(const std::string& name) {

@@ -6,6 +6,7 @@
 #include "report/fit_pages.h"
 #include "report/text.h"
 #include "rollrig/fit.h"
+#include "sim/core/columns.h"
 #include "sim/core/text.h"
 
 namespace rollrig {
@@ -55,11 +56,11 @@ std::string format_scatter(const RoadLoadFit& fit) {
 }
 
 std::string format_checks(const RoadLoadChecks& checks) {
-  std::string text = "  Checks\n";
+  std::vector<std::vector<std::string>> rows;
   for (const estimation::RoadLoadCheck& check : checks.checks) {
-    text += fmt::format("    {:<23} {:<12} {:<23} {}\n", check.name, estimation::name_of(check.status), check.found,
-                        check.limit);
+    rows.push_back({check.name, estimation::name_of(check.status), check.found, check.limit});
   }
+  std::string text = "  Checks\n" + text_columns(rows, {false, 4});
   for (const estimation::SessionDrift& drift : checks.drifts) {
     text += wrap(
         fmt::format("drift of coast times over {} runs{}: {:+.1f} % ({:+.1f} to {:+.1f}), {:+.2f} % a run", drift.runs,

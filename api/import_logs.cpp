@@ -6,6 +6,7 @@
 
 #include "measurements/logs/import.h"
 #include "rollrig/measurement_set.h"
+#include "sim/core/columns.h"
 #include "sim/core/text.h"
 
 namespace rollrig {
@@ -19,11 +20,12 @@ std::string format_clock(const measurements::ClockEstimate& clock) {
   text += fmt::format("    shift {:+.3f} +- {:.3f} s (1 sd), {}\n", clock.clock.shift_s, clock.calc_shift_sd_s(), how);
   text += fmt::format("    rate  {:+.1f} +- {:.1f} ppm{}\n", 1e6 * clock.clock.rate, 1e6 * clock.rate_sd,
                       clock.rate_is_decided ? "" : ", not decided by the logs");
+  std::vector<std::vector<std::string>> rows{{"channel", "rows", "follows the torque log, %"}};
   for (const measurements::ClockEvidence& evidence : clock.evidence) {
-    text += fmt::format("    {:<24} {:>7} rows, {:5.1f} % of it follows the torque log\n", evidence.channel.header(),
-                        evidence.rows, 100.0 * evidence.explained);
+    rows.push_back(
+        {evidence.channel.header(), std::to_string(evidence.rows), fmt::format("{:.1f}", 100.0 * evidence.explained)});
   }
-  return text;
+  return rows.size() > 1 ? text + text_columns(rows, {true, 4}) : text;
 }
 
 std::string format_run(const measurements::ImportedRun& run) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/run_document.h"
 #include "report/list_pages.h"
 #include "report/text.h"
+#include "sim/core/columns.h"
 #include "sim/core/csv.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
@@ -78,18 +78,21 @@ void require_known(const std::vector<std::string>& asked, const std::vector<std:
   }
 }
 
-/// Results shown in the terminal: as asked for, else the first of those that change, as many as fit 80 columns.
+/// Results shown in the terminal: as asked for, else the first of those that change, as many as fit the terminal.
 std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json,
                                       const SweepResult& sweep) {
   require_known(asked, sweep.results);
   if (!asked.empty()) return asked;
   std::size_t width = 2;
-  for (const std::string& axis : sweep.axes) width += axis.size() + 1;
+  constexpr std::size_t kHeader = 14;  // longer ones take several lines
+  for (const std::string& axis : sweep.axes) width += std::min(axis.size(), kHeader) + 2;
   const std::vector<std::string> changing = report::list_changing(json);
   std::vector<std::string> shown;
   for (const std::string& key : changing.empty() ? sweep.results : changing) {
-    if (width + key.size() + 1 > 80 && !shown.empty()) continue;
-    width += key.size() + 1;
+    if (std::find(sweep.axes.begin(), sweep.axes.end(), key) != sweep.axes.end()) continue;
+    const std::size_t own = std::min(key.size(), kHeader);
+    if (width + own > terminal_columns() && !shown.empty()) break;
+    width += own + 2;
     shown.push_back(key);
   }
   return shown;
@@ -139,15 +142,15 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   const std::vector<scenarios::RunSpec>& specs = data_->specs;
   std::vector<Json> results(specs.size());
   FolderFiles files(specs.size() + 2);
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(specs.size(), data_->input.threads, [&](std::size_t i) {
+  const auto carry_out_one = [&](std::size_t i) {
     const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
     results[i] = outcome.result;
     files[i + 2] = {fmt::format("manifests/{:04}.json", i + 1), to_text(scenarios::make_manifest(specs[i], outcome))};
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (progress) progress(static_cast<double>(++done) / static_cast<double>(specs.size()), "");
-  });
+  };
+  const auto advance = [&progress](double done) {
+    if (progress) progress(done, "");
+  };
+  parallel_for(specs.size(), data_->input.threads, carry_out_one, advance);
   SweepResult sweep;
   for (const SweepAxis& axis : data_->input.axes) sweep.axes.push_back(axis.key);
   sweep.points = data_->points;

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/assets.h"
+#include "sim/core/columns.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -38,12 +39,13 @@ int list_command(const ListOptions& options) {
   for (const auto& [kind, items] : all.items()) {
     std::cout << kind << '\n';
     if (items.empty() || items.front().is_string()) {
-      std::cout << wrap(fmt::format("{}", fmt::join(items.get<std::vector<std::string>>(), "  ")), 2);
+      std::cout << wrap(fmt::format("{}", fmt::join(items.get<std::vector<std::string>>(), " ")), 2,
+                        terminal_columns());
       continue;
     }
-    for (const Json& item : items) {
-      std::cout << "  " << item["name"].get<std::string>() << '\n' << wrap(item["summary"].get<std::string>(), 6);
-    }
+    std::vector<std::vector<std::string>> rows;
+    for (const Json& item : items) rows.push_back({item["name"], item["summary"]});
+    std::cout << text_columns(rows);
   }
   return kDone;
 }

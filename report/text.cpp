@@ -2,42 +2,22 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-
 #include "scenarios/run/run_spec.h"
+#include "sim/core/columns.h"
 #include "sim/core/text.h"
 
 namespace rollrig::report {
 
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines) {
-  std::size_t width = 0;
-  for (const scenarios::ResultLine& line : lines) width = std::max(width, line.label.size());
-  std::string text;
-  for (const scenarios::ResultLine& line : lines) text += fmt::format("  {:<{}}  {}\n", line.label, width, line.value);
-  return text;
+  std::vector<std::vector<std::string>> rows;
+  for (const scenarios::ResultLine& line : lines) rows.push_back({line.label, line.value});
+  return text_columns(rows);
 }
 
 std::string format_table(const scenarios::ResultTable& table) {
-  std::vector<std::size_t> widths;
-  for (const std::string& column : table.columns) widths.push_back(count_characters(column));
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], count_characters(row[i]));
-  }
-  const bool names_first = std::any_of(table.rows.begin(), table.rows.end(), [](const std::vector<std::string>& row) {
-    return !row.empty() && !row[0].empty() && std::isalpha(static_cast<unsigned char>(row[0][0])) != 0;
-  });
-  const auto format_row = [&widths, names_first](const std::vector<std::string>& cells) {
-    std::string line = " ";
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::size_t width = widths[i] + (cells[i].size() - count_characters(cells[i]));
-      line += i == 0 && names_first ? fmt::format(" {:<{}}", cells[i], width) : fmt::format(" {:>{}}", cells[i], width);
-    }
-    return line + "\n";
-  };
-  std::string text = (table.title.empty() ? "" : "  " + table.title + "\n") + format_row(table.columns);
-  for (const auto& row : table.rows) text += format_row(row);
-  return text;
+  std::vector<std::vector<std::string>> rows{table.columns};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  return (table.title.empty() ? "" : wrap(table.title, 2)) + text_columns(rows, {true});
 }
 
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What a person reads in the terminal: 80 columns, plain text.
+/// What a person reads in the terminal: plain text, as wide as the terminal.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace rollrig::report {
 /// Label and value lines, values aligned.
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines);
 
-/// A table, columns aligned to the right, the first to the left where it holds names.
+/// A table: columns of numbers stand to the right.
 std::string format_table(const scenarios::ResultTable& table);
 
 /// Header, lines, tables and warnings of a run.

@@ -4,6 +4,7 @@
 
 #include "diagnosis/terms/term.h"
 #include "rigs/machine.h"
+#include "sim/core/columns.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
@@ -50,12 +51,12 @@ std::string describe_prior(const models::EffectParameter& parameter) {
 /// Each effect that it is confused with, with its own summary, so that one need not look it up.
 std::string describe_confusions(const models::EffectInfo& info) {
   if (info.confused_with.empty()) return "  none known\n";
-  std::string text;
+  std::vector<std::vector<std::string>> rows;
   for (const std::string& name : info.confused_with) {
     const Term* term = look_up_term(name);
-    text += wrap(term != nullptr ? name + ": " + term->info().summary : name, kIndent);
+    rows.push_back({name, term != nullptr ? term->info().summary : ""});
   }
-  return text;
+  return text_columns(rows);
 }
 
 std::string describe_tests(const models::EffectInfo& info) {
@@ -69,10 +70,11 @@ std::string describe(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
   text += section("Equation", info.equation) + section("Source", info.source);
   text += "Own parameters, and where two thirds of the belief lie before any data\n";
+  std::vector<std::vector<std::string>> rows;
   for (const models::EffectParameter& parameter : info.parameters) {
-    text += wrap(fmt::format("{}: {}", parameter.key, describe_prior(parameter)), kIndent);
-    text += wrap(parameter.doc, 3 * kIndent);
+    rows.push_back({parameter.key, fmt::format("{}. {}", describe_prior(parameter), parameter.doc)});
   }
+  text += text_columns(rows);
   text += section("Acts on", join_or(rigs::list_machines(info.acts_on), "none"));
   if (info.only_against != nullptr)
     text += section("Acts only against", "the baseline constant_rrc: the combined one has it");

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
+#include <numeric>
 
 #include "diagnosis/output/diagnosis_json.h"
+#include "sim/core/columns.h"
 #include "sim/core/error_text.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
@@ -97,11 +99,16 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
     measurements::read_measurement_set(folders.front());  // says what is wrong with it
   }
   std::mutex mutex;
-  std::size_t done = 0;
+  std::vector<double> done(folders.size());
   parallel_for(folders.size(), options.threads, [&](std::size_t i) {
     DiagnosisOptions one = options;
     one.threads = 1;
-    one.progress = {};
+    one.progress = [&, i](double share, const std::string&) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      done[i] = std::max(done[i], share);
+      const double sum = std::accumulate(done.begin(), done.end(), 0.0);
+      if (options.progress) options.progress(sum / static_cast<double>(done.size()), format_count(done.size(), "set"));
+    };
     try {
       if (sets[i].has_value()) fleet.members[i].findings = diagnose(*sets[i], one);
     } catch (const RunFailure& failure) {
@@ -110,33 +117,17 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
       fleet.members[i].failure = error.what();
       fleet.members[i].problem = error.problem();
     }
-    const std::lock_guard<std::mutex> lock(mutex);
-    ++done;
-    if (options.progress) {
-      options.progress(static_cast<double>(done) / static_cast<double>(folders.size()),
-                       fmt::format("{} of {} sets", done, folders.size()));
-    }
   });
   fleet.recurrences = find_recurrences(fleet.members);
   return fleet;
 }
 
 std::string format_fleet(const Fleet& fleet) {
-  constexpr std::size_t kSet = 22;
-  constexpr std::size_t kVerdict = 12;
-  constexpr std::size_t kCause = 25;
-  const auto row = [&](const std::string& set, const std::string& verdict, const std::string& cause,
-                       const std::string& probability, const std::string& gap) {
-    std::string line = fmt::format("{:<{}} {:<{}}{:<{}} {:>5}  {}", clip(set, kSet), kSet, verdict, kVerdict,
-                                   clip(cause, kCause), kCause, probability, gap);
-    line.erase(line.find_last_not_of(' ') + 1);
-    return line + "\n";
-  };
-  std::string text = row("Set", "Verdict", "Cause", "Prob.", "Gap, floors");
+  std::vector<std::vector<std::string>> rows{{"Set", "Verdict", "Cause", "Prob.", "Gap, floors"}};
   for (const FleetMember& member : fleet.members) {
     const std::string name = name_of(member);
     if (!member.findings) {
-      text += row(name, "failed", "see below", "", "");
+      rows.push_back({name, "failed", "see below", "", ""});
       continue;
     }
     const Findings& one = *member.findings;
@@ -144,11 +135,11 @@ std::string format_fleet(const Fleet& fleet) {
     const double probability = explained                        ? one.causes.front().probability
                                : one.verdict == Verdict::kNoGap ? one.probability.at("none")
                                                                 : one.probability.at("unknown");
-    text += row(name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
-                explained ? fmt::format("{}", fmt::join(one.causes.front().effects, "+")) : "",
-                one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one));
+    rows.push_back({name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
+                    explained ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "",
+                    one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one)});
   }
-  text += format_troubles(fleet) + "\nComes back from set to set\n";
+  std::string text = text_columns(rows, {true, 0}) + format_troubles(fleet) + "\nComes back from set to set\n";
   if (fleet.recurrences.empty()) text += "  nothing\n";
   for (const Recurrence& one : fleet.recurrences) text += wrap(describe(one), 2);
   return text;

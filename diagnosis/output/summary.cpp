@@ -7,24 +7,20 @@
 #include <cmath>
 
 #include "diagnosis/terms/term.h"
+#include "sim/core/columns.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr std::size_t kColumns = 80;
-constexpr std::size_t kLabelColumns = 13;
-constexpr std::size_t kTextColumns = kColumns - kLabelColumns;
+constexpr std::size_t kLabelColumns = 12;
 
+std::size_t text_width() { return terminal_columns() - kLabelColumns - 2; }
+
+/// In full, on as many lines as it needs.
 std::string line(const std::string& label, const std::string& text) {
-  return fmt::format("{:<{}}{}\n", label, kLabelColumns, clip(text, kTextColumns));
-}
-
-/// A further point below the ten lines: in full, on as many lines as it needs.
-std::string note(const std::string& label, const std::string& text) {
-  std::string lines = wrap(text, kLabelColumns);
-  return lines.replace(0, label.size(), label);
+  return text_columns({{fmt::format("{:<{}}", label, kLabelColumns), text}}, {false, 0});
 }
 
 /// As many items as fit into `width` characters, then how many more there are.
@@ -59,7 +55,7 @@ std::string verdict_line(const Findings& findings) {
     case Verdict::kExplained: {
       const std::string own = named ? show_probability(findings.causes.front().probability) : "0 %";
       const std::string text = fmt::format("explained, probability {} (none {}, unknown {})", own, none, unknown);
-      if (count_characters(text) <= kTextColumns) return line("Verdict", text);
+      if (count_characters(text) <= text_width()) return line("Verdict", text);
       return line("Verdict", fmt::format("explained, probability {} (unknown {})", own, unknown));
     }
     case Verdict::kUnexplained:
@@ -94,12 +90,12 @@ std::string cause_line(const Findings& findings) {
 
 std::string describe_alternatives(const Cause& cause) {
   const std::string why = " (this set cannot tell)";
-  return join_to_fit(cause.indistinguishable_from, ", ", kTextColumns - why.size()) + why;
+  return join_to_fit(cause.indistinguishable_from, ", ", text_width() - why.size()) + why;
 }
 
 /// Why the files cannot be right, in full.
 std::string doubt_lines(const Findings& findings) {
-  return line("Cause", "none is named until this is mended:") + note("", findings.doubt);
+  return line("Cause", "none is named until this is mended:") + line("", findings.doubt);
 }
 
 /// What acts beside the first effect; else what may act in its place; else what it is.
@@ -127,7 +123,7 @@ std::string where_line(const Findings& findings) {
   const std::string size = fmt::format(": {} (z {:.1f}), {:.0f} % of gap",
                                        with_unit(fmt::format("{:+.2g}", at.size), at.unit), at.z, at.share_percent);
   const std::string place = fmt::format("{} in {}, {}", short_name(at.channel), at.run, at.phase);
-  return line("Where", clip(place, kTextColumns - count_characters(size)) + size);
+  return line("Where", place + size);
 }
 
 std::string equation_line(const Findings& findings) {
@@ -137,7 +133,7 @@ std::string equation_line(const Findings& findings) {
   for (const BalanceShare& share : findings.balance) {
     shares.push_back(fmt::format("{} {:.0f} %", share.name, share.share_percent));
   }
-  return line("Equation", join_to_fit(shares, ", ", kTextColumns));
+  return line("Equation", join_to_fit(shares, ", ", text_width()));
 }
 
 /// Two digits, and no more than two behind the point.
@@ -150,16 +146,16 @@ std::string whole(double percent) { return fmt::format("{:.0f}", std::round(perc
 
 std::string gap_lines(const Findings& findings) {
   const Gap& gap = findings.gap;
-  std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} retuned", gap.as_calibrated.before,
+  std::string floors = fmt::format("{:.1f} noise floors as calibrated, {:.1f} recalibrated", gap.as_calibrated.before,
                                    gap.recalibrated.before);
   const bool is_caused = !findings.causes.empty() && findings.verdict != Verdict::kNoGap;
-  if (is_caused) floors += fmt::format(", {:.1f} with the cause", gap.recalibrated.after);
+  if (is_caused) floors += fmt::format(", {:.1f} with cause", gap.recalibrated.after);
   std::vector<std::string> channels;
   for (const ChannelGap& at : gap.channels) {
     channels.push_back(
         fmt::format("{} {}->{} {}", short_name(at.channel), short_number(at.before), short_number(at.after), at.unit));
   }
-  const std::string units = channels.empty() ? "no channel is compared" : join_to_fit(channels, ", ", kTextColumns);
+  const std::string units = channels.empty() ? "no channel is compared" : join_to_fit(channels, ", ", text_width());
   return line("Gap", floors) + line("  in units", units);
 }
 
@@ -179,7 +175,7 @@ std::string shrinkage_line(const Findings& findings) {
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
     const std::size_t runs = gap.held_out.size();
-    const std::string on = runs == 0 ? "the fitted data" : format_count(runs, "held-out run");
+    const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held out", runs);
     parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
                                 whole(gap.shrink_ci95_percent[1]), on));
   } else if (findings.verdict == Verdict::kUnexplained && findings.causes.empty()) {
@@ -188,17 +184,17 @@ std::string shrinkage_line(const Findings& findings) {
     parts.emplace_back("nothing above the noise to shrink");
   }
   if (gap.recalibration_percent.has_value()) {
-    parts.push_back("retuning " + whole(*gap.recalibration_percent) + " %");
+    parts.push_back("recalibration " + whole(*gap.recalibration_percent) + " %");
   }
   if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
-  return line("Shrinks by", join_to_fit(parts, ", ", kTextColumns));
+  return line("Shrinks by", fmt::format("{}", fmt::join(parts, ", ")));
 }
 
 std::string next_line(const Findings& findings) {
   if (findings.next_tests.empty()) return line("Next test", "none would tell more");
   const NextTest& next = findings.next_tests.front();
   const std::string gain = fmt::format(" ({:.1g} bits/h)", next.expected_bits_per_hour);
-  return line("Next test", clip(next.test, kTextColumns - count_characters(gain)) + gain);
+  return line("Next test", next.test + gain);
 }
 
 std::string describe_rest(const LoneRun& lone) {
@@ -223,28 +219,28 @@ std::string format_summary(const Findings& findings) {
                      (in_doubt ? doubt_lines(findings) : cause_line(findings) + second_line(findings)) +
                      where_line(findings) + equation_line(findings) + gap_lines(findings) + shrinkage_line(findings);
   text += line("Not excluded", findings.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
-                                                             : join_to_fit(findings.not_excluded, ", ", kTextColumns));
+                                                             : join_to_fit(findings.not_excluded, ", ", text_width()));
   text += next_line(findings);
-  if (tells_torque_as_force(findings)) text += note("Torque", "in N, as force at the drum's surface");
+  if (tells_torque_as_force(findings)) text += line("Torque", "in N, as force at the drum's surface");
   if (!findings.causes.empty()) {
     const Cause& first = findings.causes.front();
     if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
-      text += note("Or as well", describe_alternatives(first));
+      text += line("Or as well", describe_alternatives(first));
     }
-    if (const std::string open = describe_unconfirmed(findings); !open.empty()) text += note("But", open);
-    for (const std::string& objection : findings.causes.front().objections) text += note("But", objection);
+    if (const std::string open = describe_unconfirmed(findings); !open.empty()) text += line("But", open);
+    for (const std::string& objection : findings.causes.front().objections) text += line("But", objection);
   }
   if (const auto& lone = findings.without_run) {
-    text += note("Without", fmt::format("run {}, which holds {:.0f} % of the gap: {}", lone->run, lone->share_percent,
+    text += line("Without", fmt::format("run {}, which holds {:.0f} % of the gap: {}", lone->run, lone->share_percent,
                                         describe_rest(*lone)));
   }
   if (!findings.next_sensors.empty()) {
     const NextSensor& next = findings.next_sensors.front();
-    text += note("Sensor", fmt::format("{} ({:.1g} bits more on an ordinary run, {:.2g} h to fit)", next.sensor,
+    text += line("Sensor", fmt::format("{} ({:.1g} bits more on an ordinary run, {:.2g} h to fit)", next.sensor,
                                        next.expected_bits, next.hours));
   }
   for (const std::string& warning : findings.warnings) {
-    if (warning != findings.doubt) text += note("Warning", warning);
+    if (warning != findings.doubt) text += line("Warning", warning);
   }
   return text;
 }

@@ -7,10 +7,10 @@
 
 namespace rollrig::diagnosis {
 
-/// Ten lines of at most 80 columns: verdict and probability; the cause with its size; what it cannot be
+/// Ten lines, longer ones on several: verdict and probability; the cause with its size; what it cannot be
 /// told from, or what it means; where; which equation; the gap in noise floors and in units; shrinkage on
 /// runs that the fit did not see; what is not excluded; the next test. Then what N of a torque are, objections and
-/// warnings. What is too long for its line ends in "..." and stands in full in the JSON.
+/// warnings.
 /// Checked tests/diagnosis/summary_test.cpp
 std::string format_summary(const Findings& findings);
 

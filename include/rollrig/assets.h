@@ -31,9 +31,9 @@ std::vector<std::string> names_of(const std::vector<Listed>& listed);
 std::vector<Listed> list_scenarios();
 std::vector<Listed> list_effects();
 
-/// What a scenario, an effect or an asset is, with its settings or parameters: text within 80 columns, of an asset its
-/// file. A name with a '/', or that ends in .toml or .csv, is the path of a file, or of the folder of a set. Throws
-/// InputError with the nearest known name.
+/// What a scenario, an effect or an asset is, with its settings or parameters: text as wide as the terminal, of an
+/// asset its file. A name with a '/', or that ends in .toml or .csv, is the path of a file, or of the folder of a set.
+/// Throws InputError with the nearest known name.
 std::string describe(const std::string& name);
 
 }  // namespace rollrig

@@ -33,7 +33,8 @@ struct FleetDiagnosis : Report {
 /// Errors  InputError: no set can be read; an unknown effect
 FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options = {});
 
-/// What an effect is, how it is found, with what it is confused; also of "none" and "unknown". Text within 80 columns.
+/// What an effect is, how it is found, with what it is confused; also of "none" and "unknown". Text as wide as the
+/// terminal.
 /// Throws InputError with the nearest name.
 std::string explain_effect(const std::string& name);
 /// Names that it takes.

@@ -50,7 +50,7 @@ using FolderFiles = std::vector<std::pair<std::string, std::string>>;
 
 /// A result in the forms that the command line writes.
 struct Report {
-  std::string text;                         // of the terminal, within 80 columns
+  std::string text;                         // of the terminal, as wide as it is
   std::string json;                         // of --json
   std::function<FolderFiles()> make_files;  // of --out; null where there are none
   std::function<std::string()> make_page;   // of --html: a page for any browser, which needs no other file

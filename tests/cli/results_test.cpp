@@ -8,11 +8,13 @@
 #include <sstream>
 
 #include "build_paths.h"
+#include "tests/support/pseudo_terminal.h"
 #include "tests/support/run_program.h"
 
 using Catch::Contains;
 using OrderedJson = nlohmann::ordered_json;
 using rollrig::tests::read_file;
+using rollrig::tests::run_in_terminal;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
 
@@ -204,7 +206,7 @@ TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's r
         if (block["type"] == "table") tables.push_back(block);
       }
       check_tables(result, tables);
-      check_same_words(run.out, blocks);
+      check_same_words(run_in_terminal("run " + options, 400).shown, blocks);
 
       REQUIRE(run_program("sweep " + options + " --vary pressure_kPa=250 --out sweep", folder.path()).status == 0);
       const std::string csv = read_file(folder.file("sweep/sweep.csv"));
