@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
+
+#include "sim/core/columns.h"
 
 namespace rollrig::cli {
 namespace {
@@ -17,8 +19,12 @@ constexpr std::chrono::milliseconds kBetweenUpdates{200};
 ProgressLine::ProgressLine(std::string label, bool quiet)
     : label_(std::move(label)), active_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
-ProgressLine::~ProgressLine() {
-  if (shown_) fmt::print(stderr, "\r\033[K");
+ProgressLine::~ProgressLine() { clear(); }
+
+/// Writes spaces over the line, which no terminal takes for text.
+void ProgressLine::clear() {
+  if (shown_ > 0) fmt::print(stderr, "\r{:{}}\r", "", shown_);
+  shown_ = 0;
 }
 
 bool ProgressLine::is_due() {
@@ -31,12 +37,17 @@ bool ProgressLine::is_due() {
 void ProgressLine::update(double done, const std::string& stage) {
   if (!active_) return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!is_due()) return;
+  if (done < done_) start_ = Clock::now();  // it begins again
+  done_ = done;
+  if (done >= 1.0 || !is_due()) return;
   const double elapsed_s = std::chrono::duration<double>(last_ - start_).count();
-  const std::string left = fmt::format("about {:.0f} s left", done > 0.0 ? elapsed_s * (1.0 - done) / done : 0.0);
-  const std::string share = std::isnan(done) ? "" : fmt::format("{:3.0f} %  ", 100.0 * done);
-  shown_ = true;
-  fmt::print(stderr, "\r\033[K{}  {}{}", label_, share, stage.empty() ? left : stage);
+  std::string text = label_;
+  if (done > 0.0) text += fmt::format("  {:.0f} %, about {:.0f} s left", 100.0 * done, elapsed_s * (1.0 - done) / done);
+  if (!stage.empty()) text += "  " + stage;
+  text.resize(std::min(text.size(), terminal_columns(STDERR_FILENO) - 1));  // else it would take a second line
+  clear();
+  shown_ = text.size();
+  fmt::print(stderr, "{}", text);
   std::fflush(stderr);
 }
 

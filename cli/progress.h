@@ -17,8 +17,8 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Shows `stage` and how far the work is: `done` from 0 to 1, NaN where its length is not known; without a stage also
-  /// how long it will take. May be called from several threads.
+  /// Shows how far the work is, how long it will take, and `stage`: `done` goes from 0 to 1, and is NaN where the
+  /// length of the work is not known. May be called from several threads.
   void update(double done, const std::string& stage = "");
   /// A callback for calls of the API.
   Progress callback();
@@ -28,10 +28,12 @@ class ProgressLine {
 
   /// Whether it is time for another update; notes that one was made.
   bool is_due();
+  void clear();
 
   std::string label_;
   bool active_;
-  bool shown_ = false;
+  std::size_t shown_ = 0;  // characters on the terminal
+  double done_ = 0.0;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
   std::mutex mutex_;

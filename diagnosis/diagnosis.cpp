@@ -64,14 +64,13 @@ void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& di
 }
 
 Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const DiagnosisOptions& options) {
-  const SetChecks checks = check_set(measured, options.threads);
-  const auto report = [&options](double done, const std::string& stage) {
-    if (options.progress) options.progress(done, stage);
-  };
   StudySettings settings;
+  Stages& stages = *settings.stages;
+  stages.report = options.progress;
+  stages.begin("checks", 0.015);
+  const SetChecks checks = check_set(measured, options.threads);
   settings.terms = find_terms(measured, options);
   settings.threads = options.threads;
-  settings.progress = [&report](double done, const std::string& stage) { report(0.7 * done, stage); };
   Study study(leave_out(measured, checks.left_out), settings);
   const Comparison comparison = compare_models(study);
 
@@ -85,10 +84,10 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   const bool is_named = diagnosis.verdict != Verdict::kNoGap;
   diagnosis.not_excluded = find_not_excluded(study, comparison, is_named ? diagnosis.causes : std::vector<Cause>{});
-  report(0.7, "where and what");
+  stages.begin("where and what", 0.76);
   diagnosis.where = find_locations(study);
   diagnosis.balance = find_balance(study);
-  report(0.8, "next test");
+  stages.begin("next test", 0.99);
   if (!checks.is_implausible()) {
     const std::vector<OpenHypothesis> open = find_open_hypotheses(study, comparison);
     const std::vector<ProposedTest> tests = propose_tests(study, open);
@@ -96,11 +95,10 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
     diagnosis.next_tests = {tests.begin(), tests.end()};
     diagnosis.next_sensors = propose_sensors(study, open);
   }
-  report(0.9, "runs left out");
+  stages.begin("runs left out", 1.0);
   diagnosis.fitted.recalibrated = find_fitted(study, study.null.fit);
   judge_cause(study, comparison, diagnosis);
   if (!checks.left_out.empty()) diagnosis.fitted = {};
-  report(1.0, "done");
   return diagnosis;
 }
 
@@ -120,8 +118,11 @@ std::optional<LoneRun> diagnose_without_run(measurements::MeasurementSet set, co
                                             DiagnosisOptions options) {
   const auto [run, share_percent] = find_lone_run(diagnosis.where);
   if (diagnosis.verdict != Verdict::kUnexplained || run.empty() || set.runs.size() < 3) return std::nullopt;
-  if (options.progress) options.progress(1.0, "without run " + run);
-  options.progress = nullptr;
+  if (options.progress) {
+    options.progress = [report = options.progress, run = run](double done, const std::string& stage) {
+      report(done, fmt::format("without run {}: {}", run, stage));
+    };
+  }
   const auto is_lone = [&name = run](const measurements::MeasuredRun& one) { return one.id == name; };
   set.runs.erase(std::remove_if(set.runs.begin(), set.runs.end(), is_lone), set.runs.end());
   const Diagnosis rest = diagnose_all_runs(set, options);

@@ -2,20 +2,45 @@
 /// One measured set under diagnosis: what every step of it works on, each made once.
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "diagnosis/comparison/refit.h"
 #include "diagnosis/thresholds.h"
+#include "include/rollrig/progress.h"
 
 namespace rollrig::diagnosis {
+
+/// How far a diagnosis is: stages one after the other, each with its share of the time, as measured on drum sets.
+struct Stages {
+  Progress report;
+  std::string name;
+  double from = 0.0;
+  double to = 0.0;
+
+  void begin(const std::string& stage, double until) {
+    name = stage;
+    from = to;
+    to = until;
+    advance(0.0);
+  }
+  void advance(double share) const {
+    if (report) report((1.0 - share) * from + share * to, name);
+  }
+};
 
 struct StudySettings {
   std::vector<const Term*> terms;  // in the comparison
   ComparisonPriors priors;
   ModelError model_error;
   int threads = 0;  // 0: as many as the machine has
-  std::function<void(double done, const std::string& stage)> progress = [](double, const std::string&) {};
+  std::shared_ptr<Stages> stages = std::make_shared<Stages>();
+
+  /// For parallel_for: tells that a share of the stage is done.
+  std::function<void(double)> advance() const {
+    return [stages = stages](double share) { stages->advance(share); };
+  }
 };
 
 /// A hypothesis that was fitted to the set, and how well it predicts the set.

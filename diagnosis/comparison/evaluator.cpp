@@ -135,7 +135,9 @@ Candidate Evaluator::fit_null() const {
 std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::vector<Screened>& chosen) const {
   std::vector<Candidate> candidates(chosen.size());
   const auto model_of = [&](std::size_t i) { return study_.make_model(from.fit.hypothesis.with(chosen[i].term)); };
-  parallel_for(chosen.size(), study_.settings.threads, [&](std::size_t i) {
+  constexpr double kFirstShare = 0.4;  // of the time
+  const Stages& stages = *study_.settings.stages;
+  const auto fit_first = [&](std::size_t i) {
     const Model model = model_of(i);
     const bool is_faint = chosen[i].was_simulated && chosen[i].score < thresholds::kFaint_nats;
     const int steps = is_faint ? 1 : thresholds::kFirstSteps;
@@ -145,17 +147,21 @@ std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::ve
     // Where it cannot be simulated with what makes up for its absence: from the middle of all priors.
     const Eigen::VectorXd middle = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
     candidates[i] = fit_once(model, {from.amplitudes, middle, 1, steps});
-  });
+  };
+  parallel_for(chosen.size(), study_.settings.threads, fit_first,
+               [&](double share) { stages.advance(kFirstShare * share); });
   const auto gain_of = [](const Candidate& one) { return std::max(one.log_evidence, one.log_discrepancy); };
   double best = gain_of(from);
   for (const Candidate& one : candidates) best = std::max(best, gain_of(one));
   const double far_behind =
       best - std::max(thresholds::kHopeless_nats, thresholds::kHopelessShare * (best - from.log_evidence));
-  parallel_for(chosen.size(), study_.settings.threads, [&](std::size_t i) {
+  const auto finish = [&](std::size_t i) {
     const bool is_hopeless = gain_of(candidates[i]) < far_behind;
     const bool is_faint = candidates[i].log_evidence < study_.null.log_evidence + thresholds::kWorthFinishing_nats;
     if (!is_hopeless && !is_faint) candidates[i] = fit_to_end(model_of(i), candidates[i].fit.unknowns);
-  });
+  };
+  parallel_for(chosen.size(), study_.settings.threads, finish,
+               [&](double share) { stages.advance(kFirstShare + (1.0 - kFirstShare) * share); });
   return candidates;
 }
 

@@ -78,6 +78,8 @@ struct Addition {
   std::size_t terms;
   std::size_t firsts;
   std::size_t seconds;
+  const char* stage;
+  double until;  // share of the diagnosis
 };
 
 void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& how, Comparison& comparison) {
@@ -85,7 +87,10 @@ void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& 
   for (const Candidate& candidate : comparison.candidates) {
     if (candidate.fit.hypothesis.terms.size() == how.terms && lower.size() < how.firsts) lower.push_back(candidate);
   }
+  Stages& stages = *study.settings.stages;
+  const double step = (how.until - stages.to) / static_cast<double>(std::max<std::size_t>(1, lower.size()));
   for (const Candidate& first : lower) {
+    stages.begin(how.stage, stages.to + step);
     if (!(first.log_evidence >= study.null.log_evidence)) continue;  // nor where it could not be fitted
     std::vector<const Term*> others;
     for (const Term* term : study.settings.terms) {
@@ -120,23 +125,22 @@ double Comparison::find_detectability(const Term& term) const {
 
 Comparison compare_models(Study& study) {
   const Evaluator evaluator(study);
-  const auto& progress = study.settings.progress;
+  Stages& stages = *study.settings.stages;
   Comparison comparison;
-  progress(0.0, "baseline");
+  stages.begin("baseline", 0.04);
   study.null = evaluator.fit_null();
-  progress(0.1, "screening");
+  stages.begin("screening", 0.1);
   comparison.screened = screen(study, study.null, study.settings.terms);
-  progress(0.2, "refit of effects");
+  stages.begin("refit of effects", 0.45);
   add_candidates(evaluator.refit_all(
                      study.null, choose(comparison.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats)),
                  comparison.candidates);
   assign_probabilities(study, comparison);
-  progress(0.6, "pairs");
-  add_on_top(study, evaluator, {1, thresholds::kFirstsOfPairs, thresholds::kSecondsOfPairs}, comparison);
+  add_on_top(study, evaluator, {1, thresholds::kFirstsOfPairs, thresholds::kSecondsOfPairs, "pairs", 0.72}, comparison);
   assign_probabilities(study, comparison);
   if (asks_for(comparison, 2)) {
-    progress(0.9, "triples");
-    add_on_top(study, evaluator, {2, thresholds::kFirstsOfTriples, thresholds::kSecondsOfTriples}, comparison);
+    add_on_top(study, evaluator, {2, thresholds::kFirstsOfTriples, thresholds::kSecondsOfTriples, "triples", 0.72},
+               comparison);
     assign_probabilities(study, comparison);
   }
   return comparison;

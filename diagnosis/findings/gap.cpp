@@ -165,12 +165,15 @@ HeldOut measure_held_out(const Study& study, const Candidate* cause, const Black
   std::vector<Prediction> before(runs);
   std::vector<Prediction> after(runs);
   const std::size_t hypotheses = cause != nullptr ? 2 : 1;
-  parallel_for(runs * hypotheses, study.settings.threads, [&](std::size_t job) {
-    const std::size_t run = job / hypotheses;
-    const bool is_null = job % hypotheses == 0;
-    const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
-    (is_null ? before : after)[run] = predict_without(study, is_null ? study.null : *cause, held_out);
-  });
+  parallel_for(
+      runs * hypotheses, study.settings.threads,
+      [&](std::size_t job) {
+        const std::size_t run = job / hypotheses;
+        const bool is_null = job % hypotheses == 0;
+        const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
+        (is_null ? before : after)[run] = predict_without(study, is_null ? study.null : *cause, held_out);
+      },
+      study.settings.advance());
   HeldOut all;
   for (std::size_t run = 0; run < runs; ++run) {
     const bool lost = before[run].simulated.size() == 0 || (cause != nullptr && after[run].simulated.size() == 0);

@@ -63,16 +63,19 @@ std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHy
   std::vector<JudgedTest> judged;
   for (PlannedTest& test : make_test_menu(study.set)) judged.push_back({std::move(test), 0.0, {}, false});
   const std::vector<double> probabilities = list_probabilities(open);
-  parallel_for(judged.size(), study.settings.threads, [&](std::size_t i) {
-    const PredictedTest predicted(study, open, judged[i].test);
-    if (!predicted.is_possible()) return;
-    const std::vector<PredictedOutcome> outcomes = predicted.find_outcomes();
-    judged[i].bits = calc_information_bits(probabilities, outcomes);
-    const Splits splits =
-        find_splits(open, [&](std::size_t a, std::size_t b) { return are_told_apart(outcomes[a], outcomes[b]); });
-    judged[i].splits = splits.effects;
-    judged[i].splits_likeliest = splits.likeliest;
-  });
+  parallel_for(
+      judged.size(), study.settings.threads,
+      [&](std::size_t i) {
+        const PredictedTest predicted(study, open, judged[i].test);
+        if (!predicted.is_possible()) return;
+        const std::vector<PredictedOutcome> outcomes = predicted.find_outcomes();
+        judged[i].bits = calc_information_bits(probabilities, outcomes);
+        const Splits splits =
+            find_splits(open, [&](std::size_t a, std::size_t b) { return are_told_apart(outcomes[a], outcomes[b]); });
+        judged[i].splits = splits.effects;
+        judged[i].splits_likeliest = splits.likeliest;
+      },
+      study.settings.advance());
   return judged;
 }
 

@@ -100,3 +100,32 @@ TEST_CASE("headers of columns stand apart, one over each column", "[fast]") {
   }
   FAIL("no table\n" + run.shown);
 }
+
+TEST_CASE("a diagnosis tells how long it will take, and nothing of that is left", "[slow]") {
+  const TerminalResult run =
+      run_in_terminal("diagnose '" ROLLRIG_SOURCE_DIR "/assets/examples/hidden_effect' --threads 1", 80);
+  INFO(run.sent);
+  REQUIRE(run.status == 0);
+  CHECK_THAT(run.shown, Catch::StartsWith("Verdict") && !Contains(" left"));
+  CHECK(longest_line(run.shown) <= 80);
+  const double end_s = run.pieces.back().first;
+  int told = 0;
+  for (const auto& [time_s, piece] : run.pieces) {
+    std::smatch match;
+    const std::regex form("diagnose  ([0-9]+) %, about ([0-9]+) s left  ");
+    if (!std::regex_search(piece, match, form) || std::stoi(match[1]) < 25) continue;
+    CHECK(time_s + std::stod(match[2]) > 0.4 * end_s);
+    CHECK(time_s + std::stod(match[2]) < 2.5 * end_s);
+    ++told;
+  }
+  CHECK(told > 2);
+}
+
+TEST_CASE("a long sweep tells how long it will take, and its table starts on a clean line", "[slow]") {
+  const TerminalResult run =
+      run_in_terminal("sweep skim --tire a50 --vary load_N=4000:7000:20 --threads 1 --show parasitic_N", 80);
+  INFO(run.sent.substr(0, 2000));
+  REQUIRE(run.status == 0);
+  CHECK_THAT(run.sent, Contains(" s left"));
+  CHECK_THAT(run.shown, Catch::StartsWith("  151 runs\n  load_N  parasitic_N\n"));
+}
