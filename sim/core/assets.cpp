@@ -58,7 +58,7 @@ std::string find_assets_folder() {
     std::string assets = find_installed_assets(binary);
     if (!assets.empty()) return assets;
   }
-  return ROLLRIG_SOURCE_ASSETS;
+  return ROLLRIG_DEFAULT_ASSETS;
 }
 
 std::vector<std::string> list_assets(const std::string& folder) {

@@ -55,8 +55,9 @@ double run_installed_program(const InstalledPrefix& prefix) {
 TEST_CASE("an installed program runs from anywhere, and a project that finds the package gets the same RRc", "[slow]") {
   const InstalledPrefix prefix;
   const double rrc_N_per_kN = run_installed_program(prefix);
-  for (const char* file : {"share/man/man1/rollrig.1", "share/zsh/site-functions/_rollrig",
-                           "share/bash-completion/completions/rollrig", "include/rollrig/rollrig.h"}) {
+  for (const char* file :
+       {"share/man/man1/rollrig.1.gz", "share/zsh/site-functions/_rollrig", "share/bash-completion/completions/rollrig",
+        "include/rollrig/rollrig.h", "lib/pkgconfig/rollrig.pc"}) {
     INFO(file);
     CHECK(fs::exists(prefix.file(file)));
   }
