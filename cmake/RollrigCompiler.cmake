@@ -38,6 +38,14 @@ function(rollrig_optimize_little)
   endforeach()
 endfunction()
 
+# Debian packages: hardened as Debian's own, and the same bytes from every folder.
+if(ROLLRIG_DEBIAN_PACKAGES)
+  add_compile_options("-ffile-prefix-map=${PROJECT_SOURCE_DIR}=." -fstack-protector-strong -D_FORTIFY_SOURCE=2)
+  add_link_options(-Wl,-z,relro,-z,now)
+  set(CMAKE_BUILD_RPATH_USE_ORIGIN ON)
+  set(CMAKE_SKIP_INSTALL_RPATH ON)
+endif()
+
 # Sanitizers: -DROLLRIG_SANITIZE=address,undefined
 set(ROLLRIG_SANITIZE "" CACHE STRING "Value for -fsanitize=, or empty")
 if(ROLLRIG_SANITIZE)

@@ -34,6 +34,7 @@ TEST_CASE("version and date of the release are the same everywhere", "[fast]") {
 TEST_CASE("every package has its license in NOTICE.md", "[fast]") {
   const std::string notice = read_source("NOTICE.md");
   std::istringstream packages(read_source("tools/packages.txt") + read_source("tools/packages_unpacked.txt") +
-                              read_source("tools/packages_tests.txt") + read_source("tools/packages_docs.txt"));
+                              read_source("tools/packages_tests.txt") + read_source("tools/packages_docs.txt") +
+                              read_source("tools/packages_package.txt"));
   for (std::string package; std::getline(packages, package);) CHECK_THAT(notice, Contains("`" + package + "`"));
 }
