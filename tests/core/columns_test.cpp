@@ -18,10 +18,10 @@ TEST_CASE("what is too wide continues under its own column, headers above their 
         "  one  some words\n"
         "       that go on\n");
   CHECK(text_columns({{"rrc_25degC_N_per_kN", "load of the tire"}, {"5.2", "4000"}}, {true, 0, 20}) ==
-        "        rrc_\n"
-        "     25degC_    load\n"
-        "    N_per_kN  of the\n"
-        "                tire\n");
+        "                load\n"
+        " rrc_25degC_  of the\n"
+        "    N_per_kN    tire\n"
+        "         5.2    4000\n");
 }
 
 TEST_CASE("a word that is longer than its column is broken after a part of it", "[fast]") {

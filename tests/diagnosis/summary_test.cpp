@@ -42,10 +42,10 @@ std::string line_of(const std::string& text, const std::string& label) {
 
 }  // namespace
 
-TEST_CASE("an explained gap is told in ten lines, the last continued, and below them what N of a torque are",
+TEST_CASE("an explained gap is told in ten lines, two of them continued, and below them what N of a torque are",
           "[fast]") {
   const std::string text = format_summary(tests::make_explained());
-  check_layout(text, 12);
+  check_layout(text, 13);
   CHECK_THAT(lines_of(text).back(), Catch::StartsWith("Torque") && Contains("in N, as force at the drum's surface"));
   CHECK_THAT(line_of(text, "Verdict"), Contains("explained") && Contains("94 %") && Contains("3 %"));
   CHECK_THAT(line_of(text, "Cause"),
@@ -110,7 +110,7 @@ TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {
   made.causes[0].adequate = false;
   made.causes[0].objections = {"the size differs from run to run: 0.01 to 0.04 1/K"};
   const std::string text = format_summary(made);
-  check_layout(text, 13);
+  check_layout(text, 14);
   CHECK_THAT(line_of(text, "Verdict"), Contains("looks like this cause, but something else is missing"));
   CHECK_THAT(line_of(text, "But"), Contains("differs from run to run"));
 }
@@ -131,7 +131,7 @@ TEST_CASE("a cause that the runs left out do not confirm is said to be such, in 
   const auto is_told = [&made] { return !line_of(format_summary(made), "But").empty(); };
   CHECK_FALSE(is_told());
   made.gap.shrink_ci95_percent = {-12.0, 60.0};
-  check_layout(format_summary(made), 13);
+  check_layout(format_summary(made), 14);
   CHECK_THAT(line_of(format_summary(made), "But"), Contains("do not confirm"));
   made.gap.held_out.clear();  // judged on what was fitted
   CHECK_FALSE(is_told());
