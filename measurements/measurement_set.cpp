@@ -128,6 +128,7 @@ std::string read_machine(TableReader& reader, const std::string& folder, Measure
     const std::string path = find_asset_of(reader, "vehicle", folder, "vehicles", reader.text("vehicle"));
     set.vehicle = rigs::read_vehicle(read_config(path));
     set.vehicle->content = read_text_file(path);
+    rigs::share_tire(set.tire, *set.vehicle);
     return set.vehicle->content;
   }
   const std::string path = find_asset_of(reader, "rig", folder, "rigs", reader.text("rig"));

@@ -60,8 +60,8 @@ MeasurementSet read_measurement_set(const std::string& folder);
 /// kept. Throws InputError.
 MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind);
 
-/// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`; returns the
-/// machine's file as it is. Throws InputError.
+/// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`, whose
+/// tire has been read; returns the machine's file as it is. Throws InputError.
 std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set);
 
 /// Tables [sensors.<channel>] of sets and run files.

@@ -1,6 +1,7 @@
 #include "measurements/resimulation.h"
 
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include <fmt/format.h>
@@ -117,6 +118,13 @@ bool continues(const sim::Segment& before, const sim::Segment& next) {
   return true;
 }
 
+/// Parameters of a tire on the road, under a load and at a pressure.
+models::TireParameters<double> find_parameters(const models::TireFile& tire, models::Baseline baseline, double load_N,
+                                               double pressure_Pa) {
+  return baseline == models::Baseline::kConstantRrc ? tire.parameters_with_class_values(load_N, pressure_Pa)
+                                                    : tire.parameters_on("", baseline);
+}
+
 }  // namespace
 
 sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& kind) {
@@ -157,21 +165,14 @@ models::Context<double> make_context(const MeasurementSet& set) {
     throw InputError({"a vehicle that is given by its road load has no tires to tell of", vehicle.path, 0,
                       "[road_load]", "", "drag_area_m2 instead, with the tire of the set", ""});
   }
-  for (const rigs::VehicleAxle& axle : vehicle.axles) {
-    if (!axle.tire.has_value() && axle.pressure_Pa == 0.0) continue;
-    throw InputError(
-        {fmt::format("axle '{}' has a tire or a pressure of its own, and a set of the road has one of both "
-                     "for all wheels",
-                     axle.name),
-         vehicle.path, 0, "[[axle]]", "", "the tire of the set, the pressure of its runs", ""});
-  }
+  const double load_N = find_tire_load_N(vehicle);
+  const double pressure_Pa = set.runs.front().cold_pressure_Pa;
+  for (const rigs::VehicleAxle& axle : vehicle.axles)
+    find_parameters(rigs::tire_of(axle, set.tire), set.baseline, load_N, pressure_Pa);  // throws
   models::Context<double> context;
   context.machine = set.kind->traits;
   context.vehicle = vehicle.body;
-  context.tire =
-      set.baseline == models::Baseline::kConstantRrc
-          ? set.tire.parameters_with_class_values(find_tire_load_N(vehicle), set.runs.front().cold_pressure_Pa)
-          : set.tire.parameters_on("", set.baseline);
+  context.tire = find_parameters(set.tire, set.baseline, load_N, pressure_Pa);
   return context;
 }
 
@@ -188,29 +189,51 @@ rigs::RigStart<S> make_start(const MeasuredRun& run, double ambient_pressure_Pa)
   return start;
 }
 
+/// The corner with another tire.
+template <class S>
+models::Corner<S> put_on_tire(const models::Corner<S>& corner, const models::TireParameters<double>& tire) {
+  models::Context<S> context = corner.context();
+  context.tire = models::convert_tire<S>(tire);
+  std::vector<models::ActiveEffect> effects;
+  for (const auto& on : corner.effects()) effects.push_back({on.effect, std::vector<double>(on.parameters.size())});
+  models::Corner<S> other(std::move(context), effects);
+  for (std::size_t i = 0; i < effects.size(); ++i) other.effects()[i].parameters = corner.effects()[i].parameters;
+  return other;
+}
+
 /// Temperature of a vehicle's tire in steady driving at 80 km/h under its static load. Assumed: at the cold pressure,
 /// which a warm tire exceeds by some 10 %, so that it would lose 4 % less.
 template <class S>
-S calc_warm_temperature_K(const models::Corner<S>& corner, double tires, const rigs::RigStart<S>& start) {
-  const models::Context<S>& context = corner.context();
+S calc_warm_temperature_K(const rigs::RoadTires<S>& tires) {
   const S speed_m_s = models::get_reference_speed_m_s<S>();
-  const S load_N = context.vehicle.mass_kg * S(kStandardGravity_m_s2 / tires);
-  const S cooling_W_per_K = models::calc_cooling_W_per_K(context.tire.thermal, speed_m_s);
-  S warm_K = start.tire_temperature_K;
+  const S cooling_W_per_K = models::calc_cooling_W_per_K(tires.corner->context().tire.thermal, speed_m_s);
+  S warm_K = tires.temperature_K;
   constexpr int kRounds = 20;  // each takes about a third of the error
   for (int i = 0; i < kRounds; ++i) {
-    const S loss_N = corner.calc_law_N(speed_m_s, load_N, start.cold_pressure_Pa, warm_K);
-    warm_K = start.tire_temperature_K + loss_N * speed_m_s / cooling_W_per_K;
+    const S loss_N = tires.corner->calc_law_N(speed_m_s, tires.load_N, S(tires.pressure_Pa), warm_K);
+    warm_K = tires.temperature_K + loss_N * speed_m_s / cooling_W_per_K;
   }
   return warm_K;
 }
 
-/// Of a vehicle's tires when the run begins.
+/// The tires of a set's vehicle when the run begins; `corners` receives those of tires that are not the set's.
 template <class S>
-S calc_start_temperature_K(const MeasurementSet& set, const MeasuredRun& run, const models::Corner<S>& corner,
-                           const rigs::RigStart<S>& start) {
-  const bool begins_warm = run.started_warm && corner.context().tire.model().info.loss_follows_heat;
-  return begins_warm ? calc_warm_temperature_K(corner, set.vehicle->count_wheels(), start) : start.tire_temperature_K;
+std::vector<rigs::RoadTires<S>> make_road_tires(const MeasurementSet& set, const MeasuredRun& run,
+                                                models::Corner<S>& corner, std::deque<models::Corner<S>>& corners) {
+  std::vector<rigs::RoadTires<S>> made;
+  for (const rigs::AlikeTires& alike : rigs::find_alike_tires(*set.vehicle, run.cold_pressure_Pa)) {
+    const S load_N = corner.context().vehicle.mass_kg * S(kStandardGravity_m_s2 * alike.load_share / alike.count);
+    rigs::RoadTires<S> tires{&corner, alike.count, load_N, alike.pressure_Pa, S(run.initial_tire_temperature_K)};
+    if (alike.axle->tire.has_value()) {
+      corners.push_back(
+          put_on_tire(corner, find_parameters(*alike.axle->tire, set.baseline, value_of(load_N), alike.pressure_Pa)));
+      tires.corner = &corners.back();
+    }
+    const bool is_warm = run.started_warm && tires.corner->context().tire.model().info.loss_follows_heat;
+    if (is_warm) tires.temperature_K = calc_warm_temperature_K(tires);
+    made.push_back(std::move(tires));
+  }
+  return made;
 }
 
 /// Effects of the port "trace", beside the recorded inputs that they may read.
@@ -257,11 +280,13 @@ sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const Measur
       recording = run_on<S, sim::LaggedMidpointIntegrator>(
           rigs::RecordedRoller<S>(corner, start, surface_recorded, detail), program_);
       break;
-    case models::Specimen::kVehicle:
+    case models::Specimen::kVehicle: {
+      std::deque<models::Corner<S>> corners;
       recording = run_on<S, sim::LaggedMidpointIntegrator>(
-          rigs::RecordedRoad<S>(corner, *set.vehicle, start, calc_start_temperature_K(set, run, corner, start), detail),
+          rigs::RecordedRoad<S>(make_road_tires(set, run, corner, corners), set.vehicle->powertrain, start, detail),
           program_);
       break;
+    }
   }
   apply_trace_beside_given(run, corner, recording);
   return recording;

@@ -9,12 +9,12 @@
 
 namespace rollrig::measurements {
 
-/// What the equations take of a set's machine and tire. On the road all tires are alike, and against the constant
-/// coefficient a tire file may lack all but that: values of its class then stand in. Throws InputError where a vehicle
-/// on the road is given by its road load, or the tire lacks a table.
+/// What the equations take of a set's machine and tire. On the road a tire file may lack all but the constant
+/// coefficient if that is the baseline: values of its class then stand in. Throws InputError where a vehicle on the
+/// road is given by its road load, or a tire of the set or of an axle lacks a table.
 models::Context<double> make_context(const MeasurementSet& set);
 
-/// Load of one of a vehicle's tires, its share of the weight.
+/// Load of a vehicle's tires, the mean of all.
 double find_tire_load_N(const rigs::VehicleFile& vehicle);
 
 /// A program that follows the recorded inputs of a run: straight lines between rows, a load held from row to row. Rows
@@ -28,10 +28,14 @@ sim::Program make_recorded_program(const MeasuredRun& run, const MachineKind& ki
 
 /// A run made ready to be simulated, as often as wanted.
 ///
+/// Axles     on the road each axle has its own load, tire and pressure; axles that are alike are simulated as one
+///           corner. `corner` has the tire of the set, which axles without a tire of their own have: numbers moved in
+///           it move there. Other axles keep the numbers of their tire's file. Effects act on all axles alike
 /// Machine   drum and flat belt: rigs/quasi_static_drum.h on the fixed grid; dyno: rigs/recorded_roller.h, and road:
 ///           rigs/recorded_road.h, by the lagged midpoint rule. A drive right after another (tire_state = "warm")
 ///           begins at the temperature of steady driving at 80 km/h (Assumed)
-/// Checked   tests/measurements/resimulation_test.cpp, tests/measurements/road_resimulation_test.cpp
+/// Checked   tests/measurements/resimulation_test.cpp, tests/measurements/road_resimulation_test.cpp,
+///           tests/measurements/road_axles_test.cpp
 class Resimulation {
  public:
   Resimulation(const MeasuredRun& run, const MachineKind& kind);

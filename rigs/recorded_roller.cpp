@@ -22,11 +22,11 @@ std::vector<sim::Channel> make_roller_channels(bool has_rim, Detail detail) {
 
 template <class S>
 RecordedRoller<S>::RecordedRoller(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded, Detail detail)
-    : RecordedWheel<S>(corner, std::move(start), surface_recorded,
+    : RecordedWheel<S>({&corner}, std::move(start), surface_recorded,
                        make_roller_channels(corner.nodes()[models::index_of(models::Node::kRim)], detail), detail) {}
 
 template <class S>
-void RecordedRoller<S>::read_inputs(double time_s, models::InputPort<S>& inputs) const {
+void RecordedRoller<S>::read_inputs(double time_s, std::size_t, models::InputPort<S>& inputs) const {
   read_drum_inputs(this->present_, time_s, inputs);
   const double force_N = this->present_.segment.inputs[kLongitudinalForceInput].at(this->present_.elapsed_s(time_s));
   inputs.longitudinal_force_N = S(force_N);
@@ -36,7 +36,7 @@ void RecordedRoller<S>::read_inputs(double time_s, models::InputPort<S>& inputs)
 template <class S>
 void RecordedRoller<S>::find_force() {
   const models::Instant<S>& now = this->wheel().now;
-  this->put_contact_force(S(-now.acting.longitudinal_force_N));
+  this->put_contact_force(this->wheel(), S(-now.acting.longitudinal_force_N));
   const S slip_N = now.motion.longitudinal_force_N * this->wheel().slip;
   this->force_N_ = models::calc_loss_force_N(now, slip_N, now.motion.acceleration_m_s2);
 }

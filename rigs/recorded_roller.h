@@ -24,7 +24,7 @@ class RecordedRoller : public RecordedWheel<S> {
   RecordedRoller(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded, Detail detail);
 
  private:
-  void read_inputs(double time_s, models::InputPort<S>& inputs) const override;
+  void read_inputs(double time_s, std::size_t wheel, models::InputPort<S>& inputs) const override;
   void find_force() override;
   RecordedPowers<S> find_powers() const override;
 };

@@ -1,6 +1,7 @@
 #include "rigs/recorded_wheel.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "sim/energy_audit.h"
@@ -45,18 +46,20 @@ std::vector<sim::Store> make_stores(Detail detail) {
 }  // namespace
 
 template <class S>
-RecordedWheel<S>::RecordedWheel(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded,
-                                const std::vector<sim::Channel>& channels, Detail detail)
-    : QuasiStaticRig<S>({make_integrals(channels, detail), make_stores(detail), channels}, {&corner}, 0,
-                        std::move(start), surface_recorded),
+RecordedWheel<S>::RecordedWheel(const std::vector<models::Corner<S>*>& corners, RigStart<S> start,
+                                bool surface_recorded, const std::vector<sim::Channel>& channels, Detail detail)
+    : QuasiStaticRig<S>({make_integrals(channels, detail), make_stores(detail), channels}, corners, 0, std::move(start),
+                        surface_recorded),
       detail_(detail) {}
 
 template <class S>
 void RecordedWheel<S>::initialize(const sim::Segment& first, double time_s, S* state) {
   present_.take(first, time_s);
-  models::InputPort<S> inputs;
-  read_inputs(time_s, inputs);
-  this->begin_wheel(wheel(), inputs.load_N, state);
+  for (std::size_t i = 0; i < this->wheels_.size(); ++i) {
+    models::InputPort<S> inputs;
+    read_inputs(time_s, i, inputs);
+    this->begin_wheel(this->wheels_[i], inputs.load_N, state);
+  }
   if (detail_ == Detail::kFull) set_segment_motion(state);
 }
 
@@ -86,71 +89,91 @@ S RecordedWheel<S>::calc_kinetic_J(double time_s) const {
 
 template <class S>
 void RecordedWheel<S>::find_motion(double time_s, const S* state) {
-  read_inputs(time_s, wheel().now.recorded);
-  this->apply_inputs(wheel(), state);
-  this->find_losses(wheel(), wheel().now.acting.speed_m_s, state);
+  for (std::size_t i = 0; i < this->wheels_.size(); ++i) {
+    Wheel& wheel = this->wheels_[i];
+    read_inputs(time_s, i, wheel.now.recorded);
+    this->apply_inputs(wheel, state);
+    this->find_losses(wheel, wheel.now.acting.speed_m_s, state);
+  }
   find_force();
 }
 
 template <class S>
-void RecordedWheel<S>::put_contact_force(const S& contact_N) {
-  models::Instant<S>& now = wheel().now;
-  now.motion.longitudinal_force_N = contact_N;
-  wheel().slip = models::calc_slip(now);
-  models::put_slip(wheel().rolling, wheel().slip, now.motion);
+void RecordedWheel<S>::put_contact_force(Wheel& wheel, const S& contact_N) {
+  wheel.now.motion.longitudinal_force_N = contact_N;
+  wheel.slip = models::calc_slip(wheel.now);
+  models::put_slip(wheel.rolling, wheel.slip, wheel.now.motion);
 }
 
 template <class S>
 void RecordedWheel<S>::evaluate(double time_s, const S* state, S* rates, S* integrands) {
   find_motion(time_s, state);
-  this->calc_rates(wheel(), state, rates);
-  const std::size_t count = this->integrals().size();
-  const models::Instant<S>& now = wheel().now;
-  const auto is_integrated = [count](RecordedIntegral integral) { return index_of(integral) < count; };
+  for (Wheel& wheel : this->wheels_) this->calc_rates(wheel, state, rates);
+  constexpr std::size_t kFirst = index_of(RecordedIntegral::kTireReadings);
+  const std::size_t count = std::min(this->integrals().size(), index_of(RecordedIntegral::kRollingResistance));
   integrands[index_of(RecordedIntegral::kForce)] = force_N_;
-  if (is_integrated(RecordedIntegral::kTireReadings)) {
-    put_tire_readings(now, &integrands[index_of(RecordedIntegral::kTireReadings)]);
-  }
-  if (is_integrated(RecordedIntegral::kRimTemperature)) {
-    integrands[index_of(RecordedIntegral::kRimTemperature)] =
-        now.thermal.temperature_K[models::index_of(models::Node::kRim)];
-  }
+  if (count > kFirst) put_tire_means(&integrands[kFirst], count - kFirst);
   if (detail_ == Detail::kFull) put_further(integrands);
+}
+
+/// Readings of the tires, then temperature of the rim: the first `count` of them.
+template <class S>
+void RecordedWheel<S>::put_tire_means(S* means, std::size_t count) const {
+  std::array<S, models::kTireChannels.size() + 1> readings;
+  for (std::size_t i = 0; i < this->wheels_.size(); ++i) {
+    const models::Instant<S>& now = this->wheels_[i].now;
+    put_tire_readings(now, readings.data());
+    readings.back() = now.thermal.temperature_K[models::index_of(models::Node::kRim)];
+    for (std::size_t k = 0; k < count; ++k) {
+      const S part = this->wheels_.size() == 1 ? readings[k] : S(alike_[i] / tires_ * readings[k]);
+      means[k] = i == 0 ? part : S(means[k] + part);
+    }
+  }
 }
 
 template <class S>
 void RecordedWheel<S>::put_further(S* integrands) const {
   using std::abs;
   const auto put = [integrands](RecordedIntegral integral, const S& value) { integrands[index_of(integral)] = value; };
-  const models::Instant<S>& now = wheel().now;
   const RecordedPowers<S> power = find_powers();
-  put(RecordedIntegral::kRollingResistance, now.rolling_resistance_N);
-  put(RecordedIntegral::kParasitic, now.parasitic_N);
-  put(RecordedIntegral::kFrictionBrake, wheels_alike_ * now.acting.brake_force_N);
+  const auto first = index_of(RecordedIntegral::kRollingResistance);
+  std::fill(integrands + first, integrands + this->integrals().size(), zero<S>());
+  for (std::size_t i = 0; i < this->wheels_.size(); ++i) {
+    const models::Instant<S>& now = this->wheels_[i].now;
+    const double share = alike_[i] / tires_;
+    integrands[first] += share * now.rolling_resistance_N;
+    integrands[index_of(RecordedIntegral::kParasitic)] += share * now.parasitic_N;
+    integrands[index_of(RecordedIntegral::kFrictionBrake)] += alike_[i] * now.acting.brake_force_N;
+    std::array<S, 3> heat;
+    put_heat(now.heat, heat.data());
+    for (std::size_t k = 0; k < heat.size(); ++k) {
+      integrands[index_of(RecordedIntegral::kHeatGenerated) + k] += alike_[i] * heat[k];
+    }
+  }
   put(RecordedIntegral::kHubWork, power.hub_W);
   put(RecordedIntegral::kRollerWork, power.roller_W);
   put(RecordedIntegral::kGravityWork, power.gravity_W);
-  put(RecordedIntegral::kKnotWork, zero<S>());
   put(RecordedIntegral::kThroughput, S(abs(power.hub_W)) + S(abs(power.roller_W)));
   put(RecordedIntegral::kTireLoss, power.tire_W);
   put(RecordedIntegral::kSlipLoss, power.slip_W);
   put(RecordedIntegral::kBearingLoss, power.bearing_W);
   put(RecordedIntegral::kDragLoss, power.drag_W);
-  const std::size_t heat = index_of(RecordedIntegral::kHeatGenerated);
-  put_heat(now.heat, &integrands[heat]);
-  for (std::size_t i = heat; i < this->integrals().size(); ++i) integrands[i] *= wheels_alike_;
 }
 
 template <class S>
 void RecordedWheel<S>::calc_stored(double time_s, const S* state, S* stored_J) {
   if (detail_ == Detail::kMeasured) return;
   stored_J[0] = calc_kinetic_J(time_s);
-  stored_J[1] = wheels_alike_ * this->calc_stored_heat_J(state);
+  stored_J[1] = zero<S>();
+  for (std::size_t i = 0; i < alike_.size(); ++i) {
+    const Wheel& wheel = this->wheels_[i];
+    stored_J[1] += alike_[i] * wheel.corner->calc_stored_heat_J(state + wheel.first_state);
+  }
 }
 
 template <class S>
 S RecordedWheel<S>::find_recorded_speed_m_s(double time_s, const S*) {
-  read_inputs(time_s, wheel().now.recorded);
+  read_inputs(time_s, 0, wheel().now.recorded);
   return wheel().now.recorded.speed_m_s;
 }
 

@@ -52,7 +52,7 @@ struct RecordedPowers {
   S drag_W{};
 };
 
-/// State vector: the states of one wheel's corner, which stands for all that are alike.
+/// State vector: the states of a corner for each kind of tires. A corner stands for all tires of its kind.
 ///
 /// Validity  the middle of a segment stands for all of it: speed runs straight through its value there, a load holds. A
 ///           segment is one step of an integrator, well below every time constant
@@ -73,13 +73,13 @@ class RecordedWheel : public QuasiStaticRig<S> {
   using typename QuasiStaticRig<S>::Wheel;
   using QuasiStaticRig<S>::present_;
 
-  /// `channels` are those of the detail.
-  RecordedWheel(models::Corner<S>& corner, RigStart<S> start, bool surface_recorded,
+  /// `channels` are those of the detail. A channel of a tire is the mean over all tires.
+  RecordedWheel(const std::vector<models::Corner<S>*>& corners, RigStart<S> start, bool surface_recorded,
                 const std::vector<sim::Channel>& channels, Detail detail);
 
-  /// Puts what is recorded at a time into `inputs`.
-  virtual void read_inputs(double time_s, models::InputPort<S>& inputs) const = 0;
-  /// From the wheel's losses: its slip, and force_N_, which is measured.
+  /// Puts what is recorded at a time into `inputs` of a wheel.
+  virtual void read_inputs(double time_s, std::size_t wheel, models::InputPort<S>& inputs) const = 0;
+  /// From the losses of the wheels: their slip, and force_N_, which is measured.
   virtual void find_force() = 0;
   /// In the motion found last.
   virtual RecordedPowers<S> find_powers() const = 0;
@@ -87,9 +87,10 @@ class RecordedWheel : public QuasiStaticRig<S> {
   Wheel& wheel() { return this->wheels_.front(); }
   const Wheel& wheel() const { return this->wheels_.front(); }
   /// Slip from the force of the surface on the wheel.
-  void put_contact_force(const S& contact_N);
+  static void put_contact_force(Wheel& wheel, const S& contact_N);
 
-  double wheels_alike_ = 1.0;
+  std::vector<double> alike_{1.0};  // tires for which each wheel stands
+  double tires_ = 1.0;              // their sum
   S force_N_{};
 
  private:
@@ -97,6 +98,7 @@ class RecordedWheel : public QuasiStaticRig<S> {
   void set_segment_motion(const S* state);
   S calc_kinetic_J(double time_s) const;
   S find_recorded_speed_m_s(double time_s, const S* state) override;
+  void put_tire_means(S* means, std::size_t count) const;
   void put_further(S* integrands) const;
 
   Detail detail_;

@@ -40,7 +40,10 @@ void read_two_axles(TableReader& file, VehicleFile& vehicle) {
   TwoAxleGeometry geometry;
   TwoAxleBrakes brakes;
   VehicleAxle front;
-  read_optional_table(file, "geometry", geometry);
+  TableReader geometry_table = find_optional_table(file, "geometry");
+  const bool has_load_share = geometry_table.has("front_load_share");
+  read_fields(geometry_table, geometry);
+  geometry_table.finish();
   read_optional_table(file, "suspension", front.suspension);
   TableReader powertrain = find_optional_table(file, "powertrain");
   const std::string driven = powertrain.text_or("driven_axle", "rear", {"front", "rear", "all"});
@@ -49,7 +52,7 @@ void read_two_axles(TableReader& file, VehicleFile& vehicle) {
   read_optional_table(file, "brakes", brakes);
   vehicle.center_of_gravity_height_m = geometry.center_of_gravity_height_m;
   front.name = "front";
-  front.load_share = geometry.front_load_share;
+  front.load_share = has_load_share ? geometry.front_load_share : static_cast<double>(tires / 2) / tires;
   front.drive_share = driven == "all" ? 0.5 : driven == "front" ? 1.0 : 0.0;
   front.brake_share = brakes.front_share;
   front.wheels = tires / 2;
@@ -171,6 +174,8 @@ VehicleFile read_vehicle(const ConfigTable& config) {
   const bool has_two_axles = file.text("format") == "rollrig-vehicle/1";
   has_two_axles ? read_two_axles(file, vehicle) : read_axles(file, vehicle);
   read_road_load(file, vehicle);
+  vehicle.names_tires = std::any_of(vehicle.axles.begin(), vehicle.axles.end(),
+                                    [](const VehicleAxle& axle) { return axle.tire.has_value(); });
   file.finish();
   return vehicle;
 }
@@ -187,6 +192,45 @@ std::string write_vehicle(const VehicleFile& vehicle) {
     text += write_group("axle.suspension", axle.suspension);
   }
   return text;
+}
+
+std::map<std::string, std::string> write_vehicle_files(VehicleFile vehicle, const std::string& content) {
+  std::map<std::string, std::string> files;
+  for (VehicleAxle& axle : vehicle.axles) {
+    if (!axle.tire.has_value()) continue;
+    axle.tire->path = "tire_" + axle.name + ".toml";
+    files[axle.tire->path] = models::write_tire(*axle.tire);
+  }
+  files["vehicle.toml"] = content.empty() || vehicle.names_tires ? write_vehicle(vehicle) : content;
+  return files;
+}
+
+void share_tire(const models::TireFile& tire, VehicleFile& vehicle) {
+  for (VehicleAxle& axle : vehicle.axles) {
+    if (axle.tire.has_value() && models::write_tire(*axle.tire) == models::write_tire(tire)) axle.tire.reset();
+  }
+}
+
+std::vector<AlikeTires> find_alike_tires(const VehicleFile& vehicle, double pressure_Pa) {
+  constexpr double kSameLoad = 1e-4;
+  const auto write_own_tire = [](const VehicleAxle& axle) {
+    return axle.tire.has_value() ? models::write_tire(*axle.tire) : std::string();
+  };
+  std::vector<AlikeTires> kinds;
+  for (const VehicleAxle& axle : vehicle.axles) {
+    const double own_Pa = axle.pressure_Pa > 0.0 ? axle.pressure_Pa : pressure_Pa;
+    const auto is_alike = [&](const AlikeTires& kind) {
+      const double share = kind.load_share / kind.count;
+      return kind.pressure_Pa == own_Pa && std::abs(axle.load_share / axle.wheels - share) <= kSameLoad * share &&
+             write_own_tire(*kind.axle) == write_own_tire(axle);
+    };
+    auto kind = std::find_if(kinds.begin(), kinds.end(), is_alike);
+    if (kind == kinds.end()) kind = kinds.insert(kind, {&axle, own_Pa});
+    kind->load_share += axle.load_share;
+    kind->count += axle.wheels;
+  }
+  if (kinds.size() == 1) kinds.front().load_share = 1.0;  // without the rounding of shares
+  return kinds;
 }
 
 std::string list_driven_axles(const VehicleFile& vehicle) {

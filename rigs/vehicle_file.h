@@ -1,6 +1,7 @@
 #pragma once
 /// assets/vehicles/<name>.toml ("rollrig-vehicle/2", or "/1" of two axles): reading, with every rule of formats.md.
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,7 @@ struct VehicleFile {
   VehicleBody uncertainties;  // 0 where none was given
   double center_of_gravity_height_m = 0.0;
   std::vector<VehicleAxle> axles;  // from the front
+  bool names_tires = false;        // in files beside this one
   VehiclePowertrain powertrain;
   /// Road load given directly, instead of drag and tires (§3.4.3, (3.20)).
   std::optional<models::RoadLoad<double>> road_load;
@@ -105,7 +107,9 @@ struct TwoAxleGeometry {
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"wheelbase_m", positive(), "Between the axles. Assumed: 2.9 m", 2.9}, p.wheelbase_m);
     visit(make_center_height_field(), p.center_of_gravity_height_m);
-    visit(Field{"front_load_share", between(0.05, 0.95), "Share of the weight on the front axle. Assumed: 0.5", 0.5},
+    visit(Field{"front_load_share", between(0.05, 0.95),
+                "Share of the weight on the front axle. Assumed: 0.5, or with an odd number of tires its share of them",
+                0.5},
           p.front_load_share);
   }
 };
@@ -126,6 +130,25 @@ VehicleFile read_vehicle(const ConfigTable& config);
 
 /// The file as TOML of format /2; a tire's file is named, not written.
 std::string write_vehicle(const VehicleFile& vehicle);
+
+/// The files of a set that has the vehicle: vehicle.toml, which is `content` (may be empty) if that names no tires, and
+/// tire_<axle>.toml of axles with a tire of their own.
+std::map<std::string, std::string> write_vehicle_files(VehicleFile vehicle, const std::string& content);
+
+/// Axles that name this tire no longer have a tire of their own.
+void share_tire(const models::TireFile& tire, VehicleFile& vehicle);
+
+/// Tires of a vehicle that are alike: those of all axles with the same tire, pressure, and load of a wheel.
+struct AlikeTires {
+  const VehicleAxle* axle = nullptr;  // the first of these axles
+  double pressure_Pa = 0.0;           // soaked, gauge
+  double load_share = 0.0;            // of the weight, for all these tires together
+  double count = 0.0;
+};
+
+/// All tires of a vehicle, in the order of the axles. `pressure_Pa`: of axles without one of their own. Assumed: loads
+/// that differ by 0.01 % or less are equal, because shares in files are rounded.
+std::vector<AlikeTires> find_alike_tires(const VehicleFile& vehicle, double pressure_Pa);
 
 /// The tire of an axle's wheels.
 inline const models::TireFile& tire_of(const VehicleAxle& axle, const models::TireFile& of_run) {

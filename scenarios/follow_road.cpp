@@ -46,13 +46,16 @@ struct Results {
     visit(Result{"drag_energy_Wh", "", ".0f", "of it, by drag"}, drag_J);
     visit(JointLine{"  lost by tires, by drag", "{rr_energy_Wh}, {drag_energy_Wh}"});
     visit(Result{"climb_energy_Wh", "  gone into height", ".0f", "of it, gone into height"}, climb_J);
-    visit(Result{"liner_temperature_end_degC", "Liner at the end", ".1f", "of a tire at the end"}, liner_end_K);
+    visit(Result{"liner_temperature_end_degC", "Liner at the end", ".1f", "mean of all tires at the end"}, liner_end_K);
   }
 };
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   const sim::EnergyAudit& audit = outcome.recording.audit;
   warn_of_class_values(spec.tire, outcome);
+  for (const rigs::VehicleAxle& axle : spec.vehicle->axles) {
+    if (axle.tire.has_value()) warn_of_class_values(*axle.tire, outcome);
+  }
   return {measure_rows(settings.conditions.run), audit.find_term_J(sim::kMotorWork),
           -audit.find_term_J("tire_loss"),       -audit.find_term_J("drag_loss"),
           -audit.find_term_J("gravity"),         outcome.recording.channel(quantities::kLinerTemperature).back()};
@@ -61,8 +64,9 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 Scenario make() {
   return make_follow_scenario(
       {"follow_road", "A vehicle on the road, through speed, height and air that a file gives, row by row",
-       "Run-up to the first row's speed, then speed, height and air as the file has them; its first row is 0 s. All "
-       "tires alike, each under an equal share of the weight; air of 101.325 kPa; no rig. What the motor does not "
+       "Run-up to the first row's speed, then speed, height and air as the file has them; its first row is 0 s. Each "
+       "axle has its load share, tire and pressure; channels of a tire are means over all tires; air of 101.325 kPa; "
+       "no rig. What the motor does not "
        "brake, friction brakes do: --write-set leaves the traction force empty there. Quasi-static only. The steps are "
        "those of the diagnosis, which simulates a set that --write-set wrote to the same values. `rollrig diagnose "
        "--plan` writes such files for a road set.",

@@ -16,7 +16,7 @@ constexpr Quantity kTraction = models::quantities::kTractionForce;
 
 class RoadKind : public MeasurementKind {
  public:
-  /// Every tire carries its share of the weight.
+  /// The mean load of all tires, whatever the axles carry.
   void complete(const MeasurementSet& set, MeasuredRun& run) const override {
     run.columns[models::quantities::kLoad].assign(run.time_s.size(), measurements::find_tire_load_N(*set.vehicle));
   }

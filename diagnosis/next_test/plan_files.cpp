@@ -194,7 +194,7 @@ std::map<std::string, std::string> write_plan(const MeasurementSet& set, const D
   }
   files["tire.toml"] = set.tire.content.empty() ? models::write_tire(set.tire) : set.tire.content;
   if (!set.kind->names_rig()) {
-    files["vehicle.toml"] = set.vehicle->content.empty() ? rigs::write_vehicle(*set.vehicle) : set.vehicle->content;
+    files.merge(rigs::write_vehicle_files(*set.vehicle, set.vehicle->content));
   } else {
     files["rig.toml"] = set.rig->content.empty() ? rigs::write_rig(*set.rig) : set.rig->content;
   }

@@ -151,7 +151,8 @@ std::map<std::string, std::string> make_set_files(const Mapping& mapping, const 
   std::map<std::string, std::string> files;
   files["set.toml"] = make_set_toml(mapping, imported);
   files["tire.toml"] = mapping.set.tire.content;
-  files[mapping.set.kind->names_rig() ? "rig.toml" : "vehicle.toml"] = mapping.machine_content;
+  files.merge(mapping.set.kind->names_rig() ? std::map<std::string, std::string>{{"rig.toml", mapping.machine_content}}
+                                            : rigs::write_vehicle_files(*mapping.set.vehicle, mapping.machine_content));
   for (const ImportedRun& run : imported.runs) files[run.plan.id + ".csv"] = make_run_csv(run.rows);
   files["marks.csv"] = make_marks_csv(imported);
   files["import.json"] = to_text(make_import_json(mapping, imported));

@@ -16,6 +16,7 @@ measurements::MeasurementSet make_set(const RunSpec& spec, const measurements::M
   set.tire = spec.tire;
   if (!set.kind->names_rig()) {
     set.vehicle = spec.vehicle;
+    rigs::share_tire(set.tire, *set.vehicle);
   } else {
     set.rig = spec.rig;
   }

@@ -97,8 +97,8 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
   }
   files["set.toml"] = set;
   files["tire.toml"] = models::write_tire(spec.tire);
-  files[names_rig ? "rig.toml" : "vehicle.toml"] =
-      names_rig ? rigs::write_rig(spec.rig) : rigs::write_vehicle(*spec.vehicle);
+  files.merge(names_rig ? std::map<std::string, std::string>{{"rig.toml", rigs::write_rig(spec.rig)}}
+                        : rigs::write_vehicle_files(*spec.vehicle, ""));
   return files;
 }
 

@@ -6,7 +6,8 @@
 
 namespace rollrig::tests {
 
-/// The quarter vehicle of the simulator on its roller or on the road, and what it recorded as a run.
+/// The vehicle of the simulator on its rollers or on the road, and what it recorded as a run; of a quarter the load
+/// too.
 inline measurements::MeasuredRun record(const VehicleFixture& fixture, const sim::Recording<double>& recording) {
   measurements::MeasuredRun run;
   run.initial_tire_temperature_K = fixture.start().tire_temperature_K;
@@ -14,7 +15,7 @@ inline measurements::MeasuredRun record(const VehicleFixture& fixture, const sim
   run.time_s = recording.time_s;
   run.columns["speed_km_h"] = recording.channel("speed_km_h");
   run.columns["ambient_degC"] = recording.channel("ambient_degC");
-  run.columns["load_N"] = recording.channel("load_N");
+  if (!fixture.whole) run.columns["load_N"] = recording.channel("load_N");
   run.columns["longitudinal_force_N"].assign(run.time_s.size(), 0.0);
   return run;
 }

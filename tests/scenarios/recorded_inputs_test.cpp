@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "measurements/resimulation.h"
 #include "scenarios/common/written_set.h"
+#include "sim/core/assets.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/machines.h"
@@ -154,6 +156,29 @@ TEST_CASE("the vehicle that a set of the road names is that of the run", "[fast]
   CHECK(vehicle.count_wheels() == heavy.spec.vehicle->count_wheels());
   CHECK(vehicle.powertrain.regeneration_fade_m_s == Approx(heavy.spec.vehicle->powertrain.regeneration_fade_m_s));
   CHECK(rigs::list_driven_axles(vehicle) == "rear");
+}
+
+TEST_CASE("a set of a vehicle whose axles differ holds their tires, and is simulated again to the same force",
+          "[fast]") {
+  Follow follow = on_road();
+  std::vector<rigs::VehicleAxle>& axles = follow.spec.vehicle->axles;
+  axles[0].load_share = 0.6;
+  axles[0].tire = models::read_tire(read_config(find_asset("tires", "a40")));
+  axles[1].load_share = 0.4;
+  axles[1].tire = follow.spec.tire;
+  axles[1].pressure_Pa = 310e3;
+  follow.spec.sensors = models::SensorSet{{models::quantities::kTractionForce, {}}};
+  const auto outcome = follow.run();
+  const measurements::MeasurementSet set = write_and_read(follow.spec, outcome);
+  CHECK(set.vehicle->axles[0].tire->name == "a40");
+  CHECK_FALSE(set.vehicle->axles[1].tire.has_value());  // that of the set
+  models::Corner<double> corner(measurements::make_context(set), {});
+  const measurements::MeasuredRun& run = set.runs.front();
+  const auto again = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
+  const std::vector<double>& before_N = outcome.recording.channel("traction_force_N");
+  const std::vector<double>& again_N = again.channel("traction_force_N");
+  REQUIRE(again_N.size() == before_N.size());
+  for (std::size_t i = 0; i < before_N.size(); ++i) CHECK(again_N[i] == Approx(before_N[i]).margin(0.5));  // CSV digits
 }
 
 TEST_CASE("sensors of a wheel err by the seed", "[fast]") {
