@@ -60,7 +60,7 @@ struct Results {
     visit(JointLine{"RRc at 25 degC, 2 m drum",
                     "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN} (k = 2, torque)"});
     visit(
-        JointLine{"  from its offset alone", "+- {rrc_uncertainty_offset_kept_N_per_kN}, which the skim test cancels"});
+        JointLine{"  with the torque offset", "+- {rrc_uncertainty_offset_kept_N_per_kN}, which the skim test cancels"});
     visit(Remark{"  tire file says"}, tire_file_says);
     visit(
         JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
