@@ -24,6 +24,9 @@ struct NotRun {
 
 const std::vector<NotRun> kNotRun{
     {"./check", "installs packages, builds, and runs all tests, this one among them"},
+    {"tools/install_packages.sh ", "installs packages"},
+    {"apt-get install ", "installs packages"},
+    {"podman ", "needs a program for containers, and makes an image"},
     {"cmake --", "configures, builds or installs the project"},
     {"ctest --", "runs the tests, this one among them"},
     {"clang-format -i <files>", "the reader names the files"},
@@ -75,7 +78,8 @@ bool looks_like_command(const std::string& line) {
   std::string first;
   std::string second;
   words >> first >> second;
-  static const std::set<std::string> others{"$", "./check", "cmake", "ctest", "git", "mpirun", "python3", "sudo"};
+  static const std::set<std::string> others{"$",      "./check", "cmake",   "ctest", "git",
+                                            "mpirun", "podman",  "python3", "sudo"};
   const std::string program = first.substr(first.find_last_of('/') + 1);
   const bool is_ours = (program == "rollrig" || program == "rollrig_validation") && !second.empty();
   return is_ours || others.count(first) > 0;
