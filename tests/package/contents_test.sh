@@ -37,7 +37,7 @@ expect_field "$library" Depends "rollrig (= $version-1)"
 
 # Shared libraries of Debian that the program cannot run without, and nothing that only the build needs.
 depends=$(dpkg-deb --field "$program" Depends)
-for name in libc6 libstdc++6 libceres libsimbody libfmt libspdlog libtbb libhdf5 libmatio libedlib libmd0; do
+for name in libc6 libstdc++6 libsimbody libfmt libspdlog libtbb libhdf5 libmatio libedlib libmd0; do
   case ", $depends" in
     *", $name"*) ;;
     *) fail "rollrig does not depend on $name: $depends" ;;
@@ -52,7 +52,8 @@ dpkg-deb --extract "$library" "$work/rollrig-dev"
 triplet=$(dpkg-architecture -qDEB_HOST_MULTIARCH)
 for file in usr/bin/rollrig "usr/lib/$triplet/librollrig.so.$version" "usr/lib/$triplet/librollrig_cvodes.so.$version" \
   usr/share/rollrig/assets/tires/a50.toml usr/share/man/man1/rollrig.1.gz usr/share/doc/rollrig/copyright \
-  usr/share/doc/rollrig/changelog.Debian.gz usr/share/doc/rollrig/changelog.gz usr/share/doc/rollrig/NOTICE.md usr/share/doc/rollrig/docs/tutorial.md \
+  usr/share/doc/rollrig/changelog.Debian.gz usr/share/doc/rollrig/changelog.gz usr/share/doc/rollrig/NOTICE.md \
+  usr/share/doc/rollrig/docs/tutorial.md \
   usr/share/bash-completion/completions/rollrig usr/share/zsh/vendor-completions/_rollrig \
   usr/share/fish/vendor_completions.d/rollrig.fish; do
   expect_file "$work/rollrig" "$file"

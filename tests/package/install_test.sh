@@ -68,7 +68,7 @@ for program in by_pkg_config by_cmake/program_17_on by_cmake/program_17_off by_c
   grep -qx '/usr/share/rollrig/assets/tires/a50.toml' "$log" || fail "$program: assets from elsewhere"
 done
 
-run_inside dpkg -L rollrig rollrig-dev | sort -u >"$system/root/paths"
+run_inside dpkg -L rollrig rollrig-dev | grep / | sort -u >"$system/root/paths"
 run_apt purge rollrig rollrig-dev
 while read -r path; do
   [ ! -e "$system$path" ] || run_inside dpkg -S "$path" >/dev/null 2>&1 || fail "left behind: $path"
