@@ -31,20 +31,6 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
   return out + line + "\n";
 }
 
-std::string clip(const std::string& text, std::size_t width) {
-  const std::string mark = "...";
-  if (count_characters(text) <= width) return text;
-  std::string kept;
-  for (const char c : text) {
-    const bool starts_character = (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-    if (starts_character && count_characters(kept) + mark.size() >= width) break;
-    kept += c;
-  }
-  const std::size_t space = kept.rfind(' ');
-  if (space != std::string::npos && 3 * space >= 2 * kept.size()) kept.resize(space);
-  return kept + mark;
-}
-
 std::string format_count(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }

@@ -14,10 +14,6 @@ std::size_t count_characters(const std::string& text);
 /// Text broken into lines of at most `width`, each indented.
 std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 80);
 
-/// Text cut so that it has at most `width` characters, with "..." where something was cut: after a word, unless that
-/// would take more than a third.
-std::string clip(const std::string& text, std::size_t width);
-
 /// "1 run", "2 runs": a number and what it counts, with an s unless it is one.
 std::string format_count(std::size_t count, const std::string& what);
 

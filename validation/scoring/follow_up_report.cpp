@@ -3,7 +3,6 @@
 #include <array>
 #include <utility>
 
-#include "sim/core/text.h"
 #include "validation/scoring/report.h"
 
 namespace rollrig::validation {
@@ -58,27 +57,6 @@ Json make_follow_up(const Case& one, const std::optional<FollowUp>& test) {
 }
 
 }  // namespace
-
-std::string describe_follow_up(const Case& one, const FollowUp& test) {
-  std::string text = fmt::format("{} {}, {}: {}", one.truth.number, one.truth.campaign, one.truth.name(),
-                                 fmt::join(test.plan.named, ", "));
-  if (!test.plan.test.empty()) text += fmt::format("; {}", test.plan.test);
-  if (test.answer.has_value()) text += fmt::format("; {}", fmt::join(one.answered_after(test).named_set(), ", "));
-  return text + ": " + judge(one, test);
-}
-
-std::string format_follow_ups(const Score& score) {
-  std::string text;
-  for (const auto& [test, what] : kTests) {
-    const std::string summary = summarize(score, test, what);
-    if (summary.empty()) continue;
-    text += "\n" + wrap(summary, 0);
-    for (const Case& one : score.followed_up) {
-      if ((one.*test).has_value()) text += wrap(describe_follow_up(one, *(one.*test)), 2);
-    }
-  }
-  return text;
-}
 
 std::vector<Table> make_follow_up_tables(const Score& score) {
   std::vector<Table> tables;

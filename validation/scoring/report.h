@@ -9,14 +9,14 @@
 
 namespace rollrig::validation {
 
-/// A table of a page.
+/// A table of terminal and page.
 struct Table {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// At most 80 columns.
+/// The tables of make_score_tables, as wide as the terminal.
 std::string format_score(const Score& score);
 /// Figures, baselines, cases by effect, campaign and size, confusions, reliability, follow-up tests, what was missed;
 /// those with rows.
@@ -34,10 +34,7 @@ std::optional<double> find_value(const BaselineScore& baseline, const Figure& fi
 /// What a case's data and answer are, in one sentence each.
 std::string describe_truth(const Case& one);
 std::string describe_answer(const Case& one);
-/// A case whose causes could not be told apart, its next test, and what came of it.
-std::string describe_follow_up(const Case& one, const FollowUp& test);
 /// Cases whose causes could not be told apart, their next tests, and what came of them.
-std::string format_follow_ups(const Score& score);
 std::vector<Table> make_follow_up_tables(const Score& score);
 Json make_follow_ups_json(const Score& score);
 

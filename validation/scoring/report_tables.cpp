@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/core/columns.h"
+#include "sim/core/text.h"
 #include "validation/scoring/report.h"
 
 namespace rollrig::validation {
@@ -52,20 +54,27 @@ Table make_baseline_table(const Score& score) {
   return table;
 }
 
+std::vector<std::string> make_tally_row(const std::string& name, const Tally& tally) {
+  const Interval interval = calc_wilson_95(tally.named, tally.cases);
+  const auto count = [](std::size_t n) { return fmt::format("{}", n); };
+  return {name,
+          count(tally.cases),
+          count(tally.named),
+          fmt::format("{:.0f} to {:.0f}", 100.0 * interval.low, 100.0 * interval.high),
+          count(tally.named_wrong),
+          count(tally.no_gap),
+          count(tally.unexplained),
+          count(tally.failed),
+          fmt::format("{}, {}", tally.right_above, tally.wrong_above),
+          fmt::format("{:.2f}", tally.mean_named_set())};
+}
+
 Table make_tallies(const char* title, const Tallies& tallies) {
   Table table{title,
               {"", "cases", "named", "95 %", "other cause", "no gap", "unexplained", "failed",
                "above 0.9: right, wrong", "mean set"},
               {}};
-  const auto count = [](std::size_t n) { return fmt::format("{}", n); };
-  for (const auto& [name, tally] : tallies) {
-    const Interval interval = calc_wilson_95(tally.named, tally.cases);
-    table.rows.push_back({name, count(tally.cases), count(tally.named),
-                          fmt::format("{:.0f} to {:.0f}", 100.0 * interval.low, 100.0 * interval.high),
-                          count(tally.named_wrong), count(tally.no_gap), count(tally.unexplained), count(tally.failed),
-                          fmt::format("{}, {}", tally.right_above, tally.wrong_above),
-                          fmt::format("{:.2f}", tally.mean_named_set())});
-  }
+  for (const auto& [name, tally] : tallies) table.rows.push_back(make_tally_row(name, tally));
   return table;
 }
 
@@ -115,11 +124,23 @@ std::vector<Table> make_score_tables(const Score& score) {
                             make_tallies("By size", score.by_size_class),
                             make_confusion(score.confusion),
                             make_reliability(score.reliability)};
+  if (!score.by_effect.empty()) tables[2].rows.push_back(make_tally_row("all effects", score.all_effects));
   for (Table& table : make_follow_up_tables(score)) tables.push_back(std::move(table));
   tables.push_back(make_missed(score));
   tables.erase(std::remove_if(tables.begin(), tables.end(), [](const Table& table) { return table.rows.empty(); }),
                tables.end());
   return tables;
+}
+
+std::string format_score(const Score& score) {
+  std::string text = fmt::format("{} cases. Intervals are Wilson's, 95 %.\n", score.cases);
+  for (const std::string& warning : score.warnings) text += wrap("warning: " + warning, 0);
+  for (const Table& table : make_score_tables(score)) {
+    std::vector<std::vector<std::string>> rows{table.columns};
+    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+    text += '\n' + wrap(table.title, 0) + text_columns(rows, {true});
+  }
+  return text;
 }
 
 std::string format_score_markdown(const Score& score) {
