@@ -47,14 +47,14 @@ using Tallies = std::map<std::string, Tally>;
 using Confusion = std::map<std::string, std::map<std::string, std::size_t>>;  // truth, what was said
 
 struct ScoreOptions {
-  double detectable_d_prime = 5.0;  // from here on an effect is to be found (docs/validation.md, "Figures")
+  double detectable_d_prime = 5.0;  // from here on an effect is to be found (docs/validation.md, "Figures of merit")
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
 };
 
 /// What the answers state, of the cases that could be diagnosed.
 std::vector<Stated> list_stated(const std::vector<Case>& cases);
 
-/// Source  docs/validation.md, "Figures"
+/// Source  docs/validation.md, "Figures of merit"
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options);
 
 /// The same figures of a baseline's answers.
