@@ -14,19 +14,19 @@ std::string show_bar(const Figure& figure, const std::optional<double>& value) {
   return fmt::format("{} {}", figure.more_is_better ? "at least" : "at most", format_value(figure, value));
 }
 
-/// "missed" where a figure misses its target, and its floor where it misses that as well.
+/// "missed" where a figure misses its target, and its limit where it misses that as well.
 std::string judge(const Figure& figure) {
   if (!figure.value.has_value()) return figure.note;
   if (!figure.target.has_value()) return "";
   if (figure.meets(figure.target)) return "met";
-  return figure.floor.has_value() && !figure.meets(figure.floor) ? "missed, floor too" : "missed";
+  return figure.floor.has_value() && !figure.meets(figure.floor) ? "missed, limit too" : "missed";
 }
 
 std::string strip(const std::string& label) { return label.substr(label.find_first_not_of(' ')); }
 
 Table make_figures(const Score& score) {
   Table table{
-      "Figures", {"figure", "value", "95 %", "cases", "target", "floor", "", "best baseline", "ideal observer"}, {}};
+      "Figures", {"figure", "value", "95 %", "cases", "target", "limit", "", "best baseline", "ideal observer"}, {}};
   for (const Figure& figure : score.figures) {
     const bool is_share = figure.unit == Unit::kPercent && figure.value.has_value();
     std::string baseline = format_value(figure, figure.best_baseline);
