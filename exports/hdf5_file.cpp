@@ -13,7 +13,7 @@ namespace {
 
 /// The file lies in memory, so that only a fault of this program makes the library refuse.
 template <class Result>
-Result require(Result result) {
+Result require_hdf5(Result result) {
   if (result < 0) throw std::runtime_error("HDF5 refused to write");
   return result;
 }
@@ -21,7 +21,7 @@ Result require(Result result) {
 /// An identifier of the library with its close function.
 class Handle {
  public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(require(id)), close_(close) {}
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(require_hdf5(id)), close_(close) {}
   ~Handle() { close_(id_); }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
@@ -34,7 +34,7 @@ class Handle {
 
 /// Strings of one length, padded with NUL.
 Handle make_text_type(std::size_t length) {
-  const hid_t type = require(H5Tcopy(H5T_C_S1));
+  const hid_t type = require_hdf5(H5Tcopy(H5T_C_S1));
   H5Tset_size(type, std::max<std::size_t>(length, 1));
   H5Tset_strpad(type, H5T_STR_NULLPAD);
   H5Tset_cset(type, H5T_CSET_UTF8);
@@ -43,11 +43,11 @@ Handle make_text_type(std::size_t length) {
 
 /// As h5py writes a bool.
 Handle make_flag_type() {
-  const hid_t type = require(H5Tenum_create(H5T_STD_I8LE));
+  const hid_t type = require_hdf5(H5Tenum_create(H5T_STD_I8LE));
   const signed char no = 0;
   const signed char yes = 1;
-  require(H5Tenum_insert(type, "FALSE", &no));
-  require(H5Tenum_insert(type, "TRUE", &yes));
+  require_hdf5(H5Tenum_insert(type, "FALSE", &no));
+  require_hdf5(H5Tenum_insert(type, "TRUE", &yes));
   return {type, H5Tclose};
 }
 
@@ -62,7 +62,7 @@ Handle make_data_properties(hid_t space) {
   constexpr hsize_t kDeflatedFrom = 512;
   constexpr hsize_t kChunk = 8192;
   constexpr unsigned kLevel = 6;
-  const hid_t properties = require(H5Pcreate(H5P_DATASET_CREATE));
+  const hid_t properties = require_hdf5(H5Pcreate(H5P_DATASET_CREATE));
   H5Pset_obj_track_times(properties, 0);
   const auto size = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
   if (size >= kDeflatedFrom) {
@@ -80,17 +80,17 @@ Handle make_data(hid_t place, const std::string& link, hid_t type, hid_t space) 
 }
 
 void write_data(hid_t place, const std::string& link, hid_t type, hid_t space, const void* data) {
-  require(H5Dwrite(make_data(place, link, type, space), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
+  require_hdf5(H5Dwrite(make_data(place, link, type, space), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data));
 }
 
 void write_numbers(hid_t place, const std::string& link, const std::string& key, hid_t space, const double* values) {
   const Handle set = make_data(place, link, H5T_IEEE_F64LE, space);
-  require(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+  require_hdf5(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
   const std::string unit = unit_of_key(key).symbol;
   if (unit.empty()) return;
   const Handle type = make_text_type(unit.size());
   const Handle attribute(H5Acreate2(set, "unit", type, make_scalar(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  require(H5Awrite(attribute, type, unit.data()));
+  require_hdf5(H5Awrite(attribute, type, unit.data()));
 }
 
 std::string make_link(const std::string& name) {
@@ -148,10 +148,10 @@ void write_members(hid_t place, const Group& group) {
 }
 
 std::string copy_image(hid_t file) {
-  require(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  const ssize_t size = require(H5Fget_file_image(file, nullptr, 0));
+  require_hdf5(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  const ssize_t size = require_hdf5(H5Fget_file_image(file, nullptr, 0));
   std::string bytes(static_cast<std::size_t>(size), '\0');
-  require(H5Fget_file_image(file, bytes.data(), bytes.size()));
+  require_hdf5(H5Fget_file_image(file, bytes.data(), bytes.size()));
   return bytes;
 }
 
@@ -160,7 +160,7 @@ std::string copy_image(hid_t file) {
 std::string make_hdf5(const Group& tree) {
   constexpr std::size_t kGrowth = 1U << 20U;  // bytes
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  require(H5Pset_fapl_core(access, kGrowth, 0));
+  require_hdf5(H5Pset_fapl_core(access, kGrowth, 0));
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   const Handle file(H5Fcreate("in memory", H5F_ACC_TRUNC, creation, access), H5Fclose);

@@ -21,7 +21,7 @@ using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 
 constexpr const char* kUnits = "units";
 
-Variable require(matvar_t* variable) {
+Variable require_mat(matvar_t* variable) {
   if (variable == nullptr) throw std::runtime_error("matio refused a variable");
   return {variable, Mat_VarFree};
 }
@@ -34,7 +34,7 @@ constexpr Type kDouble{MAT_C_DOUBLE, MAT_T_DOUBLE};
 
 /// A variable of `extents` rows and columns, which are copied. Its name is where it is put.
 Variable make_variable(Type type, std::array<std::size_t, 2> extents, const void* data, int options = 0) {
-  return require(
+  return require_mat(
       Mat_VarCreate(nullptr, type.in_matlab, type.in_file, 2, extents.data(), const_cast<void*>(data), options));
 }
 
@@ -72,7 +72,7 @@ Variable make_struct(Fields fields) {
   for (const auto& field : fields) names.push_back(field.first.c_str());
   std::array<std::size_t, 2> extents{1, 1};
   Variable made =
-      require(Mat_VarCreateStruct(nullptr, 2, extents.data(), names.data(), static_cast<unsigned>(names.size())));
+      require_mat(Mat_VarCreateStruct(nullptr, 2, extents.data(), names.data(), static_cast<unsigned>(names.size())));
   for (std::size_t i = 0; i < fields.size(); ++i) {
     Mat_VarSetStructFieldByIndex(made.get(), i, 0, fields[i].second.release());
   }

@@ -88,6 +88,14 @@ extern template class Corner<double>;
 extern template class Corner<Jet>;
 extern template class Corner<DimensionedScalar>;
 
+/// Pointers to corners.
+template <class S>
+std::vector<Corner<S>*> list_corners(std::vector<Corner<S>>& corners) {
+  std::vector<Corner<S>*> list;
+  for (Corner<S>& corner : corners) list.push_back(&corner);
+  return list;
+}
+
 /// The context in another scalar.
 template <class S>
 Context<S> convert_context(const Context<double>& from) {

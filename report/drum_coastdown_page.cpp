@@ -111,7 +111,7 @@ scenarios::ResultTable make_law_table(const DrumCoastdownFit& fit) {
 }
 
 /// What the fits leave of the coasts' speeds; of long coasts every so many-th row.
-Block make_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
+Block make_drum_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
   constexpr std::size_t kMost = 4000;
   std::size_t rows = 0;
   for (const auto& analysis : fit.analyses) {
@@ -159,7 +159,7 @@ Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) 
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
   if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});
-  page.add({"Residuals", "", {make_residual_chart(set, fit)}});
+  page.add({"Residuals", "", {make_drum_residual_chart(set, fit)}});
   page.add(make_document(estimation::make_coastdown_json(set, fit), "The fit as JSON"));
   return page;
 }

@@ -15,7 +15,7 @@ using estimation::RoadLoadPoint;
 std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s²" : "N"; }
 
 /// The fitted curve with its interval over the speeds that the data cover.
-Json make_curve(const RoadLoadFit& fit) {
+Json make_load_curve(const RoadLoadFit& fit) {
   constexpr int kPoints = 40;
   constexpr double kWide = 1.96;  // of a normal interval of 95 %
   std::vector<double> x;
@@ -59,14 +59,14 @@ void add_headings(const estimation::CoastdownFile& file, const RoadLoadFit& fit,
 }
 
 Block make_force_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
-  Json series = Json::array({make_curve(fit)});
+  Json series = Json::array({make_load_curve(fit)});
   add_headings(
       file, fit, [](const RoadLoadPoint& point) { return point.force_N; }, series);
   return make_curves({"Speed", "km/h"}, {fit.per_mass ? "Deceleration" : "Force", force_unit(fit), true}, series,
                      "Points: mean force over a speed bin as tested, with that run's wind, slope and weather.");
 }
 
-Block make_residual_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
+Block make_road_residual_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array();
   add_headings(
       file, fit, [](const RoadLoadPoint& point) { return point.residual_N; }, series);
@@ -113,7 +113,7 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
   result.blocks.push_back(make_table(make_coefficient_table(fit, "At reference conditions, with 95 % intervals")));
   page.add(std::move(result));
   page.add({"Data and fit", "", {make_force_chart(file, fit)}});
-  page.add({"Residuals", "", {make_residual_chart(file, fit)}});
+  page.add({"Residuals", "", {make_road_residual_chart(file, fit)}});
   page.add({"Checks", "", {make_checks(checks)}});
   page.add(make_document(estimation::make_road_load_json(file, options, fit, checks), "The fit as JSON"));
   return page;

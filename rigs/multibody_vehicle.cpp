@@ -31,12 +31,6 @@ constexpr double kVehicleSpeedIntegralError_m = 1e-5;
 // Assumed: about the tolerance of drive cycles, 2 mph, and of SAE J1634 at low speed.
 constexpr SpeedHold kDriverHold{"the driver does not keep", 0.02, 0.5};
 
-std::vector<Corner<double>*> list_corners(std::vector<Corner<double>>& corners) {
-  std::vector<Corner<double>*> list;
-  for (Corner<double>& corner : corners) list.push_back(&corner);
-  return list;
-}
-
 }  // namespace
 
 class MultibodyVehicle::Implementation : public SimbodySystem {

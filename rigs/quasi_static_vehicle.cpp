@@ -4,16 +4,6 @@
 #include <type_traits>
 
 namespace rollrig::rigs {
-namespace {
-
-template <class S>
-std::vector<models::Corner<S>*> list_corners(std::vector<models::Corner<S>>& corners) {
-  std::vector<models::Corner<S>*> list;
-  for (models::Corner<S>& corner : corners) list.push_back(&corner);
-  return list;
-}
-
-}  // namespace
 
 template <class S>
 QuasiStaticVehicle<S>::QuasiStaticVehicle(std::vector<models::Corner<S>>& corners, const VehicleLayout& layout,

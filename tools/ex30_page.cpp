@@ -34,7 +34,7 @@ double find_largest_percent(const Sections& simulated, const Certificate& certif
   return largest;
 }
 
-Rows list_sections(const Sections& simulated, const Certificate& certificate, double efficiency) {
+Rows list_certified_sections(const Sections& simulated, const Certificate& certificate, double efficiency) {
   Rows rows;
   for (std::size_t i = 0; i < certificate.size(); ++i) {
     const char* role = i == 0 ? "cold, apart" : (i == 2 || i == 3) ? "fitted" : "predicted";
@@ -93,9 +93,9 @@ std::string make_ex30_page() {
   const std::vector<double> pairs = try_pairs(simulated, certificate);
   const auto [best, worst] = std::minmax_element(pairs.begin(), pairs.end());
   return fill_page(
-      "ex30", "sections"_a = join(list_sections(simulated, certificate, efficiency)), "efficiency"_a = efficiency,
-      "largest_percent"_a = find_largest_percent(simulated, certificate, efficiency), "pairs"_a = pairs.size(),
-      "pairs_best"_a = *best, "pairs_worst"_a = *worst,
+      "ex30", "sections"_a = join(list_certified_sections(simulated, certificate, efficiency)),
+      "efficiency"_a = efficiency, "largest_percent"_a = find_largest_percent(simulated, certificate, efficiency),
+      "pairs"_a = pairs.size(), "pairs_best"_a = *best, "pairs_worst"_a = *worst,
       "pairs_within"_a = std::count_if(pairs.begin(), pairs.end(), [](double percent) { return percent <= 3.0; }),
       "city_percent"_a = 100.0 * excess(certificate, kSecondCity, kThirdCity),
       "highway_percent"_a = 100.0 * excess(certificate, 1, 5),

@@ -11,7 +11,7 @@ namespace {
 
 using PerTire = std::map<std::string, double>;
 
-PerTire measure(const Drives& drives, double (*find)(const TireDrive&)) {
+PerTire measure_statement(const Drives& drives, double (*find)(const TireDrive&)) {
   PerTire values;
   for (const auto& [tire, drive] : drives) values[tire] = find(drive);
   return values;
@@ -64,10 +64,10 @@ void add_dyno_setting(StatementTable& table) {
   Drives drives;
   for (const std::string& tire : kTires) drives[tire] = drive_dyno_setting(tire);
   const char* place = "§4.3.1";
-  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure(drives, find_mean), "degC");
+  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure_statement(drives, find_mean), "degC");
   table.add_limit(place, "within ±2 degC over the second highway section (half its range)",
-                  measure(drives, [](const TireDrive& d) { return find_half_range(d[1]); }), 2.0, "degC");
-  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure(drives, find_span), "degC");
+                  measure_statement(drives, [](const TireDrive& d) { return find_half_range(d[1]); }), 2.0, "degC");
+  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_span), "degC");
 }
 
 double find_last_rise(const DriveSection& section) {
@@ -90,16 +90,16 @@ double find_least_rise(const TireDrive& drive) {
 
 void add_drive_cycle(StatementTable& table, const Drives& drives) {
   const char* place = "§4.4.1";
-  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure(drives, find_mean), "degC");
+  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure_statement(drives, find_mean), "degC");
   table.add_limit(place, "steady state in the constant-speed sections (change in the last 10 min, 105 km/h)",
-                  measure(drives, [](const TireDrive& d) { return find_last_rise(d[3]); }), 0.5, "degC");
+                  measure_statement(drives, [](const TireDrive& d) { return find_last_rise(d[3]); }), 0.5, "degC");
   table.add_limit(place, "the same at 80 km/h",
-                  measure(drives, [](const TireDrive& d) { return find_last_rise(d[7]); }), 0.5, "degC");
-  PerTire rise = measure(drives, find_least_rise);
+                  measure_statement(drives, [](const TireDrive& d) { return find_last_rise(d[7]); }), 0.5, "degC");
+  PerTire rise = measure_statement(drives, find_least_rise);
   table.add(place, "rises in highway and constant-speed sections and in the city's continuous part (least rise)",
             StatementTable::list(rise, "degC", 1),
             std::all_of(rise.begin(), rise.end(), [](const auto& v) { return v.second > 0.0; }));
-  PerTire loss = measure(drives, [](const TireDrive& d) {
+  PerTire loss = measure_statement(drives, [](const TireDrive& d) {
     double least = 1e9;
     for (const DriveSection& city : select(d, "city")) least = std::min(least, city.highest_degC() - city.end_degC());
     return least;
@@ -114,7 +114,7 @@ void add_drive_cycle(StatementTable& table, const Drives& drives) {
               fmt::format("{:.1f} > {:.1f} ≈ {:.1f} > {:.1f} degC", m[2], m[1], m[3], m[0]),
               m[2] > m[1] && m[2] > m[3] && std::abs(m[1] - m[3]) < 1.0 && m[1] > m[0] && m[3] > m[0]);
   }
-  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure(drives, find_span), "degC");
+  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_span), "degC");
 }
 
 /// RRc on the dynamometer by the law alone, N/kN.
@@ -142,7 +142,8 @@ void add_city_comparison(StatementTable& table, const Drives& drives) {
   table.add_order("§4.4.3, §4.3.2", "dependence on speed a40 > a50 > a60 (for the same 50 km/h)", by_speed, "N/kN", 2);
   table.add_order(place, "dependence on temperature a40 > a50 > a60 (for the same 6 degC)", by_temperature, "N/kN", 2);
   table.add_limit(place, "City 2 ends about where it starts (within 1 degC)",
-                  measure(drives, [](const TireDrive& d) { return d[2].end_degC() - d[2].start_degC(); }), 1.0, "degC");
+                  measure_statement(drives, [](const TireDrive& d) { return d[2].end_degC() - d[2].start_degC(); }),
+                  1.0, "degC");
   const PerTire source{{"a40", 10.0}, {"a50", 7.0}, {"a60", 5.0}};
   for (const std::string& tire : kTires) {
     const DriveSection& city_3 = drives.at(tire)[4];

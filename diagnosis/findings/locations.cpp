@@ -161,7 +161,7 @@ Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unkno
   return moved + study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
 }
 
-Location describe(const PreparedSet& set, const PhaseOfSeries& stretch, const Sized& sized) {
+Location describe_location(const PreparedSet& set, const PhaseOfSeries& stretch, const Sized& sized) {
   Location location;
   const Quantity& channel = set.channels()[stretch.series->channel];
   location.channel = channel.header();
@@ -200,7 +200,7 @@ std::vector<Location> find_locations(const Study& study) {
     const double excess = calc_excess(stretches[sized.stretch], difference);
     of_others -= excess;
     of_listed += std::max(0.0, excess);
-    locations.push_back(describe(set, stretches[sized.stretch], sized));
+    locations.push_back(describe_location(set, stretches[sized.stretch], sized));
     locations.back().share_percent = 100.0 * std::max(0.0, excess);
   }
   const double whole = of_listed + std::max(0.0, of_others);

@@ -36,16 +36,16 @@ std::vector<const Candidate*> rank(const Study& study, const Comparison& compari
 }
 
 /// A hypothesis of a study at its parameters, without offsets, each as uncertain as the study leaves it.
-OpenHypothesis describe(const Study& study, const Hypothesis& hypothesis, const Eigen::VectorXd& unknowns,
-                        const Eigen::MatrixXd& covariance) {
+OpenHypothesis describe_hypothesis(const Study& study, const Hypothesis& hypothesis, const Eigen::VectorXd& unknowns,
+                                   const Eigen::MatrixXd& covariance) {
   const Eigen::Index count = unknowns.size() - to_index(study.set.offset_count());
   return {hypothesis, unknowns.head(count), covariance.topLeftCorner(count, count).llt().matrixL()};
 }
 
-OpenHypothesis describe(const Study& study, const Candidate& candidate) {
+OpenHypothesis describe_hypothesis(const Study& study, const Candidate& candidate) {
   const Evidence evidence(study.discrepancy, candidate.fit);
-  return describe(study, candidate.fit.hypothesis, candidate.fit.unknowns,
-                  evidence.solve(candidate.amplitudes, true).covariance);
+  return describe_hypothesis(study, candidate.fit.hypothesis, candidate.fit.unknowns,
+                             evidence.solve(candidate.amplitudes, true).covariance);
 }
 
 bool adds_a_term(const Candidate& lead, const Candidate& other) {
@@ -81,7 +81,7 @@ std::optional<OpenHypothesis> add_unseen(const Study& study, const Candidate& le
     const PriorBounds bounds = larger.own_parameters()[i].bounds();
     unknowns[to_index(i)] = std::clamp(unknowns[to_index(i)], bounds.lower, bounds.upper);
   }
-  return describe(study, fit.hypothesis, unknowns, solution.covariance);
+  return describe_hypothesis(study, fit.hypothesis, unknowns, solution.covariance);
 }
 
 /// Terms that the set would not have shown, the best hidden first.
@@ -109,18 +109,18 @@ std::vector<OpenHypothesis> find_open_hypotheses(const Study& study, const Compa
     open.push_back(std::move(one));
     open.back().probability = weight;
   };
-  add(describe(study, lead), most);
+  add(describe_hypothesis(study, lead), most);
   std::vector<const Candidate*> runners_up;
   for (std::size_t i = 1; i < ranked.size(); ++i) {
     const bool told_apart = expected_log_bayes_factor(study, lead, *ranked[i]) >= thresholds::kToldApart_nats;
     if (is_baseline || told_apart || adds_a_term(lead, *ranked[i])) {
       if (ranked[i]->posterior() >= kRunnerUp) runners_up.push_back(ranked[i]);
     } else if (open.size() < kMost) {
-      add(describe(study, *ranked[i]), most);
+      add(describe_hypothesis(study, *ranked[i]), most);
     }
   }
   for (const Candidate* other : runners_up) {
-    if (open.size() < kMost) add(describe(study, *other), std::max(least, other->posterior()));
+    if (open.size() < kMost) add(describe_hypothesis(study, *other), std::max(least, other->posterior()));
   }
   if (open.size() == 1 || is_baseline) {
     for (const Term* term : find_hidden(study, comparison)) {

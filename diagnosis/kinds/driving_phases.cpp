@@ -58,7 +58,7 @@ std::vector<Window> join_equal(const std::vector<Window>& windows) {
 }
 
 /// Gives short ones to the one before them, at the start of a load to the next.
-std::vector<Window> join_short(const measurements::MeasuredRun& run, std::vector<Window> windows) {
+std::vector<Window> join_short_drives(const measurements::MeasuredRun& run, std::vector<Window> windows) {
   std::vector<Window> joined;
   for (std::size_t i = 0; i < windows.size(); ++i) {
     const Window& at = windows[i];
@@ -82,7 +82,7 @@ std::vector<RunPhase> find_driving_phases(const measurements::MeasuredRun& run) 
   for (Window& window : windows) window.name = name_of_speed(find_mean_km_h(run, window));
   std::vector<RunPhase> phases;
   std::map<std::string, int> seen;
-  for (const Window& window : join_short(run, join_equal(windows))) {
+  for (const Window& window : join_short_drives(run, join_equal(windows))) {
     phases.push_back({fmt::format("{} {}", window.name, ++seen[window.name]), window.first, window.last});
   }
   return phases;

@@ -10,7 +10,7 @@
 namespace rollrig::diagnosis {
 namespace {
 
-double find_sample_interval_s(const PreparedSet& set) {
+double find_first_interval_s(const PreparedSet& set) {
   return measurements::calc_mean_interval_s(set.runs().front().measured);
 }
 
@@ -19,7 +19,7 @@ measurements::MeasurementSet make_virtual_set(const PreparedSet& set, const Plan
   measurements::MeasurementSet made = set.source();
   made.name = test.id;
   made.runs = test.runs;
-  const double samples = std::max(1.0, kVirtualRow_s / find_sample_interval_s(set));
+  const double samples = std::max(1.0, kVirtualRow_s / find_first_interval_s(set));
   for (auto& [channel, sensor] : made.sensors) sensor = measurements::average_sensor(sensor, samples);
   for (const Quantity& channel : test.extra.sensors) made.sensors[channel] = find_rig_sensor(channel).error;
   return made;
@@ -102,7 +102,7 @@ Amplitudes PredictedTest::find_model_error(const PreparedSet& set) const {
 
 /// The difference of the clocks as the pulse shows it, appended: each logger knows it within its sampling interval.
 void PredictedTest::add_clock_reading(const Study& study, const std::vector<OpenHypothesis>& open) {
-  const double sd_s = find_sample_interval_s(study.set) * std::sqrt(2.0 / 12.0);
+  const double sd_s = find_first_interval_s(study.set) * std::sqrt(2.0 / 12.0);
   const Eigen::Index row = offsets_.rows();
   for (std::size_t h = 0; h < open.size(); ++h) {
     Prediction& prediction = predictions_[h];

@@ -66,7 +66,7 @@ std::string describe_tests(const models::EffectInfo& info) {
   return text;
 }
 
-std::string describe(const models::EffectInfo& info) {
+std::string describe_info(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
   text += section("Equation", info.equation) + section("Source", info.source);
   text += "Own parameters, and where two thirds of the belief lie before any data\n";
@@ -99,7 +99,7 @@ std::string explain_effect(const std::string& name) {
   if (name == "unknown") {
     return "unknown: something outside the catalog\n" + wrap(kUnknown, kIndent) + section("Next", kUnknownNext);
   }
-  if (const Term* term = look_up_term(name)) return describe(term->info());
+  if (const Term* term = look_up_term(name)) return describe_info(term->info());
   InputProblem problem = unknown_name("effect", name, explainable_names());
   if (problem.nearest == "none") problem.nearest = nearest_name(name, models::effect_ids());  // near to any short word
   problem.file = "command line";

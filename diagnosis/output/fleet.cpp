@@ -72,7 +72,7 @@ const char* word_of(Shared shared) {
   return shared == Shared::kMachine ? "machine" : "tire";
 }
 
-std::string describe(const Recurrence& one) {
+std::string describe_recurrence(const Recurrence& one) {
   std::string text =
       fmt::format("{}: the {}'s ({}), probability {:.0f} % over {}, named in {}", one.effect, word_of(one.shared),
                   one.name, 100.0 * one.probability, format_count(one.sets, "set"), one.named_in);
@@ -141,7 +141,7 @@ std::string format_fleet(const Fleet& fleet) {
   }
   std::string text = text_columns(rows, {true, 0}) + format_troubles(fleet) + "\nComes back from set to set\n";
   if (fleet.recurrences.empty()) text += "  nothing\n";
-  for (const Recurrence& one : fleet.recurrences) text += wrap(describe(one), 2);
+  for (const Recurrence& one : fleet.recurrences) text += wrap(describe_recurrence(one), 2);
   return text;
 }
 

@@ -34,7 +34,7 @@ Unit read_unit(TableReader& reader, const Quantity& target) {
   return unit;
 }
 
-LogColumn read_column(const ConfigTable& columns, const rigs::Column& of_set, const std::string& table_name) {
+LogColumn read_mapped_column(const ConfigTable& columns, const rigs::Column& of_set, const std::string& table_name) {
   LogColumn column;
   const std::string heading = of_set.quantity.header();
   column.target = of_set.quantity;
@@ -75,7 +75,8 @@ void read_columns(TableReader& log, const MachineKind& kind, LogForm& form) {
   for (const rigs::Column& column : columns) reader.accept(column.quantity.header());
   reader.finish();
   for (const rigs::Column& column : columns) {
-    if (table->find(column.quantity.header()) != nullptr) form.columns.push_back(read_column(*table, column, name));
+    if (table->find(column.quantity.header()) != nullptr)
+      form.columns.push_back(read_mapped_column(*table, column, name));
   }
 }
 

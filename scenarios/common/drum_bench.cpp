@@ -8,7 +8,7 @@
 namespace rollrig::scenarios {
 namespace {
 
-rigs::RigStart<double> make_start(const RunSpec& spec, const DrumConditions& conditions) {
+rigs::RigStart<double> make_drum_start(const RunSpec& spec, const DrumConditions& conditions) {
   rigs::RigStart<double> start;
   start.tire_temperature_K = *conditions.initial_tire_K;
   start.cold_pressure_Pa = *conditions.pressure_Pa;
@@ -32,7 +32,7 @@ void fill_set_starts(const sim::Recording<double>& recording, std::vector<SetRun
 void simulate_on_drum(const RunSpec& spec, const DrumConditions& conditions, const DrumProgram& program,
                       const sim::Progress& progress, Outcome& outcome) {
   models::Corner<double> corner(rigs::make_context(spec.tire, spec.rig, spec.baseline), spec.effects);
-  const rigs::RigStart<double> start = make_start(spec, conditions);
+  const rigs::RigStart<double> start = make_drum_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
     rigs::MultibodyDrum drum(corner, spec.rig, start, program.surface_recorded());
     outcome.recording = run_multibody(drum, program.program(), spec, progress, outcome.statistics);

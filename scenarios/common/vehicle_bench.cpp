@@ -8,7 +8,7 @@
 namespace rollrig::scenarios {
 namespace {
 
-rigs::RigStart<double> make_start(const RunSpec& spec, const VehicleConditions& conditions) {
+rigs::RigStart<double> make_vehicle_start(const RunSpec& spec, const VehicleConditions& conditions) {
   rigs::RigStart<double> start;
   start.tire_temperature_K = *conditions.initial_tire_K;
   start.cold_pressure_Pa = conditions.pressure_Pa;
@@ -30,7 +30,7 @@ void simulate_vehicle(const RunSpec& spec, const VehicleConditions& conditions, 
   for (const rigs::WheelPlace& wheel : layout.wheels) {
     corners.emplace_back(make_wheel_context(spec, spec.vehicle->axles[wheel.axle]), spec.effects);
   }
-  const rigs::RigStart<double> start = make_start(spec, conditions);
+  const rigs::RigStart<double> start = make_vehicle_start(spec, conditions);
   if (spec.fidelity == Fidelity::kMultibody) {
     rigs::MultibodyVehicle vehicle(corners, layout, start, program.surface_recorded());
     outcome.recording = run_multibody(vehicle, program.program(), spec, progress, outcome.statistics);

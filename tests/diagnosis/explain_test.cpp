@@ -35,10 +35,12 @@ TEST_CASE("an effect's explanation holds all that its declaration knows", "[fast
       CHECK_THAT(text, Contains(title));
     }
     for (const models::EffectParameter& parameter : info.parameters) {
-      // from its key to the next parameter's, or to the next title
-      const std::size_t begin = text.find(std::string("\n  ") + parameter.key + ":");
+      // from its key to the line that no longer continues its row
+      const std::size_t begin = text.find(std::string("\n  ") + parameter.key + "  ");
       REQUIRE(begin != std::string::npos);
-      std::istringstream words(text.substr(begin, text.find(std::string(6, ' '), begin + 3) - begin));
+      std::size_t end = text.find('\n', begin + 1);
+      while (text.compare(end + 1, 3, "   ") == 0) end = text.find('\n', end + 1);
+      std::istringstream words(text.substr(begin, end - begin));
       std::string prior;
       for (std::string word; words >> word;) prior += word + " ";
       const bool is_log = prior.find("on a log scale") != std::string::npos;

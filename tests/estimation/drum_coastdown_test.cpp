@@ -33,7 +33,7 @@ CoastStudy make_quiet() {
 bool holds(const Interval& interval, double truth) { return interval.lower <= truth && truth <= interval.upper; }
 
 /// Coverage of every interval over 200 seeds; `leave_out_m_s` as a person would give it.
-void check_coverage(const CoastStudy& study, const std::vector<double>& leave_out_m_s) {
+void check_drum_coverage(const CoastStudy& study, const std::vector<double>& leave_out_m_s) {
   constexpr int kSeeds = 200;
   std::vector<DrumCoastdownFit> fits(kSeeds);
   parallel_for(kSeeds, 0, [&](std::size_t i) {
@@ -178,11 +178,11 @@ TEST_CASE("one lifted run, or no pressure run twice, is said: intervals cannot h
 }
 
 TEST_CASE("95 % intervals of net decelerations, ratios, exponent and drum alone cover at their rate", "[slow]") {
-  check_coverage({}, {});  // noise, 3 % of pulses missed, a resonance at 10 m/s, runs that scatter
+  check_drum_coverage({}, {});  // noise, 3 % of pulses missed, a resonance at 10 m/s, runs that scatter
 }
 
 TEST_CASE("with noise that hides the resonance, intervals cover where the range is named", "[slow]") {
   CoastStudy study;
   study.noise_m_s = 0.02;
-  check_coverage(study, {8.5, 11.5});
+  check_drum_coverage(study, {8.5, 11.5});
 }

@@ -16,8 +16,8 @@ namespace {
 constexpr int kSeeds = 400;
 
 /// Fits of 400 sets of one truth.
-void check_coverage(const measurements::MeasurementSet& truth_of,
-                    const std::function<measurements::MeasurementSet(std::uint64_t seed)>& make_set) {
+void check_fit_coverage(const measurements::MeasurementSet& truth_of,
+                        const std::function<measurements::MeasurementSet(std::uint64_t seed)>& make_set) {
   std::vector<estimation::TireFit> fits(kSeeds);
   parallel_for(kSeeds, 0, [&](std::size_t i) {
     fits[i] = estimation::fit_tire(make_set(i + 1), {"", false, false, 1});
@@ -43,12 +43,12 @@ void check_coverage(const measurements::MeasurementSet& truth_of,
 
 TEST_CASE("95 % intervals cover at their rate, for each parameter", "[slow]") {
   const auto set = tests::make_warm_up_set("a50", "source_with_gas");
-  check_coverage(set, [&](std::uint64_t seed) { return tests::add_noise(set, seed); });
+  check_fit_coverage(set, [&](std::uint64_t seed) { return tests::add_noise(set, seed); });
 }
 
 TEST_CASE("95 % intervals cover where the files' own numbers are off by their uncertainty", "[slow]") {
   const auto set = tests::make_warm_up_set("a50", "source_with_gas", "quasi_static");
-  check_coverage(set, [&](std::uint64_t seed) {
+  check_fit_coverage(set, [&](std::uint64_t seed) {
     measurements::MeasurementSet measured = tests::add_noise(set, seed);
     RandomStream random(seed, "files");
     const auto put_off = [&](double& value, double& standard_uncertainty, double share) {

@@ -12,7 +12,7 @@ using namespace rollrig;
 
 namespace {
 
-void check_coverage(const char* name, const tests::CoastdownStudy& study) {
+void check_road_load_coverage(const char* name, const tests::CoastdownStudy& study) {
   constexpr int kSeeds = 500;
   estimation::RoadLoadFitOptions options;
   options.mass_kg = study.mass_kg;
@@ -40,13 +40,13 @@ void check_coverage(const char* name, const tests::CoastdownStudy& study) {
 }  // namespace
 
 TEST_CASE("95 % intervals of A, B, C cover at their rate: sensor noise, five pairs", "[slow]") {
-  check_coverage("sensor noise, 5 pairs", {});
+  check_road_load_coverage("sensor noise, 5 pairs", {});
 }
 
 TEST_CASE("95 % intervals of A, B, C cover at their rate: to standstill", "[slow]") {
   tests::CoastdownStudy study;
   study.to_km_h = 0.0;
-  check_coverage("to standstill, 5 pairs", study);
+  check_road_load_coverage("to standstill, 5 pairs", study);
 }
 
 TEST_CASE("95 % intervals of A, B, C cover at their rate: gusts, runs that differ, wind, slope", "[slow]") {
@@ -56,5 +56,5 @@ TEST_CASE("95 % intervals of A, B, C cover at their rate: gusts, runs that diffe
   study.run_wind_sd_m_s = 0.3;
   study.wind_m_s = 1.5;
   study.slope = 0.001;
-  check_coverage("gusts and run scatter", study);
+  check_road_load_coverage("gusts and run scatter", study);
 }

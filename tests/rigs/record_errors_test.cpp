@@ -23,7 +23,7 @@ sim::Recording<double> run_drum(bool multibody, const std::vector<models::Active
 }
 
 /// A ramp, two loads and a ramp down, with speed and load times these factors.
-sim::Program drum_program(double speed_factor, double load_factor, double ambient_K = 298.15) {
+sim::Program recorded_drum_program(double speed_factor, double load_factor, double ambient_K = 298.15) {
   const auto phase = [&](const char* name, double duration_s, double from_m_s, double to_m_s, double load_N) {
     sim::Phase made = tests::rolling(name, duration_s, to_m_s * speed_factor, load_N * load_factor);
     made.segments = {tests::drum_segment(duration_s, from_m_s * speed_factor, to_m_s * speed_factor,
@@ -60,8 +60,8 @@ double tolerance_of(bool multibody) { return multibody ? 1e-5 : 1e-12; }
 
 TEST_CASE("a drum whose speed record is 4 % low shows what one shows that turns 4 % faster", "[fast]") {
   for (const bool multibody : {false, true}) {
-    const auto wrong = run_drum(multibody, {switch_on("speed_record", {4.0})}, drum_program(1.0, 1.0));
-    const auto right = run_drum(multibody, {}, drum_program(1.04, 1.0));
+    const auto wrong = run_drum(multibody, {switch_on("speed_record", {4.0})}, recorded_drum_program(1.0, 1.0));
+    const auto right = run_drum(multibody, {}, recorded_drum_program(1.04, 1.0));
     for (const char* channel : kDrumChannels) check_same(wrong, right, channel, tolerance_of(multibody));
     for (std::size_t i = 0; i < wrong.row_count(); ++i) {
       CHECK(right.channel("speed_km_h")[i] == Approx(1.04 * wrong.channel("speed_km_h")[i]));
@@ -72,8 +72,8 @@ TEST_CASE("a drum whose speed record is 4 % low shows what one shows that turns 
 
 TEST_CASE("a drum whose load record is 5 % high shows what one shows with 5 % less load", "[fast]") {
   for (const bool multibody : {false, true}) {
-    const auto wrong = run_drum(multibody, {switch_on("load_record", {-5.0, 0.0})}, drum_program(1.0, 1.0));
-    const auto right = run_drum(multibody, {}, drum_program(1.0, 0.95));
+    const auto wrong = run_drum(multibody, {switch_on("load_record", {-5.0, 0.0})}, recorded_drum_program(1.0, 1.0));
+    const auto right = run_drum(multibody, {}, recorded_drum_program(1.0, 0.95));
     for (const char* channel : kDrumChannels) check_same(wrong, right, channel, tolerance_of(multibody));
     CHECK(wrong.channel("load_N").front() == Approx(5000.0));
     CHECK(wrong.channel("contact_load_N")[200] == Approx(4750.0).epsilon(1e-6));
@@ -84,7 +84,7 @@ TEST_CASE("a drum whose load record is 5 % high shows what one shows with 5 % le
 TEST_CASE("a load record whose offset takes all of the skim load lets the tire leave the drum, audits closed",
           "[fast]") {
   for (const bool multibody : {false, true}) {
-    const auto lifted = run_drum(multibody, {switch_on("load_record", {-5.0, 1.0})}, drum_program(1.0, 1.0));
+    const auto lifted = run_drum(multibody, {switch_on("load_record", {-5.0, 1.0})}, recorded_drum_program(1.0, 1.0));
     CHECK(lifted.channel("contact_load_N")[410] < 5.0);
     CHECK(lifted.channel("contact_load_N")[410] >= 0.0);
     CHECK_NOTHROW(lifted.audit.require_closed(sim::kAuditLimit));
@@ -94,9 +94,9 @@ TEST_CASE("a load record whose offset takes all of the skim load lets the tire l
 TEST_CASE("air that is warm at once is a warmer cell, on the drum in both fidelities", "[fast]") {
   for (const bool multibody : {false, true}) {
     const auto wrong =
-        run_drum(multibody, {switch_on("cell_air_warming", {5.0, 0.5, 0.0, 0.0})}, drum_program(1.0, 1.0));
-    const auto right = run_drum(multibody, {}, drum_program(1.0, 1.0, 303.15));
-    const auto plain = run_drum(multibody, {}, drum_program(1.0, 1.0));
+        run_drum(multibody, {switch_on("cell_air_warming", {5.0, 0.5, 0.0, 0.0})}, recorded_drum_program(1.0, 1.0));
+    const auto right = run_drum(multibody, {}, recorded_drum_program(1.0, 1.0, 303.15));
+    const auto plain = run_drum(multibody, {}, recorded_drum_program(1.0, 1.0));
     const auto warmer_K = [&](const sim::Recording<double>& run, std::size_t row) {
       return run.channel("liner_temperature_degC")[row] - plain.channel("liner_temperature_degC")[row];
     };

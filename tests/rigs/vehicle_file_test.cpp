@@ -17,7 +17,7 @@ rigs::VehicleFile read(const std::string& format, const std::string& more) {
   return rigs::read_vehicle(parse_config("format = \"rollrig-vehicle/" + format + "\"\n" + kBody + more, "car.toml"));
 }
 
-void check_same(const rigs::VehicleFile& a, const rigs::VehicleFile& b) {
+void check_same_vehicle(const rigs::VehicleFile& a, const rigs::VehicleFile& b) {
   CHECK(a.center_of_gravity_height_m == b.center_of_gravity_height_m);
   CHECK(a.powertrain.efficiency == b.powertrain.efficiency);
   REQUIRE(a.axles.size() == b.axles.size());
@@ -56,10 +56,10 @@ TEST_CASE("format /1 is a front and a rear axle with what its keys say, or its d
   CHECK(full.axles[1].suspension.unsprung_mass_kg == 30.0);
   CHECK(full.center_of_gravity_height_m == 0.55);
   CHECK(read("1", "tires = 4\n[powertrain]\ndriven_axle = \"front\"\n").axles[0].drive_share == 1.0);
-  check_same(full, read("1",
-                        "tires = 4\n[geometry]\nwheelbase_m = 2.6\ncenter_of_gravity_height_m = 0.55\n"
-                        "front_load_share = 0.57\n[suspension]\nunsprung_mass_kg = 30.0\n"
-                        "[powertrain]\ndriven_axle = \"all\"\n[brakes]\nfront_share = 0.7\n"));
+  check_same_vehicle(full, read("1",
+                                "tires = 4\n[geometry]\nwheelbase_m = 2.6\ncenter_of_gravity_height_m = 0.55\n"
+                                "front_load_share = 0.57\n[suspension]\nunsprung_mass_kg = 30.0\n"
+                                "[powertrain]\ndriven_axle = \"all\"\n[brakes]\nfront_share = 0.7\n"));
 }
 
 TEST_CASE("a set of the road may count any number of tires", "[fast]") {
@@ -79,8 +79,8 @@ TEST_CASE("format /2 says the same as /1, is written and read again", "[fast]") 
       read("2",
            "[powertrain]\nefficiency = 0.9\n[[axle]]\nposition_m = 0.0\nload_share = 0.75\nbrake_share = 0.625\n"
            "[[axle]]\nposition_m = 2.5\nload_share = 0.25\ndrive_share = 1.0\nbrake_share = 0.375\n");
-  check_same(old_format, vehicle);
-  check_same(vehicle, rigs::read_vehicle(parse_config(rigs::write_vehicle(vehicle), "car.toml")));
+  check_same_vehicle(old_format, vehicle);
+  check_same_vehicle(vehicle, rigs::read_vehicle(parse_config(rigs::write_vehicle(vehicle), "car.toml")));
 }
 
 TEST_CASE("axles have names, tires, pressures and suspensions of their own", "[fast]") {

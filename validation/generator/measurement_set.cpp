@@ -95,7 +95,7 @@ Json find_signal(const Laboratory& lab, const std::vector<RunRecord>& with, cons
   return signal;
 }
 
-Json describe(const SetOrder& order, const Laboratory& lab) {
+Json describe_set(const SetOrder& order, const Laboratory& lab) {
   const Machine& machine = *lab.specimen.machine;
   Json base;
   for (std::size_t i = 0; i < kBaseCount; ++i) {
@@ -141,7 +141,7 @@ Laws find_common_laws(const std::vector<std::string>& effects, const Machine& ma
 MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
   const Laboratory lab = draw_laboratory(order);
   MadeSet made;
-  made.truth = describe(order, lab);
+  made.truth = describe_set(order, lab);
   const Effects effects = draw_effects(order, lab.specimen, &made.truth["effects"]);
   const std::vector<RunRecord> records = record_all(lab.specimen, lab.campaign, effects);
   made.files = write_files(order, lab, records, order.noise_free);

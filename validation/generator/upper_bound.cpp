@@ -173,7 +173,7 @@ Eigen::MatrixXd find_alternatives(const KnownSet& set, const SetOrder& order, co
 /// Four digits are enough for a reader.
 double round_off(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 
-Json describe(const SetOrder& order, const UpperBound& bound) {
+Json describe_bound(const SetOrder& order, const UpperBound& bound) {
   Json described = {{"effects", order.effects}, {"d_prime", round_off(bound.d_prime)}};
   if (bound.log_bayes_factors.empty()) return described;
   described["identifiable"] = bound.twins().empty();
@@ -251,7 +251,7 @@ std::size_t write_upper_bounds(UpperBoundOrder& order, const Progress& progress)
   work_on_all(orders.size(), order.threads, progress, [&](std::size_t i) {
     const auto& [number, set] = orders[i];
     require_same_files(validation::case_folder(order.set, number), set);
-    described[i] = describe(set, find_upper_bound(set, order.detection_alone));
+    described[i] = describe_bound(set, find_upper_bound(set, order.detection_alone));
   });
   Json json = {{"format", validation::kUpperBoundFormat},
                {"truth_sha256", truth.sha256},

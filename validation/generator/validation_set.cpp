@@ -101,7 +101,7 @@ MadeSet make_planned(const ValidationSetOrder& order, const Plan& plan, const st
   return made;
 }
 
-Json describe(const ValidationSetOrder& order) {
+Json describe_order(const ValidationSetOrder& order) {
   Json truth = {{"format", validation::kTruthFormat},
                 {"seed", order.seed},
                 {"each", order.each},
@@ -165,7 +165,7 @@ void write_validation_set(const ValidationSetOrder& order, const std::function<v
     for (const auto& [file, content] : files) folder.add(name + "/" + file, content);
   };
   const std::vector<Plan> plans = draw_plans(order);
-  Json truth = describe(order);
+  Json truth = describe_order(order);
   for (std::size_t i = 0; i < plans.size(); ++i) {
     const std::string name = fmt::format("{:04}", i + 1);
     MadeSet made = make_planned(order, plans[i], name);

@@ -30,7 +30,7 @@ Json describe(const models::Effect& effect) {
 }
 
 /// "effects/windage/law_share" of a JSON pointer, as a person reads it.
-std::string name_of(const std::string& pointer) {
+std::string name_of_setting(const std::string& pointer) {
   std::string name = pointer.substr(1);
   std::replace(name.begin(), name.end(), '/', ' ');
   return name;
@@ -56,15 +56,15 @@ SettingsComparison compare_settings(const Json& recorded, const Json& now) {
   const Json after = known.flatten();
   for (const auto& [pointer, value] : before.items()) {
     if (!after.contains(pointer)) {
-      comparison.changes.push_back(fmt::format("{} was {}, and is gone", name_of(pointer), value.dump()));
+      comparison.changes.push_back(fmt::format("{} was {}, and is gone", name_of_setting(pointer), value.dump()));
     } else if (after.at(pointer) != value) {
       comparison.changes.push_back(
-          fmt::format("{} was {}, and is {}", name_of(pointer), value.dump(), after.at(pointer).dump()));
+          fmt::format("{} was {}, and is {}", name_of_setting(pointer), value.dump(), after.at(pointer).dump()));
     }
   }
   for (const auto& [pointer, value] : after.items()) {
     if (!before.contains(pointer)) {
-      comparison.changes.push_back(fmt::format("{} is new: {}", name_of(pointer), value.dump()));
+      comparison.changes.push_back(fmt::format("{} is new: {}", name_of_setting(pointer), value.dump()));
     }
   }
   return comparison;

@@ -11,7 +11,7 @@ namespace {
 const std::array kTests{std::pair(&Case::next_test, "Next test"), std::pair(&Case::drawn_test, "Drawn test")};
 
 /// What became of a named set, in a few words.
-std::string judge(const Case& one, const FollowUp& test) {
+std::string judge_follow_up(const Case& one, const FollowUp& test) {
   if (!test.answer.has_value()) return "not made, " + test.plan.not_made;
   if (one.is_split_by(test)) return "split";
   const Case after = one.answered_after(test);
@@ -52,7 +52,7 @@ Json make_follow_up(const Case& one, const std::optional<FollowUp>& test) {
           {"not_made", test->plan.not_made.empty() ? Json(nullptr) : Json(test->plan.not_made)},
           {"said", is_done ? Json(after.said()) : Json(nullptr)},
           {"named", is_done ? Json(after.named_set()) : Json(nullptr)},
-          {"outcome", judge(one, *test)},
+          {"outcome", judge_follow_up(one, *test)},
           {"split", one.is_split_by(*test)}};
 }
 
@@ -67,7 +67,8 @@ std::vector<Table> make_follow_up_tables(const Score& score) {
       if (!of.has_value()) continue;
       table.rows.push_back({one.truth.number + " " + one.truth.campaign, one.truth.name(),
                             fmt::format("{}", fmt::join(of->plan.named, ", ")), of->plan.test,
-                            fmt::format("{}", fmt::join(one.answered_after(*of).named_set(), ", ")), judge(one, *of)});
+                            fmt::format("{}", fmt::join(one.answered_after(*of).named_set(), ", ")),
+                            judge_follow_up(one, *of)});
     }
     tables.push_back(std::move(table));
   }

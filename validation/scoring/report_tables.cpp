@@ -15,7 +15,7 @@ std::string show_bar(const Figure& figure, const std::optional<double>& value) {
 }
 
 /// "missed" where a figure misses its target, and its limit where it misses that as well.
-std::string judge(const Figure& figure) {
+std::string judge_figure(const Figure& figure) {
   if (!figure.value.has_value()) return figure.note;
   if (!figure.target.has_value()) return "";
   if (figure.meets(figure.target)) return "met";
@@ -35,7 +35,7 @@ Table make_figures(const Score& score) {
         {strip(figure.label), format_value(figure, figure.value) + (is_share ? " %" : ""),
          format_interval(figure.interval),
          figure.interval.has_value() ? fmt::format("{} of {}", figure.k, figure.n) : fmt::format("{}", figure.n),
-         show_bar(figure, figure.target), show_bar(figure, figure.floor), judge(figure), baseline,
+         show_bar(figure, figure.target), show_bar(figure, figure.floor), judge_figure(figure), baseline,
          format_value(figure, figure.upper_bound)});
   }
   return table;
@@ -69,7 +69,7 @@ std::vector<std::string> make_tally_row(const std::string& name, const Tally& ta
           fmt::format("{:.2f}", tally.mean_named_set())};
 }
 
-Table make_tallies(const char* title, const Tallies& tallies) {
+Table make_tally_table(const char* title, const Tallies& tallies) {
   Table table{title,
               {"", "cases", "named", "95 %", "other cause", "no gap", "unexplained", "failed",
                "above 0.9: right, wrong", "mean set"},
@@ -101,7 +101,7 @@ Table make_reliability(const Reliability& reliability) {
   return table;
 }
 
-Table make_missed(const Score& score) {
+Table make_missed_table(const Score& score) {
   Table table{"Missed", {"what the data are", "what was answered"}, {}};
   for (const Case& one : score.missed) table.rows.push_back({describe_truth(one), describe_answer(one)});
   return table;
@@ -119,14 +119,14 @@ std::string cell(std::string text) {
 std::vector<Table> make_score_tables(const Score& score) {
   std::vector<Table> tables{make_figures(score),
                             make_baseline_table(score),
-                            make_tallies("By effect", score.by_effect),
-                            make_tallies("By campaign", score.by_campaign),
-                            make_tallies("By size", score.by_size_class),
+                            make_tally_table("By effect", score.by_effect),
+                            make_tally_table("By campaign", score.by_campaign),
+                            make_tally_table("By size", score.by_size_class),
                             make_confusion(score.confusion),
                             make_reliability(score.reliability)};
   if (!score.by_effect.empty()) tables[2].rows.push_back(make_tally_row("all effects", score.all_effects));
   for (Table& table : make_follow_up_tables(score)) tables.push_back(std::move(table));
-  tables.push_back(make_missed(score));
+  tables.push_back(make_missed_table(score));
   tables.erase(std::remove_if(tables.begin(), tables.end(), [](const Table& table) { return table.rows.empty(); }),
                tables.end());
   return tables;
