@@ -64,7 +64,7 @@ TEST_CASE("an installed program runs from anywhere, and a project that finds the
 
   const TemporaryFolder build;
   const ProgramResult configured = run_other(ROLLRIG_CMAKE,
-                                             "-S '" ROLLRIG_SOURCE_DIR
+                                             "-G Ninja -S '" ROLLRIG_SOURCE_DIR
                                              "/tests/install/program' -B . -DCMAKE_BUILD_TYPE=Release "
                                              "-DCMAKE_PREFIX_PATH='" +
                                                  prefix.path() + "'",
