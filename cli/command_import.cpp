@@ -38,7 +38,8 @@ int import_command(const ImportOptions& options) {
   output.write(imported);
   if (options.output.is_silent()) return kDone;
   std::cout << imported.text << format_checks(options.output.folder)
-            << fmt::format("  written to {}/: set.toml, a CSV a run, import.json, marks.csv\n", options.output.folder);
+            << fmt::format("  written to {}/: set.toml, one CSV for each run, import.json, marks.csv\n",
+                           options.output.folder);
   return kDone;
 }
 

@@ -43,7 +43,7 @@ void add_regress_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<RegressOptions>(
       app, action, "regress", "Rerun all regression scenarios against their goldens", &regress_command);
   command->add_option("folder", options->folder, "Folder of run files [assets/regression]");
-  command->add_flag("--update", options->update, "Write new goldens where results differ");
+  command->add_flag("--update", options->update, "Write goldens that differ, are missing or cannot be read");
   command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
   options->output.add_to(*command, "File for the comparison, - for standard output");

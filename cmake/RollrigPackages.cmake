@@ -1,4 +1,5 @@
-# Third-party packages, all from Debian 12. Each stays behind one or two files of the project.
+# Third-party packages, all from Debian 12. tests/build/include_directions_test.cpp
+# lists those that stay behind a few files.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Ceres 2.1 REQUIRED)

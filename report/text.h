@@ -1,5 +1,6 @@
 #pragma once
-/// What a person reads in the terminal: plain text, as wide as the terminal.
+/// What a person reads in the terminal: tables as wide as the terminal, and sentences of 80
+/// columns at most.
 
 #include <string>
 #include <vector>

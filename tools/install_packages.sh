@@ -1,8 +1,8 @@
 #!/bin/sh
-# Installs what is missing of lists of Debian packages in this folder, as root or through sudo:
-# install_packages.sh packages.txt [packages_tests.txt ...]. A program of a package's name on the path, from wherever it
-# comes, stands for the package. Packages of packages_unpacked.txt are needed for their files alone: they are unpacked
-# into build/packages, without the packages that they depend on. Messages and progress go to standard error.
+# Installs what is missing of lists of Debian packages in this folder, as root or through sudo: install_packages.sh
+# packages.txt [packages_tests.txt ...]. A package counts as installed if a program of its name is on the path. Packages
+# of packages_unpacked.txt are needed for their files alone: they are unpacked into build/packages, without the packages
+# that they depend on. Messages and progress go to standard error.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 unpacked=$here/../build/packages

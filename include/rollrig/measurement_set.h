@@ -1,6 +1,6 @@
 #pragma once
-/// Measurement sets: a folder with set.toml and a CSV a run (docs/formats.md). What a run of a scenario writes as a set
-/// is in its result (rollrig/run.h).
+/// Measurement sets: a folder with set.toml and one CSV for each run (docs/formats.md). What a run of a scenario writes
+/// as a set is in its result (rollrig/run.h).
 
 #include <memory>
 #include <optional>

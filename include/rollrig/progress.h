@@ -8,7 +8,8 @@
 namespace rollrig {
 
 /// Called now and then. `done` is the share of the work, 0 to 1, NaN where its length is not known; `stage` says what
-/// is being done, and may be empty. Calls of one function come one at a time, but from any of its threads.
+/// is being done, and may be empty. The share falls back to 0 where more work turns out to follow: `diagnose` may
+/// repeat itself without one run. Calls of one function come one at a time, but from any of its threads.
 using Progress = std::function<void(double done, const std::string& stage)>;
 
 /// Makes every running and later call of the process stop with Interrupted, at its next step. May be called from any

@@ -15,7 +15,7 @@ namespace rollrig {
 /// Comparison of a run with its golden.
 struct GoldenComparison {
   std::size_t compared = 0;           // number of values
-  std::vector<std::string> problems;  // a line each, with the quantity; empty where all is within its tolerance
+  std::vector<std::string> problems;  // one line each, with the quantity; empty where all is within its tolerance
   std::string worst_quantity;         // "result.<key>", or a channel and its time
   double worst_share = 0.0;           // |difference| / tolerance of this quantity
 };
@@ -44,7 +44,8 @@ struct RegressionOptions {
 /// Errors  InputError: no run files in the folder; Interrupted
 Regression regress(const std::string& folder = "", const RegressionOptions& options = {});
 
-/// Writes new goldens of the runs that are not the same. The runs are then "updated".
+/// Writes the golden of each run that differs, has none or has a bad one; the run is then "updated". The tolerances of
+/// a golden that can be read stay. Each file is replaced whole; an error leaves the earlier ones updated.
 /// Example  const Regression updated = update_goldens(regress("runs"));
 /// Errors   InputError: a golden cannot be written
 Regression update_goldens(Regression found);

@@ -21,7 +21,7 @@ struct ResultValue {
   std::string text;              // of words
 };
 
-/// A list of results: a record a cycle, a section or a speed.
+/// A list of results: one record for each cycle, section or speed.
 struct ResultRecords {
   std::string name;  // key of result.json
   std::string doc;
@@ -50,7 +50,7 @@ using FolderFiles = std::vector<std::pair<std::string, std::string>>;
 
 /// A result in the forms that the command line writes.
 struct Report {
-  std::string text;                         // of the terminal, as wide as it is
+  std::string text;                         // for the terminal: tables as wide as that of standard output
   std::string json;                         // of --json
   std::function<FolderFiles()> make_files;  // of --out; null where there are none
   std::function<std::string()> make_page;   // of --html: a page for any browser, which needs no other file

@@ -26,7 +26,7 @@ struct SweepInput {
   int threads = 0;                 // 0: as many as the machine has
 };
 
-/// A row a point, the last axis fastest. Its files: sweep.csv, sweep.json, a manifest a point.
+/// One row for each point, the last axis fastest. Its files: sweep.csv, sweep.json, one manifest for each point.
 struct SweepResult : Report {
   std::vector<std::string> axes;                 // keys
   std::vector<std::vector<std::string>> points;  // values of the axes

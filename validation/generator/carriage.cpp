@@ -156,7 +156,7 @@ Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen, con
   const CampaignKind& kind = draws.pick(kinds);
   const Habits habits = draw_habits(draws, specimen);
   Campaign campaign{kind.name, {}};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(order.runs); ++i) {
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(order.runs), kind.runs.size()); ++i) {
     const RunKind& what = kind.runs[i];
     Draws own(order.seed, fmt::format("run/{}", i));
     RunPlan run = start_run(own, i, what, kCooling, specimen);

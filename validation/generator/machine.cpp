@@ -23,12 +23,12 @@ std::vector<std::string> machine_words() {
   return words;
 }
 
-const Machine& find_machine(const std::string& word) {
+const Machine& find_machine(const std::string& word, const char* key) {
   for (const Machine* machine : all_machines()) {
     if (word == machine->word) return *machine;
   }
   InputProblem problem = unknown_name("kind", word, machine_words());
-  problem.key = "--kind";
+  problem.key = key;
   throw InputError(problem);
 }
 

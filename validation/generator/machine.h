@@ -80,7 +80,7 @@ struct Machine {
 const std::vector<const Machine*>& all_machines();
 std::vector<std::string> machine_words();
 /// Throws InputError where there is none of that name.
-const Machine& find_machine(const std::string& word);
+const Machine& find_machine(const std::string& word, const char* key);
 
 /// What the kinds with a rig file have in common.
 namespace rig {

@@ -110,7 +110,7 @@ void read_case(const CaseWords& words, SetOrder& order) {
     if (!sizes.empty()) order.sizes[i] = read_size(kind, sizes[i]);
     if (!order.forms.empty()) require_form(kind, order.forms[i]);
   }
-  order.machine = &find_machine(words.kind);
+  order.machine = &find_machine(words.kind, "--kind");
   check_grounds(order.effects, *order.machine, false);
   const Laws common = find_common_laws(order.effects, *order.machine, false);
   if (!common.any()) throw refuse("these effects are not found against one law", "--effect", words.effects, "");
@@ -122,7 +122,7 @@ std::vector<CampaignChoice> read_campaigns(const std::string& name) {
   std::vector<std::string> known = machine_words();
   known.insert(known.begin(), kMixed);
   require_known("kind", "--kind", name, known);
-  return {{"", &find_machine(name)}};
+  return {{"", &find_machine(name, "--kind")}};
 }
 
 void check_drawn(const ValidationSetOrder& order) {

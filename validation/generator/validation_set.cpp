@@ -192,7 +192,7 @@ SetOrder read_order(const Json& truth) {
     order.seed = truth.at("seed").get<std::uint64_t>();
     order.runs = truth.at("runs").get<int>();
     order.noise_free = truth.at("noise_free").get<bool>();
-    order.machine = &find_machine(truth.value("kind", all_machines().front()->word));
+    order.machine = &find_machine(truth.value("kind", all_machines().front()->word), "kind");
     order.run_kind = read_run_kind(truth);
     if (truth.contains("baseline")) order.constant_rrc = truth.at("baseline") == "constant_rrc";
     for (const Json& effect : truth.at("effects")) read_effect(effect, order);
