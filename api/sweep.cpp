@@ -166,6 +166,14 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   const std::vector<std::string> shown = choose_shown(data_->input.shown, json, sweep);
   sweep.json = to_text(json);
   sweep.text = report::format_table(report::make_sweep_table(json, format_count(specs.size(), "run"), shown));
+  if (shown.empty()) {
+    sweep.text +=
+        wrap("The results of this scenario are lists, which a table does not have. --out and --json write them.", 0);
+  } else if (shown.size() < sweep.results.size()) {
+    sweep.text += wrap(fmt::format("{} of {} results are shown. --show names others, --out and --json write all.",
+                                   shown.size(), sweep.results.size()),
+                       0);
+  }
   files[0] = {"sweep.csv", make_csv(sweep)};
   files[1] = {"sweep.json", sweep.json};
   sweep.make_files = [files] { return files; };

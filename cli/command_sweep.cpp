@@ -37,7 +37,10 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->required()
       ->expected(1)
       ->take_all();
-  command->add_option("--show", options->sweep.shown, "Results in the terminal's table")->delimiter(',');
+  command
+      ->add_option("--show", options->sweep.shown,
+                   "Results in the terminal's table, with commas [the first that change]")
+      ->delimiter(',');
   command->add_option("--threads", options->sweep.threads, "Threads [as many as the machine has]")
       ->check(CLI::Range(1, 1024));
   options->output.add_to(*command, "File for the results, - for standard output",

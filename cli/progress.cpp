@@ -22,7 +22,7 @@ ProgressLine::ProgressLine(std::string label, bool quiet)
 
 ProgressLine::~ProgressLine() { clear(); }
 
-/// Writes spaces over the line, which no terminal takes for text.
+// By spaces, since not every terminal knows the escape sequence.
 void ProgressLine::clear() {
   if (shown_ > 0) fmt::print(stderr, "\r{:{}}\r", "", shown_);
   shown_ = 0;

@@ -20,6 +20,8 @@ class ProgressLine {
   /// Shows how far the work is, how long it will take, and `stage`: `done` goes from 0 to 1, and is NaN where the
   /// length of the work is not known. May be called from several threads.
   void update(double done, const std::string& stage = "");
+  /// Takes the line away, before a result is printed.
+  void clear();
   /// A callback for calls of the API.
   Progress callback();
 
@@ -28,7 +30,6 @@ class ProgressLine {
 
   /// Whether it is time for another update; notes that one was made.
   bool is_due();
-  void clear();
 
   std::string label_;
   bool active_;

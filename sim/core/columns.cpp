@@ -12,6 +12,7 @@ namespace rollrig {
 namespace {
 
 constexpr std::size_t kGap = 2;
+constexpr std::size_t kLongestNumber = 24;  // with a unit or an interval; what is longer is text
 
 struct TextColumn {
   std::size_t width = 0;
@@ -63,7 +64,8 @@ std::vector<TextColumn> measure_columns(const std::vector<std::vector<std::strin
     std::size_t body = 0;
     for (std::size_t row = has_header ? 1 : 0; row < rows.size(); ++row) {
       const std::string& cell = rows[row][i];
-      column.is_number &= has_header && (cell.empty() || cell.find_first_of("+-.0123456789") == 0);
+      const bool begins_as_one = cell.empty() || cell.find_first_of("+-.0123456789") == 0;
+      column.is_number &= has_header && begins_as_one && count_characters(cell) <= kLongestNumber;
       body = std::max(body, count_characters(cell));
     }
     for (const auto& row : rows) {

@@ -44,6 +44,7 @@ int run_tasks(const Ranks& ranks, const RunOptions& options, const std::string& 
                     fmt::format("{} of {} cases{}", done, of, order.ranks > 1 ? " of the first process" : ""));
   };
   const RunTally own = run_cases(order);
+  progress.clear();
   const auto sums = ranks.sum({own.kept, own.made, own.failures.size(), own.interrupted ? 1U : 0U});
   const bool is_stopped = sums[3] > 0;
   if (!options.quiet) {

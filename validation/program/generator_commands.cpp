@@ -78,7 +78,8 @@ int make_command(MakeOptions options) {
   order.effects = options.effects.empty() ? drawn_effects(order.campaigns, false) : read_effects(options.effects);
   check_drawn(order);
   cli::ProgressLine line("validation", false);
-  const auto hashed = [&order](const std::string& sha256) {
+  const auto hashed = [&order, &line](const std::string& sha256) {
+    line.clear();
     std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
     if (!std::cout) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
   };
@@ -89,6 +90,7 @@ int make_command(MakeOptions options) {
 int upper_bound_command(UpperBoundOrder order) {
   cli::ProgressLine line("validation", false);
   const std::size_t cases = write_upper_bounds(order, count_cases(line));
+  line.clear();
   std::cout << fmt::format("upper bound of {} cases with effects written to {}\n", cases, order.out);
   return cli::kDone;
 }
@@ -96,6 +98,7 @@ int upper_bound_command(UpperBoundOrder order) {
 int follow_up_command(const FollowUpOrder& order) {
   cli::ProgressLine line("validation", false);
   const std::size_t cases = write_follow_up(order, count_cases(line));
+  line.clear();
   std::cout << fmt::format("{} cases with their next test in {}/sets\n", cases, follow_up_folder(order));
   return cli::kDone;
 }

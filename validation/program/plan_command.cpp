@@ -40,6 +40,7 @@ int plan_command(PlanCommandOptions options) {
     progress.update(static_cast<double>(done) / static_cast<double>(of));
   };
   const std::vector<FollowUpPlan> plans = plan_follow_ups(order);
+  progress.clear();
   if (!options.quiet) {
     std::cout << summarize(plans, place_in(order.set, folder_of(order.choice)));
   }

@@ -9,6 +9,8 @@
 namespace rollrig::validation {
 namespace {
 
+constexpr char kFigures[] = "Figures";
+
 std::string show_bar(const Figure& figure, const std::optional<double>& value) {
   if (!value.has_value()) return "";
   return fmt::format("{} {}", figure.more_is_better ? "at least" : "at most", format_value(figure, value));
@@ -26,7 +28,7 @@ std::string strip(const std::string& label) { return label.substr(label.find_fir
 
 Table make_figures(const Score& score) {
   Table table{
-      "Figures", {"figure", "value", "95 %", "cases", "target", "limit", "", "best baseline", "ideal observer"}, {}};
+      kFigures, {"figure", "value", "95 %", "cases", "target", "limit", "", "best baseline", "ideal observer"}, {}};
   for (const Figure& figure : score.figures) {
     const bool is_share = figure.unit == Unit::kPercent && figure.value.has_value();
     std::string baseline = format_value(figure, figure.best_baseline);
@@ -132,10 +134,28 @@ std::vector<Table> make_score_tables(const Score& score) {
   return tables;
 }
 
+/// Figures in 80 columns, a note on what is missing below its line.
+std::string format_figures(const Score& score) {
+  constexpr char kRow[] = "{:<33}{:>7} {:>13} {:>7} {:>8} {:>7}\n";
+  std::string text = '\n' + fmt::format(kRow, "figure", "value", "95 %", "cases", "target", "best b.");
+  for (const Figure& figure : score.figures) {
+    const std::string target = format_value(figure, figure.target);
+    text += fmt::format(
+        kRow, figure.label, format_value(figure, figure.value), format_interval(figure.interval),
+        figure.interval.has_value() ? fmt::format("{}/{}", figure.k, figure.n) : fmt::format("{}", figure.n),
+        target == "-" ? target : (figure.more_is_better ? ">= " : "<= ") + target,
+        format_value(figure, figure.best_baseline));
+    if (!figure.value.has_value()) text += wrap(figure.note, 4);
+  }
+  return text + "Shares in %. best b.: the best of the baselines, - where none was run.\n";
+}
+
 std::string format_score(const Score& score) {
   std::string text = fmt::format("{} cases. Intervals are Wilson's, 95 %.\n", score.cases);
   for (const std::string& warning : score.warnings) text += wrap("warning: " + warning, 0);
+  text += format_figures(score);
   for (const Table& table : make_score_tables(score)) {
+    if (table.title == kFigures) continue;
     std::vector<std::vector<std::string>> rows{table.columns};
     rows.insert(rows.end(), table.rows.begin(), table.rows.end());
     text += '\n' + wrap(table.title, 0) + text_columns(rows, {true});

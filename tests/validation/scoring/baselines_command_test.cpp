@@ -35,7 +35,7 @@ TEST_CASE("a score fills the column of the best baseline where folders of baseli
   const auto score = run_validation("score set --json score.json", made.folder.path());
   INFO(score.err);
   CHECK(score.status == 0);
-  CHECK_THAT(score.out, Contains("baselines") && Contains("sparse"));
+  CHECK_THAT(score.out, Contains("Baselines") && Contains("LASSO"));
   std::istringstream in(score.out);
   for (std::string line; std::getline(in, line);) CHECK(line.size() <= 80);
   const auto figures = rollrig::Json::parse(read_file(made.folder.file("score.json")))["figures"];

@@ -187,7 +187,6 @@ TEST_CASE("the report fits the terminal and says each missed set", "[fast]") {
     CHECK_THAT(text, Catch::Contains(one.truth.number + " "));
     CHECK_THAT(page, Catch::Contains("| " + one.truth.number + " "));
   }
-  CHECK_THAT(text, Catch::Contains("ideal observer"));
   CHECK_THAT(page, Catch::Contains("| ideal observer |"));
   const Json json = validation::make_score_json(score);
   CHECK(json.at("figures").at(0).at("ceiling") == Approx(1.0));
