@@ -62,7 +62,7 @@ struct Cycle {
 
   /// How a cycle was read, on lines.
   static void visit_lines(ResultSheet& visit) {
-    visit(JointLine{"Averaged, load / skim", "{start_s} to {end_s} / {skim_start_s} to {skim_end_s}"});
+    visit(JointLine{"Averaging window, load / skim", "{start_s} to {end_s} / {skim_start_s} to {skim_end_s}"});
     visit(JointLine{"Drum torque, load / skim", "{drum_torque_Nm} / {skim_torque_Nm}"});
     visit(JointLine{"Parasitic loss (skim)", "{parasitic_N}"});
   }
