@@ -1,6 +1,6 @@
 #pragma once
 /// Methods that a diagnosis has to beat, on the same cases, with answers of the same form (docs/validation.md,
-/// "Baselines").
+/// "Simple methods").
 
 #include <string>
 #include <vector>
