@@ -11,9 +11,10 @@ namespace rollrig::tests {
 
 using Ids = std::vector<std::string>;
 
-inline diagnosis::DiagnosisOptions only(const Ids& ids) {
+inline diagnosis::DiagnosisOptions only(const Ids& ids, int threads = 0) {
   diagnosis::DiagnosisOptions options;
   options.only = ids;
+  options.threads = threads;
   return options;
 }
 

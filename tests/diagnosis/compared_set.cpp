@@ -69,8 +69,13 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
 ComparedSet::ComparedSet(const measurements::MeasurementSet& measured, const std::vector<std::string>& terms)
     : study(measured, with_terms(terms)), comparison(compare_models(study)) {}
 
-ComparedSet bearings_or_zero() {
+ComparedSet compare_bearings_or_zero() {
   return {measure_on_drum({act("bearing_warmup")}, {plan_skim_run()}), {"bearing_warmup", "torque_zero_drift"}};
+}
+
+const ComparedSet& bearings_or_zero() {
+  static const ComparedSet compared = compare_bearings_or_zero();
+  return compared;
 }
 
 std::vector<OpenHypothesis> make_open(const Study& study, const std::vector<std::string>& effects) {

@@ -30,7 +30,10 @@ struct ComparedSet {
 };
 
 /// A warm-up in which only what warms shows, with bearings that do: the torque's zero could drift as well.
-ComparedSet bearings_or_zero();
+ComparedSet compare_bearings_or_zero();
+
+/// The same, compared once for all tests that only read it.
+const ComparedSet& bearings_or_zero();
 
 /// The baseline ("none") and each of the effects, at the middle of its prior and as uncertain, all as likely.
 std::vector<diagnosis::OpenHypothesis> make_open(const diagnosis::Study& study,

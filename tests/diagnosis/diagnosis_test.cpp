@@ -9,6 +9,7 @@
 #include "diagnosis/comparison/prepared_set.h"
 #include "diagnosis/output/diagnosis_json.h"
 #include "sim/core/error.h"
+#include "tests/diagnosis/answers.h"
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
@@ -20,34 +21,21 @@ using diagnosis::diagnose;
 using diagnosis::Diagnosis;
 using diagnosis::DiagnosisOptions;
 using diagnosis::Verdict;
+using tests::contains;
+using tests::Ids;
+using tests::names;
+using tests::only;
 
 namespace {
 
-using Ids = std::vector<std::string>;
-
 /// Effects that the small diagnoses choose from.
-const Ids kFew{"bearing_warmup", "slow_leak", "load_exponent"};
-
-DiagnosisOptions only(const Ids& ids, int threads = 0) {
-  DiagnosisOptions options;
-  options.only = ids;
-  options.threads = threads;
-  return options;
-}
+const Ids kOfBearings{"bearing_warmup", "slow_leak", "load_exponent"};
 
 /// Bearings that warm in two runs, and noise.
 const measurements::MeasurementSet& warm_bearings() {
   static const auto set = tests::add_noise(
       tests::make_gap_set({tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0})}, 2), 1);
   return set;
-}
-
-bool holds(const Ids& ids, const std::string& id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
-
-bool names(const Diagnosis& diagnosis, const std::string& id) {
-  if (diagnosis.causes.empty()) return false;
-  const Cause& first = diagnosis.causes.front();
-  return holds(first.effects, id) || holds(first.indistinguishable_from, id);
 }
 
 std::string text_of(const Diagnosis& diagnosis) { return diagnosis::make_diagnosis_json(diagnosis).dump(); }
@@ -78,7 +66,7 @@ void check_sound(const Diagnosis& diagnosis) {
 }  // namespace
 
 TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", "[fast]") {
-  const Diagnosis found = diagnose(warm_bearings(), only(kFew));
+  const Diagnosis found = diagnose(warm_bearings(), only(kOfBearings));
   INFO(text_of(found));
   check_sound(found);
   CHECK(found.verdict == Verdict::kExplained);
@@ -97,7 +85,7 @@ TEST_CASE("bearings that warm are named, with their size, and the gap shrinks", 
 }
 
 TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause nearest", "[fast]") {
-  const Diagnosis found = diagnose(warm_bearings(), only(kFew));
+  const Diagnosis found = diagnose(warm_bearings(), only(kOfBearings));
   const diagnosis::PreparedSet set(warm_bearings());
   REQUIRE(found.fitted.recalibrated.size() == set.residual_count());
   REQUIRE(found.fitted.with_cause.size() == set.residual_count());
@@ -114,7 +102,7 @@ TEST_CASE("the curves of the fits lie nearer to the measurement, with the cause 
   // In noise floors, so that noise alone leaves about 1; the drift of a sensor may double it.
   CHECK(mean_square(found.fitted.with_cause) < 2.0);
   CHECK(mean_square(found.fitted.recalibrated) > 1.5 * mean_square(found.fitted.with_cause));
-  const Diagnosis without = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kFew));
+  const Diagnosis without = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kOfBearings));
   CHECK(without.fitted.with_cause.empty());
 }
 
@@ -127,7 +115,7 @@ TEST_CASE("the same answer from one thread or two, and from runs listed in anoth
 }
 
 TEST_CASE("noise alone has no gap and no cause", "[fast]") {
-  const Diagnosis found = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kFew));
+  const Diagnosis found = diagnose(tests::add_noise(tests::make_gap_set({}, 2), 6), only(kOfBearings));
   INFO(text_of(found));
   check_sound(found);
   CHECK(found.verdict == Verdict::kNoGap);
@@ -140,7 +128,7 @@ TEST_CASE("noise alone has no gap and no cause", "[fast]") {
     } else if (hypothesis == "unknown") {
       CHECK(probability < before.unknown + before.look_alike);
     } else {
-      CHECK(probability < (before.singles + before.pairs) / static_cast<double>(kFew.size()));
+      CHECK(probability < (before.singles + before.pairs) / static_cast<double>(kOfBearings.size()));
     }
   }
 }
@@ -160,7 +148,7 @@ TEST_CASE("three effects at once are named together", "[fast]") {
 }
 
 TEST_CASE("effects that are left out have no probability", "[fast]") {
-  DiagnosisOptions options = only(kFew);
+  DiagnosisOptions options = only(kOfBearings);
   options.without = {"bearing_warmup"};
   const Diagnosis found = diagnose(warm_bearings(), options);
   INFO(text_of(found));
@@ -266,10 +254,10 @@ TEST_CASE("of a set by the independent generator the same answer from one thread
 TEST_CASE("one run that stands apart does not hide what the others show", "[fast]") {
   auto set = tests::add_noise(
       tests::make_gap_set({tests::make_active(models::find_effect("bearing_warmup"), {0.02, 20.0, 15.0, 1.0})}, 4), 1);
-  CHECK_FALSE(diagnose(set, only(kFew)).without_run.has_value());
+  CHECK_FALSE(diagnose(set, only(kOfBearings)).without_run.has_value());
   std::vector<double>& torque_Nm = set.runs[2].columns.at("drum_torque_Nm");
   for (std::size_t row = torque_Nm.size() / 3; row < torque_Nm.size() / 2; ++row) torque_Nm[row] += 12.0;
-  const Diagnosis found = diagnose(set, only(kFew));
+  const Diagnosis found = diagnose(set, only(kOfBearings));
   CHECK(found.verdict == Verdict::kUnexplained);
   REQUIRE(found.without_run.has_value());
   CHECK(found.without_run->run == set.runs[2].id);

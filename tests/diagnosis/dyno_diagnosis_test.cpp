@@ -47,7 +47,7 @@ double calc_rms_of_loss(const measurements::MeasurementSet& a, const measurement
   return std::sqrt(squares / samples);
 }
 
-const Ids kFew{"driveline_warming", "slip_loss", "slow_leak", "rim_heat"};
+const Ids kOfDriving{"driveline_warming", "slip_loss", "slow_leak", "rim_heat"};
 
 }  // namespace
 
@@ -81,7 +81,7 @@ TEST_CASE("a loss force counts from 20 km/h, a temperature at every speed, both 
 }
 
 TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
-  const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_dyno_set({}, 2), 3), only(kFew));
+  const Diagnosis found = diagnosis::diagnose(tests::add_noise(make_dyno_set({}, 2), 3), only(kOfDriving));
   INFO(diagnosis::format_summary(found));
   CHECK(found.verdict == Verdict::kNoGap);
   CHECK(found.warnings.empty());
@@ -90,7 +90,7 @@ TEST_CASE("on a dynamometer noise alone is no gap", "[fast]") {
 
 TEST_CASE("a driveline that warms is named on a dynamometer, with its place and its equation", "[fast]") {
   const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("driveline_warming", 0.8)}, 3), 4);
-  const Diagnosis found = diagnose(set, only(kFew));
+  const Diagnosis found = diagnose(set, only(kOfDriving));
   INFO(diagnosis::format_summary(found));
   CHECK(names(found, "driveline_warming"));
   REQUIRE_FALSE(found.where.empty());
@@ -106,7 +106,7 @@ TEST_CASE("a driveline that warms is named on a dynamometer, with its place and 
 
 TEST_CASE("slip is named where a wheel drives and brakes", "[fast]") {
   const auto set = tests::add_noise(make_dyno_set({tests::make_effect_at("slip_loss", 0.5)}, 2), 5);
-  const Diagnosis found = diagnose(set, only(kFew));
+  const Diagnosis found = diagnose(set, only(kOfDriving));
   INFO(diagnosis::format_summary(found));
   CHECK(names(found, "slip_loss"));
   REQUIRE_FALSE(found.balance.empty());

@@ -4,17 +4,15 @@
 
 #include "diagnosis/diagnosis.h"
 #include "measurements/resimulation.h"
+#include "tests/diagnosis/answers.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
 #include "tests/support/machines.h"
 
 using namespace rollrig;
+using tests::contains;
 
 namespace {
-
-bool contains(const std::vector<std::string>& ids, const std::string& id) {
-  return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
 
 bool is_seen_on_drum(const models::EffectInfo& info) {
   return models::acts_in(info, tests::kDrum->traits, models::default_tire_model()) &&

@@ -9,19 +9,11 @@
 
 using namespace rollrig;
 using namespace rollrig::diagnosis;
+using tests::bearings_or_zero;
 using tests::make_open;
 
-namespace {
-
-const tests::ComparedSet& compared() {
-  static const tests::ComparedSet compared = tests::bearings_or_zero();
-  return compared;
-}
-
-}  // namespace
-
 TEST_CASE("a sensor tells what it is for, and nothing of what it does not see", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   const auto find = [](const std::vector<NextSensor>& sensors, const std::string& word) -> const NextSensor* {
     for (const NextSensor& one : sensors) {
       if (one.sensor.find(word) != std::string::npos) return &one;
@@ -51,13 +43,13 @@ TEST_CASE("a sensor tells what it is for, and nothing of what it does not see", 
 }
 
 TEST_CASE("identical hypotheses and a lone one leave no sensor worth its hours", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   CHECK(propose_sensors(study, make_open(study, {"rim_heat", "rim_heat"})).empty());
   CHECK(propose_sensors(study, make_open(study, {"rim_heat"})).empty());
 }
 
 TEST_CASE("a sensor that the rig has is not proposed", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   const PlannedTest test = make_drum_sensor_test(study.set);
   for (const Quantity& channel : study.set.channels()) {
     CHECK(std::find(test.extra.sensors.begin(), test.extra.sensors.end(), channel) == test.extra.sensors.end());
@@ -66,7 +58,7 @@ TEST_CASE("a sensor that the rig has is not proposed", "[fast]") {
 }
 
 TEST_CASE("weights on a lever are read with the gain that a bent sensor has at their torque", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   const models::Corner<double> corner(study.set.context(),
                                       {tests::make_active(models::find_effect("torque_gain"), {2.0, -0.3})});
   measurements::MeasuredRun run;

@@ -12,15 +12,11 @@
 
 using namespace rollrig;
 using namespace rollrig::diagnosis;
+using tests::bearings_or_zero;
 using tests::find_judged;
 using tests::make_open;
 
 namespace {
-
-const tests::ComparedSet& compared() {
-  static const tests::ComparedSet compared = tests::bearings_or_zero();
-  return compared;
-}
 
 const JudgedTest& find_described(const std::vector<JudgedTest>& judged, const std::string& description) {
   return *std::find_if(judged.begin(), judged.end(),
@@ -36,7 +32,7 @@ double calc_mean_bits_per_hour(const std::vector<JudgedTest>& judged) {
 }  // namespace
 
 TEST_CASE("every test of the menu runs on paper and takes its hours", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   std::set<std::string> ids;
   for (const PlannedTest& test : make_test_menu(study.set)) {
     INFO(test.id);
@@ -51,7 +47,7 @@ TEST_CASE("every test of the menu runs on paper and takes its hours", "[fast]") 
 }
 
 TEST_CASE("identical hypotheses leave nothing to learn, and none teaches more than there is to know", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   for (const JudgedTest& one : judge_tests(study, make_open(study, {"rim_heat", "rim_heat"}))) {
     INFO(one.test.id);
     CHECK(one.bits == Approx(0.0).margin(1e-6));
@@ -65,13 +61,13 @@ TEST_CASE("identical hypotheses leave nothing to learn, and none teaches more th
 }
 
 TEST_CASE("warming bearings and a drifting zero are split by the torque at standstill", "[fast]") {
-  const Study& study = compared().study;
-  std::vector<OpenHypothesis> open = compared().find_open();
+  const Study& study = bearings_or_zero().study;
+  std::vector<OpenHypothesis> open = bearings_or_zero().find_open();
   REQUIRE(open.size() >= 2);
   CHECK(open[0].hypothesis.names() == std::vector<std::string>{"bearing_warmup"});
   CHECK(open[1].hypothesis.names() == std::vector<std::string>{"torque_zero_drift"});
   CHECK(open[0].probability == Approx(open[1].probability));  // the set cannot tell them apart
-  const std::vector<diagnosis::ProposedTest> proposed = compared().propose();
+  const std::vector<diagnosis::ProposedTest> proposed = bearings_or_zero().propose();
   REQUIRE(!proposed.empty());
   std::vector<JudgedTest> judged = judge_tests(study, open);
   const std::string best = find_described(judged, proposed.front().test).test.id;
@@ -85,7 +81,7 @@ TEST_CASE("warming bearings and a drifting zero are split by the torque at stand
 }
 
 TEST_CASE("a proposal does not depend on the number of threads", "[fast]") {
-  tests::ComparedSet set = tests::bearings_or_zero();
+  tests::ComparedSet set = tests::compare_bearings_or_zero();
   set.study.settings.threads = 1;
   const std::vector<diagnosis::ProposedTest> one = set.propose();
   set.study.settings.threads = 2;
@@ -98,7 +94,7 @@ TEST_CASE("a proposal does not depend on the number of threads", "[fast]") {
 }
 
 TEST_CASE("bearings that warm and a loss of the tire in skim are split best by their row of the menu", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   const std::vector<JudgedTest> judged = judge_tests(study, make_open(study, {"bearing_warmup", "tire_loss_in_skim"}));
   const auto most = [&](const auto& value) {
     return *std::max_element(judged.begin(), judged.end(),
@@ -115,7 +111,7 @@ TEST_CASE("bearings that warm and a loss of the tire in skim are split best by t
 }
 
 TEST_CASE("readings beyond the usual channels tell what they are for", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   const auto clocks = judge_tests(study, make_open(study, {"none", "clock_shift"}));
   CHECK(find_judged(clocks, "speed_steps_with_pulse").bits > find_judged(clocks, "speed_steps_hot").bits);
   CHECK(find_judged(clocks, "standstill_torque").bits < 0.05);
@@ -137,7 +133,7 @@ TEST_CASE("without a gap the test is proposed that would show what is not exclud
 }
 
 TEST_CASE("weights on a lever read the zero and reversed rotation turns it over", "[fast]") {
-  const Study& study = compared().study;
+  const Study& study = bearings_or_zero().study;
   const auto zeros = judge_tests(study, make_open(study, {"none", "torque_zero_drift"}));
   // The drift is the same with weights on; a tire standing for minutes shows less of it than before and after a run.
   CHECK(find_judged(zeros, "dead_weights").bits < find_judged(zeros, "standstill_torque").bits);
@@ -171,7 +167,7 @@ TEST_CASE("to repeat a run that could not show an effect tells next to nothing o
 }
 
 TEST_CASE("with nothing open no test is proposed", "[fast]") {
-  tests::ComparedSet compared = tests::bearings_or_zero();
+  tests::ComparedSet compared = tests::compare_bearings_or_zero();
   compared.comparison.candidates.resize(1);
   compared.study.settings.terms.clear();
   CHECK(compared.propose().empty());
