@@ -110,12 +110,12 @@ std::string format_loss(const Loss& loss) {
 }
 
 std::string format_conversion(const ConvertedLoss& converted) {
-  scenarios::ResultTable table{"", {"factor", "equation", "from", "to", "of the force"}, {}};
+  Table table{"", {"factor", "equation", "from", "to", "of the force"}, {}};
   for (const auto& [name, equation, from, to, factor] : converted.factors) {
     table.rows.push_back({name, equation, from, to, fmt::format("{:.4f}", factor)});
   }
   table.rows.push_back({"product", "", "", "", fmt::format("{:.4f}", converted.force_factor)});
-  std::string text = "convert   " + format_loss(converted.given) + "\n" + report::format_table(table);
+  std::string text = "convert   " + format_loss(converted.given) + "\n" + format_table(table);
   text += fmt::format("  converted  {}\n", format_loss(converted.result));
   for (const std::string& warning : converted.warnings) text += wrap("warning: " + warning, 2);
   return text;

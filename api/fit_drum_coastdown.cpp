@@ -21,8 +21,7 @@ std::string format_drum_coastdown(const estimation::CoastSet& set, const estimat
   text += fmt::format("  pulses rejected: {} missed, {} double, {} other\n", missed, doubled, other);
   text += fmt::format("  reference: {:.1f} kPa, {:.1f} km/h\n", fit.reference_pressure_Pa / 1e3,
                       3.6 * set.reference_speed_m_s);
-  for (const scenarios::ResultTable& table : report::make_drum_coastdown_tables(set, fit))
-    text += report::format_table(table);
+  for (const Table& table : report::make_drum_coastdown_tables(set, fit)) text += format_table(table);
   for (const std::string& warning : fit.warnings) text += wrap("warning: " + warning, 2);
   return text;
 }

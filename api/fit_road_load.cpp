@@ -20,14 +20,14 @@ constexpr double kPerKmh = 1.0 / 3.6;
 
 std::string format_forces(const RoadLoadFit& fit) {
   const std::string unit = fit.per_mass ? "m/s2" : "N";
-  scenarios::ResultTable table{"", {"speed, km/h", "force, " + unit, "sd, " + unit, ""}, {}};
+  Table table{"", {"speed, km/h", "force, " + unit, "sd, " + unit, ""}, {}};
   for (const double km_h : {20.0, 50.0, 80.0, 100.0, 130.0}) {
     const double speed = kPerKmh * km_h;
     const bool outside = speed < fit.low_m_s - 0.1 || speed > fit.high_m_s + 0.1;
     table.rows.push_back({fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", fit.force_N(speed)),
                           fmt::format("{:.2g}", fit.force_sd_N(speed)), outside ? "outside the data" : ""});
   }
-  return report::format_table(table);
+  return format_table(table);
 }
 
 std::string format_scatter(const RoadLoadFit& fit) {
@@ -81,7 +81,7 @@ std::string format_road_load(const std::string& path, const CoastdownFile& file,
     text += fmt::format("  effective mass {:.6g} kg{}\n", fit.effective_mass_kg,
                         options.rotating_mass_kg.has_value() ? "" : ", of which 3 % of the test mass rotate (Assumed)");
   }
-  text += report::format_table(
+  text += format_table(
       report::make_coefficient_table(fit, "At reference conditions, with standard deviation and 95 % interval"));
   text += format_forces(fit) + format_scatter(fit) + format_checks(checks);
   for (const std::string& warning : fit.warnings) text += wrap("warning: " + warning, 2);

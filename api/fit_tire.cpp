@@ -19,10 +19,10 @@ std::string drop_table(const std::string& key) {
   return key;
 }
 
-scenarios::ResultTable make_table(const estimation::TireFit& fit) {
-  scenarios::ResultTable table{"Fitted, with standard uncertainty and 95 % interval (* beside a prior)",
-                               {"parameter", "value", "sd", "from", "to"},
-                               {}};
+Table make_table(const estimation::TireFit& fit) {
+  Table table{"Fitted, with standard uncertainty and 95 % interval (* beside a prior)",
+              {"parameter", "value", "sd", "from", "to"},
+              {}};
   for (const estimation::Estimate& estimate : fit.estimates) {
     const auto number = [](double value) { return fmt::format("{:.4g}", value); };
     table.rows.push_back({drop_table(estimation::find_file_key(estimate.key)) + (estimate.nuisance ? " *" : ""),
@@ -34,13 +34,13 @@ scenarios::ResultTable make_table(const estimation::TireFit& fit) {
 
 std::string format_tire_fit(const measurements::MeasurementSet& set, const estimation::TireFit& fit) {
   std::string text = fmt::format("fit tire   set {}   tire {}   rig {}\n", set.name, set.tire.name, set.rig->name);
-  text += report::format_table(make_table(fit));
-  scenarios::ResultTable channels{"", {"channel", "samples", "rest, in units of the sensor's noise"}, {}};
+  text += format_table(make_table(fit));
+  Table channels{"", {"channel", "samples", "rest, in units of the sensor's noise"}, {}};
   for (const estimation::ChannelFit& channel : fit.channels) {
     channels.rows.push_back(
         {channel.channel.header(), std::to_string(channel.samples), fmt::format("{:.3f}", channel.whitened_rms)});
   }
-  text += report::format_table(channels);
+  text += format_table(channels);
   const estimation::TwoStepEstimate& two_step = fit.two_step;
   text += wrap(fmt::format("two-step regression (start of the fit): A0 {:.4g} N, A1 {:.4g} N s/m, B0 "
                            "{:.4g} 1/degC, B1 {:.4g} s/(m degC), z {:.4g} W/K, f {:.4g} W s/(m K){}",

@@ -20,12 +20,12 @@ std::string format_clock(const measurements::ClockEstimate& clock) {
   text += fmt::format("    shift {:+.3f} +- {:.3f} s (1 sd), {}\n", clock.clock.shift_s, clock.calc_shift_sd_s(), how);
   text += fmt::format("    rate  {:+.1f} +- {:.1f} ppm{}\n", 1e6 * clock.clock.rate, 1e6 * clock.rate_sd,
                       clock.rate_is_decided ? "" : ", not decided by the logs");
-  std::vector<std::vector<std::string>> rows{{"channel", "rows", "follows the torque log, %"}};
+  Table table{"", {"channel", "rows", "follows the torque log, %"}, {}};
   for (const measurements::ClockEvidence& evidence : clock.evidence) {
-    rows.push_back(
+    table.rows.push_back(
         {evidence.channel.header(), std::to_string(evidence.rows), fmt::format("{:.1f}", 100.0 * evidence.explained)});
   }
-  return rows.size() > 1 ? text + text_columns(rows, {true, 4}) : text;
+  return table.rows.empty() ? text : text + format_table(table, 4);
 }
 
 std::string format_run(const measurements::ImportedRun& run) {

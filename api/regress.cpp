@@ -62,12 +62,12 @@ void regress_run(const std::string& folder, RegressedRun& run) {
 }
 
 std::string format_regression(const std::vector<RegressedRun>& runs) {
-  scenarios::ResultTable table{"", {"run", "status", "values", "worst, share of tolerance"}, {}};
+  Table table{"", {"run", "status", "values", "worst, share of tolerance"}, {}};
   for (const RegressedRun& run : runs) {
     const std::string worst = run.worst_quantity.empty() ? "-" : fmt::format("{:.2g}", run.worst_share);
     table.rows.push_back({run.name, run.status, fmt::format("{}", run.compared), worst});
   }
-  std::string text = report::format_table(table);
+  std::string text = format_table(table);
   for (const RegressedRun& run : runs) {
     if (run.status == "same" || run.problems.empty()) continue;
     text += run.name + "\n";

@@ -165,7 +165,7 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   }
   const std::vector<std::string> shown = choose_shown(data_->input.shown, json, sweep);
   sweep.json = to_text(json);
-  sweep.text = report::format_table(report::make_sweep_table(json, format_count(specs.size(), "run"), shown));
+  sweep.text = format_table(report::make_sweep_table(json, format_count(specs.size(), "run"), shown));
   if (shown.empty()) {
     sweep.text +=
         wrap("The results of this scenario are lists, which a table does not have. --out and --json write them.", 0);

@@ -45,7 +45,7 @@ Block make_lines(const std::vector<scenarios::ResultLine>& lines) {
   return block;
 }
 
-Block make_table(const scenarios::ResultTable& table) {
+Block make_table(const Table& table) {
   Block block = {{"type", "table"}, {"columns", Json::array()}, {"rows", table.rows}};
   if (!table.title.empty()) block["caption"] = table.title;
   for (const std::string& column : table.columns) block["columns"].push_back({{"label", pretty_unit(column)}});

@@ -21,7 +21,7 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
                  std::size_t most = kMostPoints);
 
 Block make_lines(const std::vector<scenarios::ResultLine>& lines);
-Block make_table(const scenarios::ResultTable& table);
+Block make_table(const Table& table);
 
 /// What an axis of a chart shows.
 struct Axis {

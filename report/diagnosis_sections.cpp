@@ -39,9 +39,9 @@ std::string describe_shrinkage(const Gap& gap) {
 }
 
 Block make_parameter_table(const Cause& cause) {
-  scenarios::ResultTable table{"Fitted size of " + fmt::format("{}", fmt::join(cause.effects, " and ")),
-                               {"parameter", "value", "sd", "95 % from", "to", "unit"},
-                               {}};
+  Table table{"Fitted size of " + fmt::format("{}", fmt::join(cause.effects, " and ")),
+              {"parameter", "value", "sd", "95 % from", "to", "unit"},
+              {}};
   for (const ParameterEstimate& at : cause.parameters) {
     table.rows.push_back({at.name, fmt::format("{:.4g}", at.value), fmt::format("{:.2g}", at.sd),
                           fmt::format("{:.4g}", at.low_95), fmt::format("{:.4g}", at.high_95), pretty_unit(at.unit)});
@@ -70,8 +70,7 @@ Block make_probabilities(const Findings& findings) {
 }
 
 Block make_ranking(const Findings& findings) {
-  scenarios::ResultTable table{
-      "Causes, the likeliest first", {"cause", "probability", "cannot be told from", "size", "adequate"}, {}};
+  Table table{"Causes, the likeliest first", {"cause", "probability", "cannot be told from", "size", "adequate"}, {}};
   for (const Cause& cause : findings.causes) {
     const bool sized = !cause.parameters.empty();
     table.rows.push_back({fmt::format("{}", fmt::join(cause.effects, " + ")), show_probability(cause.probability),
@@ -82,8 +81,7 @@ Block make_ranking(const Findings& findings) {
 }
 
 Block make_channel_gaps(const Findings& findings) {
-  scenarios::ResultTable table{
-      "Gap of each channel, without noise, on held-out runs", {"channel", "before", "after", "unit"}, {}};
+  Table table{"Gap of each channel, without noise, on held-out runs", {"channel", "before", "after", "unit"}, {}};
   for (const ChannelGap& at : findings.gap.channels) {
     table.rows.push_back({plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after),
                           pretty_unit(at.unit)});
@@ -226,14 +224,13 @@ Section make_next(const Findings& findings) {
       make_paragraph(findings.not_excluded.empty()
                          ? std::string("Not excluded: nothing; each effect at its usual size would have shown.")
                          : "Not excluded, since this set need not show them: " + join(findings.not_excluded) + "."));
-  scenarios::ResultTable tests{
-      "Next tests, the most telling first", {"test", "tells apart", "bits an hour", "hours"}, {}};
+  Table tests{"Next tests, the most telling first", {"test", "tells apart", "bits an hour", "hours"}, {}};
   for (const NextTest& next : findings.next_tests) {
     tests.rows.push_back({next.test, next.splits.empty() ? "-" : join(next.splits),
                           fmt::format("{:.2f}", next.expected_bits_per_hour), fmt::format("{:.1f}", next.hours)});
   }
   if (!tests.rows.empty()) section.blocks.push_back(make_table(tests));
-  scenarios::ResultTable sensors{"Sensors that the rig has not", {"sensor", "tells apart", "bits", "hours to fit"}, {}};
+  Table sensors{"Sensors that the rig has not", {"sensor", "tells apart", "bits", "hours to fit"}, {}};
   for (const NextSensor& next : findings.next_sensors) {
     sensors.rows.push_back({next.sensor, next.splits.empty() ? "-" : join(next.splits),
                             fmt::format("{:.2f}", next.expected_bits), fmt::format("{:.2g}", next.hours)});

@@ -72,10 +72,10 @@ std::string show(const std::optional<Interval>& interval, double unit = 1.0, con
                      number(interval->upper / unit));
 }
 
-scenarios::ResultTable make_level_table(const DrumCoastdownFit& fit, bool forces) {
-  scenarios::ResultTable table{"Net of the drum's own loss, with 95 % interval; * interpolated",
-                               {"km/h", "kPa", "runs", forces ? "force N" : "net mm/s2", "over the reference"},
-                               {}};
+Table make_level_table(const DrumCoastdownFit& fit, bool forces) {
+  Table table{"Net of the drum's own loss, with 95 % interval; * interpolated",
+              {"km/h", "kPa", "runs", forces ? "force N" : "net mm/s2", "over the reference"},
+              {}};
   for (const SpeedPoint& point : fit.points) {
     for (const PressureLevel& level : point.levels) {
       table.rows.push_back({fmt::format("{:.1f}{}", 3.6 * point.speed_m_s, level.in_range_left_out ? "*" : ""),
@@ -87,8 +87,8 @@ scenarios::ResultTable make_level_table(const DrumCoastdownFit& fit, bool forces
   return table;
 }
 
-scenarios::ResultTable make_speed_table(const DrumCoastdownFit& fit) {
-  scenarios::ResultTable table{
+Table make_speed_table(const DrumCoastdownFit& fit) {
+  Table table{
       "Drum alone; its standard deviation from run to run", {"km/h", "drum alone mm/s2", "repeatability %"}, {}};
   for (const SpeedPoint& point : fit.points) {
     table.rows.push_back({fmt::format("{:.1f}", 3.6 * point.speed_m_s), show(point.drum_alone_m_s2, 1e-3, "{:.2f}"),
@@ -97,10 +97,10 @@ scenarios::ResultTable make_speed_table(const DrumCoastdownFit& fit) {
   return table;
 }
 
-scenarios::ResultTable make_law_table(const DrumCoastdownFit& fit) {
+Table make_law_table(const DrumCoastdownFit& fit) {
   const std::string difference =
       fit.directions.size() == 2 ? fmt::format("{} over {} %", fit.directions[0], fit.directions[1]) : "directions %";
-  scenarios::ResultTable table{
+  Table table{
       "Exponent of gauge pressure; difference of directions", {"km/h", "exponent", difference, "sd of one %"}, {}};
   for (const SpeedPoint& point : fit.points) {
     table.rows.push_back({fmt::format("{:.1f}", 3.6 * point.speed_m_s), show(point.pressure_exponent),
@@ -143,7 +143,7 @@ Block make_drum_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit)
 
 }  // namespace
 
-std::vector<scenarios::ResultTable> make_drum_coastdown_tables(const CoastSet& set, const DrumCoastdownFit& fit) {
+std::vector<Table> make_drum_coastdown_tables(const CoastSet& set, const DrumCoastdownFit& fit) {
   return {make_level_table(fit, set.calc_drum_mass_kg().has_value()), make_speed_table(fit), make_law_table(fit)};
 }
 
@@ -153,8 +153,7 @@ Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) 
                         fit.reference_pressure_Pa / 1e3, kKmhPerMs * set.reference_speed_m_s)};
   Section result = begin_section("Result", fit.warnings);
   result.blocks.push_back(make_net_chart(set, fit));
-  for (const scenarios::ResultTable& table : make_drum_coastdown_tables(set, fit))
-    result.blocks.push_back(make_table(table));
+  for (const Table& table : make_drum_coastdown_tables(set, fit)) result.blocks.push_back(make_table(table));
   page.add(std::move(result));
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });

@@ -18,11 +18,10 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
                          const estimation::RoadLoadFit& fit, const estimation::RoadLoadChecks& checks);
 
 /// A, B, C with standard deviation and 95 % interval, or their bound.
-scenarios::ResultTable make_coefficient_table(const estimation::RoadLoadFit& fit, const std::string& title);
+Table make_coefficient_table(const estimation::RoadLoadFit& fit, const std::string& title);
 
 /// Net force or deceleration by speed and pressure, the drum alone, exponent of pressure and difference of directions.
-std::vector<scenarios::ResultTable> make_drum_coastdown_tables(const estimation::CoastSet& set,
-                                                               const estimation::DrumCoastdownFit& fit);
+std::vector<Table> make_drum_coastdown_tables(const estimation::CoastSet& set, const estimation::DrumCoastdownFit& fit);
 
 /// Net force or deceleration by speed and pressure with intervals, exponent of pressure, residuals of the coasts.
 Page make_drum_coastdown_page(const estimation::CoastSet& set, const estimation::DrumCoastdownFit& fit);

@@ -15,8 +15,7 @@ using diagnosis::Shared;
 using diagnosis::show_probability;
 
 Block make_members(const Fleet& fleet) {
-  scenarios::ResultTable table{
-      "", {"set", "machine", "tire", "verdict", "cause", "probability", "gap before", "after"}, {}};
+  Table table{"", {"set", "machine", "tire", "verdict", "cause", "probability", "gap before", "after"}, {}};
   for (const FleetMember& member : fleet.members) {
     std::vector<std::string> row{member.folder, member.machine, member.tire};
     if (!member.findings.has_value()) {
@@ -48,7 +47,7 @@ std::string name_shared(const Recurrence& at) {
 }
 
 Block make_recurrences(const Fleet& fleet) {
-  scenarios::ResultTable table{
+  Table table{
       "", {"effect", "with", "sets", "named in", "probability that it acts in all", "mean size", "sd", "unit"}, {}};
   for (const Recurrence& at : fleet.recurrences) {
     table.rows.push_back(

@@ -85,9 +85,8 @@ std::vector<std::string> list_changing(const Json& sweep) {
   return keys;
 }
 
-scenarios::ResultTable make_sweep_table(const Json& sweep, const std::string& title,
-                                        const std::vector<std::string>& keys) {
-  scenarios::ResultTable table{title, find_axes(sweep), {}};
+Table make_sweep_table(const Json& sweep, const std::string& title, const std::vector<std::string>& keys) {
+  Table table{title, find_axes(sweep), {}};
   table.columns.insert(table.columns.end(), keys.begin(), keys.end());
   for (const Json& point : sweep["points"]) {
     std::vector<std::string> row;
@@ -121,7 +120,7 @@ Page make_regress_page(const Json& regression) {
   const Json& runs = regression["runs"];
   std::size_t good = 0;
   std::vector<std::string> problems;
-  scenarios::ResultTable table{"", {"run", "status", "values", "worst, share of tolerance", "of"}, {}};
+  Table table{"", {"run", "status", "values", "worst, share of tolerance", "of"}, {}};
   Json names = Json::array();
   Json shares = Json::array();
   for (const Json& run : runs) {

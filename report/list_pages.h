@@ -15,8 +15,7 @@ std::vector<std::string> list_numbers(const Json& sweep);
 std::vector<std::string> list_changing(const Json& sweep);
 
 /// A row a point of a sweep's document: what is set, then the results of `keys`.
-scenarios::ResultTable make_sweep_table(const Json& sweep, const std::string& title,
-                                        const std::vector<std::string>& keys);
+Table make_sweep_table(const Json& sweep, const std::string& title, const std::vector<std::string>& keys);
 
 /// Of the sweep's document (rollrig-sweep/1): results over what is varied, and a table of all points. `shown` are the
 /// results that have a chart; where none is named, those that change.

@@ -77,7 +77,7 @@ Block make_road_residual_chart(const estimation::CoastdownFile& file, const Road
 }
 
 Block make_checks(const estimation::RoadLoadChecks& checks) {
-  scenarios::ResultTable table{"What the standards ask of coastdowns", {"check", "", "found", "limit", "clause"}, {}};
+  Table table{"What the standards ask of coastdowns", {"check", "", "found", "limit", "clause"}, {}};
   for (const estimation::RoadLoadCheck& check : checks.checks) {
     table.rows.push_back({check.name, estimation::name_of(check.status), check.found, check.limit, check.clause});
   }
@@ -86,8 +86,8 @@ Block make_checks(const estimation::RoadLoadChecks& checks) {
 
 }  // namespace
 
-scenarios::ResultTable make_coefficient_table(const RoadLoadFit& fit, const std::string& title) {
-  scenarios::ResultTable table{title, {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
+Table make_coefficient_table(const RoadLoadFit& fit, const std::string& title) {
+  Table table{title, {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
   for (int i = 0; i < 3; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };

@@ -54,7 +54,7 @@ std::string make_subtitle(const scenarios::RunSpec& spec) {
 Section make_result(const scenarios::Outcome& outcome) {
   Section section = begin_section("Result", outcome.warnings);
   if (!outcome.sheet.lines.empty()) section.blocks.push_back(make_lines(outcome.sheet.lines));
-  for (const scenarios::ResultTable& table : outcome.sheet.tables) section.blocks.push_back(make_table(table));
+  for (const Table& table : outcome.sheet.tables) section.blocks.push_back(make_table(table));
   return section;
 }
 

@@ -14,12 +14,6 @@ std::string format_lines(const std::vector<scenarios::ResultLine>& lines) {
   return text_columns(rows);
 }
 
-std::string format_table(const scenarios::ResultTable& table) {
-  std::vector<std::vector<std::string>> rows{table.columns};
-  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
-  return (table.title.empty() ? "" : wrap(table.title, 2)) + text_columns(rows, {true});
-}
-
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   using Ledger = sim::EnergyTerm::Ledger;
   std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name, spec.tire.name,
@@ -43,7 +37,7 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
     text += wrap("effects on:" + names, 2);
   }
   text += format_lines(outcome.sheet.lines);
-  for (const scenarios::ResultTable& table : outcome.sheet.tables) text += format_table(table);
+  for (const Table& table : outcome.sheet.tables) text += format_table(table);
   const sim::EnergyAudit& audit = outcome.recording.audit;
   text += fmt::format("  energy balance: error of {:.1e} (mechanical) and {:.1e} (thermal) of the work\n",
                       audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));

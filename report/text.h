@@ -12,9 +12,6 @@ namespace rollrig::report {
 /// Label and value lines, values aligned.
 std::string format_lines(const std::vector<scenarios::ResultLine>& lines);
 
-/// A table: columns of numbers stand to the right.
-std::string format_table(const scenarios::ResultTable& table);
-
 /// Header, lines, tables and warnings of a run.
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
 

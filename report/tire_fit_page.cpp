@@ -23,9 +23,9 @@ std::optional<double> find_two_step(const Json& two_step, const std::string& key
 }
 
 Block make_parameters(const TireFit& fit, const Json& two_steps) {
-  scenarios::ResultTable table{"Parameters with their 95 % intervals",
-                               {"parameter", "value", "sd", "from", "to", "unit", "two-step regression", ""},
-                               {}};
+  Table table{"Parameters with their 95 % intervals",
+              {"parameter", "value", "sd", "from", "to", "unit", "two-step regression", ""},
+              {}};
   for (const Estimate& at : fit.estimates) {
     const std::optional<double> two_step = find_two_step(two_steps, at.key);
     table.rows.push_back({estimation::find_file_key(at.key), fmt::format("{:.5g}", at.value),
@@ -58,8 +58,7 @@ Block make_intervals(const TireFit& fit, const Json& two_steps) {
 }
 
 Block make_channels(const TireFit& fit) {
-  scenarios::ResultTable table{
-      "What is left, whitened: 1 is the noise that the sensors' table says", {"channel", "samples", "rms"}, {}};
+  Table table{"What is left, whitened: 1 is the noise that the sensors' table says", {"channel", "samples", "rms"}, {}};
   for (const estimation::ChannelFit& at : fit.channels) {
     table.rows.push_back({at.channel.header(), fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
   }

@@ -123,11 +123,11 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
 }
 
 std::string format_fleet(const Fleet& fleet) {
-  std::vector<std::vector<std::string>> rows{{"Set", "Verdict", "Cause", "Prob.", "Gap, floors"}};
+  Table table{"", {"Set", "Verdict", "Cause", "Prob.", "Gap, floors"}, {}};
   for (const FleetMember& member : fleet.members) {
     const std::string name = name_of(member);
     if (!member.findings) {
-      rows.push_back({name, "failed", "see below", "", ""});
+      table.rows.push_back({name, "failed", "see below", "", ""});
       continue;
     }
     const Findings& one = *member.findings;
@@ -135,11 +135,11 @@ std::string format_fleet(const Fleet& fleet) {
     const double probability = explained                        ? one.causes.front().probability
                                : one.verdict == Verdict::kNoGap ? one.probability.at("none")
                                                                 : one.probability.at("unknown");
-    rows.push_back({name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
-                    explained ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "",
-                    one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one)});
+    table.rows.push_back({name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
+                          explained ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "",
+                          one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one)});
   }
-  std::string text = text_columns(rows, {true, 0}) + format_troubles(fleet) + "\nComes back from set to set\n";
+  std::string text = format_table(table, 0) + format_troubles(fleet) + "\nComes back from set to set\n";
   if (fleet.recurrences.empty()) text += "  nothing\n";
   for (const Recurrence& one : fleet.recurrences) text += wrap(describe_recurrence(one), 2);
   return text;

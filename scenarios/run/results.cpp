@@ -88,7 +88,7 @@ void ResultSheet::add(const ResultList& list, const ResultSheet& declared, const
   for (std::size_t i = 0; i + (has_total ? 1 : 0) < sheets.size(); ++i) json[list.key].push_back(sheets[i].json);
   for (const std::size_t at : {0U, 1U}) {
     if (sheets.empty() || declared.headings_[at].empty()) continue;
-    ResultTable table{at == 0 ? list.title : list.second_title, declared.headings_[at], {}};
+    Table table{at == 0 ? list.title : list.second_title, declared.headings_[at], {}};
     for (const ResultSheet& sheet : sheets) table.rows.push_back(sheet.cells_[at]);
     tables.push_back(std::move(table));
   }

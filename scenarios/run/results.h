@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/columns.h"
 #include "sim/core/json.h"
 #include "sim/core/units.h"
 
@@ -18,13 +19,6 @@ struct ResultLine {
   std::string label;
   std::string value;
   std::string key = {};  // of the result that it shows, where it is a single one
-};
-
-/// A table with several columns, for what was measured at several points.
-struct ResultTable {
-  std::string title;
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
 };
 
 /// A quantity of `result`, for the reference page and `rollrig describe`.
@@ -78,7 +72,7 @@ class ResultSheet {
  public:
   Json json = Json::object();  // `result` of result.json
   std::vector<ResultLine> lines;
-  std::vector<ResultTable> tables;
+  std::vector<Table> tables;      // of what was measured at several points
   std::vector<ResultInfo> infos;  // a record's result as "cycles[].load_N"
 
   /// The sheet of a struct with a visit(ResultSheet&).

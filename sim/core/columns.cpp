@@ -146,4 +146,10 @@ std::string text_columns(const std::vector<std::vector<std::string>>& rows, cons
   return text;
 }
 
+std::string format_table(const Table& table, std::size_t indent) {
+  std::vector<std::vector<std::string>> rows{table.columns};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  return (table.title.empty() ? "" : wrap(table.title, indent)) + text_columns(rows, {true, indent});
+}
+
 }  // namespace rollrig

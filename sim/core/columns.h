@@ -22,4 +22,14 @@ struct ColumnStyle {
 /// Checked  tests/core/columns_test.cpp
 std::string text_columns(const std::vector<std::vector<std::string>>& rows, const ColumnStyle& style = {});
 
+/// What a terminal, a page or a document shows as a table.
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// The table below its title, if it has one.
+std::string format_table(const Table& table, std::size_t indent = 2);
+
 }  // namespace rollrig

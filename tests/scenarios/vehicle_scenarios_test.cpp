@@ -76,25 +76,25 @@ TEST_CASE("the work of a driver who takes over at another speed is in the audit"
 
 TEST_CASE("the tables of a multi-cycle test end with the whole test", "[fast]") {
   const auto outcome = run_on("dyno_1m2", "sae_j1634", {"wheels=1", "variant=source", "mid_min=5", "end_min=5"});
-  const std::vector<scenarios::ResultTable>& tables = outcome.sheet.tables;
+  const std::vector<Table>& tables = outcome.sheet.tables;
   REQUIRE(tables.size() == 2);
-  const auto sum_of = [](const scenarios::ResultTable& table, std::size_t column) {
+  const auto sum_of = [](const Table& table, std::size_t column) {
     double sum = 0.0;
     for (std::size_t row = 0; row + 1 < table.rows.size(); ++row) sum += std::stod(table.rows[row][column]);
     return sum;
   };
-  for (const scenarios::ResultTable& table : tables) {
+  for (const Table& table : tables) {
     REQUIRE(table.rows.size() == outcome.result["sections"].size() + 1);
     CHECK(table.rows.back().front() == "all sections");
   }
   // Each row is rounded by itself: half a digit for each of the eight sections and the sum.
-  const scenarios::ResultTable& tire = tables[0];
+  const Table& tire = tables[0];
   CHECK(std::stod(tire.rows.back()[1]) == Approx(sum_of(tire, 1)).margin(9 * 0.005));
   CHECK(std::stod(tire.rows.back()[2]) == Approx(sum_of(tire, 2)).margin(9 * 0.05));
   CHECK(std::stod(tire.rows.back()[3]) == Approx(sum_of(tire, 3)).margin(9 * 0.05));
   CHECK(std::stod(tire.rows.back()[4]) ==
         Approx(100.0 * (sum_of(tire, 2) / sum_of(tire, 3) - 1.0)).margin(0.05 + 100.0 * 0.9 / sum_of(tire, 3)));
-  const scenarios::ResultTable& vehicle = tables[1];
+  const Table& vehicle = tables[1];
   for (const std::size_t column : {3U, 4U, 5U}) {
     CHECK(std::stod(vehicle.rows.back()[column]) == Approx(sum_of(vehicle, column)).margin(9 * 0.5));
   }

@@ -4,17 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/columns.h"
 #include "sim/core/json.h"
 #include "validation/scoring/score.h"
 
 namespace rollrig::validation {
-
-/// A table of terminal and page.
-struct Table {
-  std::string title;
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-};
 
 /// The tables of make_score_tables, as wide as the terminal.
 std::string format_score(const Score& score);

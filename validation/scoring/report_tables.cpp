@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/core/columns.h"
 #include "sim/core/text.h"
 #include "validation/scoring/report.h"
 
@@ -155,10 +154,7 @@ std::string format_score(const Score& score) {
   for (const std::string& warning : score.warnings) text += wrap("warning: " + warning, 0);
   text += format_figures(score);
   for (const Table& table : make_score_tables(score)) {
-    if (table.title == kFigures) continue;
-    std::vector<std::vector<std::string>> rows{table.columns};
-    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
-    text += '\n' + wrap(table.title, 0) + text_columns(rows, {true});
+    if (table.title != kFigures) text += '\n' + format_table(table);
   }
   return text;
 }

@@ -69,7 +69,7 @@ validation::Case case_of(const std::string& set, const validation::Answer& answe
 
 /// What a case's next test left of the named set, and how that is judged.
 std::string find_outcome(const validation::Score& score, const validation::Case& one) {
-  const validation::Table table = validation::make_follow_up_tables(score).front();
+  const Table table = validation::make_follow_up_tables(score).front();
   for (const auto& row : table.rows) {
     if (row.front() == one.truth.number + " " + one.truth.campaign) return row[4] + ": " + row.back();
   }
