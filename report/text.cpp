@@ -39,7 +39,7 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
   text += format_lines(outcome.sheet.lines);
   for (const Table& table : outcome.sheet.tables) text += format_table(table);
   const sim::EnergyAudit& audit = outcome.recording.audit;
-  text += fmt::format("  energy balance: error of {:.1e} (mechanical) and {:.1e} (thermal) of the work\n",
+  text += fmt::format("  energy balance: error {:.1e} (mechanical), {:.1e} (thermal) of the work done\n",
                       audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));
   for (const std::string& warning : outcome.warnings) text += wrap("warning: " + warning, 2);
   return text;

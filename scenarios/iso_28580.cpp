@@ -59,8 +59,8 @@ struct Results {
     visit(JointLine{"RRc", "{rrc_N_per_kN}"});
     visit(JointLine{"RRc at 25 degC, 2 m drum",
                     "{rrc_25degC_2m_N_per_kN} +- {rrc_uncertainty_N_per_kN} (k = 2, torque sensor)"});
-    visit(JointLine{"  without the skim test",
-                    "+- {rrc_uncertainty_offset_kept_N_per_kN} from the offset of the torque"});
+    visit(JointLine{"  zero error of the torque",
+                    "+- {rrc_uncertainty_offset_kept_N_per_kN}, canceled by the skim test"});
     visit(Remark{"  tire file says"}, tire_file_says);
     visit(
         JointLine{"RRc of all cycles", "{rrc_cycles_mean_N_per_kN} +- {rrc_cycles_sd_N_per_kN} (standard deviation)"});
