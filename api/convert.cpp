@@ -6,9 +6,9 @@
 
 #include "estimation/loss_conversion.h"
 #include "models/tire/tire_file.h"
-#include "report/text.h"
 #include "sim/core/assets.h"
-#include "sim/core/text.h"
+#include "sim/core/columns.h"
+#include "sim/core/json.h"
 
 namespace rollrig {
 namespace {
@@ -115,10 +115,9 @@ std::string format_conversion(const ConvertedLoss& converted) {
     table.rows.push_back({name, equation, from, to, fmt::format("{:.4f}", factor)});
   }
   table.rows.push_back({"product", "", "", "", fmt::format("{:.4f}", converted.force_factor)});
-  std::string text = "convert   " + format_loss(converted.given) + "\n" + format_table(table);
-  text += fmt::format("  converted  {}\n", format_loss(converted.result));
-  for (const std::string& warning : converted.warnings) text += wrap("warning: " + warning, 2);
-  return text;
+  const Table result{"", {}, {{"converted", format_loss(converted.result)}}};
+  return "convert   " + format_loss(converted.given) + "\n" + format_tables({table, result}) +
+         format_warnings(converted.warnings);
 }
 
 }  // namespace

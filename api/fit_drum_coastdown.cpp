@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "report/fit_pages.h"
-#include "report/text.h"
 #include "rollrig/fit.h"
 #include "sim/core/text.h"
 
@@ -9,21 +8,11 @@ namespace rollrig {
 namespace {
 
 std::string format_drum_coastdown(const estimation::CoastSet& set, const estimation::DrumCoastdownFit& fit) {
-  std::size_t missed = 0, doubled = 0, other = 0, rows = 0;
-  for (const estimation::CoastAnalysis& analysis : fit.analyses) {
-    rows += analysis.coast.time_s.size();
-    missed += analysis.coast.missed;
-    doubled += analysis.coast.doubled;
-    other += analysis.coast.other;
-  }
-  std::string text = fmt::format("fit drum-coastdown   set {}   {}   {} of coast\n", set.name,
-                                 format_count(set.runs.size(), "run"), format_count(rows, "row"));
-  text += fmt::format("  pulses rejected: {} missed, {} double, {} other\n", missed, doubled, other);
-  text += fmt::format("  reference: {:.1f} kPa, {:.1f} km/h\n", fit.reference_pressure_Pa / 1e3,
-                      3.6 * set.reference_speed_m_s);
-  for (const Table& table : report::make_drum_coastdown_tables(set, fit)) text += format_table(table);
-  for (const std::string& warning : fit.warnings) text += wrap("warning: " + warning, 2);
-  return text;
+  std::size_t rows = 0;
+  for (const estimation::CoastAnalysis& analysis : fit.analyses) rows += analysis.coast.time_s.size();
+  return fmt::format("fit drum-coastdown   set {}   {}   {} of coast\n", set.name, format_count(set.runs.size(), "run"),
+                     format_count(rows, "row")) +
+         format_tables(report::make_drum_coastdown_tables(set, fit)) + format_warnings(fit.warnings);
 }
 
 }  // namespace

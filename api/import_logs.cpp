@@ -51,8 +51,7 @@ std::string format_import(const measurements::Mapping& mapping, const measuremen
     for (const measurements::Mark& mark : log.marks) ++counts[mark.reason];
     for (const auto& [reason, count] : counts) text += fmt::format("  {}: {} x {}\n", log.file, count, reason);
   }
-  for (const std::string& warning : imported.warnings) text += wrap("warning: " + warning, 2);
-  return text;
+  return text + format_warnings(imported.warnings);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <mutex>
 
 #include "report/list_pages.h"
-#include "report/text.h"
 #include "scenarios/run/golden.h"
 #include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
@@ -61,13 +60,9 @@ void regress_run(const std::string& folder, RegressedRun& run) {
   }
 }
 
-std::string format_regression(const std::vector<RegressedRun>& runs) {
-  Table table{"", {"run", "status", "values", "worst, share of tolerance"}, {}};
-  for (const RegressedRun& run : runs) {
-    const std::string worst = run.worst_quantity.empty() ? "-" : fmt::format("{:.2g}", run.worst_share);
-    table.rows.push_back({run.name, run.status, fmt::format("{}", run.compared), worst});
-  }
-  std::string text = format_table(table);
+/// The first of what differs in each run.
+std::string format_problems(const std::vector<RegressedRun>& runs) {
+  std::string text;
   for (const RegressedRun& run : runs) {
     if (run.status == "same" || run.problems.empty()) continue;
     text += run.name + "\n";
@@ -89,7 +84,7 @@ void make_report(Regression& found) {
                             {"worst", run.worst_quantity},
                             {"problems", run.problems}});
   }
-  found.text = format_regression(found.runs);
+  found.text = format_table(report::make_regress_table(json)) + format_problems(found.runs);
   found.json = to_text(json);
   found.make_page = [json] { return report::make_html(report::make_regress_page(json)); };
 }

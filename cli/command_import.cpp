@@ -5,8 +5,8 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/measurement_set.h"
+#include "sim/core/columns.h"
 #include "sim/core/error_text.h"
-#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -19,17 +19,15 @@ struct ImportOptions {
 
 /// What rollrig validate says of the set: a column that was taken over without its unit shows there.
 std::string format_checks(const std::string& folder) {
-  std::string text;
   try {
-    for (const std::string& warning : check_file(folder).warnings) text += wrap("warning: " + warning, 2);
+    return format_warnings(check_file(folder).warnings);
   } catch (const InputError& error) {
-    text = "  " + format_error("warning: ", error.problem());
+    return "  " + format_error("warning: ", error.problem());
   } catch (const RunFailure& failure) {
-    text = wrap(fmt::format("warning: {}", failure.what()), 2);
+    return format_warnings({failure.what()});
   } catch (const Interrupted&) {  // the set is written, whole
-    text = "  warning: not checked to the end\n";
+    return format_warnings({"not checked to the end"});
   }
-  return text;
 }
 
 int import_command(const ImportOptions& options) {

@@ -37,19 +37,38 @@ Json make_series(const std::string& name, const std::vector<double>& time_s, con
   return {{"name", name}, {"t", t}, {"y", y}};
 }
 
-Block make_lines(const std::vector<scenarios::ResultLine>& lines) {
+Block make_table(const Table& table) {
   Block block = {{"type", "lines"}, {"lines", Json::array()}};
-  for (const scenarios::ResultLine& line : lines) {
-    block["lines"].push_back({{"label", line.label}, {"value", pretty_unit(line.value)}});
+  if (!table.columns.empty()) block = {{"type", "table"}, {"columns", Json::array()}, {"rows", Json::array()}};
+  if (!table.title.empty()) block["caption"] = table.title;
+  for (const std::string& column : table.columns) block["columns"].push_back({{"label", pretty_unit(column)}});
+  for (const std::vector<std::string>& row : table.rows) {
+    if (table.columns.empty()) {
+      block["lines"].push_back({{"label", row[0]}, {"value", pretty_unit(row[1])}});
+      continue;
+    }
+    Json cells = Json::array();
+    for (const std::string& cell : row) cells.push_back(pretty_unit(cell));
+    block["rows"].push_back(cells);
   }
   return block;
 }
 
-Block make_table(const Table& table) {
-  Block block = {{"type", "table"}, {"columns", Json::array()}, {"rows", table.rows}};
-  if (!table.title.empty()) block["caption"] = table.title;
-  for (const std::string& column : table.columns) block["columns"].push_back({{"label", pretty_unit(column)}});
-  return block;
+void ChartSeries::add(double at, double value) {
+  x.push_back(rounded(at));
+  y.push_back(rounded(value));
+}
+
+void ChartSeries::add(double at, double value, double from, double to) {
+  add(at, value);
+  low.push_back(rounded(from));
+  high.push_back(rounded(to));
+}
+
+Json ChartSeries::finish(const std::string& name, const char* kind) const {
+  Json series = {{"name", name}, {"kind", kind}, {"x", x}, {"y", y}};
+  if (!low.empty()) series.update({{"low", low}, {"high", high}});
+  return series;
 }
 
 Block make_curves(const Axis& x, const Axis& y, Json series, const std::string& caption) {
@@ -77,10 +96,25 @@ Section make_document(const Json& document, const std::string& folded) {
   return {"Everything as numbers", "", {{{"type", "pre"}, {"text", document.dump(2)}}}, folded};
 }
 
-Section begin_section(const std::string& title, const std::vector<std::string>& warnings) {
+Section make_section(const std::string& title, const std::vector<Table>& tables,
+                     const std::vector<std::string>& warnings) {
   Section section{title};
   if (!warnings.empty()) section.blocks.push_back(make_warnings(warnings));
+  for (const Table& table : tables) {
+    if (!table.rows.empty()) section.blocks.push_back(make_table(table));
+  }
   return section;
+}
+
+Table make_estimate_table(const std::string& title, const std::vector<ParameterEstimate>& estimates) {
+  Table table{title, {"parameter", "value", "sd", "from", "to", "unit"}, {}};
+  for (const ParameterEstimate& at : estimates) {
+    const auto number = [](double value) { return fmt::format("{:.5g}", value); };
+    const bool is_free = at.sd > 0.0;
+    table.rows.push_back({at.name, number(at.value), is_free ? fmt::format("{:.3g}", at.sd) : "on its bound",
+                          is_free ? number(at.low_95) : "", is_free ? number(at.high_95) : "", at.unit});
+  }
+  return table;
 }
 
 Block make_warnings(const std::vector<std::string>& warnings) { return {{"type", "warnings"}, {"items", warnings}}; }
@@ -98,8 +132,9 @@ Section make_inputs(const Json& groups) {
 }
 
 std::string pretty_unit(std::string symbol) {
-  const std::size_t at = symbol.find("degC");
-  if (at != std::string::npos) symbol.replace(at, 4, "°C");
+  for (std::size_t at = symbol.find("degC"); at != std::string::npos; at = symbol.find("degC", at + 1)) {
+    if (at == 0 || symbol[at - 1] != '_') symbol.replace(at, 4, "°C");
+  }
   return symbol;
 }
 

@@ -38,17 +38,6 @@ std::string describe_shrinkage(const Gap& gap) {
                      *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
 }
 
-Block make_parameter_table(const Cause& cause) {
-  Table table{"Fitted size of " + fmt::format("{}", fmt::join(cause.effects, " and ")),
-              {"parameter", "value", "sd", "95 % from", "to", "unit"},
-              {}};
-  for (const ParameterEstimate& at : cause.parameters) {
-    table.rows.push_back({at.name, fmt::format("{:.4g}", at.value), fmt::format("{:.2g}", at.sd),
-                          fmt::format("{:.4g}", at.low_95), fmt::format("{:.4g}", at.high_95), pretty_unit(at.unit)});
-  }
-  return make_table(table);
-}
-
 Block make_probabilities(const Findings& findings) {
   std::vector<std::pair<double, std::string>> ranked;
   for (const auto& [name, probability] : findings.probability) {
@@ -83,8 +72,8 @@ Block make_ranking(const Findings& findings) {
 Block make_channel_gaps(const Findings& findings) {
   Table table{"Gap of each channel, without noise, on held-out runs", {"channel", "before", "after", "unit"}, {}};
   for (const ChannelGap& at : findings.gap.channels) {
-    table.rows.push_back({plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after),
-                          pretty_unit(at.unit)});
+    table.rows.push_back(
+        {plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after), at.unit});
   }
   return make_table(table);
 }
@@ -164,7 +153,9 @@ Section make_causes(const Findings& findings) {
   if (findings.causes.empty()) return section;
   section.blocks.push_back(make_ranking(findings));
   if (!findings.causes.front().parameters.empty()) {
-    section.blocks.push_back(make_parameter_table(findings.causes.front()));
+    const Cause& cause = findings.causes.front();
+    const std::string title = fmt::format("Fitted size of {}, with 95 % interval", fmt::join(cause.effects, " and "));
+    section.blocks.push_back(make_table(make_estimate_table(title, cause.parameters)));
   }
   const std::vector<std::string>& objections = findings.causes.front().objections;
   if (!objections.empty()) {
@@ -193,9 +184,11 @@ Section make_gap(const Findings& findings) {
   if (gap.shrink_percent.has_value()) {
     shrinks += fmt::format(" ({:.0f} to {:.0f} %)", gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
   }
-  section.blocks.push_back(make_lines({{"The cause takes from the recalibrated gap", shrinks},
-                                       {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
-                                       {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}));
+  section.blocks.push_back(make_table({"",
+                                       {},
+                                       {{"The cause takes from the recalibrated gap", shrinks},
+                                        {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
+                                        {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}}));
   if (!gap.channels.empty()) section.blocks.push_back(make_channel_gaps(findings));
   return section;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "report/blocks.h"
@@ -17,20 +18,9 @@ using estimation::Interval;
 using estimation::PressureLevel;
 using estimation::SpeedPoint;
 
-/// A growing series of points with their intervals.
-struct Points {
-  Json x = Json::array(), y = Json::array(), low = Json::array(), high = Json::array();
-
-  void add(double at, const Interval& interval, double scale) {
-    x.push_back(rounded(at));
-    y.push_back(rounded(scale * interval.value));
-    low.push_back(rounded(scale * interval.lower));
-    high.push_back(rounded(scale * interval.upper));
-  }
-  Json finish(const std::string& name) const {
-    return {{"name", name}, {"kind", "points"}, {"x", x}, {"y", y}, {"low", low}, {"high", high}};
-  }
-};
+void add_point(const SpeedPoint& at, const Interval& interval, double scale, ChartSeries& points) {
+  points.add(kKmhPerMs * at.speed_m_s, scale * interval.value, scale * interval.lower, scale * interval.upper);
+}
 
 /// Force where the drum's inertia is known, else the net deceleration in mm/s2.
 const Interval& find_net(const PressureLevel& level, bool forces) { return forces ? *level.force_N : level.net_m_s2; }
@@ -43,11 +33,11 @@ Block make_net_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
   }
   Json series = Json::array();
   for (const double pressure_Pa : pressures_Pa) {
-    Points points;
+    ChartSeries points;
     for (const SpeedPoint& point : fit.points) {
       for (const PressureLevel& level : point.levels) {
         if (level.pressure_Pa != pressure_Pa || (forces && !level.force_N.has_value())) continue;
-        points.add(kKmhPerMs * point.speed_m_s, find_net(level, forces), forces ? 1.0 : 1e3);
+        add_point(point, find_net(level, forces), forces ? 1.0 : 1e3, points);
       }
     }
     series.push_back(points.finish(fmt::format("{:.0f} kPa", pressure_Pa / 1e3)));
@@ -57,9 +47,9 @@ Block make_net_chart(const CoastSet& set, const DrumCoastdownFit& fit) {
 }
 
 Block make_exponent_chart(const DrumCoastdownFit& fit) {
-  Points points;
+  ChartSeries points;
   for (const SpeedPoint& point : fit.points) {
-    if (point.pressure_exponent.has_value()) points.add(kKmhPerMs * point.speed_m_s, *point.pressure_exponent, 1.0);
+    if (point.pressure_exponent.has_value()) add_point(point, *point.pressure_exponent, 1.0, points);
   }
   return make_curves({"Speed", "km/h"}, {"Exponent of gauge pressure", ""}, Json::array({points.finish("exponent")}),
                      "With 95 % intervals.");
@@ -70,6 +60,20 @@ std::string show(const std::optional<Interval>& interval, double unit = 1.0, con
   const auto number = [digits](double value) { return fmt::format(fmt::runtime(digits), value); };
   return fmt::format("{} ({} to {})", number(interval->value / unit), number(interval->lower / unit),
                      number(interval->upper / unit));
+}
+
+Table make_overview(const CoastSet& set, const DrumCoastdownFit& fit) {
+  std::size_t missed = 0, doubled = 0, other = 0;
+  for (const estimation::CoastAnalysis& analysis : fit.analyses) {
+    missed += analysis.coast.missed;
+    doubled += analysis.coast.doubled;
+    other += analysis.coast.other;
+  }
+  return {"",
+          {},
+          {{"pulses rejected", fmt::format("{} missed, {} double, {} other", missed, doubled, other)},
+           {"reference", fmt::format("{:.1f} kPa, {:.1f} km/h", fit.reference_pressure_Pa / 1e3,
+                                     kKmhPerMs * set.reference_speed_m_s)}}};
 }
 
 Table make_level_table(const DrumCoastdownFit& fit, bool forces) {
@@ -118,23 +122,20 @@ Block make_drum_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit)
     for (const auto& at : analysis.decelerations) rows += at.residuals.size();
   }
   const std::size_t stride = 1 + rows / kMost;
-  std::map<std::string, Points> by_state;
+  std::map<std::string, ChartSeries> by_state;
   std::size_t row = 0;
   for (const auto& analysis : fit.analyses) {
     const bool is_loaded = set.runs[analysis.run].state == estimation::CoastState::kLoaded;
-    Points& points = by_state[is_loaded ? "tire loaded" : "tire lifted"];
+    ChartSeries& points = by_state[is_loaded ? "tire loaded" : "tire lifted"];
     for (const auto& at : analysis.decelerations) {
       for (const estimation::FittedRow& fitted : at.residuals) {
         if (row++ % stride != 0) continue;
-        points.x.push_back(rounded(kKmhPerMs * fitted.speed_m_s));
-        points.y.push_back(rounded(1e3 * (fitted.speed_m_s - fitted.fitted_m_s)));
+        points.add(kKmhPerMs * fitted.speed_m_s, 1e3 * (fitted.speed_m_s - fitted.fitted_m_s));
       }
     }
   }
   Json series = Json::array();
-  for (const auto& [name, points] : by_state) {
-    series.push_back({{"name", name}, {"kind", "points"}, {"x", points.x}, {"y", points.y}});
-  }
+  for (const auto& [name, points] : by_state) series.push_back(points.finish(name));
   Block block = make_curves({"Speed", "km/h"}, {"Measured less fitted speed", "mm/s"}, series,
                             stride > 1 ? fmt::format("Every {}th row.", stride) : "Every row.");
   block["marks"] = {0.0};
@@ -144,17 +145,15 @@ Block make_drum_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit)
 }  // namespace
 
 std::vector<Table> make_drum_coastdown_tables(const CoastSet& set, const DrumCoastdownFit& fit) {
-  return {make_level_table(fit, set.calc_drum_mass_kg().has_value()), make_speed_table(fit), make_law_table(fit)};
+  return {make_overview(set, fit), make_level_table(fit, set.calc_drum_mass_kg().has_value()), make_speed_table(fit),
+          make_law_table(fit)};
 }
 
 Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) {
   Page page{"fit drum-coastdown", fmt::format("Rolling resistance from coast-downs: {}", set.name),
-            fmt::format("{}; reference {:.1f} kPa, {:.1f} km/h", format_count(set.runs.size(), "run"),
-                        fit.reference_pressure_Pa / 1e3, kKmhPerMs * set.reference_speed_m_s)};
-  Section result = begin_section("Result", fit.warnings);
-  result.blocks.push_back(make_net_chart(set, fit));
-  for (const Table& table : make_drum_coastdown_tables(set, fit)) result.blocks.push_back(make_table(table));
-  page.add(std::move(result));
+            format_count(set.runs.size(), "run")};
+  page.add(make_section("Result", make_drum_coastdown_tables(set, fit), fit.warnings));
+  page.add({"Over speed", "", {make_net_chart(set, fit)}});
   const bool has_exponent = std::any_of(fit.points.begin(), fit.points.end(),
                                         [](const SpeedPoint& point) { return point.pressure_exponent.has_value(); });
   if (has_exponent) page.add({"Pressure", "", {make_exponent_chart(fit)}});

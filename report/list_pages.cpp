@@ -116,11 +116,21 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
   return page;
 }
 
+Table make_regress_table(const Json& regression) {
+  Table table{"", {"run", "status", "values", "worst, share of tolerance", "of"}, {}, 1};
+  for (const Json& run : regression["runs"]) {
+    const std::string worst = run["worst"];
+    table.rows.push_back({run["name"], run["status"], fmt::format("{}", run["compared"].get<std::size_t>()),
+                          worst.empty() ? "-" : fmt::format("{:.2g}", run["worst_share_of_tolerance"].get<double>()),
+                          worst});
+  }
+  return table;
+}
+
 Page make_regress_page(const Json& regression) {
   const Json& runs = regression["runs"];
   std::size_t good = 0;
   std::vector<std::string> problems;
-  Table table{"", {"run", "status", "values", "worst, share of tolerance", "of"}, {}};
   Json names = Json::array();
   Json shares = Json::array();
   for (const Json& run : runs) {
@@ -128,11 +138,8 @@ Page make_regress_page(const Json& regression) {
     const std::string status = run["status"];
     if (status == "same" || status == "updated") ++good;
     for (const Json& problem : run["problems"]) problems.push_back(name + ": " + problem.get<std::string>());
-    const double worst = run["worst_share_of_tolerance"];
-    table.rows.push_back({name, status, fmt::format("{}", run["compared"].get<std::size_t>()),
-                          fmt::format("{:.2g}", worst), run["worst"].get<std::string>()});
     names.push_back(name);
-    shares.push_back(rounded(worst));
+    shares.push_back(rounded(run["worst_share_of_tolerance"].get<double>()));
   }
   const bool is_good = good == runs.size();
   Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run")};
@@ -144,7 +151,7 @@ Page make_regress_page(const Json& regression) {
   verdict.blocks.push_back(make_bars({"Worst difference of each run", "of its tolerance"}, names,
                                      Json::array({{{"name", "worst"}, {"values", shares}}}),
                                      "A run differs where its bar is above 1."));
-  verdict.blocks.push_back(make_table(table));
+  verdict.blocks.push_back(make_table(make_regress_table(regression)));
   page.add(std::move(verdict));
   if (!problems.empty()) page.add({"What differs", "", {{{"type", "text"}, {"items", problems}}}});
   return page;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "report/page.h"
-#include "scenarios/run/results.h"
+#include "sim/core/columns.h"
 
 namespace rollrig::report {
 
@@ -20,6 +20,9 @@ Table make_sweep_table(const Json& sweep, const std::string& title, const std::v
 /// Of the sweep's document (rollrig-sweep/1): results over what is varied, and a table of all points. `shown` are the
 /// results that have a chart; where none is named, those that change.
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle);
+
+/// A row a run of the comparison's document: its status and its worst difference.
+Table make_regress_table(const Json& regression);
 
 /// Of the comparison's document (rollrig-regression/1): whether all runs are as they were, and what is not.
 Page make_regress_page(const Json& regression);

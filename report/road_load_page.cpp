@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "estimation/road_load/road_load_report.h"
 #include "report/blocks.h"
 #include "report/fit_pages.h"
@@ -12,95 +15,121 @@ namespace {
 using estimation::RoadLoadFit;
 using estimation::RoadLoadPoint;
 
-std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s²" : "N"; }
+std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s2" : "N"; }
+
+Table make_coefficients(const RoadLoadFit& fit) {
+  std::vector<ParameterEstimate> coefficients = estimation::list_coefficients(fit);
+  for (ParameterEstimate& at : coefficients) at.name = name_without_unit(at.name);
+  return make_estimate_table("At reference conditions, with standard deviation and 95 % interval", coefficients);
+}
+
+Table make_forces(const RoadLoadFit& fit) {
+  const std::string unit = force_unit(fit);
+  Table table{"", {"speed, km/h", "force, " + unit, "sd, " + unit, ""}, {}};
+  for (const double km_h : {20.0, 50.0, 80.0, 100.0, 130.0}) {
+    const double speed_m_s = km_h / kKmhPerMs;
+    const bool outside = speed_m_s < fit.low_m_s - 0.1 || speed_m_s > fit.high_m_s + 0.1;
+    table.rows.push_back({fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", fit.force_N(speed_m_s)),
+                          fmt::format("{:.2g}", fit.force_sd_N(speed_m_s)), outside ? "outside the data" : ""});
+  }
+  return table;
+}
+
+/// How the runs scatter and drift, and what their headings tell of slope and wind.
+Table make_scatter(const RoadLoadFit& fit, const estimation::RoadLoadChecks& checks) {
+  const std::string unit = force_unit(fit);
+  Table list;
+  const auto add = [&list](const std::string& label, const std::optional<double>& value, const std::string& symbol) {
+    list.rows.push_back(
+        {label, value.has_value() ? fmt::format("{:.3g} {}", *value, symbol) : "not decided by the data"});
+  };
+  add("scatter of speed", fit.scatter.speed_sd_m_s, "m/s");
+  add("scatter along a run", fit.scatter.gust_N_sqrt_s, unit + " sqrt(s)");
+  add("scatter from run to run", fit.scatter.run_force_N, unit);
+  add("  in proportion to speed", fit.scatter.run_speed_N_s_per_m, unit + " s/m");
+  if (fit.scatter.session_force_N.has_value()) {
+    add("scatter from session to session", fit.scatter.session_force_N, unit);
+  }
+  if (fit.slope.has_value()) {
+    list.rows.push_back({"slope, from the headings",
+                         fmt::format("{:.3f} +- {:.3f} % uphill in +", 100.0 * *fit.slope, 100.0 * fit.slope_sd)});
+  }
+  for (const estimation::SessionWind& wind : fit.winds) {
+    list.rows.push_back(
+        {"wind, from the headings", fmt::format("{:.2f} +- {:.2f} m/s against +{}", wind.wind_m_s, wind.sd_m_s,
+                                                wind.session.empty() ? "" : " '" + wind.session.substr(0, 10) + "'")});
+  }
+  for (const estimation::SessionDrift& drift : checks.drifts) {
+    list.rows.push_back(
+        {"drift of coast times",
+         fmt::format("{:+.1f} % ({:+.1f} to {:+.1f}) over {} runs{}, {:+.2f} % a run", 100.0 * drift.time_change,
+                     100.0 * drift.lower_95, 100.0 * drift.upper_95, drift.runs,
+                     drift.session.empty() ? "" : " of '" + drift.session + "'", 100.0 * drift.per_run)});
+  }
+  return list;
+}
+
+Table make_checks(const estimation::RoadLoadChecks& checks) {
+  Table table{"Checks: what the standards ask of coastdowns", {"check", "", "found", "limit", "clause"}, {}, 1};
+  for (const estimation::RoadLoadCheck& check : checks.checks) {
+    table.rows.push_back({check.name, estimation::name_of(check.status), check.found, check.limit, check.clause});
+  }
+  return table;
+}
 
 /// The fitted curve with its interval over the speeds that the data cover.
 Json make_load_curve(const RoadLoadFit& fit) {
   constexpr int kPoints = 40;
   constexpr double kWide = 1.96;  // of a normal interval of 95 %
-  std::vector<double> x;
-  std::vector<double> y;
-  std::vector<double> low;
-  std::vector<double> high;
+  ChartSeries curve;
   for (int i = 0; i <= kPoints; ++i) {
     const double speed_m_s = fit.low_m_s + (fit.high_m_s - fit.low_m_s) * i / kPoints;
-    x.push_back(kKmhPerMs * speed_m_s);
-    y.push_back(fit.force_N(speed_m_s));
-    low.push_back(y.back() - kWide * fit.force_sd_N(speed_m_s));
-    high.push_back(y.back() + kWide * fit.force_sd_N(speed_m_s));
+    const double force_N = fit.force_N(speed_m_s);
+    const double half_N = kWide * fit.force_sd_N(speed_m_s);
+    curve.add(kKmhPerMs * speed_m_s, force_N, force_N - half_N, force_N + half_N);
   }
-  return {{"name", "A + B v + C v² at reference conditions, 95 % band"},
-          {"kind", "line"},
-          {"x", rounded(x)},
-          {"y", rounded(y)},
-          {"low", rounded(low)},
-          {"high", rounded(high)}};
+  return curve.finish("A + B v + C v² at reference conditions, 95 % band", "line");
 }
 
-/// Points of one heading; `get` gives what is shown of a point.
-template <class Get>
-Json make_points(const estimation::CoastdownFile& file, const RoadLoadFit& fit, int heading, Get&& get) {
-  const char* name = heading > 0 ? "runs in + heading" : heading < 0 ? "runs in - heading" : "runs";
-  Json series = {{"name", name}, {"kind", "points"}, {"x", Json::array()}, {"y", Json::array()}};
-  for (const RoadLoadPoint& point : fit.points) {
-    if (file.data.runs[point.run].heading != heading) continue;
-    series["x"].push_back(rounded(kKmhPerMs * point.speed_m_s));
-    series["y"].push_back(rounded(get(point)));
-  }
-  return series;
-}
-
-template <class Get>
-void add_headings(const estimation::CoastdownFile& file, const RoadLoadFit& fit, Get&& get, Json& series) {
-  for (const int heading : {1, -1, 0}) {
-    Json points = make_points(file, fit, heading, get);
-    if (!points["x"].empty()) series.push_back(std::move(points));
+/// A series for each heading; `value` is what is shown of a point.
+void add_headings(const estimation::CoastdownFile& file, const RoadLoadFit& fit, double RoadLoadPoint::*value,
+                  Json& series) {
+  for (const auto& [heading, name] : {std::pair(1, "runs in + heading"), {-1, "runs in - heading"}, {0, "runs"}}) {
+    ChartSeries points;
+    for (const RoadLoadPoint& point : fit.points) {
+      if (file.data.runs[point.run].heading == heading) points.add(kKmhPerMs * point.speed_m_s, point.*value);
+    }
+    if (!points.x.empty()) series.push_back(points.finish(name));
   }
 }
 
 Block make_force_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array({make_load_curve(fit)});
-  add_headings(
-      file, fit, [](const RoadLoadPoint& point) { return point.force_N; }, series);
+  add_headings(file, fit, &RoadLoadPoint::force_N, series);
   return make_curves({"Speed", "km/h"}, {fit.per_mass ? "Deceleration" : "Force", force_unit(fit), true}, series,
                      "Points: mean force over a speed bin as tested, with that run's wind, slope and weather.");
 }
 
 Block make_road_residual_chart(const estimation::CoastdownFile& file, const RoadLoadFit& fit) {
   Json series = Json::array();
-  add_headings(
-      file, fit, [](const RoadLoadPoint& point) { return point.residual_N; }, series);
+  add_headings(file, fit, &RoadLoadPoint::residual_N, series);
   Block block = make_curves({"Speed", "km/h"}, {"Measured less fitted", force_unit(fit)}, series,
                             "Fit as tested: wind, slope and weather are in it.");
   block["marks"] = {0.0};
   return block;
 }
 
-Block make_checks(const estimation::RoadLoadChecks& checks) {
-  Table table{"What the standards ask of coastdowns", {"check", "", "found", "limit", "clause"}, {}};
-  for (const estimation::RoadLoadCheck& check : checks.checks) {
-    table.rows.push_back({check.name, estimation::name_of(check.status), check.found, check.limit, check.clause});
-  }
-  return make_table(table);
-}
-
 }  // namespace
 
-Table make_coefficient_table(const RoadLoadFit& fit, const std::string& title) {
-  Table table{title, {"coefficient", "value", "sd", "from", "to", "unit"}, {}};
-  for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const auto number = [i](double si) { return fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, si)); };
-    std::vector<std::string> row{std::string(1, "ABC"[i]), number(fit.values()[at])};
-    if (fit.on_bound[at]) {
-      row.insert(row.end(), {"on its bound", "", ""});
-    } else {
-      row.insert(row.end(), {number(fit.sd(i)), number(fit.interval_95(i)[0]), number(fit.interval_95(i)[1])});
-    }
-    row.push_back(unit_of_key(estimation::road_load_key(i, fit.per_mass)).symbol);
-    table.rows.push_back(row);
+std::vector<Table> make_road_load_tables(const RoadLoadFitOptions& options, const RoadLoadFit& fit,
+                                         const estimation::RoadLoadChecks& checks) {
+  Table masses;
+  if (!fit.per_mass) {
+    const char* assumed =
+        options.rotating_mass_kg.has_value() ? "" : ", of which 3 % of the test mass rotate (Assumed)";
+    masses.rows.push_back({"effective mass", fmt::format("{:.6g} kg{}", fit.effective_mass_kg, assumed)});
   }
-  return table;
+  return {masses, make_coefficients(fit), make_forces(fit), make_scatter(fit, checks), make_checks(checks)};
 }
 
 Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFitOptions& options,
@@ -109,12 +138,9 @@ Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFi
             fmt::format("{}, {}, {}", format_count(file.data.runs.size(), "run"),
                         format_count(fit.points.size(), "speed bin"),
                         file.is_trace ? "from speed traces" : "from times through bins")};
-  Section result = begin_section("Coefficients", fit.warnings);
-  result.blocks.push_back(make_table(make_coefficient_table(fit, "At reference conditions, with 95 % intervals")));
-  page.add(std::move(result));
+  page.add(make_section("Result", make_road_load_tables(options, fit, checks), fit.warnings));
   page.add({"Data and fit", "", {make_force_chart(file, fit)}});
   page.add({"Residuals", "", {make_road_residual_chart(file, fit)}});
-  page.add({"Checks", "", {make_checks(checks)}});
   page.add(make_document(estimation::make_road_load_json(file, options, fit, checks), "The fit as JSON"));
   return page;
 }

@@ -51,13 +51,6 @@ std::string make_subtitle(const scenarios::RunSpec& spec) {
   return text + fmt::format(", {}{}", scenarios::name_of(spec.fidelity), list_effects(spec));
 }
 
-Section make_result(const scenarios::Outcome& outcome) {
-  Section section = begin_section("Result", outcome.warnings);
-  if (!outcome.sheet.lines.empty()) section.blocks.push_back(make_lines(outcome.sheet.lines));
-  for (const Table& table : outcome.sheet.tables) section.blocks.push_back(make_table(table));
-  return section;
-}
-
 Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   const sim::Recording<double>& recording = outcome.recording;
   Section section{"The test over time"};
@@ -71,7 +64,7 @@ Section make_over_time(const scenarios::RunSpec& spec, const scenarios::Outcome&
 
 Page make_run_page(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   Page page{"run", spec.scenario->text.summary, make_subtitle(spec), {}, find_view(outcome.recording)};
-  page.add(make_result(outcome));
+  page.add(make_section("Result", outcome.sheet.list_tables(), outcome.warnings));
   page.add(make_run_figures(outcome.result));
   page.add(make_over_time(spec, outcome));
   page.add({"Energy balance", "", {make_energy(outcome.recording.audit)}});

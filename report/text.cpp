@@ -8,12 +8,6 @@
 
 namespace rollrig::report {
 
-std::string format_lines(const std::vector<scenarios::ResultLine>& lines) {
-  std::vector<std::vector<std::string>> rows;
-  for (const scenarios::ResultLine& line : lines) rows.push_back({line.label, line.value});
-  return text_columns(rows);
-}
-
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   using Ledger = sim::EnergyTerm::Ledger;
   std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name, spec.tire.name,
@@ -36,13 +30,11 @@ std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outc
     }
     text += wrap("effects on:" + names, 2);
   }
-  text += format_lines(outcome.sheet.lines);
-  for (const Table& table : outcome.sheet.tables) text += format_table(table);
+  text += format_tables(outcome.sheet.list_tables());
   const sim::EnergyAudit& audit = outcome.recording.audit;
   text += fmt::format("  energy balance: error {:.1e} (mechanical), {:.1e} (thermal) of the work done\n",
                       audit.calc_closure(Ledger::kMechanical), audit.calc_closure(Ledger::kThermal));
-  for (const std::string& warning : outcome.warnings) text += wrap("warning: " + warning, 2);
-  return text;
+  return text + format_warnings(outcome.warnings);
 }
 
 }  // namespace rollrig::report

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/erase.hpp>
 #include <cmath>
 
 #include "estimation/parameters.h"
@@ -22,19 +23,32 @@ std::optional<double> find_two_step(const Json& two_step, const std::string& key
   return two_step[last].get<double>();
 }
 
-Block make_parameters(const TireFit& fit, const Json& two_steps) {
-  Table table{"Parameters with their 95 % intervals",
-              {"parameter", "value", "sd", "from", "to", "unit", "two-step regression", ""},
-              {}};
-  for (const Estimate& at : fit.estimates) {
-    const std::optional<double> two_step = find_two_step(two_steps, at.key);
-    table.rows.push_back({estimation::find_file_key(at.key), fmt::format("{:.5g}", at.value),
-                          fmt::format("{:.2g}", at.sd), fmt::format("{:.5g}", at.lower_95()),
-                          fmt::format("{:.5g}", at.upper_95()), pretty_unit(unit_of_key(last_part(at.key)).symbol),
-                          two_step.has_value() ? fmt::format("{:.5g}", *two_step) : "-",
-                          at.nuisance ? "held by the files' uncertainty" : ""});
+Table make_parameters(const TireFit& fit) {
+  std::vector<ParameterEstimate> parameters = estimation::list_parameters(fit);
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    std::string& name = parameters[i].name;
+    for (const char* table : {"rolling_resistance.", "thermal."}) boost::algorithm::erase_first(name, table);
+    name = name_without_unit(name) + (fit.estimates[i].nuisance ? " *" : "");
   }
-  return make_table(table);
+  return make_estimate_table("Fitted, with standard uncertainty and 95 % interval (* beside a prior)", parameters);
+}
+
+Table make_channels(const TireFit& fit) {
+  Table table{"", {"channel", "samples", "rest, in units of the sensor's noise"}, {}};
+  for (const estimation::ChannelFit& at : fit.channels) {
+    table.rows.push_back({at.channel.header(), fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
+  }
+  return table;
+}
+
+Table make_two_step(const TireFit& fit) {
+  std::vector<std::string> numbers;
+  const Json two_step = estimation::make_two_step_json(fit.two_step);
+  for (const auto& [key, value] : two_step.items()) {
+    numbers.push_back(
+        fmt::format("{} {:.5g} {}", name_without_unit(key), value.get<double>(), unit_of_key(key).symbol));
+  }
+  return {"", {}, {{"two-step regression", fmt::format("{} (start of the fit)", fmt::join(numbers, ", "))}}};
 }
 
 /// Each parameter in percent of its value: the interval, and the two-step regression of the source in it.
@@ -55,14 +69,6 @@ Block make_intervals(const TireFit& fit, const Json& two_steps) {
   return make_bars(
       {"95 % interval of each parameter (whiskers) and two-step regression less fit (bars)", "% of the value"}, names,
       Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}}));
-}
-
-Block make_channels(const TireFit& fit) {
-  Table table{"What is left, whitened: 1 is the noise that the sensors' table says", {"channel", "samples", "rms"}, {}};
-  for (const estimation::ChannelFit& at : fit.channels) {
-    table.rows.push_back({at.channel.header(), fmt::format("{}", at.samples), fmt::format("{:.3f}", at.whitened_rms)});
-  }
-  return make_table(table);
 }
 
 Block make_correlations(const TireFit& fit) {
@@ -96,16 +102,18 @@ models::Context<double> make_fitted_context(measurements::MeasurementSet set, co
 
 }  // namespace
 
+std::vector<Table> make_tire_fit_tables(const TireFit& fit) {
+  return {make_parameters(fit), make_channels(fit), make_two_step(fit)};
+}
+
 Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& fit) {
   Page page{
       "fit tire", fmt::format("Tire {} fitted to {}", fit.tire.name, set.name),
       fmt::format("From tire {}, rig {}, {}", set.tire.name, set.rig->name, format_count(set.runs.size(), "run"))};
   const Json document = estimation::make_fit_json(set, fit);
-  Section result = begin_section("Parameters", fit.warnings);
-  result.blocks.push_back(make_parameters(fit, document["two_step"]));
+  Section result = make_section("Result", make_tire_fit_tables(fit), fit.warnings);
   result.blocks.push_back(make_intervals(fit, document["two_step"]));
   page.add(std::move(result));
-  page.add({"What is left", "", {make_channels(fit)}});
   const diagnosis::PreparedSet prepared(set);
   const SimulatedSet fitted = simulate_set(prepared, "fit", make_fitted_context(prepared.source(), fit), {});
   Section runs{"Data, fit and residuals", "Sensor offsets are not taken off: a residual may lie beside zero by one."};

@@ -124,6 +124,18 @@ std::string road_load_key(int i, bool per_mass) {
 
 double road_load_in_file_unit(int i, double si_value) { return unit_of_key(road_load_key(i, false)).from_si(si_value); }
 
+std::vector<ParameterEstimate> list_coefficients(const RoadLoadFit& fit) {
+  std::vector<ParameterEstimate> coefficients;
+  for (int i = 0; i < 3; ++i) {
+    const std::string key = road_load_key(i, fit.per_mass);
+    const auto shown = [i](double value) { return road_load_in_file_unit(i, value); };
+    const std::array<double, 2> interval = fit.interval_95(i);
+    coefficients.push_back({key, shown(fit.values()[static_cast<std::size_t>(i)]), shown(fit.sd(i)), shown(interval[0]),
+                            shown(interval[1]), unit_of_key(key).symbol});
+  }
+  return coefficients;
+}
+
 const char* name_of(CheckStatus status) {
   if (status == CheckStatus::kNotChecked) return "not checked";
   return status == CheckStatus::kPass ? "pass" : "fail";

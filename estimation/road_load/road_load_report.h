@@ -5,6 +5,7 @@
 
 #include "estimation/road_load/coastdown_file.h"
 #include "estimation/road_load/road_load_checks.h"
+#include "include/rollrig/result.h"
 #include "sim/core/json.h"
 
 namespace rollrig::estimation {
@@ -13,6 +14,9 @@ namespace rollrig::estimation {
 std::string road_load_key(int i, bool per_mass);
 /// An SI value of A, B or C in the unit of that key.
 double road_load_in_file_unit(int i, double si_value);
+
+/// A, B, C in the units of files; a coefficient on a bound has no standard deviation.
+std::vector<ParameterEstimate> list_coefficients(const RoadLoadFit& fit);
 
 const char* name_of(CheckStatus status);
 

@@ -208,6 +208,24 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& 
   return fit;
 }
 
+std::vector<ParameterEstimate> list_parameters(const TireFit& fit) {
+  std::vector<ParameterEstimate> parameters;
+  for (const Estimate& at : fit.estimates) {
+    const std::string key = find_file_key(at.key);
+    parameters.push_back({key, at.value, at.sd, at.lower_95(), at.upper_95(), unit_of_key(last_part(key)).symbol});
+  }
+  return parameters;
+}
+
+Json make_two_step_json(const TwoStepEstimate& two_step) {
+  Json json;
+  Lines::visit(two_step, [&](const Field& line, double value) { json[line.key] = value; });
+  json["z_W_per_K"] = two_step.rest_conductance_W_per_K;
+  json["f_W_s_per_m_K"] = two_step.speed_conductance_W_s_per_m_K;
+  if (two_step.H_gas_W_per_K.has_value()) json["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
+  return json;
+}
+
 Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) {
   Json json = {{"format", "rollrig-fit/1"}, {"set", set.name}, {"tire", set.tire.name}, {"rig", set.rig->name}};
   json["parameters"] = Json::array();
@@ -226,11 +244,7 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
     json["channels"].push_back(
         {{"channel", channel.channel.header()}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
   }
-  const TwoStepEstimate& two_step = fit.two_step;
-  Lines::visit(two_step, [&](const Field& line, double value) { json["two_step"][line.key] = value; });
-  json["two_step"]["z_W_per_K"] = two_step.rest_conductance_W_per_K;
-  json["two_step"]["f_W_s_per_m_K"] = two_step.speed_conductance_W_s_per_m_K;
-  if (two_step.H_gas_W_per_K.has_value()) json["two_step"]["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
+  json["two_step"] = make_two_step_json(fit.two_step);
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;
 }

@@ -7,6 +7,7 @@
 
 #include "estimation/tire_fit/two_step.h"
 #include "include/rollrig/fit_options.h"
+#include "include/rollrig/result.h"
 #include "measurements/measurement_set.h"
 #include "sim/core/json.h"
 
@@ -48,6 +49,12 @@ struct TireFit {
 ///         parameter undecided
 /// Checked tests/estimation/fit_tire_test.cpp, tests/estimation/fit_coverage_test.cpp
 TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options);
+
+/// The fitted numbers by key of the tire file.
+std::vector<ParameterEstimate> list_parameters(const TireFit& fit);
+
+/// The two-step numbers, each by its symbol with its unit.
+Json make_two_step_json(const TwoStepEstimate& two_step);
 
 /// The fit as JSON, with both the maximum-likelihood and the two-step numbers.
 Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit);

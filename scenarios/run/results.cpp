@@ -31,6 +31,13 @@ std::string show_number(const char* key, const char* digits, double value_SI) {
   return join(show(digits, to_file_unit(unit, value_SI)), unit.symbol);
 }
 
+std::vector<Table> ResultSheet::list_tables() const {
+  std::vector<Table> all{{"", {}, {}}};
+  for (const ResultLine& line : lines) all.front().rows.push_back({line.label, line.value});
+  all.insert(all.end(), tables.begin(), tables.end());
+  return all;
+}
+
 void ResultSheet::operator()(const Result& result, double value_SI) {
   const double value = to_file_unit(unit_of_key(result.key), value_SI);
   add(result, value, show(result.digits, value));

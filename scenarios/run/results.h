@@ -83,6 +83,9 @@ class ResultSheet {
     return sheet;
   }
 
+  /// The lines, then the tables.
+  std::vector<Table> list_tables() const;
+
   void operator()(const Result& result, double value_SI);
   void operator()(const Result& result, const std::optional<double>& value_SI);
   void operator()(const Result& result, int value) { add(result, value, std::to_string(value)); }

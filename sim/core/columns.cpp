@@ -147,9 +147,23 @@ std::string text_columns(const std::vector<std::vector<std::string>>& rows, cons
 }
 
 std::string format_table(const Table& table, std::size_t indent) {
-  std::vector<std::vector<std::string>> rows{table.columns};
-  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
-  return (table.title.empty() ? "" : wrap(table.title, indent)) + text_columns(rows, {true, indent});
+  std::vector<std::vector<std::string>> rows = table.rows;
+  const bool has_header = !table.columns.empty();
+  if (has_header) rows.insert(rows.begin(), table.columns);
+  for (auto& row : rows) row.resize(row.size() - table.page_only);
+  return (table.title.empty() ? "" : wrap(table.title, indent)) + text_columns(rows, {has_header, indent});
+}
+
+std::string format_tables(const std::vector<Table>& tables) {
+  std::string text;
+  for (const Table& table : tables) text += format_table(table);
+  return text;
+}
+
+std::string format_warnings(const std::vector<std::string>& warnings) {
+  std::string text;
+  for (const std::string& warning : warnings) text += wrap("warning: " + warning, 2);
+  return text;
 }
 
 }  // namespace rollrig

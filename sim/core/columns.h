@@ -22,14 +22,17 @@ struct ColumnStyle {
 /// Checked  tests/core/columns_test.cpp
 std::string text_columns(const std::vector<std::vector<std::string>>& rows, const ColumnStyle& style = {});
 
-/// What a terminal, a page or a document shows as a table.
+/// What a terminal, a page or a document shows as a table. Without columns, each row is a label and its value.
 struct Table {
   std::string title;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
+  std::size_t page_only = 0;  // so many of the last columns are for a page: a terminal has no room for them
 };
 
 /// The table below its title, if it has one.
 std::string format_table(const Table& table, std::size_t indent = 2);
+std::string format_tables(const std::vector<Table>& tables);
+std::string format_warnings(const std::vector<std::string>& warnings);
 
 }  // namespace rollrig

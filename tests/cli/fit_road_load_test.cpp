@@ -20,12 +20,18 @@ using tests::TemporaryFolder;
 TEST_CASE("fit road-load: table of 80 columns, JSON and residuals", "[fast]") {
   const TemporaryFolder folder;
   tests::write_file(folder.file("coast.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns({}, 1)));
-  const auto run = run_program("fit road-load coast.csv --mass 2100 --out fitted", folder.path());
+  const auto run = run_program("fit road-load coast.csv --mass 2100 --out fitted --html page.html", folder.path());
   INFO(run.err << run.out);
   REQUIRE(run.status == 0);
   CHECK(longest_line(run.out) <= 80);
-  CHECK_THAT(run.out, Contains("N/(km/h)2") && Contains("runs each way") && Contains("not checked") &&
-                          Contains("3 % of the test mass") && Contains("drift of coast times"));
+  CHECK_THAT(run.out, Contains("N/(km/h)2") && Contains("not checked") && Contains("3 % of the test mass"));
+  const std::string page = read_file(folder.file("page.html"));
+  for (const char* shown :
+       {"effective mass", "force, N", "scatter of speed", "drift of coast times", "runs each way"}) {
+    INFO(shown);
+    CHECK(run.out.find(shown) != std::string::npos);
+    CHECK(page.find(shown) != std::string::npos);
+  }
   const Json json = Json::parse(read_file(folder.file("fitted/road_load.json")));
   CHECK(json["format"] == "rollrig-road-load/1");
   CHECK(json["A_N"].get<double>() == Approx(120.0).epsilon(0.01));

@@ -40,3 +40,11 @@ TEST_CASE("columns for which there is no room follow below, beside the first one
         "run    three\n"
         "a    3000000\n");
 }
+
+TEST_CASE("a table without columns is a list, and a terminal leaves out what only a page has room for", "[fast]") {
+  using rollrig::format_table;
+  CHECK(format_table({"", {}, {{"mass", "12 kg"}, {"reference", "200 kPa"}}}) ==
+        "  mass       12 kg\n  reference  200 kPa\n");
+  CHECK(format_table({"Checks", {"check", "found", "clause"}, {{"slope", "0.1 %", "SAE J1263"}}, 1}) ==
+        "  Checks\n  check  found\n  slope  0.1 %\n");
+}

@@ -41,22 +41,17 @@ Block make_shares(const Score& score) {
 }
 
 Block make_reliability(const Score& score) {
-  Json x = Json::array(), y = Json::array(), low = Json::array(), high = Json::array();
+  report::ChartSeries points;
   for (const ReliabilityBin& bin : score.reliability) {
     if (bin.cases == 0) continue;
     const Interval interval = calc_wilson_95(bin.right, bin.cases);
-    x.push_back(rounded(bin.mean_probability));
-    y.push_back(rounded(bin.right_share()));
-    low.push_back(rounded(interval.low));
-    high.push_back(rounded(interval.high));
+    points.add(bin.mean_probability, bin.right_share(), interval.low, interval.high);
   }
-  return {{"type", "curves"},
-          {"x", {{"label", "Stated probability"}, {"unit", ""}, {"from_zero", true}}},
-          {"y", {{"label", "Share that was right"}, {"unit", ""}, {"from_zero", true}}},
-          {"diagonal", 1.0},
-          {"series",
-           Json::array({{{"name", "cases"}, {"kind", "points"}, {"x", x}, {"y", y}, {"low", low}, {"high", high}}})},
-          {"caption", "On the dashed line a stated probability is what it says. Whiskers: 95 % intervals."}};
+  Block block = report::make_curves(
+      {"Stated probability", "", true}, {"Share that was right", "", true}, Json::array({points.finish("cases")}),
+      "On the dashed line a stated probability is what it says. Whiskers: 95 % intervals.");
+  block["diagonal"] = 1.0;
+  return block;
 }
 
 Block make_lead(const Score& score) {

@@ -151,8 +151,7 @@ std::string format_figures(const Score& score) {
 
 std::string format_score(const Score& score) {
   std::string text = fmt::format("{} cases. Intervals are Wilson's, 95 %.\n", score.cases);
-  for (const std::string& warning : score.warnings) text += wrap("warning: " + warning, 0);
-  text += format_figures(score);
+  text += format_warnings(score.warnings) + format_figures(score);
   for (const Table& table : make_score_tables(score)) {
     if (table.title != kFigures) text += '\n' + format_table(table);
   }
