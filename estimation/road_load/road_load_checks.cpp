@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -24,7 +25,18 @@ constexpr double kTopSpeed_m_s = 115.0 / 3.6;
 constexpr double kLowSpeed_m_s = 15.0 / 3.6;
 constexpr double kSpeedAccuracy_m_s = 0.2 / 3.6;  // that J2263 asks of the sensor
 
-CheckStatus status_of(bool good) { return good ? CheckStatus::kPass : CheckStatus::kFail; }
+/// What the data say of a limit.
+struct Found {
+  bool is_within = false;
+  std::string text;
+};
+
+/// A check. Where nothing was found, `missing` says why.
+RoadLoadCheck check(const char* name, const std::optional<Found>& found, const char* missing, const std::string& limit,
+                    const char* clause) {
+  if (!found.has_value()) return {name, CheckStatus::kNotChecked, missing, limit, clause};
+  return {name, found->is_within ? CheckStatus::kPass : CheckStatus::kFail, found->text, limit, clause};
+}
 
 /// Every value of a condition over all runs.
 std::vector<double> gather(const CoastdownData& data, std::vector<double> CoastdownConditions::*member) {
@@ -36,87 +48,70 @@ std::vector<double> gather(const CoastdownData& data, std::vector<double> Coastd
   return all;
 }
 
-RoadLoadCheck not_checked(const char* name, const std::string& why, const std::string& limit, const char* clause) {
-  return {name, CheckStatus::kNotChecked, why, limit, clause};
-}
-
 void check_wind(const CoastdownData& data, std::vector<RoadLoadCheck>& checks) {
-  const std::vector<double> along = gather(data, &CoastdownConditions::wind_m_s);
-  const std::vector<double> across = gather(data, &CoastdownConditions::crosswind_m_s);
-  const std::string mean_limit = fmt::format("<= {:.1f} m/s", kMostWind_m_s);
-  const std::string peak_limit = fmt::format("<= {:.1f} m/s", kMostPeakWind_m_s);
-  const std::string cross_limit = fmt::format("<= {:.1f} m/s", kMostCrosswind_m_s);
-  if (along.empty()) {
-    checks.push_back(not_checked("wind, mean", "no column wind_m_s", mean_limit, "SAE J1263"));
-    checks.push_back(not_checked("wind, peak", "no column wind_m_s", peak_limit, "SAE J1263"));
-  } else {
-    std::vector<double> total = along;
-    for (std::size_t i = 0; i < total.size() && across.size() == along.size(); ++i) {
-      total[i] = std::hypot(along[i], across[i]);
-    }
-    for (double& wind : total) wind = std::abs(wind);
-    const double mean = calc_mean(total);
-    const double peak = *std::max_element(total.begin(), total.end());
-    checks.push_back(
-        {"wind, mean", status_of(mean <= kMostWind_m_s), fmt::format("{:.2f} m/s", mean), mean_limit, "SAE J1263"});
-    checks.push_back(
-        {"wind, peak", status_of(peak <= kMostPeakWind_m_s), fmt::format("{:.2f} m/s", peak), peak_limit, "SAE J1263"});
+  std::vector<double> total_m_s = gather(data, &CoastdownConditions::wind_m_s);
+  const std::vector<double> across_m_s = gather(data, &CoastdownConditions::crosswind_m_s);
+  const bool has_both = across_m_s.size() == total_m_s.size();
+  for (std::size_t i = 0; i < total_m_s.size(); ++i) {
+    total_m_s[i] = std::hypot(total_m_s[i], has_both ? across_m_s[i] : 0.0);
   }
-  if (across.empty()) {
-    checks.push_back(not_checked("crosswind, mean", "no column crosswind_m_s", cross_limit, "SAE J1263"));
-    return;
+  const auto judge = [](double wind_m_s, double most_m_s) {
+    return Found{wind_m_s <= most_m_s, fmt::format("{:.2f} m/s", wind_m_s)};
+  };
+  std::optional<Found> mean, peak, cross;
+  if (!total_m_s.empty()) {
+    mean = judge(calc_mean(total_m_s), kMostWind_m_s);
+    peak = judge(*std::max_element(total_m_s.begin(), total_m_s.end()), kMostPeakWind_m_s);
   }
-  const double cross = std::abs(calc_mean(across));
-  checks.push_back({"crosswind, mean", status_of(cross <= kMostCrosswind_m_s), fmt::format("{:.2f} m/s", cross),
-                    cross_limit, "SAE J1263"});
+  if (!across_m_s.empty()) cross = judge(std::abs(calc_mean(across_m_s)), kMostCrosswind_m_s);
+  const auto limit = [](double most_m_s) { return fmt::format("<= {:.1f} m/s", most_m_s); };
+  checks.push_back(check("wind, mean", mean, "no column wind_m_s", limit(kMostWind_m_s), "SAE J1263"));
+  checks.push_back(check("wind, peak", peak, "no column wind_m_s", limit(kMostPeakWind_m_s), "SAE J1263"));
+  checks.push_back(check("crosswind, mean", cross, "no column crosswind_m_s", limit(kMostCrosswind_m_s), "SAE J1263"));
 }
 
 void check_wind_found(const RoadLoadFit& fit, std::vector<RoadLoadCheck>& checks) {
-  const std::string limit = fmt::format("<= {:.1f} m/s", kMostWind_m_s);
-  if (fit.winds.empty()) {
-    checks.push_back(not_checked("wind from headings", "not both headings", limit, "SAE J1263"));
-    return;
+  std::optional<Found> found;
+  if (!fit.winds.empty()) {
+    const auto worst = std::max_element(fit.winds.begin(), fit.winds.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.wind_m_s) < std::abs(b.wind_m_s);
+    });
+    found = Found{std::abs(worst->wind_m_s) <= kMostWind_m_s,
+                  fmt::format("{:.2f} +- {:.2f} m/s", worst->wind_m_s, worst->sd_m_s)};
   }
-  const auto worst = std::max_element(fit.winds.begin(), fit.winds.end(), [](const auto& a, const auto& b) {
-    return std::abs(a.wind_m_s) < std::abs(b.wind_m_s);
-  });
-  checks.push_back({"wind from headings", status_of(std::abs(worst->wind_m_s) <= kMostWind_m_s),
-                    fmt::format("{:.2f} +- {:.2f} m/s", worst->wind_m_s, worst->sd_m_s), limit, "SAE J1263"});
+  checks.push_back(check("wind from headings", found, "not both headings", fmt::format("<= {:.1f} m/s", kMostWind_m_s),
+                         "SAE J1263"));
 }
 
 void check_slope(const CoastdownData& data, const RoadLoadFit& fit, std::vector<RoadLoadCheck>& checks) {
   const std::vector<double> slopes = gather(data, &CoastdownConditions::slope);
+  std::optional<Found> most, change, from_headings;
+  if (!slopes.empty()) {
+    const auto [low, high] = std::minmax_element(slopes.begin(), slopes.end());
+    const double steepest = std::max(std::abs(*low), std::abs(*high));
+    most = Found{steepest <= kMostSlope, fmt::format("{:.2f} %", 100.0 * steepest)};
+    change = Found{*high - *low <= kMostSlopeChange, fmt::format("within {:.2f} %", 100.0 * (*high - *low))};
+  }
+  if (fit.slope.has_value()) {
+    from_headings = Found{std::abs(*fit.slope) <= kMostSlope,
+                          fmt::format("{:.3f} +- {:.3f} %", 100.0 * *fit.slope, 100.0 * fit.slope_sd)};
+  }
   const std::string limit = fmt::format("<= {:.1f} %", 100.0 * kMostSlope);
   const char* clause = "SAE J1263 7.4; 40 CFR 1066.310(b)";
-  if (slopes.empty()) {
-    checks.push_back(not_checked("slope", "no column slope", limit, clause));
-    checks.push_back(not_checked("slope, constant", "no column slope", "within 0.2 %", "SAE J1263 7.4"));
-  } else {
-    const auto [low, high] = std::minmax_element(slopes.begin(), slopes.end());
-    const double most = std::max(std::abs(*low), std::abs(*high));
-    checks.push_back({"slope", status_of(most <= kMostSlope), fmt::format("{:.2f} %", 100.0 * most), limit, clause});
-    checks.push_back({"slope, constant", status_of(*high - *low <= kMostSlopeChange),
-                      fmt::format("within {:.2f} %", 100.0 * (*high - *low)), "within 0.2 %", "SAE J1263 7.4"});
-  }
-  if (!fit.slope.has_value()) {
-    checks.push_back(not_checked("slope from headings", "not both headings", limit, clause));
-    return;
-  }
-  checks.push_back({"slope from headings", status_of(std::abs(*fit.slope) <= kMostSlope),
-                    fmt::format("{:.3f} +- {:.3f} %", 100.0 * *fit.slope, 100.0 * fit.slope_sd), limit, clause});
+  checks.push_back(check("slope", most, "no column slope", limit, clause));
+  checks.push_back(check("slope, constant", change, "no column slope", "within 0.2 %", "SAE J1263 7.4"));
+  checks.push_back(check("slope from headings", from_headings, "not both headings", limit, clause));
 }
 
 void check_ambient(const CoastdownData& data, std::vector<RoadLoadCheck>& checks) {
   const std::vector<double> ambient = gather(data, &CoastdownConditions::ambient_K);
-  const std::string limit = "5 to 35 degC";
-  if (ambient.empty()) {
-    checks.push_back(not_checked("ambient temperature", "no column ambient_degC", limit, "SAE J1263"));
-    return;
+  std::optional<Found> found;
+  if (!ambient.empty()) {
+    const auto [low, high] = std::minmax_element(ambient.begin(), ambient.end());
+    found = Found{*low >= kColdest_K && *high <= kHottest_K,
+                  fmt::format("{:.1f} to {:.1f} degC", *low - kZeroCelsius_K, *high - kZeroCelsius_K)};
   }
-  const auto [low, high] = std::minmax_element(ambient.begin(), ambient.end());
-  checks.push_back({"ambient temperature", status_of(*low >= kColdest_K && *high <= kHottest_K),
-                    fmt::format("{:.1f} to {:.1f} degC", *low - kZeroCelsius_K, *high - kZeroCelsius_K), limit,
-                    "SAE J1263"});
+  checks.push_back(check("ambient temperature", found, "no column ambient_degC", "5 to 35 degC", "SAE J1263"));
 }
 
 void check_runs(const CoastdownData& data, const RoadLoadFit& fit, std::vector<RoadLoadCheck>& checks) {
@@ -124,28 +119,24 @@ void check_runs(const CoastdownData& data, const RoadLoadFit& fit, std::vector<R
   for (const CoastdownRun& run : data.runs) {
     if (run.heading != 0) ++ways[run.heading > 0 ? 0 : 1];
   }
-  checks.push_back({"runs each way", status_of(std::min(ways[0], ways[1]) >= kLeastRunsEachWay),
-                    fmt::format("{} and {}", ways[0], ways[1]), fmt::format(">= {}", kLeastRunsEachWay),
-                    "SAE J1263; J2263"});
-  const bool covered =
-      fit.high_m_s >= kTopSpeed_m_s - kSpeedAccuracy_m_s && fit.low_m_s <= kLowSpeed_m_s + kSpeedAccuracy_m_s;
-  checks.push_back({"speed range", status_of(covered),
-                    fmt::format("{:.4g} to {:.4g} km/h", 3.6 * fit.high_m_s, 3.6 * fit.low_m_s), "115 to 15 km/h",
-                    "SAE J2263, scope"});
+  const Found runs{std::min(ways[0], ways[1]) >= kLeastRunsEachWay, fmt::format("{} and {}", ways[0], ways[1])};
+  checks.push_back(check("runs each way", runs, "", fmt::format(">= {}", kLeastRunsEachWay), "SAE J1263; J2263"));
+  const Found speeds{
+      fit.high_m_s >= kTopSpeed_m_s - kSpeedAccuracy_m_s && fit.low_m_s <= kLowSpeed_m_s + kSpeedAccuracy_m_s,
+      fmt::format("{:.4g} to {:.4g} km/h", 3.6 * fit.high_m_s, 3.6 * fit.low_m_s)};
+  checks.push_back(check("speed range", speeds, "", "115 to 15 km/h", "SAE J2263, scope"));
 }
 
 void check_precision(const std::vector<PairPrecision>& precisions, std::vector<RoadLoadCheck>& checks) {
-  const std::string limit = fmt::format("<= {:.0f} % each", 100.0 * kMostPrecision);
-  const char* clause = "UN GTR 15 Annex 4, 4.3.1.4.2";
-  if (precisions.empty()) {
-    checks.push_back(not_checked("repeatability of pairs", "fewer than two pairs", limit, clause));
-    return;
+  std::optional<Found> found;
+  if (!precisions.empty()) {
+    const auto worst = std::max_element(precisions.begin(), precisions.end(),
+                                        [](const auto& a, const auto& b) { return a.precision < b.precision; });
+    found = Found{worst->precision <= kMostPrecision,
+                  fmt::format("{:.1f} % at {:.0f} km/h", 100.0 * worst->precision, 3.6 * worst->speed_m_s)};
   }
-  const auto worst = std::max_element(precisions.begin(), precisions.end(),
-                                      [](const auto& a, const auto& b) { return a.precision < b.precision; });
-  checks.push_back({"repeatability of pairs", status_of(worst->precision <= kMostPrecision),
-                    fmt::format("{:.1f} % at {:.0f} km/h", 100.0 * worst->precision, 3.6 * worst->speed_m_s), limit,
-                    clause});
+  checks.push_back(check("repeatability of pairs", found, "fewer than two pairs",
+                         fmt::format("<= {:.0f} % each", 100.0 * kMostPrecision), "UN GTR 15 Annex 4, 4.3.1.4.2"));
 }
 
 }  // namespace
