@@ -14,26 +14,6 @@ using diagnosis::Recurrence;
 using diagnosis::Shared;
 using diagnosis::show_probability;
 
-Block make_members(const Fleet& fleet) {
-  Table table{"", {"set", "machine", "tire", "verdict", "cause", "probability", "gap before", "after"}, {}};
-  for (const FleetMember& member : fleet.members) {
-    std::vector<std::string> row{member.folder, member.machine, member.tire};
-    if (!member.findings.has_value()) {
-      row.insert(row.end(), {"failed", "-", "-", "-", "-"});
-    } else {
-      const Findings& one = *member.findings;
-      const bool has_cause = one.verdict == Verdict::kExplained;
-      row.insert(row.end(), {one.doubt.empty() ? diagnosis::name_of(one.verdict) : "in doubt",
-                             has_cause ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "-",
-                             has_cause ? show_probability(one.causes.front().probability) : "-",
-                             fmt::format("{:.2f}", one.gap.recalibrated.before),
-                             has_cause ? fmt::format("{:.2f}", one.gap.recalibrated.after) : "-"});
-    }
-    table.rows.push_back(row);
-  }
-  return make_table(table);
-}
-
 std::string name_shared(const Recurrence& at) {
   switch (at.shared) {
     case Shared::kMachine:
@@ -94,7 +74,7 @@ Section make_member(const FleetMember& member) {
 
 Page make_fleet_page(const Fleet& fleet) {
   Page page{"diagnose", "Diagnosis of " + format_count(fleet.members.size(), "set"), ""};
-  page.add({"Sets", "", {make_members(fleet), make_gaps(fleet)}});
+  page.add({"Sets", "", {make_table(diagnosis::make_fleet_table(fleet)), make_gaps(fleet)}});
   Section back{"What comes back"};
   back.blocks.push_back(fleet.recurrences.empty()
                             ? make_paragraph("No effect acts with more than 80 % in all sets of a machine or a tire.")

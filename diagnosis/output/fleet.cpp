@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "diagnosis/output/diagnosis_json.h"
-#include "sim/core/columns.h"
+#include "diagnosis/output/summary.h"
 #include "sim/core/error_text.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
@@ -17,12 +17,6 @@ namespace rollrig::diagnosis {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string gap_text(const Findings& findings) {
-  const Gap& gap = findings.gap;
-  if (findings.verdict != Verdict::kExplained) return fmt::format("{:.1f}", gap.recalibrated.before);
-  return fmt::format("{:.1f}->{:.1f}", gap.recalibrated.before, gap.recalibrated.after);
-}
 
 /// The set of a member; what is wrong with it goes into the member.
 std::optional<measurements::MeasurementSet> read_member(FleetMember& member) {
@@ -122,24 +116,33 @@ Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOpt
   return fleet;
 }
 
-std::string format_fleet(const Fleet& fleet) {
-  Table table{"", {"Set", "Verdict", "Cause", "Prob.", "Gap, floors"}, {}};
+Table make_fleet_table(const Fleet& fleet) {
+  Table table{
+      "", {"set", "verdict", "cause", "probability", "gap, floors", "after", "machine", "tire", "folder"}, {}, 3};
   for (const FleetMember& member : fleet.members) {
-    const std::string name = name_of(member);
-    if (!member.findings) {
-      table.rows.push_back({name, "failed", "see below", "", ""});
-      continue;
+    std::vector<std::string> row{name_of(member), "failed", "see below", "", "", ""};
+    if (member.findings) {
+      const Findings& one = *member.findings;
+      const GapView& gap = one.gap.recalibrated;
+      const bool explained = one.verdict == Verdict::kExplained;
+      const double probability = explained ? one.causes.front().probability
+                                           : one.probability.at(one.verdict == Verdict::kNoGap ? "none" : "unknown");
+      row = {name_of(member),
+             one.doubt.empty() ? name_of(one.verdict) : "in doubt",
+             explained ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "",
+             one.doubt.empty() ? show_probability(probability) : "",
+             fmt::format("{:.2f}", gap.before),
+             explained ? fmt::format("{:.2f}", gap.after) : ""};
     }
-    const Findings& one = *member.findings;
-    const bool explained = one.verdict == Verdict::kExplained;
-    const double probability = explained                        ? one.causes.front().probability
-                               : one.verdict == Verdict::kNoGap ? one.probability.at("none")
-                                                                : one.probability.at("unknown");
-    table.rows.push_back({name, one.doubt.empty() ? name_of(one.verdict) : "in doubt",
-                          explained ? fmt::format("{}", fmt::join(one.causes.front().effects, " + ")) : "",
-                          one.doubt.empty() ? fmt::format("{:.0f} %", 100.0 * probability) : "", gap_text(one)});
+    row.insert(row.end(), {member.machine, member.tire, member.folder});
+    table.rows.push_back(row);
   }
-  std::string text = format_table(table, 0) + format_troubles(fleet) + "\nComes back from set to set\n";
+  return table;
+}
+
+std::string format_fleet(const Fleet& fleet) {
+  std::string text = format_table(make_fleet_table(fleet), 0) + format_troubles(fleet);
+  text += "\nComes back from set to set\n";
   if (fleet.recurrences.empty()) text += "  nothing\n";
   for (const Recurrence& one : fleet.recurrences) text += wrap(describe_recurrence(one), 2);
   return text;

@@ -6,6 +6,7 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/output/recurrences.h"
+#include "sim/core/columns.h"
 #include "sim/core/json.h"
 
 namespace rollrig::diagnosis {
@@ -20,7 +21,10 @@ struct Fleet {
 /// Errors  InputError: no set can be read; an unknown effect in `options`
 Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options);
 
-/// One line a set, then what failed, what is in doubt, and what comes back; 80 columns but for places in files.
+/// A row a set: verdict, cause, gap before and after.
+Table make_fleet_table(const Fleet& fleet);
+
+/// This table, then what failed, what is in doubt, and what comes back; 80 columns but for places in files.
 std::string format_fleet(const Fleet& fleet);
 
 /// rollrig-fleet/1: `sets` (each `folder`, `machine`, `tire`, `failure`, `diagnosis` as of one set), `recurring`.
