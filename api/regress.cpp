@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 
 #include "report/list_pages.h"
 #include "scenarios/run/golden.h"
@@ -99,13 +98,11 @@ Regression regress(const std::string& folder, const RegressionOptions& options) 
     throw InputError({fmt::format("no run files in '{}'", found.folder), found.folder, 0, "", "",
                       "a folder with run files (.toml)", ""});
   }
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(found.runs.size(), options.threads, [&](std::size_t i) {
-    regress_run(found.folder, found.runs[i]);
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (options.progress) options.progress(static_cast<double>(++done) / static_cast<double>(found.runs.size()), "");
-  });
+  parallel_for(
+      found.runs.size(), options.threads, [&](std::size_t i) { regress_run(found.folder, found.runs[i]); },
+      [&](double share) {
+        if (options.progress) options.progress(share, "");
+      });
   // A golden without a run file is listed, lest a renamed run goes unchecked.
   for (const std::string& name : list_names(found.folder, ".golden.csv")) {
     if (!fs::exists(fs::path(found.folder) / (name + ".toml"))) found.runs.push_back({{}, name, "no run file"});

@@ -5,6 +5,8 @@
 
 #include <mutex>
 
+#include "sim/core/interrupt.h"
+
 namespace rollrig {
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
@@ -12,6 +14,7 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   std::mutex mutex;
   std::size_t done = 0;
   const auto work_and_tell = [&](std::size_t i) {
+    throw_if_interrupted();
     work(i);
     if (!advance) return;
     const std::lock_guard<std::mutex> lock(mutex);

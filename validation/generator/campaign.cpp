@@ -50,6 +50,22 @@ Air draw_air(Draws& draws, double mean_degC) {
   return air;
 }
 
+bool RunPlan::is_read(double time_s) const {
+  return std::none_of(unread_s.begin(), unread_s.end(),
+                      [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
+}
+
+double RunPlan::find_hung_torque_Nm(double time_s) const {
+  double torque_Nm = 0.0;
+  for (const auto& [from_s, torque_then_Nm] : hung_Nm) {
+    if (time_s >= from_s) torque_Nm = torque_then_Nm;
+  }
+  return torque_Nm;
+}
+
+namespace {
+
+/// A run as it starts, without its legs.
 RunPlan start_run(Draws& own, std::size_t index, const RunKind& what, const Cooling& cooling,
                   const Specimen& specimen) {
   RunPlan run;
@@ -69,17 +85,21 @@ RunPlan start_run(Draws& own, std::size_t index, const RunKind& what, const Cool
   return run;
 }
 
-bool RunPlan::is_read(double time_s) const {
-  return std::none_of(unread_s.begin(), unread_s.end(),
-                      [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
-}
+}  // namespace
 
-double RunPlan::find_hung_torque_Nm(double time_s) const {
-  double torque_Nm = 0.0;
-  for (const auto& [from_s, torque_then_Nm] : hung_Nm) {
-    if (time_s >= from_s) torque_Nm = torque_then_Nm;
+Campaign draw_runs(const CampaignOrder& order, const CampaignKind& kind, const Cooling& cooling,
+                   const Specimen& specimen,
+                   const std::function<std::vector<Leg>(Draws& own, const RunKind& what)>& draw_legs) {
+  Campaign campaign{kind.name, {}};
+  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(order.runs), kind.runs.size()); ++i) {
+    RunKind what = kind.runs[i];
+    if (!order.run_kind.empty()) what.kind = order.run_kind.c_str();
+    Draws own(order.seed, fmt::format("run/{}", i));
+    RunPlan run = start_run(own, i, what, cooling, specimen);
+    run.legs = draw_legs(own, what);
+    campaign.runs.push_back(std::move(run));
   }
-  return torque_Nm;
+  return campaign;
 }
 
 }  // namespace rollrig::generator

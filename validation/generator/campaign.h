@@ -2,6 +2,7 @@
 /// What a laboratory does: runs of speeds and loads in two or three sessions.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -107,9 +108,6 @@ struct Cooling {
   double time_constant_min;
 };
 
-/// A run as it starts, without its legs.
-RunPlan start_run(Draws& own, std::size_t index, const RunKind& what, const Cooling& cooling, const Specimen& specimen);
-
 struct Campaign {
   std::string name;
   std::vector<RunPlan> runs;
@@ -122,6 +120,11 @@ struct CampaignOrder {
   int runs = kMostRuns;  // the first of the campaign
   std::string run_kind;  // of all runs; empty: as the laboratory has them
 };
+
+/// The ordered runs of a laboratory on a rig, each from draws of its own. `draw_legs` gives the legs of a run.
+Campaign draw_runs(const CampaignOrder& order, const CampaignKind& kind, const Cooling& cooling,
+                   const Specimen& specimen,
+                   const std::function<std::vector<Leg>(Draws& own, const RunKind& what)>& draw_legs);
 
 /// Slow swing and slope of the air about `mean_degC`, within a degree or so.
 Air draw_air(Draws& draws, double mean_degC);

@@ -1,9 +1,8 @@
 #include "validation/generator/carriage.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace rollrig::generator::carriage {
 namespace {
@@ -134,7 +133,9 @@ Legs draw_legs(Draws& draws, const Habits& habits, const std::string& kind) {
   if (kind == "load sweep") return load_sweep(draws, habits);
   if (kind == "transient skim") return transient_skim(draws, habits);
   if (kind == "up and down") return up_and_down(draws, habits);
-  return warm_up(draws, habits, std::stod(kind.substr(kind.find(' '))));
+  const std::string warm_up_kind = "warm-up ";
+  if (kind.rfind(warm_up_kind, 0) == 0) return warm_up(draws, habits, std::stod(kind.substr(warm_up_kind.size())));
+  throw std::logic_error("unknown kind of run: " + kind);
 }
 
 Habits draw_habits(Draws& draws, const Specimen& specimen) {
@@ -155,15 +156,8 @@ Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen, con
   Draws draws(order.seed, "campaign");
   const CampaignKind& kind = draws.pick(kinds);
   const Habits habits = draw_habits(draws, specimen);
-  Campaign campaign{kind.name, {}};
-  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(order.runs), kind.runs.size()); ++i) {
-    const RunKind& what = kind.runs[i];
-    Draws own(order.seed, fmt::format("run/{}", i));
-    RunPlan run = start_run(own, i, what, kCooling, specimen);
-    run.legs = draw_legs(own, habits, what.kind);
-    campaign.runs.push_back(std::move(run));
-  }
-  return campaign;
+  return draw_runs(order, kind, kCooling, specimen,
+                   [&](Draws& own, const RunKind& what) { return draw_legs(own, habits, what.kind); });
 }
 
 double calc_moving_mass_kg(const Specimen& specimen, double load_N, double target_load_N) {

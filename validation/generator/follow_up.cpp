@@ -10,6 +10,7 @@
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parallel.h"
 #include "validation/files.h"
 #include "validation/generator/laboratory.h"
 
@@ -219,8 +220,9 @@ std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress
   validation::require_new_folder(out, "followup");
   OutputFolder folder(out, true);
   std::vector<Files> made(numbers.size());
-  work_on_all(numbers.size(), order.threads, progress,
-              [&](std::size_t i) { made[i] = follow_up_case(order, numbers[i], truths.at(numbers[i])); });
+  parallel_for(
+      numbers.size(), order.threads,
+      [&](std::size_t i) { made[i] = follow_up_case(order, numbers[i], truths.at(numbers[i])); }, progress);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (auto& [file, content] : made[i]) folder.add(numbers[i] + "/" + file, std::move(content));
   }

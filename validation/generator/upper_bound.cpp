@@ -9,6 +9,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parallel.h"
 #include "validation/files.h"
 #include "validation/generator/laboratory.h"
 #include "validation/generator/observer.h"
@@ -248,11 +249,12 @@ std::size_t write_upper_bounds(UpperBoundOrder& order, const Progress& progress)
   check_place(order.out, order.set);
   const auto orders = read_orders(order, truth.cases);
   std::vector<Json> described(orders.size());
-  work_on_all(orders.size(), order.threads, progress, [&](std::size_t i) {
+  const auto bound_case = [&](std::size_t i) {
     const auto& [number, set] = orders[i];
     require_same_files(validation::case_folder(order.set, number), set);
     described[i] = describe_bound(set, find_upper_bound(set, order.detection_alone));
-  });
+  };
+  parallel_for(orders.size(), order.threads, bound_case, progress);
   Json json = {{"format", validation::kUpperBoundFormat},
                {"truth_sha256", truth.sha256},
                {"sets", read_kept(order.out, truth.sha256)}};

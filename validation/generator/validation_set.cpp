@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
-#include "sim/core/parallel.h"
 #include "validation/files.h"
 
 namespace fs = std::filesystem;
@@ -174,7 +172,7 @@ void write_validation_set(const ValidationSetOrder& order, const std::function<v
     folder.flush();
     made.truth["set_sha256"] = validation::hash_files(made.files);
     truth["sets"][name] = std::move(made.truth);
-    progress(i + 1, plans.size());
+    progress(static_cast<double>(i + 1) / static_cast<double>(plans.size()));
     throw_if_interrupted();
   }
   const std::string text = truth.dump(1) + "\n";
@@ -209,18 +207,6 @@ void require_same_files(const std::string& folder, const SetOrder& order) {
     throw InputError(
         {fmt::format("'{}' is not what this program makes of its truth", file), file, 0, "", "", kAllowed, ""});
   }
-}
-
-void work_on_all(std::size_t count, int threads, const Progress& progress,
-                 const std::function<void(std::size_t)>& work) {
-  std::mutex mutex;
-  std::size_t done = 0;
-  parallel_for(count, threads, [&](std::size_t i) {
-    throw_if_interrupted();
-    work(i);
-    const std::lock_guard lock(mutex);
-    progress(++done, count);
-  });
 }
 
 }  // namespace rollrig::generator

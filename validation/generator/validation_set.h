@@ -11,7 +11,7 @@
 namespace rollrig::generator {
 
 /// Called after each piece of work.
-using Progress = std::function<void(std::size_t done, std::size_t of)>;
+using Progress = std::function<void(double share_done)>;
 
 /// A campaign that a case may have.
 struct CampaignChoice {
@@ -53,10 +53,5 @@ SetOrder read_order(const Json& truth);
 
 /// Errors  InputError: the files in `folder` are not those that the order makes
 void require_same_files(const std::string& folder, const SetOrder& order);
-
-/// Does `work` on 0 to `count` - 1 as parallel_for() does. `progress` is called by one thread at a time. Ctrl-C stops
-/// between two. Throws what `work` throws, and Interrupted.
-void work_on_all(std::size_t count, int threads, const Progress& progress,
-                 const std::function<void(std::size_t)>& work);
 
 }  // namespace rollrig::generator

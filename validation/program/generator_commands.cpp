@@ -21,10 +21,8 @@ constexpr int kMostCases = 2000;
 
 constexpr const char* kThreads = "Cases at a time [as many as there are cores]";
 
-/// Counts cases on a terminal.
-generator::Progress count_cases(cli::ProgressLine& line) {
-  return
-      [&line](std::size_t done, std::size_t of) { line.update(std::nan(""), fmt::format("{} of {} cases", done, of)); };
+generator::Progress show_share_of_cases(cli::ProgressLine& line) {
+  return [&line](double share_done) { line.update(share_done, "cases"); };
 }
 
 struct CaseOptions {
@@ -83,13 +81,13 @@ int make_command(MakeOptions options) {
     std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
     if (!std::cout) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
   };
-  write_validation_set(order, hashed, count_cases(line));
+  write_validation_set(order, hashed, show_share_of_cases(line));
   return cli::kDone;
 }
 
 int upper_bound_command(UpperBoundOrder order) {
   cli::ProgressLine line("validation", false);
-  const std::size_t cases = write_upper_bounds(order, count_cases(line));
+  const std::size_t cases = write_upper_bounds(order, show_share_of_cases(line));
   line.clear();
   std::cout << fmt::format("upper bound of {} cases with effects written to {}\n", cases, order.out);
   return cli::kDone;
@@ -97,7 +95,7 @@ int upper_bound_command(UpperBoundOrder order) {
 
 int follow_up_command(const FollowUpOrder& order) {
   cli::ProgressLine line("validation", false);
-  const std::size_t cases = write_follow_up(order, count_cases(line));
+  const std::size_t cases = write_follow_up(order, show_share_of_cases(line));
   line.clear();
   std::cout << fmt::format("{} cases with their next test in {}/sets\n", cases, follow_up_folder(order));
   return cli::kDone;

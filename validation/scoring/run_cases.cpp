@@ -91,7 +91,6 @@ RunTally run_cases(const RunOrder& order) {
   std::mutex mutex;
   try {
     parallel_for(own.size(), order.threads, [&](std::size_t i) {
-      throw_if_interrupted();
       const auto [answer, was_there] = answer_task(order, own[i], program);
       const std::lock_guard<std::mutex> lock(mutex);
       ++(was_there ? tally.kept : tally.made);

@@ -115,9 +115,15 @@ std::vector<Leg> make_legs(const SpeedTrace& trace, double load_N, const Specime
 std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N, const Specimen& specimen) {
   SpeedTrace trace;
   trace.hold(draws.whole(5, 20));
-  if (kind == "multi-cycle") multi_cycle(draws, trace);
-  if (kind == "constant speeds") constant_speeds(draws, trace);
-  if (kind == "mixed") mixed(draws, trace);
+  if (kind == "multi-cycle") {
+    multi_cycle(draws, trace);
+  } else if (kind == "constant speeds") {
+    constant_speeds(draws, trace);
+  } else if (kind == "mixed") {
+    mixed(draws, trace);
+  } else {
+    throw std::logic_error("unknown kind of run: " + kind);
+  }
   trace.hold(std::max(5.0, 3600.0 - trace.now_s()));
   return make_legs(trace, load_N, specimen);
 }
@@ -127,16 +133,9 @@ Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen) {
   Draws draws(order.seed, "campaign");
   const CampaignKind& kind = draws.pick(campaign_kinds());
   const double load_N = 50.0 * draws.whole(88, 112);
-  Campaign campaign{kind.name, {}};
-  for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(order.runs), kind.runs.size()); ++i) {
-    RunKind what = kind.runs[i];
-    if (!order.run_kind.empty()) what.kind = order.run_kind.c_str();
-    Draws own(order.seed, fmt::format("run/{}", i));
-    RunPlan run = start_run(own, i, what, kCooling, specimen);
-    run.legs = draw_legs(own, what.kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
-    campaign.runs.push_back(std::move(run));
-  }
-  return campaign;
+  return draw_runs(order, kind, kCooling, specimen, [&](Draws& own, const RunKind& what) {
+    return draw_legs(own, what.kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);
+  });
 }
 
 void draw_own(std::uint64_t seed, Specimen& specimen) {
