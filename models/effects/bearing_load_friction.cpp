@@ -1,8 +1,7 @@
 /// The bearings of spindle and roller rub more under load.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::bearing_load_friction {
 
 struct BearingLoadFriction {
   enum Parameter { kForce };
@@ -36,8 +35,6 @@ struct BearingLoadFriction {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<BearingLoadFriction>(); }
 
-const Effect& effect_bearing_load_friction() { return make_effect<BearingLoadFriction>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::bearing_load_friction

@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::bearing_warmup {
 
 struct BearingWarmup {
   enum Parameter { kFall, kTimeConstant, kRise, kReference, kQuadraticShare };
@@ -103,8 +102,6 @@ struct BearingWarmup {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<BearingWarmup>(); }
 
-const Effect& effect_bearing_warmup() { return make_effect<BearingWarmup>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::bearing_warmup

@@ -1,8 +1,7 @@
 /// Brake pads keep rubbing after the brake is released.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::brake_drag {
 
 struct BrakeDrag {
   enum Parameter { kForce, kDecay, kSetImpulse, kWearPower };
@@ -61,8 +60,6 @@ struct BrakeDrag {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<BrakeDrag>(); }
 
-const Effect& effect_brake_drag() { return make_effect<BrakeDrag>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::brake_drag

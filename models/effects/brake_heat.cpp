@@ -1,8 +1,7 @@
 /// Heat of the brakes reaches the tire through the rim.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::brake_heat {
 
 struct BrakeHeat {
   enum Parameter { kShare, kTimeConstant, kDisc, kGasShare, kDiscShare };
@@ -88,8 +87,6 @@ struct BrakeHeat {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<BrakeHeat>(); }
 
-const Effect& effect_brake_heat() { return make_effect<BrakeHeat>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::brake_heat

@@ -1,8 +1,7 @@
 /// The cavity of the tire becomes smaller under load and larger with speed.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::cavity_volume {
 
 struct CavityVolume {
   enum Parameter { kContraction, kLoadPower, kGrowth, kSetting };
@@ -73,8 +72,6 @@ struct CavityVolume {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<CavityVolume>(); }
 
-const Effect& effect_cavity_volume() { return make_effect<CavityVolume>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::cavity_volume

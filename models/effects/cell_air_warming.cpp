@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::cell_air_warming {
 
 struct CellAirWarming {
   enum Parameter { kRise, kTimeConstant, kPower, kTireShare };
@@ -65,8 +64,6 @@ struct CellAirWarming {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<CellAirWarming>(); }
 
-const Effect& effect_cell_air_warming() { return make_effect<CellAirWarming>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::cell_air_warming

@@ -5,8 +5,7 @@
 
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::clock_shift {
 
 /// A channel of which the means over one cell a row are known, read at other times.
 ///
@@ -160,8 +159,6 @@ struct ClockShift {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<ClockShift>(); }
 
-const Effect& effect_clock_shift() { return make_effect<ClockShift>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::clock_shift

@@ -1,8 +1,7 @@
 /// The air takes heat off the tire by another power of the speed.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::convection_law {
 
 struct ConvectionLaw {
   enum Parameter { kDeficit, kReferenceSpeed, kOtherAir, kFanShare };
@@ -53,8 +52,6 @@ struct ConvectionLaw {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<ConvectionLaw>(); }
 
-const Effect& effect_convection_law() { return make_effect<ConvectionLaw>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::convection_law

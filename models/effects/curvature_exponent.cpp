@@ -1,8 +1,7 @@
 /// The curvature of the drum counts more or less than the standard says.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::curvature_exponent {
 
 struct CurvatureExponent {
   enum Parameter { kExponent };
@@ -28,8 +27,6 @@ struct CurvatureExponent {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<CurvatureExponent>(); }
 
-const Effect& effect_curvature_exponent() { return make_effect<CurvatureExponent>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::curvature_exponent

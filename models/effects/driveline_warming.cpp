@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::driveline_warming {
 
 struct DrivelineWarming {
   enum Parameter { kForce, kTimeConstant, kFall, kAmbientShare, kDryShare };
@@ -65,8 +64,6 @@ struct DrivelineWarming {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<DrivelineWarming>(); }
 
-const Effect& effect_driveline_warming() { return make_effect<DrivelineWarming>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::driveline_warming

@@ -1,8 +1,7 @@
 /// A tire that has stood rolls out of round at first.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::flat_spot {
 
 struct FlatSpot {
   enum Parameter { kExcess, kDistance, kSetTime };
@@ -56,8 +55,6 @@ struct FlatSpot {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<FlatSpot>(); }
 
-const Effect& effect_flat_spot() { return make_effect<FlatSpot>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::flat_spot

@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::gas_heat_transfer {
 
 struct GasHeatTransfer {
   enum Parameter { kRatio, kStirred };
@@ -44,8 +43,6 @@ struct GasHeatTransfer {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<GasHeatTransfer>(); }
 
-const Effect& effect_gas_heat_transfer() { return make_effect<GasHeatTransfer>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::gas_heat_transfer

@@ -1,8 +1,7 @@
 /// The inertia that is reckoned with is not the one that turns.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::inertia_error {
 
 struct InertiaError {
   enum Parameter { kError };
@@ -38,8 +37,6 @@ struct InertiaError {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<InertiaError>(); }
 
-const Effect& effect_inertia_error() { return make_effect<InertiaError>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::inertia_error

@@ -1,8 +1,7 @@
 /// Load leaks into the torque measurement.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::load_cross_talk {
 
 struct LoadCrossTalk {
   enum Parameter { kAngle, kBending };
@@ -61,8 +60,6 @@ struct LoadCrossTalk {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<LoadCrossTalk>(); }
 
-const Effect& effect_load_cross_talk() { return make_effect<LoadCrossTalk>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::load_cross_talk

@@ -1,8 +1,7 @@
 /// The loss grows with another power of the load than the first.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::load_exponent {
 
 struct LoadExponent {
   enum Parameter { kExponent };
@@ -31,8 +30,6 @@ struct LoadExponent {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<LoadExponent>(); }
 
-const Effect& effect_load_exponent() { return make_effect<LoadExponent>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::load_exponent

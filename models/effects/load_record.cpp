@@ -1,8 +1,7 @@
 /// The recorded load is off by a scale, straight or bent, an offset, or some of both.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::load_record {
 
 struct LoadRecord {
   enum Parameter { kError, kOffsetShare, kPower };
@@ -48,8 +47,6 @@ struct LoadRecord {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<LoadRecord>(); }
 
-const Effect& effect_load_record() { return make_effect<LoadRecord>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::load_record

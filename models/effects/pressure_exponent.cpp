@@ -1,8 +1,7 @@
 /// The loss falls with another power of the pressure than the tire file's.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::pressure_exponent {
 
 struct PressureExponent {
   enum Parameter { kShift };
@@ -34,8 +33,6 @@ struct PressureExponent {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<PressureExponent>(); }
 
-const Effect& effect_pressure_exponent() { return make_effect<PressureExponent>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::pressure_exponent

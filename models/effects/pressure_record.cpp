@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::pressure_record {
 
 struct PressureRecord {
   enum Parameter { kOffset, kDrift, kScaleShare };
@@ -51,8 +50,6 @@ struct PressureRecord {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<PressureRecord>(); }
 
-const Effect& effect_pressure_record() { return make_effect<PressureRecord>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::pressure_record

@@ -1,8 +1,7 @@
 /// The rim takes heat from tire and gas, and gives it to the air.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::rim_heat {
 
 struct RimHeat {
   enum Parameter { kConductance, kGasShare, kCapacity, kAirRatio };
@@ -52,8 +51,6 @@ struct RimHeat {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<RimHeat>(); }
 
-const Effect& effect_rim_heat() { return make_effect<RimHeat>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::rim_heat

@@ -1,8 +1,7 @@
 /// Rubber that has rested loses more until it has been worked.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::rubber_memory {
 
 struct RubberMemory {
   enum Parameter { kExcess, kDecayTime, kRecoveryTime };
@@ -63,8 +62,6 @@ struct RubberMemory {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<RubberMemory>(); }
 
-const Effect& effect_rubber_memory() { return make_effect<RubberMemory>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::rubber_memory

@@ -1,8 +1,7 @@
 /// Longitudinal slip under drive and brake force costs work.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::slip_loss {
 
 struct SlipLoss {
   enum Parameter { kCompliance };
@@ -45,8 +44,6 @@ struct SlipLoss {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<SlipLoss>(); }
 
-const Effect& effect_slip_loss() { return make_effect<SlipLoss>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::slip_loss

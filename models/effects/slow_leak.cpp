@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::slow_leak {
 
 struct SlowLeak {
   enum Parameter { kRate, kGrowth };
@@ -60,8 +59,6 @@ struct SlowLeak {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<SlowLeak>(); }
 
-const Effect& effect_slow_leak() { return make_effect<SlowLeak>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::slow_leak

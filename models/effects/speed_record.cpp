@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::speed_record {
 
 struct SpeedRecord {
   enum Parameter { kError, kGrowingShare, kFixedShare };
@@ -57,8 +56,6 @@ struct SpeedRecord {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<SpeedRecord>(); }
 
-const Effect& effect_speed_record() { return make_effect<SpeedRecord>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::speed_record

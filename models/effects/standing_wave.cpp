@@ -1,8 +1,7 @@
 /// Waves on the tire at high speed cost work.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::standing_wave {
 
 struct StandingWave {
   enum Parameter { kForce, kCriticalSpeed, kLoadPower };
@@ -48,8 +47,6 @@ struct StandingWave {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<StandingWave>(); }
 
-const Effect& effect_standing_wave() { return make_effect<StandingWave>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::standing_wave

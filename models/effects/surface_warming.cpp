@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::surface_warming {
 
 struct SurfaceWarming {
   enum Parameter { kRise, kTimeConstant, kPower, kSkinShare };
@@ -75,8 +74,6 @@ struct SurfaceWarming {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<SurfaceWarming>(); }
 
-const Effect& effect_surface_warming() { return make_effect<SurfaceWarming>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::surface_warming

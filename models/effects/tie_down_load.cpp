@@ -1,8 +1,7 @@
 /// The restraint of a vehicle on rollers presses its wheels down.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::tie_down_load {
 
 struct TieDownLoad {
   enum Parameter { kLoad, kRelaxing };
@@ -48,8 +47,6 @@ struct TieDownLoad {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<TieDownLoad>(); }
 
-const Effect& effect_tie_down_load() { return make_effect<TieDownLoad>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::tie_down_load

@@ -1,8 +1,7 @@
 /// The tire keeps a loss of its own when the load is taken off.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::tire_loss_in_skim {
 
 struct TireLossInSkim {
   enum Parameter { kForce, kTemperatureCoefficient, kLoadPower };
@@ -52,8 +51,6 @@ struct TireLossInSkim {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<TireLossInSkim>(); }
 
-const Effect& effect_tire_loss_in_skim() { return make_effect<TireLossInSkim>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::tire_loss_in_skim

@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::tire_temperature {
 
 struct TireTemperature {
   enum Parameter { kFall, kWarmUp, kRise, kReferenceShift };
@@ -81,8 +80,6 @@ struct TireTemperature {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<TireTemperature>(); }
 
-const Effect& effect_tire_temperature() { return make_effect<TireTemperature>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::tire_temperature

@@ -1,8 +1,7 @@
 /// A wheel that stands at an angle to its way drags.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::toe_camber_drag {
 
 struct ToeCamberDrag {
   enum Parameter { kForce, kHeatShare, kLoadPower };
@@ -38,8 +37,6 @@ struct ToeCamberDrag {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<ToeCamberDrag>(); }
 
-const Effect& effect_toe_camber_drag() { return make_effect<ToeCamberDrag>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::toe_camber_drag

@@ -1,8 +1,7 @@
 /// The scale of the torque measurement is off, or bent.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::torque_gain {
 
 struct TorqueGain {
   enum Parameter { kGain, kPower };
@@ -50,8 +49,6 @@ struct TorqueGain {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<TorqueGain>(); }
 
-const Effect& effect_torque_gain() { return make_effect<TorqueGain>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::torque_gain

@@ -1,8 +1,7 @@
 /// The zero of the torque measurement moves.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::torque_zero_drift {
 
 struct TorqueZeroDrift {
   enum Parameter { kRate, kTimeConstant, kAmbientTime };
@@ -69,8 +68,6 @@ struct TorqueZeroDrift {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<TorqueZeroDrift>(); }
 
-const Effect& effect_torque_zero_drift() { return make_effect<TorqueZeroDrift>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::torque_zero_drift

@@ -1,8 +1,7 @@
 /// Tread and liner have temperatures of their own.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::tread_liner_lag {
 
 struct TreadLinerLag {
   enum Parameter { kShare, kConductance, kHeatPower, kCoolingPower };
@@ -80,8 +79,6 @@ struct TreadLinerLag {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<TreadLinerLag>(); }
 
-const Effect& effect_tread_liner_lag() { return make_effect<TreadLinerLag>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::tread_liner_lag

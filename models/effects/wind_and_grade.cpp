@@ -1,8 +1,7 @@
 /// Wind along the road, a slope that the record of the height lacks, and air of another density.
 #include "models/effect.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::wind_and_grade {
 
 struct WindAndGrade {
   enum Parameter { kWind, kSlope, kDensity };
@@ -37,8 +36,6 @@ struct WindAndGrade {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<WindAndGrade>(); }
 
-const Effect& effect_wind_and_grade() { return make_effect<WindAndGrade>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::wind_and_grade

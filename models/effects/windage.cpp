@@ -2,8 +2,7 @@
 #include "models/effect.h"
 #include "models/reference_conditions.h"
 
-namespace rollrig::models {
-namespace {
+namespace rollrig::models::windage {
 
 struct Windage {
   enum Parameter { kForce, kSpeedPower };
@@ -40,8 +39,6 @@ struct Windage {
   }
 };
 
-}  // namespace
+const Effect& effect() { return make_effect<Windage>(); }
 
-const Effect& effect_windage() { return make_effect<Windage>(); }
-
-}  // namespace rollrig::models
+}  // namespace rollrig::models::windage

@@ -57,10 +57,14 @@ void Plant::enter(const Leg& leg, double load_before_N, double load_step_s) {
 
 /// Load of a cylinder that settles as a damped second-order system.
 double Plant::load_at(double time_s) const {
-  const double since_s = time_s - load_step_s_;
-  const double decay = std::exp(-specimen_.load_damping * specimen_.load_frequency_rad_s * std::max(0.0, since_s));
+  if (load_before_N_ == leg_.load_N) return std::max(0.0, leg_.load_N);
+  constexpr double kSettled = 60.0;  // exp(-60) of a change is less than the rounding of a load
+  const double since_s = std::max(0.0, time_s - load_step_s_);
+  const double decayed = specimen_.load_damping * specimen_.load_frequency_rad_s * since_s;
+  if (leg_.load_N > 0.0 && decayed > kSettled) return leg_.load_N;
+  const double decay = std::exp(-decayed);
   const double root = std::sqrt(1.0 - specimen_.load_damping * specimen_.load_damping);
-  const double angle = root * specimen_.load_frequency_rad_s * std::max(0.0, since_s);
+  const double angle = root * specimen_.load_frequency_rad_s * since_s;
   const double left = decay * (std::cos(angle) + specimen_.load_damping / root * std::sin(angle));
   const double load_N = leg_.load_N + (load_before_N_ - leg_.load_N) * left;
   return leg_.load_N > 0.0 ? load_N : std::max(0.0, load_N);  // a lifted tire does not pull
