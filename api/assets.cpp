@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "diagnosis/output/explain.h"
 #include "rollrig/measurement_set.h"
 #include "scenarios/common/speed_trace.h"
 #include "scenarios/run/run_spec.h"
@@ -29,34 +30,6 @@ std::string describe_scenario(const scenarios::Scenario& scenario) {
   }
   for (const scenarios::ResultInfo& result : scenario.results) results.push_back({result.key, result.doc});
   return text + text_columns(settings) + "Results\n" + text_columns(results);
-}
-
-std::string join_or_none(const std::vector<std::string>& words) {
-  return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
-}
-
-std::string describe_effect(const models::EffectInfo& info) {
-  std::string text = info.id + ": effect\n" + wrap(info.summary, 2) + '\n';
-  text += "Equation\n" + wrap(info.equation, 2) + "Source\n" + wrap(info.source, 2);
-  text += fmt::format("Parameters ([effects.{}])\n", info.id);
-  std::vector<std::vector<std::string>> rows;
-  for (const models::EffectParameter& parameter : info.parameters) {
-    const std::string off = parameter.off.has_value() ? fmt::format(", off at {}", *parameter.off) : "";
-    rows.push_back({parameter.key,
-                    fmt::format("{} [{:.4g}; usual {:.4g} to {:.4g}{}; {}{}]", parameter.doc, parameter.prior.center(),
-                                parameter.prior.low, parameter.prior.high,
-                                parameter.prior.either_sign ? ", either sign" : "", parameter.range.to_string(), off)});
-  }
-  text += text_columns(rows);
-  text += "Acts on\n" + wrap(join_or_none(rigs::list_machines(info.acts_on)), 2);
-  if (info.only_against != nullptr) text += "Acts only against\n  the baseline constant_rrc\n";
-  const std::vector<std::string> faint = rigs::list_machines(info.faint_on);
-  if (!faint.empty()) text += "Too faint to be seen on\n" + wrap(join_or_none(faint), 2);
-  text += "Shows in\n" + wrap(join_or_none(rigs::list_visible(info)), 2);
-  text += "Leaves clean\n" + wrap(join_or_none(rigs::list_clean(info)), 2);
-  text += "Confused with\n" + wrap(join_or_none(info.confused_with), 2);
-  text += "Tests that split\n" + wrap(fmt::format("{}", fmt::join(info.splitting_tests, "; ")), 2);
-  return text;
 }
 
 /// A trace is read best in a plot; here what it comes to.
@@ -125,7 +98,7 @@ std::string describe(const std::string& name) {
     return each == asked;
   };
   for (const models::Effect* effect : models::all_effects()) {
-    if (is_asked(effect->info.id, name)) return describe_effect(effect->info);
+    if (is_asked(effect->info.id, name)) return diagnosis::explain_effect(name);
   }
   for (const std::string& folder : asset_folders()) {
     for (const std::string& asset : list_assets(folder)) {

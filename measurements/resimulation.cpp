@@ -204,7 +204,7 @@ models::Corner<S> put_on_tire(const models::Corner<S>& corner, const models::Tir
 /// Temperature of a vehicle's tire in steady driving at 80 km/h under its static load. Assumed: at the cold pressure,
 /// which a warm tire exceeds by some 10 %, so that it would lose 4 % less.
 template <class S>
-S calc_warm_temperature_K(const rigs::RoadTires<S>& tires) {
+S calc_warm_temperature_K(const rigs::RoadTireGroup<S>& tires) {
   const S speed_m_s = models::get_reference_speed_m_s<S>();
   const S cooling_W_per_K = models::calc_cooling_W_per_K(tires.corner->context().tire.thermal, speed_m_s);
   S warm_K = tires.temperature_K;
@@ -218,15 +218,15 @@ S calc_warm_temperature_K(const rigs::RoadTires<S>& tires) {
 
 /// The tires of a set's vehicle when the run begins; `corners` receives those of tires that are not the set's.
 template <class S>
-std::vector<rigs::RoadTires<S>> make_road_tires(const MeasurementSet& set, const MeasuredRun& run,
+std::vector<rigs::RoadTireGroup<S>> find_groups(const MeasurementSet& set, const MeasuredRun& run,
                                                 models::Corner<S>& corner, std::deque<models::Corner<S>>& corners) {
-  std::vector<rigs::RoadTires<S>> made;
-  for (const rigs::AlikeTires& alike : rigs::find_alike_tires(*set.vehicle, run.cold_pressure_Pa)) {
-    const S load_N = corner.context().vehicle.mass_kg * S(kStandardGravity_m_s2 * alike.load_share / alike.count);
-    rigs::RoadTires<S> tires{&corner, alike.count, load_N, alike.pressure_Pa, S(run.initial_tire_temperature_K)};
-    if (alike.axle->tire.has_value()) {
+  std::vector<rigs::RoadTireGroup<S>> made;
+  for (const rigs::TireGroup& group : rigs::group_tires(*set.vehicle, run.cold_pressure_Pa)) {
+    const S load_N = corner.context().vehicle.mass_kg * S(kStandardGravity_m_s2 * group.load_share / group.count);
+    rigs::RoadTireGroup<S> tires{&corner, group.count, load_N, group.pressure_Pa, S(run.initial_tire_temperature_K)};
+    if (group.axle->tire.has_value()) {
       corners.push_back(
-          put_on_tire(corner, find_parameters(*alike.axle->tire, set.baseline, value_of(load_N), alike.pressure_Pa)));
+          put_on_tire(corner, find_parameters(*group.axle->tire, set.baseline, value_of(load_N), group.pressure_Pa)));
       tires.corner = &corners.back();
     }
     const bool is_warm = run.started_warm && tires.corner->context().tire.model().info.loss_follows_heat;
@@ -283,7 +283,7 @@ sim::Recording<S> Resimulation::simulate(const MeasurementSet& set, const Measur
     case models::Specimen::kVehicle: {
       std::deque<models::Corner<S>> corners;
       recording = run_on<S, sim::LaggedMidpointIntegrator>(
-          rigs::RecordedRoad<S>(make_road_tires(set, run, corner, corners), set.vehicle->powertrain, start, detail),
+          rigs::RecordedRoad<S>(find_groups(set, run, corner, corners), set.vehicle->powertrain, start, detail),
           program_);
       break;
     }

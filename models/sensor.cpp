@@ -55,6 +55,7 @@ void apply_sensor(const SensorParameters& sensor, const Quantity& channel, const
   RandomStream noises(stream.seed, "noise/" + stream.run + "/" + header);
   const double offset = sensor.offset_sd * offsets.normal();
   double drift = sensor.drift_sd * drifts.normal();
+  const double zero = channel.file_unit().offset_SI;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (i > 0) {
       const double memory = std::exp(-(time_s[i] - time_s[i - 1]) / sensor.drift_time_s);
@@ -63,7 +64,6 @@ void apply_sensor(const SensorParameters& sensor, const Quantity& channel, const
     values[i] += offset + drift + sensor.noise_sd * noises.normal();
     if (sensor.resolution > 0.0) {
       // Rounded in the unit that is shown: for a temperature in K the zero of degC is a whole number of steps.
-      const double zero = channel.file_unit().offset_SI;
       values[i] = zero + std::round((values[i] - zero) / sensor.resolution) * sensor.resolution;
     }
   }

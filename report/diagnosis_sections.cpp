@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/output/explain.h"
 #include "diagnosis/output/summary.h"
 #include "diagnosis/terms/term.h"
 #include "report/blocks.h"
@@ -78,20 +79,15 @@ Block make_channel_gaps(const Findings& findings) {
   return make_table(table);
 }
 
-std::string describe_parameter(const models::EffectParameter& parameter) {
-  const std::string unit = shown_unit(parameter.key);
-  return fmt::format("{}: {}. Two thirds of the belief before any data lie from {:.4g} to {:.4g}{}{}{}.", parameter.key,
-                     parameter.doc, parameter.prior.low, parameter.prior.high, unit.empty() ? "" : " ", unit,
-                     parameter.prior.either_sign ? ", either sign" : "");
-}
-
 Block make_explanation(const models::EffectInfo& info) {
   Json items = Json::array();
   const auto add = [&items](const char* term, const std::vector<std::string>& texts, bool is_code = false) {
     if (!texts.empty()) items.push_back({{"term", term}, {"texts", texts}, {"code", is_code}});
   };
   std::vector<std::string> parameters;
-  for (const models::EffectParameter& parameter : info.parameters) parameters.push_back(describe_parameter(parameter));
+  for (const models::EffectParameter& each : info.parameters) {
+    parameters.push_back(fmt::format("{}: {}", each.key, diagnosis::describe_parameter(each)));
+  }
   std::vector<std::string> confusions;
   for (const std::string& id : info.confused_with) confusions.push_back(id + ": " + summary_of(id));
   add("What it is", {info.summary});

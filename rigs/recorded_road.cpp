@@ -22,50 +22,50 @@ std::vector<sim::Channel> make_road_channels(Detail detail) {
 }
 
 template <class S>
-std::vector<models::Corner<S>*> find_corners_of_kinds(const std::vector<RoadTires<S>>& kinds) {
+std::vector<models::Corner<S>*> find_corners(const std::vector<RoadTireGroup<S>>& groups) {
   std::vector<models::Corner<S>*> corners;
-  for (const RoadTires<S>& kind : kinds) corners.push_back(kind.corner);
+  for (const RoadTireGroup<S>& group : groups) corners.push_back(group.corner);
   return corners;
 }
 
 }  // namespace
 
 template <class S>
-RecordedRoad<S>::RecordedRoad(std::vector<RoadTires<S>> tires, const VehiclePowertrain& powertrain, RigStart<S> start,
-                              Detail detail)
-    : RecordedWheel<S>(find_corners_of_kinds(tires), std::move(start), false, make_road_channels(detail), detail),
-      kinds_(std::move(tires)),
+RecordedRoad<S>::RecordedRoad(std::vector<RoadTireGroup<S>> tires, const VehiclePowertrain& powertrain,
+                              RigStart<S> start, Detail detail)
+    : RecordedWheel<S>(find_corners(tires), std::move(start), false, make_road_channels(detail), detail),
+      groups_(std::move(tires)),
       motor_limit_N_(body().mass_kg * S(powertrain.regeneration_limit_m_s2)),
       fade_m_s_(powertrain.regeneration_fade_m_s) {
-  this->alike_.clear();
-  for (const RoadTires<S>& kind : kinds_) this->alike_.push_back(kind.count);
-  this->tires_ = std::accumulate(this->alike_.begin(), this->alike_.end(), 0.0);
+  this->group_sizes_.clear();
+  for (const RoadTireGroup<S>& group : groups_) this->group_sizes_.push_back(group.count);
+  this->tires_ = std::accumulate(this->group_sizes_.begin(), this->group_sizes_.end(), 0.0);
 }
 
 template <class S>
 void RecordedRoad<S>::initialize(const sim::Segment& first, double time_s, S* state) {
   RecordedWheel<S>::initialize(first, time_s, state);
-  for (std::size_t i = 0; i < kinds_.size(); ++i) {
-    const RoadTires<S>& kind = kinds_[i];
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
+    const RoadTireGroup<S>& group = groups_[i];
     auto& wheel = this->wheels_[i];
-    wheel.now.inflation = this->start_.inflation(kind.pressure_Pa);
-    kind.corner->initialize(kind.temperature_K, this->start_.history_under(kind.load_N), state + wheel.first_state);
+    wheel.now.inflation = this->start_.inflation(group.pressure_Pa);
+    group.corner->initialize(group.temperature_K, this->start_.history_under(group.load_N), state + wheel.first_state);
   }
 }
 
 template <class S>
 void RecordedRoad<S>::read_inputs(double time_s, std::size_t wheel, models::InputPort<S>& inputs) const {
   read_vehicle_inputs(this->present_, time_s, inputs);
-  inputs.load_N = kinds_[wheel].load_N;
+  inputs.load_N = groups_[wheel].load_N;
 }
 
 template <class S>
 void RecordedRoad<S>::find_force() {
   const models::Instant<S>& now = this->wheel().now;  // of the vehicle, every wheel says the same
-  S rolling_N = this->alike_[0] * (now.rolling_resistance_N + now.parasitic_N);
-  for (std::size_t i = 1; i < kinds_.size(); ++i) {
+  S rolling_N = this->group_sizes_[0] * (now.rolling_resistance_N + now.parasitic_N);
+  for (std::size_t i = 1; i < groups_.size(); ++i) {
     const models::Instant<S>& other = this->wheels_[i].now;
-    rolling_N += this->alike_[i] * (other.rolling_resistance_N + other.parasitic_N);
+    rolling_N += this->group_sizes_[i] * (other.rolling_resistance_N + other.parasitic_N);
   }
   const double density_kg_per_m3 =
       models::calc_air_density_kg_per_m3(kStandardAtmosphere_Pa, value_of(now.recorded.ambient_K));
@@ -90,9 +90,9 @@ RecordedPowers<S> RecordedRoad<S>::find_powers() const {
   power.moving_kg = mass_kg_;
   power.gravity_W = -grade_N_ * speed_m_s;
   power.drag_W = drag_N_ * speed_m_s;
-  for (std::size_t i = 0; i < kinds_.size(); ++i) {
+  for (std::size_t i = 0; i < groups_.size(); ++i) {
     const models::Instant<S>& now = this->wheels_[i].now;
-    const double count = this->alike_[i];
+    const double count = this->group_sizes_[i];
     power.hub_W += count / this->tires_ * this->force_N_ * speed_m_s * (S(1.0) - this->wheels_[i].slip);
     power.tire_W += count * now.rolling_resistance_N * speed_m_s;
     power.slip_W += count * now.motion.slip_power_W;

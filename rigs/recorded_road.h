@@ -7,9 +7,9 @@
 
 namespace rollrig::rigs {
 
-/// The corner that is simulated for all tires of a kind.
+/// The corner that is simulated for all tires of a group.
 template <class S>
-struct RoadTires {
+struct RoadTireGroup {
   models::Corner<S>* corner = nullptr;
   double count = 0.0;
   S load_N{};                // of each
@@ -20,9 +20,9 @@ struct RoadTires {
 /// A vehicle on the road, its mass, rotating mass and drag area those of the corners' context; its program has the
 /// inputs of a vehicle's. Measured: traction_force of all hubs.
 ///
-/// Equation  T = sum n (F_rr + F_par) + m g s/sqrt(1 + s^2) + rho/2 CdA w |w| + j (m + m_rot) a, each tire of a kind
+/// Equation  T = sum n (F_rr + F_par) + m g s/sqrt(1 + s^2) + rho/2 CdA w |w| + j (m + m_rot) a, each tire of a group
 ///           under its load
-/// Symbols   n tires of a kind, over whose kinds the sum goes (rigs/vehicle_file.h, find_alike_tires); m mass, m_rot
+/// Symbols   n tires of a group, over whose groups the sum goes (rigs/vehicle_file.h, group_tires); m mass, m_rot
 ///           rotating mass, j factor on both (1 in the baseline), s slope, w air speed, a acceleration; rho of air of
 ///           the recorded temperature at 101.325 kPa (formats.md)
 /// Validity  load transfer between tires is left out
@@ -33,7 +33,8 @@ template <class S>
 class RecordedRoad : public RecordedWheel<S> {
  public:
   /// `start` says at what temperature the tires were inflated.
-  RecordedRoad(std::vector<RoadTires<S>> tires, const VehiclePowertrain& powertrain, RigStart<S> start, Detail detail);
+  RecordedRoad(std::vector<RoadTireGroup<S>> tires, const VehiclePowertrain& powertrain, RigStart<S> start,
+               Detail detail);
 
   void initialize(const sim::Segment& first, double time_s, S* state) override;
 
@@ -43,7 +44,7 @@ class RecordedRoad : public RecordedWheel<S> {
   RecordedPowers<S> find_powers() const override;
   const models::VehicleBody<S>& body() const { return this->wheel().corner->context().vehicle; }
 
-  std::vector<RoadTires<S>> kinds_;  // of the wheels, in their order
+  std::vector<RoadTireGroup<S>> groups_;  // of the wheels, in their order
   S motor_limit_N_{};
   S fade_m_s_{};
   S mass_kg_{};  // that is accelerated

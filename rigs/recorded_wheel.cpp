@@ -125,7 +125,7 @@ void RecordedWheel<S>::put_tire_means(S* means, std::size_t count) const {
     put_tire_readings(now, readings.data());
     readings.back() = now.thermal.temperature_K[models::index_of(models::Node::kRim)];
     for (std::size_t k = 0; k < count; ++k) {
-      const S part = this->wheels_.size() == 1 ? readings[k] : S(alike_[i] / tires_ * readings[k]);
+      const S part = this->wheels_.size() == 1 ? readings[k] : S(group_sizes_[i] / tires_ * readings[k]);
       means[k] = i == 0 ? part : S(means[k] + part);
     }
   }
@@ -140,14 +140,14 @@ void RecordedWheel<S>::put_further(S* integrands) const {
   std::fill(integrands + first, integrands + this->integrals().size(), zero<S>());
   for (std::size_t i = 0; i < this->wheels_.size(); ++i) {
     const models::Instant<S>& now = this->wheels_[i].now;
-    const double share = alike_[i] / tires_;
+    const double share = group_sizes_[i] / tires_;
     integrands[first] += share * now.rolling_resistance_N;
     integrands[index_of(RecordedIntegral::kParasitic)] += share * now.parasitic_N;
-    integrands[index_of(RecordedIntegral::kFrictionBrake)] += alike_[i] * now.acting.brake_force_N;
+    integrands[index_of(RecordedIntegral::kFrictionBrake)] += group_sizes_[i] * now.acting.brake_force_N;
     std::array<S, 3> heat;
     put_heat(now.heat, heat.data());
     for (std::size_t k = 0; k < heat.size(); ++k) {
-      integrands[index_of(RecordedIntegral::kHeatGenerated) + k] += alike_[i] * heat[k];
+      integrands[index_of(RecordedIntegral::kHeatGenerated) + k] += group_sizes_[i] * heat[k];
     }
   }
   put(RecordedIntegral::kHubWork, power.hub_W);
@@ -165,9 +165,9 @@ void RecordedWheel<S>::calc_stored(double time_s, const S* state, S* stored_J) {
   if (detail_ == Detail::kMeasured) return;
   stored_J[0] = calc_kinetic_J(time_s);
   stored_J[1] = zero<S>();
-  for (std::size_t i = 0; i < alike_.size(); ++i) {
+  for (std::size_t i = 0; i < group_sizes_.size(); ++i) {
     const Wheel& wheel = this->wheels_[i];
-    stored_J[1] += alike_[i] * wheel.corner->calc_stored_heat_J(state + wheel.first_state);
+    stored_J[1] += group_sizes_[i] * wheel.corner->calc_stored_heat_J(state + wheel.first_state);
   }
 }
 

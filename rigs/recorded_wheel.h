@@ -89,8 +89,8 @@ class RecordedWheel : public QuasiStaticRig<S> {
   /// Slip from the force of the surface on the wheel.
   static void put_contact_force(Wheel& wheel, const S& contact_N);
 
-  std::vector<double> alike_{1.0};  // tires for which each wheel stands
-  double tires_ = 1.0;              // their sum
+  std::vector<double> group_sizes_{1.0};  // tires for which each wheel stands
+  double tires_ = 1.0;                    // their sum
   S force_N_{};
 
  private:

@@ -211,26 +211,26 @@ void share_tire(const models::TireFile& tire, VehicleFile& vehicle) {
   }
 }
 
-std::vector<AlikeTires> find_alike_tires(const VehicleFile& vehicle, double pressure_Pa) {
+std::vector<TireGroup> group_tires(const VehicleFile& vehicle, double pressure_Pa) {
   constexpr double kSameLoad = 1e-4;
   const auto write_own_tire = [](const VehicleAxle& axle) {
     return axle.tire.has_value() ? models::write_tire(*axle.tire) : std::string();
   };
-  std::vector<AlikeTires> kinds;
+  std::vector<TireGroup> groups;
   for (const VehicleAxle& axle : vehicle.axles) {
     const double own_Pa = axle.pressure_Pa > 0.0 ? axle.pressure_Pa : pressure_Pa;
-    const auto is_alike = [&](const AlikeTires& kind) {
-      const double share = kind.load_share / kind.count;
-      return kind.pressure_Pa == own_Pa && std::abs(axle.load_share / axle.wheels - share) <= kSameLoad * share &&
-             write_own_tire(*kind.axle) == write_own_tire(axle);
+    const auto is_alike = [&](const TireGroup& group) {
+      const double share = group.load_share / group.count;
+      return group.pressure_Pa == own_Pa && std::abs(axle.load_share / axle.wheels - share) <= kSameLoad * share &&
+             write_own_tire(*group.axle) == write_own_tire(axle);
     };
-    auto kind = std::find_if(kinds.begin(), kinds.end(), is_alike);
-    if (kind == kinds.end()) kind = kinds.insert(kind, {&axle, own_Pa});
-    kind->load_share += axle.load_share;
-    kind->count += axle.wheels;
+    auto group = std::find_if(groups.begin(), groups.end(), is_alike);
+    if (group == groups.end()) group = groups.insert(group, {&axle, own_Pa});
+    group->load_share += axle.load_share;
+    group->count += axle.wheels;
   }
-  if (kinds.size() == 1) kinds.front().load_share = 1.0;  // without the rounding of shares
-  return kinds;
+  if (groups.size() == 1) groups.front().load_share = 1.0;  // without the rounding of shares
+  return groups;
 }
 
 std::string list_driven_axles(const VehicleFile& vehicle) {

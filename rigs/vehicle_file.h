@@ -139,7 +139,7 @@ std::map<std::string, std::string> write_vehicle_files(VehicleFile vehicle, cons
 void share_tire(const models::TireFile& tire, VehicleFile& vehicle);
 
 /// Tires of a vehicle that are alike: those of all axles with the same tire, pressure, and load of a wheel.
-struct AlikeTires {
+struct TireGroup {
   const VehicleAxle* axle = nullptr;  // the first of these axles
   double pressure_Pa = 0.0;           // soaked, gauge
   double load_share = 0.0;            // of the weight, for all these tires together
@@ -148,7 +148,7 @@ struct AlikeTires {
 
 /// All tires of a vehicle, in the order of the axles. `pressure_Pa`: of axles without one of their own. Assumed: loads
 /// that differ by 0.01 % or less are equal, because shares in files are rounded.
-std::vector<AlikeTires> find_alike_tires(const VehicleFile& vehicle, double pressure_Pa);
+std::vector<TireGroup> group_tires(const VehicleFile& vehicle, double pressure_Pa);
 
 /// The tire of an axle's wheels.
 inline const models::TireFile& tire_of(const VehicleAxle& axle, const models::TireFile& of_run) {

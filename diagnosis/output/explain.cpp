@@ -36,18 +36,6 @@ std::string join_or(const std::vector<std::string>& words, const char* none) {
 
 std::string section(const std::string& title, const std::string& text) { return title + "\n" + wrap(text, kIndent); }
 
-/// "0.005 to 0.04 1/K, center 0.0141 (log scale)"
-std::string describe_prior(const models::EffectParameter& parameter) {
-  const models::Prior& prior = parameter.prior;
-  const std::string unit = unit_of_key(parameter.key).symbol;
-  std::string text = fmt::format("{:.4g} to {:.4g}{}", prior.low, prior.high, unit.empty() ? "" : " " + unit);
-  text += fmt::format(", center {:.4g}", prior.center());
-  if (prior.scale == models::Prior::Scale::kLog) text += ", on a log scale";
-  if (prior.either_sign) text += ", either sign";
-  if (parameter.off.has_value()) text += fmt::format("; {:.4g} is off", *parameter.off);
-  return text;
-}
-
 /// Each effect that it is confused with, with its own summary, so that one need not look it up.
 std::string describe_confusions(const models::EffectInfo& info) {
   if (info.confused_with.empty()) return "  none known\n";
@@ -69,11 +57,9 @@ std::string describe_tests(const models::EffectInfo& info) {
 std::string describe_info(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
   text += section("Equation", info.equation) + section("Source", info.source);
-  text += "Own parameters, and where two thirds of the belief lie before any data\n";
+  text += fmt::format("Own parameters ([effects.{}]; two thirds of the prior lie in the usual range)\n", info.id);
   std::vector<std::vector<std::string>> rows;
-  for (const models::EffectParameter& parameter : info.parameters) {
-    rows.push_back({parameter.key, fmt::format("{}. {}", describe_prior(parameter), parameter.doc)});
-  }
+  for (const models::EffectParameter& each : info.parameters) rows.push_back({each.key, describe_parameter(each)});
   text += text_columns(rows);
   text += section("Acts on", join_or(rigs::list_machines(info.acts_on), "none"));
   if (info.only_against != nullptr)
@@ -87,6 +73,19 @@ std::string describe_info(const models::EffectInfo& info) {
 }
 
 }  // namespace
+
+std::string describe_parameter(const models::EffectParameter& parameter) {
+  const models::Prior& prior = parameter.prior;
+  const std::string unit = unit_of_key(parameter.key).symbol;
+  std::string text =
+      fmt::format("{}; usual {:.4g} to {:.4g}{}", parameter.doc, prior.low, prior.high, unit.empty() ? "" : " " + unit);
+  text += fmt::format(", center {:.4g}", prior.center());
+  if (prior.scale == models::Prior::Scale::kLog) text += ", on a log scale";
+  if (prior.either_sign) text += ", either sign";
+  text += fmt::format("; allowed {}", parameter.range.to_string());
+  if (parameter.off.has_value()) text += fmt::format("; {:.4g} is off", *parameter.off);
+  return text;
+}
 
 std::vector<std::string> explainable_names() {
   std::vector<std::string> names = term_names();

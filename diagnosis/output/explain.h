@@ -1,10 +1,15 @@
 #pragma once
-/// What `rollrig diagnose --explain` says of a cause.
+/// What `rollrig describe` and `rollrig diagnose --explain` say of a cause.
 
 #include <string>
 #include <vector>
 
+#include "models/effect.h"
+
 namespace rollrig::diagnosis {
+
+/// Meaning, usual and allowed values of a parameter, and the value at which the effect is off.
+std::string describe_parameter(const models::EffectParameter& parameter);
 
 /// Names that can be explained: every effect, and "none" and "unknown".
 std::vector<std::string> explainable_names();

@@ -1,7 +1,7 @@
 #include "sim/core/quantity.h"
 
+#include <map>
 #include <mutex>
-#include <set>
 
 namespace rollrig {
 
@@ -13,10 +13,12 @@ std::string Quantity::header() const {
 
 Quantity intern_quantity(const std::string& header) {
   static std::mutex mutex;
-  static std::set<std::string> texts;  // nodes stay where they are
+  static std::map<std::string, std::size_t> name_lengths;  // by header; nodes stay where they are
   const std::lock_guard<std::mutex> lock(mutex);
-  const std::string_view text = *texts.insert(header).first;
-  const std::size_t length = name_without_unit(header).size();
+  auto known = name_lengths.find(header);
+  if (known == name_lengths.end()) known = name_lengths.emplace(header, name_without_unit(header).size()).first;
+  const std::string_view text = known->first;
+  const std::size_t length = known->second;
   if (length == text.size()) return {text, {}};
   return {text.substr(0, length), text.substr(length + 1)};
 }

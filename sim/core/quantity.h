@@ -29,7 +29,8 @@ class Quantity {
   constexpr bool operator==(const Quantity& other) const { return name_ == other.name_ && unit_ == other.unit_; }
   constexpr bool operator!=(const Quantity& other) const { return !(*this == other); }
   constexpr bool operator<(const Quantity& other) const {
-    return name_ != other.name_ ? name_ < other.name_ : unit_ < other.unit_;
+    const int order = name_.compare(other.name_);
+    return order != 0 ? order < 0 : unit_ < other.unit_;
   }
 
  private:

@@ -132,7 +132,7 @@ TEST_CASE("equal axles are simulated as one, to the last bit", "[fast]") {
     CHECK(with({{0.333333}, {0.333333}, {0.333334}}) == with({{1.0, 6}}));
     set.vehicle = make_vehicle({{0.5}, {0.5}});
     set.vehicle->axles[1].tire = set.tire;  // two corners with the same numbers
-    REQUIRE(rigs::find_alike_tires(*set.vehicle, 250e3).size() == 2);
+    REQUIRE(rigs::group_tires(*set.vehicle, 250e3).size() == 2);
     const std::vector<double> two = find_traction_N(set, effects);
     for (std::size_t i = 0; i < one.size(); ++i) CHECK(two[i] == Approx(one[i]).epsilon(1e-12).margin(1e-9));
     rigs::share_tire(set.tire, *set.vehicle);
@@ -188,7 +188,7 @@ TEST_CASE("energy closes with axles that differ, and channels of a tire are mean
 
 TEST_CASE("a set of the old form has equal loads on all tires, and the results that it had", "[fast]") {
   MeasurementSet set = measurements::read_measurement_set(ROLLRIG_SOURCE_DIR "/tests/measurements/old_form/road");
-  CHECK(rigs::find_alike_tires(*set.vehicle, 250e3).size() == 1);
+  CHECK(rigs::group_tires(*set.vehicle, 250e3).size() == 1);
   const std::vector<double> found_N = find_traction_N(set);
   const std::vector<double> were_N{3935.3741487712091, 4324.4004651447658, 4679.9515137765866, 4646.4762460348502};
   REQUIRE(found_N.size() == were_N.size());
@@ -197,6 +197,6 @@ TEST_CASE("a set of the old form has equal loads on all tires, and the results t
       "format = \"rollrig-vehicle/1\"\nname = \"trike\"\nmass_kg = 600\nrotating_mass_kg = 20\ndrag_area_m2 = 0.6\n"
       "tires = 3\n";
   set.vehicle = rigs::read_vehicle(parse_config(three, "car.toml"));
-  REQUIRE(rigs::find_alike_tires(*set.vehicle, 250e3).size() == 1);
-  CHECK(rigs::find_alike_tires(*set.vehicle, 250e3).front().count == 3);
+  REQUIRE(rigs::group_tires(*set.vehicle, 250e3).size() == 1);
+  CHECK(rigs::group_tires(*set.vehicle, 250e3).front().count == 3);
 }

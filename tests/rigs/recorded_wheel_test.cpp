@@ -151,7 +151,7 @@ TEST_CASE("what only sensors show is the same when nothing else is integrated, o
   models::Corner<double> on_road(context, {});
   const double start_K = fixture.start().tire_temperature_K;
   const sim::Program drive = tests::make_program({tests::driving("up", 60.0, 5.0, 25.0, 0.02)});
-  const std::vector<rigs::RoadTires<double>> tires{{&on_road, 4.0, 5000.0, fixture.cold_pressure_Pa, start_K}};
+  const std::vector<rigs::RoadTireGroup<double>> tires{{&on_road, 4.0, 5000.0, fixture.cold_pressure_Pa, start_K}};
   const rigs::VehiclePowertrain& powertrain = fixture.vehicle.powertrain;
   rigs::RecordedRoad<double> road(tires, powertrain, fixture.start(), rigs::Detail::kMeasured);
   rigs::RecordedRoad<double> road_in_full(tires, powertrain, fixture.start(), rigs::Detail::kFull);

@@ -22,14 +22,21 @@ measurements::MeasuredRun cut_run(const std::string& id, const sim::Recording<do
   run.initial_tire_temperature_K = cut.initial_tire_temperature_K;
   run.cold_pressure_Pa = cut.cold_pressure_Pa;
   constexpr double kSlack_s = 1e-6;
+  const auto is_end = [](double time_s, double end_s) { return std::abs(time_s - end_s) <= kSlack_s; };
+  std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < recording.row_count(); ++row) {
     const double time_s = recording.time_s[row];
     if (time_s < cut.start_s - kSlack_s || time_s > cut.end_s + kSlack_s) continue;
-    const bool at_cut = std::abs(time_s - cut.start_s) <= kSlack_s || std::abs(time_s - cut.end_s) <= kSlack_s;
+    rows.push_back(row);
     run.time_s.push_back(time_s - cut.start_s);
-    for (const char* column :
-         {"speed_km_h", "load_N", "ambient_degC", "drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
-      run.columns[column].push_back(at_cut && is_measured(column) ? std::nan("") : recording.channel(column)[row]);
+  }
+  for (const char* column :
+       {"speed_km_h", "load_N", "ambient_degC", "drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
+    const std::vector<double>& values = recording.channel(column);
+    std::vector<double>& kept = run.columns[column];
+    for (const std::size_t row : rows) {
+      const bool at_cut = is_end(recording.time_s[row], cut.start_s) || is_end(recording.time_s[row], cut.end_s);
+      kept.push_back(at_cut && is_measured(column) ? std::nan("") : values[row]);
     }
   }
   return run;

@@ -74,6 +74,8 @@ Files write_files(const SetOrder& order, const Laboratory& lab, const std::vecto
 /// Root mean square of what the effect does to each channel, in noise floors, 30 s after load changes left out.
 Json find_signal(const Laboratory& lab, const std::vector<RunRecord>& with, const std::vector<RunRecord>& without) {
   const std::size_t channels = lab.sensors.size();
+  std::vector<double> floors;
+  for (const Sensor& sensor : lab.sensors) floors.push_back(sensor.floor());
   std::vector<double> sum(channels, 0.0);
   double count = 0.0;
   for (std::size_t r = 0; r < with.size(); ++r) {
@@ -84,8 +86,8 @@ Json find_signal(const Laboratory& lab, const std::vector<RunRecord>& with, cons
       if (!settled[row] || with[r].speed_km_h[row] < kLeastForceSpeed_km_h) continue;
       if (std::isnan(a[0][row])) continue;
       for (std::size_t i = 0; i < channels; ++i) {
-        const double floors = (a[i][row] - b[i][row]) / lab.sensors[i].floor();
-        sum[i] += floors * floors;
+        const double signal = (a[i][row] - b[i][row]) / floors[i];
+        sum[i] += signal * signal;
       }
       count += 1.0;
     }
