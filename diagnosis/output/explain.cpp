@@ -57,7 +57,8 @@ std::string describe_tests(const models::EffectInfo& info) {
 std::string describe_info(const models::EffectInfo& info) {
   std::string text = wrap(info.id + ": " + info.summary, 0);
   text += section("Equation", info.equation) + section("Source", info.source);
-  text += fmt::format("Own parameters ([effects.{}]; two thirds of the prior lie in the usual range)\n", info.id);
+  text +=
+      wrap(fmt::format("Own parameters ([effects.{}]; two thirds of the prior lie in the usual range)", info.id), 0);
   std::vector<std::vector<std::string>> rows;
   for (const models::EffectParameter& each : info.parameters) rows.push_back({each.key, describe_parameter(each)});
   text += text_columns(rows);

@@ -33,7 +33,7 @@ TEST_CASE("standing with the driver's foot on the brake is standing, on a hill a
   }
 }
 
-TEST_CASE("start, a short drive and a stop, again and again, on a hill as well", "[fast]") {
+TEST_CASE("start, a short drive and a stop, again and again, on a hill as well", "[slow]") {
   for (const double slope : {0.0, 0.06, -0.06}) {
     for (const std::string rig : {"road", "dyno_1m2"}) {
       if (slope != 0.0 && rig != "road") continue;

@@ -42,11 +42,11 @@ TEST_CASE("without effect and noise a flat-belt set is within 0.2 noise floors o
   check_kind("--kind flat_belt", 6);
 }
 
-TEST_CASE("without effect and noise a dyno set is within 0.2 noise floors of the baseline", "[fast]") {
+TEST_CASE("without effect and noise a dyno set is within 0.2 noise floors of the baseline", "[slow]") {
   check_kind("--kind dyno", 6);
 }
 
-TEST_CASE("without effect and noise a road set is within 0.2 noise floors of the baseline", "[fast]") {
+TEST_CASE("without effect and noise a road set is within 0.2 noise floors of the baseline", "[slow]") {
   check_kind("--kind road --baseline combined", 6);
   check_kind("--kind road --baseline constant_rrc", 6);
 }

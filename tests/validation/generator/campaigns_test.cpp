@@ -81,7 +81,7 @@ void check_tire_campaigns(const std::string& kind, std::size_t laboratories) {
 
 }  // namespace
 
-TEST_CASE("campaigns on drum and belt have six runs in sessions, skims, fast running, another pressure", "[fast]") {
+TEST_CASE("campaigns on drum and belt have six runs in sessions, skims, fast running, another pressure", "[slow]") {
   check_tire_campaigns("drum", 4);
   check_tire_campaigns("flat_belt", 2);
 }

@@ -95,7 +95,7 @@ TEST_CASE("nothing but the measured values depends on the effect", "[slow]") {
 }
 
 TEST_CASE("a validation set of each kind has what its kind shows, and effects outside of the catalog where asked",
-          "[fast]") {
+          "[slow]") {
   for (const std::string kind : {"drum", "flat_belt", "dyno", "road"}) {
     const TemporaryFolder folder;
     const auto made = run_validation(

@@ -110,7 +110,7 @@ TEST_CASE("offsets are shared by a session, differ between sessions, and have th
   }
 }
 
-TEST_CASE("readings are whole steps, and some are missing, alone and in gaps", "[fast]") {
+TEST_CASE("readings are whole steps, and some are missing, alone and in gaps", "[slow]") {
   std::size_t missing = 0;
   std::size_t all = 0;
   std::size_t longest = 0;

@@ -96,7 +96,7 @@ TEST_CASE("under one load straps, load record and curvature scale the loss alike
   CHECK(has_twin(sets.at("0001"), "curvature_exponent"));
 }
 
-TEST_CASE("the upper bound does not depend on threads, nor a case's on the other cases", "[fast]") {
+TEST_CASE("the upper bound does not depend on threads, nor a case's on the other cases", "[slow]") {
   const std::vector<std::string> orders{"--kind road --runs 1 --effect speed_record --seed 1",
                                         "--kind drum --runs 1 --effect windage --seed 2",
                                         "--kind drum --runs 1 --effect slow_leak --seed 3"};
