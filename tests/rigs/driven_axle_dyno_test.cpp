@@ -71,7 +71,7 @@ TEST_CASE("the file of a rig keeps which wheels it rolls", "[fast]") {
   CHECK_FALSE(rigs::read_rig(parse_config(rigs::write_rig(read_rig("dyno_48in")), "rig.toml")).driven_wheels_only);
 }
 
-TEST_CASE("tires of one axle take off their share of what four take off, in both fidelities", "[fast]") {
+TEST_CASE("tires of one axle take off their share of what four take off, in both fidelities", "[slow]") {
   // Each tire of the source's car bears a quarter, so that one axle takes off a half; settings are found to 1 N.
   const double four_N = take_off_N("dyno_48in", "quasi_static", 15.0);
   const double two_N = take_off_N("dyno_48in_2wd", "quasi_static", 15.0);

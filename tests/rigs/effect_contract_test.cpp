@@ -165,7 +165,7 @@ void check_on_campaign(const EffectCampaign& campaign, const Effect& effect, con
 
 }  // namespace
 
-TEST_CASE("every effect keeps the contract", "[fast][contract]") {
+TEST_CASE("every effect keeps the contract", "[slow][contract]") {
   for (const EffectCampaign& campaign : tests::campaigns()) {
     std::map<std::string, sim::Recording<double>> baselines;
     for (const models::TireModel* model : models::all_tire_models()) {
