@@ -95,7 +95,7 @@ Block make_explanation(const models::EffectInfo& info) {
   add("Source", {info.source});
   add("Own parameters", parameters);
   add("Confused with", confusions);
-  add("Told from those by", info.splitting_tests);
+  add("Separated from those by", info.splitting_tests);
   return {{"type", "definitions"}, {"title", info.id}, {"items", items}};
 }
 

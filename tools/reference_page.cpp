@@ -53,8 +53,8 @@ std::string describe(const models::EffectInfo& effect) {
   text += fmt::format("\n*Acts on* {}", list_or_none(rigs::list_machines(effect.acts_on)));
   if (effect.only_against != nullptr) text += ", only against the baseline `constant_rrc`";
   const std::vector<std::string> faint = rigs::list_machines(effect.faint_on);
-  if (!faint.empty()) text += fmt::format(", too little to be seen on {}", list_or_none(faint));
-  text += fmt::format(". *Shows in* {}. *Leaves clean* {}. *Confused with* {}. *Tests that split:* {}.\n",
+  if (!faint.empty()) text += fmt::format(", too small to be seen on {}", list_or_none(faint));
+  text += fmt::format(". *Visible in* {}. *Leaves unchanged* {}. *Confused with* {}. *Separated by:* {}.\n",
                       list_or_none(rigs::list_visible(effect)), list_or_none(rigs::list_clean(effect)),
                       list_or_none(effect.confused_with), boost::algorithm::join(effect.splitting_tests, "; "));
   return text;

@@ -66,11 +66,11 @@ std::string describe_info(const models::EffectInfo& info) {
   if (info.only_against != nullptr)
     text += section("Acts only against", "the baseline constant_rrc: the combined one has it");
   const std::vector<std::string> faint = rigs::list_machines(info.faint_on);
-  if (!faint.empty()) text += section("Too faint to be seen on", join_or(faint, ""));
-  text += section("Revealed by", join_or(rigs::list_visible(info), "no measured channel"));
-  text += section("Leaves exactly as they are", join_or(rigs::list_clean(info), "no measured channel"));
+  if (!faint.empty()) text += section("Too small to be seen on", join_or(faint, ""));
+  text += section("Visible in", join_or(rigs::list_visible(info), "no measured channel"));
+  text += section("Leaves unchanged", join_or(rigs::list_clean(info), "no measured channel"));
   text += "Confused with\n" + describe_confusions(info);
-  return text + "Told from those by\n" + describe_tests(info);
+  return text + "Separated from those by\n" + describe_tests(info);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ TEST_CASE("an effect's explanation holds all that its declaration knows", "[fast
     const std::string text = diagnosis::explain_effect(info.id);
     INFO(text);
     for (const char* title :
-         {"Equation", "Source", "Own parameters", "Acts on", "Revealed by", "Confused with", "Told from those by"}) {
+         {"Equation", "Source", "Own parameters", "Acts on", "Visible in", "Confused with", "Separated from those by"}) {
       CHECK_THAT(text, Contains(title));
     }
     for (const models::EffectParameter& parameter : info.parameters) {
