@@ -79,7 +79,7 @@ TEST_CASE("of noise alone there is no gap: as often below the noise as above it"
 
 TEST_CASE("of noise alone nothing can shrink", "[fast]") {
   const auto clean = tests::make_gap_set({}, 3);
-  for (const std::uint64_t seed : {1, 2}) {
+  for (const std::uint64_t seed : {1UL, 2UL}) {
     const FittedBaseline fitted(tests::add_noise(clean, seed));
     const Candidate cause = fit_effect(fitted, "bearing_warmup");
     const Gap gap = find(fitted, &cause);
@@ -151,7 +151,7 @@ TEST_CASE("the true effect shrinks the gap by all of it, on runs that the fit di
 TEST_CASE("of a large effect that is known, next to nothing is left in the middle of five campaigns", "[slow]") {
   const auto clean = tests::make_gap_set(warming_bearings(0.04), 4);
   std::vector<double> percents;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (const std::uint64_t seed : {1UL, 2UL, 3UL, 4UL, 5UL}) {
     const FittedBaseline fitted(tests::add_noise(clean, seed));
     const Candidate cause = fit_effect(fitted, "bearing_warmup");
     percents.push_back(find(fitted, &cause).shrink_percent.value());
