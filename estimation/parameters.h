@@ -38,7 +38,10 @@ template <class S>
 S& find_parameter(models::Context<S>& context, const std::string& key) {
   S* found = nullptr;
   visit_parameters(context, [&](const std::string& table, const Field& field, S& member) {
-    if (key == table + "." + field.output_key()) found = &member;
+    const std::size_t dot = table.size();
+    const bool is_named = key.size() > dot && key[dot] == '.' && key.compare(0, dot, table) == 0 &&
+                          key.compare(dot + 1, std::string::npos, field.output_key()) == 0;
+    if (is_named) found = &member;
   });
   if (found == nullptr) throw std::invalid_argument("no parameter '" + key + "'");
   return *found;

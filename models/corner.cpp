@@ -16,7 +16,7 @@ std::vector<S> convert_parameters(const ActiveEffect& active) {
   std::vector<S> parameters;
   const auto& declared = active.effect->info.parameters;
   for (std::size_t i = 0; i < declared.size(); ++i) {
-    parameters.push_back(quantity<S>(active.parameters[i], unit_of_key(declared[i].key).dimension));
+    parameters.push_back(quantity_of_key<S>(active.parameters[i], declared[i].key));
   }
   return parameters;
 }
@@ -69,7 +69,7 @@ void Corner<S>::initialize(const S& temperature_K, const InitialPort<S>& initial
   for (const Installed& on : effects_) {
     const auto& declared = on.effect->info.states;
     for (std::size_t i = 0; i < declared.size(); ++i) {
-      x[on.first_state + i] = quantity<S>(0.0, unit_of_key(declared[i].key).dimension);
+      x[on.first_state + i] = quantity_of_key<S>(0.0, declared[i].key);
     }
     if (on.hooks->initial != nullptr) {
       on.hooks->initial(EffectView<S>(on.parameters.data(), x + on.first_state), at_start, x + on.first_state);

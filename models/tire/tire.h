@@ -2,6 +2,8 @@
 /// A tire as a file describes it: the numbers that the equations of models/ take.
 
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "sim/core/scalar.h"
@@ -210,15 +212,24 @@ struct TireParameters {
   }
 };
 
-/// A visited group in another scalar, field by field. Dimensions come from the units of the keys.
+/// A number in SI units. Its dimension, where the scalar has one, is that of the key's unit.
+template <class S>
+S quantity_of_key(double si_value, std::string_view key) {
+  if constexpr (std::is_same_v<S, DimensionedScalar>) {
+    return quantity<S>(si_value, unit_of_key(key).dimension);
+  } else {
+    return S(si_value);
+  }
+}
+
+/// A visited group in another scalar, field by field.
 template <class S, template <class> class Group>
 Group<S> convert(const Group<double>& from) {
   std::vector<double> values;
   Group<double>::visit(from, [&values](const Field&, const double& member) { values.push_back(member); });
   Group<S> to;
   std::size_t i = 0;
-  Group<S>::visit(
-      to, [&](const Field& field, S& member) { member = quantity<S>(values[i++], unit_of_key(field.key).dimension); });
+  Group<S>::visit(to, [&](const Field& field, S& member) { member = quantity_of_key<S>(values[i++], field.key); });
   return to;
 }
 
@@ -233,7 +244,7 @@ TireParameters<S> convert_tire(const TireParameters<double>& from) {
   to.constant = convert<S>(from.constant);
   to.own.model = from.own.model;
   OwnParameters<double>::visit(from.own, [&to](const Field& field, const double& value) {
-    to.own.values.push_back(quantity<S>(value, unit_of_key(field.key).dimension));
+    to.own.values.push_back(quantity_of_key<S>(value, field.key));
   });
   return to;
 }
