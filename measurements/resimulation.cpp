@@ -99,7 +99,7 @@ class Rows {
 
 /// Steps between two rows, an even number where there are several, so that none lies across the middle.
 int count_steps(double between_s) {
-  constexpr double kLongest_s = 2.5;  // Assumed: a tenth of the gas's time constant
+  constexpr double kLongest_s = 2.5;  // Assumed: a tenth of the gas's time constant, as the order is 2
   const auto steps = static_cast<int>(std::ceil(between_s / kLongest_s - 1e-9));
   return steps > 1 ? steps + steps % 2 : 1;
 }
@@ -255,11 +255,22 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
   return sim::simulate<S>(machine, integrator, program);
 }
 
+/// Steps for the integrator of order 4. Assumed: up to two fifths of the gas's time constant; while the speed changes,
+/// up to a quarter of the 12 km/h below which errors of a recorded speed matter most (models/effects/speed_record.cpp).
+void limit_steps(sim::Phase& phase) {
+  phase.max_step_s = 10.0;
+  for (sim::Segment& segment : phase.segments) {
+    constexpr double kMostChange_m_s = 0.75;
+    segment.max_step_s = kMostChange_m_s / std::abs(segment.inputs[rigs::index_of(DrumInput::kSpeed)].slope_per_s);
+  }
+}
+
 }  // namespace
 
 Resimulation::Resimulation(const MeasuredRun& run, const MachineKind& kind)
     : program_(make_recorded_program(run, kind)) {
   if (!is_of_vehicle(kind.traits)) {
+    limit_steps(program_.phases.front());
     program_ = rigs::refine_near_standstill(program_, rigs::index_of(DrumInput::kSpeed));
   }
 }

@@ -151,4 +151,16 @@ measurements::MeasurementSet make_road_set(const std::vector<models::ActiveEffec
   return set;
 }
 
+measurements::MeasuredRun thin_out(const measurements::MeasuredRun& run, std::size_t step) {
+  measurements::MeasuredRun thin = run;
+  const auto keep = [step](const std::vector<double>& all) {
+    std::vector<double> kept;
+    for (std::size_t i = 0; i < all.size(); i += step) kept.push_back(all[i]);
+    return kept;
+  };
+  thin.time_s = keep(run.time_s);
+  for (auto& [name, values] : thin.columns) values = keep(values);
+  return thin;
+}
+
 }  // namespace rollrig::tests
