@@ -1,8 +1,6 @@
 #include "rollrig/export.h"
 
-#include "exports/hdf5_file.h"
-#include "exports/mat_file.h"
-#include "exports/source.h"
+#include "exports/tree.h"
 
 namespace rollrig {
 

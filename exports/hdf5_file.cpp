@@ -1,11 +1,10 @@
-#include "exports/hdf5_file.h"
-
 #include <fmt/format.h>
 #include <hdf5.h>
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "exports/tree.h"
 #include "sim/core/units.h"
 
 namespace rollrig::exports {

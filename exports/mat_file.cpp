@@ -1,5 +1,3 @@
-#include "exports/mat_file.h"
-
 #include <fmt/format.h>
 #include <matio.h>
 #include <sys/mman.h>
@@ -11,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "exports/tree.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
 

@@ -1,10 +1,9 @@
-#include "exports/source.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "exports/tree.h"
 #include "measurements/measurement_set.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"

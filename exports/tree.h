@@ -1,6 +1,6 @@
 #pragma once
 /// What is exported, whatever the file: named things in groups. Units stand in the names and are told beside them by
-/// the files (unit_of_key).
+/// the files (unit_of_key). Where it comes from, and the files that are made of it.
 
 #include <set>
 #include <string>
@@ -47,5 +47,30 @@ Node make_node(const ConfigTable& table);
 /// For names that a file's format allows: `name`, or where it is taken the first free of name_2, name_3, ...; taken
 /// now.
 std::string take_name(const std::string& name, std::set<std::string>& taken);
+
+/// The tree of a result folder (of `rollrig run --out`), of a measurement set, or of a recording.csv alone; numbers are
+/// those of the files, in the files' units. A folder that is both is taken as a result, its set.toml as the set.
+/// Members   format, source ("result", "measurements" or "recording"), and
+///           of a result: recording, result, manifest (text);
+///           of a set: set, tire, rig or vehicle, runs (a group a run, with its keys and a recording);
+///           of a recording: recording
+/// Errors    InputError when it is none of these, or when a file of it is missing or wrong
+/// Checked   tests/exports/source_test.cpp
+Group read_source(const std::string& path);
+
+/// The bytes of an HDF5 file (readable since library 1.8). A Group is a group, its members in order; a Column a data
+/// set of doubles, long ones deflated; Texts a data set of strings in UTF-8; a flag h5py's enumeration of FALSE and
+/// TRUE; a List a group whose members are named by their place, from 0. Every number whose name says a unit has the
+/// attribute `unit`. '/' in a name becomes '_'. The same tree gives the same bytes.
+/// Checked  tests/exports/hdf5_file_test.cpp
+std::string make_hdf5(const Group& tree);
+
+/// The bytes of a .mat file (version 5): a member of `tree` is a variable. A Group is a struct, a table one with the
+/// struct `units` (the unit of every member whose name says one) as its last field; a Column and Texts are columns
+/// (double, cell), a flag is logical, a List a cell. Names are made MATLAB's: letters, digits and '_', a letter first,
+/// 63 at most. The same tree gives the same bytes.
+/// Errors   InputError where a variable is larger than the format holds (2 GB)
+/// Checked  tests/exports/mat_file_test.cpp
+std::string make_mat(const Group& tree);
 
 }  // namespace rollrig::exports

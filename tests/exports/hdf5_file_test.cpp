@@ -5,8 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "exports/hdf5_file.h"
-#include "exports/source.h"
+#include "exports/tree.h"
 #include "tests/exports/exported_run.h"
 
 using namespace rollrig;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "exports/source.h"
+#include "exports/tree.h"
 #include "sim/core/error.h"
 #include "tests/exports/exported_run.h"
 
