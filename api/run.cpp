@@ -4,7 +4,6 @@
 #include "api/run_document.h"
 #include "report/page.h"
 #include "report/run_page.h"
-#include "report/text.h"
 #include "scenarios/common/written_set.h"
 
 namespace rollrig {

@@ -9,7 +9,6 @@
 
 #include "api/run_document.h"
 #include "report/list_pages.h"
-#include "report/text.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
 #include "sim/core/parallel.h"

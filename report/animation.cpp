@@ -1,4 +1,4 @@
-#include "report/animation.h"
+#include "report/run_page.h"
 
 #include <algorithm>
 #include <cmath>

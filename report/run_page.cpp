@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "report/animation.h"
 #include "report/blocks.h"
-#include "report/run_figures.h"
-#include "report/time_panels.h"
 #include "scenarios/run/run_spec.h"
 
 namespace rollrig::report {

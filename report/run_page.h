@@ -1,5 +1,5 @@
 #pragma once
-/// The page of `rollrig run`.
+/// What `rollrig run` shows: the page with its parts, the text of the terminal.
 
 #include "report/page.h"
 #include "scenarios/run/scenario.h"
@@ -9,5 +9,26 @@ namespace rollrig::report {
 /// Result, energies by section where the scenario has sections, the run over time with its animation, energy balance
 /// and all inputs.
 Page make_run_page(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
+
+/// Header, lines, tables and warnings of a run for the terminal.
+std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome);
+
+/// The drum with its carriage, or the vehicle on rollers or road, from the recorded poses of a multibody run. A
+/// quasi-static run has none: angles are then integrals of the recorded speed and heights follow from the load.
+Block make_animation(const scenarios::RunSpec& spec, const sim::Recording<double>& recording);
+
+/// Figures of `result`: rolling energy by section with that by the ISO coefficient beside it, resistance from cycle to
+/// cycle, force over speed or load. No blocks where it has nothing of these.
+Section make_run_figures(const Json& result);
+
+/// Phases of a recording as the page has them.
+Json make_phases(const std::vector<sim::PhaseSpan>& phases);
+
+/// From a minute before the rolling begins to the end: a soak of hours would fill the axis.
+PageClock find_view(const sim::Recording<double>& recording);
+
+/// Channels over time as panels of one chart: speed, load, torque and forces, losses, temperatures, pressure, then
+/// everything else.
+Block make_times(const sim::Recording<double>& recording);
 
 }  // namespace rollrig::report

@@ -1,4 +1,4 @@
-#include "report/text.h"
+#include "report/run_page.h"
 
 #include <fmt/format.h>
 

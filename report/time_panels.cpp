@@ -1,4 +1,4 @@
-#include "report/time_panels.h"
+#include "report/run_page.h"
 
 #include <algorithm>
 #include <cmath>

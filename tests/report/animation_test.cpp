@@ -1,5 +1,5 @@
 // The animation's bodies are where the multibody rig had them.
-#include "report/animation.h"
+#include "report/run_page.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
