@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "report/thinning.h"
 #include "sim/core/units.h"
 
 namespace rollrig::report {
@@ -17,20 +16,14 @@ Json rounded(double value) {
   return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
 
-Json rounded(const std::vector<double>& values) {
-  Json json = Json::array();
-  for (const double value : values) json.push_back(rounded(value));
-  return json;
-}
-
-Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values,
-                 std::size_t most) {
+Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values) {
   double size = 0.0;
   for (const double value : values) size = std::isfinite(value) ? std::max(size, std::abs(value)) : size;
-  constexpr double kShown = 1e-6;  // of the largest value: less than the six digits that are written
+  constexpr double kShown = 1e-6;      // of the largest value: less than the six digits that are written
+  constexpr std::size_t kMost = 2000;  // more than a chart has pixels
   Json t = Json::array();
   Json y = Json::array();
-  for (const std::size_t row : thin(time_s, values, most, kShown * size)) {
+  for (const std::size_t row : thin(time_s, values, kMost, kShown * size)) {
     t.push_back(std::round(1e3 * time_s[row]) / 1e3);
     y.push_back(rounded(values[row]));
   }
@@ -125,10 +118,6 @@ Block make_lead(const std::string& tone, const std::string& text, const std::str
   Block block = {{"type", "lead"}, {"tone", tone}, {"text", text}};
   if (!more.empty()) block["more"] = more;
   return block;
-}
-
-Section make_inputs(const Json& groups) {
-  return {"Inputs", "", {{{"type", "inputs"}, {"groups", groups}}}, "All inputs, defaults included"};
 }
 
 std::string pretty_unit(std::string symbol) {

@@ -10,16 +10,23 @@
 
 namespace rollrig::report {
 
-/// Most points of a series on a page: more than a chart has pixels.
-constexpr std::size_t kMostPoints = 2000;
-
 /// Six digits, null where not finite.
 Json rounded(double value);
-Json rounded(const std::vector<double>& values);
 
 /// A channel over time, thinned: {name, t, y}.
-Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values,
-                 std::size_t most = kMostPoints);
+Json make_series(const std::string& name, const std::vector<double>& time_s, const std::vector<double>& values);
+
+/// Indices of the rows of a series that are kept, in order; at most `most` of them (at least 8), none of its extremes
+/// lost.
+///
+/// The first and the last row are kept. The rows between are cut into equal stretches, and of each the first, the last,
+/// the least and the greatest value stay, so that every peak of the series is at its own time and a line drawn through
+/// them looks as through all; a stretch with a gap (not finite) keeps one row of it. What then lies on the straight
+/// line of its neighbors, to `tolerance`, is left out: a series at rest is two points.
+/// Source   Jugel et al., Proc. VLDB 7 (2014) 797 (M4)
+/// Checked  tests/report/thinning_test.cpp
+std::vector<std::size_t> thin(const std::vector<double>& time_s, const std::vector<double>& values, std::size_t most,
+                              double tolerance = 0.0);
 
 Block make_table(const Table& table);
 
@@ -54,8 +61,6 @@ Block make_warnings(const std::vector<std::string>& warnings);
 Block make_paragraph(const std::string& text);
 /// A sentence on top; tone: good, doubt or bad.
 Block make_lead(const std::string& tone, const std::string& text, const std::string& more = "");
-/// All inputs, from a manifest or the like.
-Section make_inputs(const Json& groups);
 
 /// Values in the unit of a key: "load_kN" takes N.
 std::vector<double> in_unit_of(const std::string& key, std::vector<double> values_SI);

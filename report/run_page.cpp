@@ -69,7 +69,7 @@ Page make_run_page(const scenarios::RunSpec& spec, const scenarios::Outcome& out
       {"Procedure", "", {make_paragraph(spec.scenario->text.procedure), make_paragraph(spec.scenario->text.source)}});
   Json inputs = scenarios::make_manifest(spec, outcome);
   inputs.erase("format");
-  page.add(make_inputs(inputs));
+  page.add({"Inputs", "", {{{"type", "inputs"}, {"groups", inputs}}}, "All inputs, defaults included"});
   return page;
 }
 

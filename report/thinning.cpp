@@ -1,4 +1,4 @@
-#include "report/thinning.h"
+#include "report/blocks.h"
 
 #include <algorithm>
 #include <cmath>
