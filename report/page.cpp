@@ -4,7 +4,22 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-#include "report/page_template.h"
+// The page without its data, page_template.html, made of report/web (CMakeLists.txt): taken in by the assembler, which
+// finds it from the project's root, as a literal would take a compiler long.
+asm(R"(
+  .pushsection .rodata
+  .globl rollrig_page_template_begin, rollrig_page_template_end
+  .hidden rollrig_page_template_begin, rollrig_page_template_end
+rollrig_page_template_begin:
+  .incbin "report/page_template.html"
+rollrig_page_template_end:
+  .popsection
+)");
+
+extern "C" {
+extern const char rollrig_page_template_begin[];  // NOLINT: a name of the assembler's
+extern const char rollrig_page_template_end[];    // NOLINT
+}
 
 namespace rollrig::report {
 namespace {
@@ -43,7 +58,7 @@ void Page::add(Section section) {
 }
 
 std::string make_html(const Page& page) {
-  const std::string html(page_template());
+  const std::string html(rollrig_page_template_begin, rollrig_page_template_end);
   return boost::algorithm::replace_first_copy(html, "/*PAYLOAD*/", escape_json(make_payload(page)));
 }
 
