@@ -7,7 +7,6 @@
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/terms/term.h"
 #include "report/blocks.h"
-#include "report/diagnosis_sections.h"
 #include "report/set_comparison.h"
 #include "sim/core/text.h"
 #include "sim/core/units.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// The pages of `rollrig diagnose`.
+/// The pages of `rollrig diagnose`, and their sections that follow from the diagnosis alone.
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/output/fleet.h"
@@ -13,6 +13,13 @@ Page make_diagnosis_page(const measurements::MeasurementSet& set, const diagnosi
 
 /// The verdict in one sentence: "Gap explained by bearing_warmup (probability 94 %), ...".
 std::string describe_verdict(const Findings& findings);
+Section make_verdict(const Findings& findings);
+Section make_causes(const Findings& findings);
+Section make_gap(const Findings& findings);
+Block make_balance(const Findings& findings);
+Section make_next(const Findings& findings);
+/// Equation, source, priors of what is named and of what cannot be told from it.
+Section make_explanations(const Findings& findings);
 
 /// A folder of sets: a row each, and what comes back.
 Page make_fleet_page(const diagnosis::Fleet& fleet);

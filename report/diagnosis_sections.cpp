@@ -1,5 +1,3 @@
-#include "report/diagnosis_sections.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
