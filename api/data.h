@@ -1,8 +1,13 @@
 #pragma once
 /// What objects of the API hold, and what its results are made with.
 
+#include <map>
+#include <string>
+
 #include "measurements/measurement_set.h"
 #include "rollrig/measurement_set.h"
+#include "rollrig/run.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/json.h"
 
 namespace rollrig {
@@ -13,5 +18,11 @@ struct MeasurementSet::Data {
 
 /// Values in SI units as a channel of the API has them.
 Channel make_channel(const Quantity& quantity, std::vector<double> values_SI);
+
+/// Files by their names as the API has them.
+inline FolderFiles to_folder(const std::map<std::string, std::string>& files) { return {files.begin(), files.end()}; }
+
+/// Reads what `input` names. Throws InputError.
+scenarios::RunSpec read_run(const RunInput& input);
 
 }  // namespace rollrig

@@ -18,10 +18,7 @@ Diagnosis diagnose(const MeasurementSet& set, const DiagnosisOptions& options) {
   result.text = diagnosis::format_summary(*found);
   result.json = to_text(diagnosis::make_diagnosis_json(*found));
   result.make_page = [set, found] { return report::make_html(report::make_diagnosis_page(set.data().set, *found)); };
-  result.make_plan = [set, found] {
-    const auto files = diagnosis::write_plan(set.data().set, *found);
-    return FolderFiles(files.begin(), files.end());
-  };
+  result.make_plan = [set, found] { return to_folder(diagnosis::write_plan(set.data().set, *found)); };
   return result;
 }
 

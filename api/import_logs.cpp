@@ -4,8 +4,8 @@
 #include <map>
 #include <memory>
 
+#include "api/data.h"
 #include "measurements/logs/import.h"
-#include "rollrig/measurement_set.h"
 #include "sim/core/columns.h"
 #include "sim/core/text.h"
 
@@ -62,10 +62,7 @@ Report import_logs(const std::string& mapping_file, const std::string& data) {
   Report report;
   report.text = format_import(mapping, *imported);
   report.json = to_text(measurements::make_import_json(mapping, *imported));
-  report.make_files = [mapping, imported] {
-    const std::map<std::string, std::string> files = measurements::make_set_files(mapping, *imported);
-    return FolderFiles(files.begin(), files.end());
-  };
+  report.make_files = [mapping, imported] { return to_folder(measurements::make_set_files(mapping, *imported)); };
   return report;
 }
 

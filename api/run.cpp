@@ -1,7 +1,6 @@
 #include "rollrig/run.h"
 
 #include "api/data.h"
-#include "api/run_document.h"
 #include "report/page.h"
 #include "report/run_page.h"
 #include "scenarios/common/written_set.h"
@@ -62,7 +61,7 @@ std::vector<ResultRecords> list_records(const scenarios::Scenario& scenario, con
 
 Run::Run(const RunInput& input) {
   const auto data = std::make_shared<Data>();
-  data->spec = api::read_run(input);
+  data->spec = read_run(input);
   data->run = scenarios::prepare_run(data->spec);
   data_ = data;
 }
@@ -93,8 +92,7 @@ RunResult Run::carry_out(const Progress& progress) const {
   result.make_recording = [outcome] { return make_recording(outcome->recording); };
   if (!writes_set()) return result;
   result.make_set_files = [data = data_, outcome] {
-    const auto files = scenarios::write_measurement_set(data->spec, *outcome, data->spec.scenario->text.name);
-    return FolderFiles(files.begin(), files.end());
+    return to_folder(scenarios::write_measurement_set(data->spec, *outcome, data->spec.scenario->text.name));
   };
   return result;
 }

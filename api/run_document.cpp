@@ -1,10 +1,10 @@
-#include "api/run_document.h"
-
 #include <filesystem>
+
+#include "api/data.h"
 
 namespace fs = std::filesystem;
 
-namespace rollrig::api {
+namespace rollrig {
 namespace {
 
 bool is_file_name(const std::string& text) {
@@ -57,4 +57,4 @@ scenarios::RunSpec read_run(const RunInput& input) {
                                   is_file ? fs::path(input.scenario_or_file).parent_path().string() : std::string());
 }
 
-}  // namespace rollrig::api
+}  // namespace rollrig

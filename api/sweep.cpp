@@ -7,7 +7,7 @@
 
 #include <boost/algorithm/string/split.hpp>
 
-#include "api/run_document.h"
+#include "api/data.h"
 #include "report/list_pages.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
@@ -128,7 +128,7 @@ Sweep::Sweep(const SweepInput& input) {
   for (const auto& point : data->points) {
     RunInput run = input.run;
     for (std::size_t i = 0; i < point.size(); ++i) run.settings.push_back(input.axes[i].key + "=" + point[i]);
-    data->specs.push_back(api::read_run(run));
+    data->specs.push_back(read_run(run));
     scenarios::prepare_run(data->specs.back());  // says what is wrong before the first is carried out
   }
   std::vector<std::string> declared;
