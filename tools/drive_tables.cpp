@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "tools/figure_3_13.h"
-#include "tools/published_numbers.h"
-#include "tools/virtual_run.h"
+#include "tools/virtual_tests.h"
 
 namespace rollrig::tools {
 namespace {

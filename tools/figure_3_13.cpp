@@ -1,10 +1,8 @@
-#include "tools/figure_3_13.h"
-
 #include <ceres/ceres.h>
 
 #include <cmath>
 
-#include "tools/virtual_run.h"
+#include "tools/virtual_tests.h"
 
 namespace rollrig::tools {
 namespace {

@@ -10,7 +10,6 @@
 
 #include "sim/core/csv.h"
 #include "sim/core/parallel.h"
-#include "tools/class_tire.h"
 #include "tools/virtual_run.h"
 
 namespace rollrig::tools {

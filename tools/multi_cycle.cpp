@@ -7,7 +7,6 @@
 #include "rigs/vehicle_file.h"
 #include "sim/core/assets.h"
 #include "sim/core/csv.h"
-#include "tools/class_tire.h"
 #include "tools/virtual_run.h"
 
 namespace rollrig::tools {

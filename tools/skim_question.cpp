@@ -1,5 +1,3 @@
-#include "tools/skim_question.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -11,6 +9,7 @@
 #include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
+#include "tools/source_gap.h"
 #include "tools/virtual_run.h"
 
 namespace rollrig::tools {

@@ -1,11 +1,13 @@
 #pragma once
 /// The source's own gap: Table 4.3, rolling power on the dynamometer against the model, and which effect could make it.
+/// And its open question (§5.2): is the parasitic loss that falls in the warm-up the rig's or the tire's?
 
 #include <array>
 #include <string>
 #include <vector>
 
 #include "models/effect.h"
+#include "tools/pages.h"
 
 namespace rollrig::tools {
 
@@ -55,5 +57,28 @@ std::vector<GapCurve> simulate_gap_curves(const std::vector<const models::Effect
 ///           drive misses the energies of Tables 4.4 and 4.5)
 /// `measured_above`: the table's unprinted sign. True where the measured power is above the model's
 std::vector<GapCandidate> rank_gap(const std::vector<GapCurve>& curves, const PowerErrors& table, bool measured_above);
+
+/// What the diagnosis says of the source's own test (transient skim, §3.2.7) in which one of the two causes of the open
+/// question is at work.
+struct SkimAnswer {
+  std::string tire;
+  std::string truth;  // effect at work
+  double size = 0.0;  // of it, in the unit of its key
+  std::string size_unit;
+  std::string named;            // cause, or the verdict where none is named
+  double bearing_warmup = 0.0;  // probabilities
+  double tire_loss_in_skim = 0.0;
+  std::string next_test;
+};
+
+/// Simulates the test on the source's drum with its sensors (one log a second, seed 1), and diagnoses it by comparison
+/// of the whole catalog.
+SkimAnswer ask(const std::string& tire, const std::string& effect, const std::string& parameter, double size);
+
+/// Every tire at the middle of both priors, and a50 at both ends of each.
+std::vector<SkimAnswer> ask_all();
+
+/// The answers as rows of a table.
+Rows list_answers(const std::vector<SkimAnswer>& answers);
 
 }  // namespace rollrig::tools

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "sim/core/units.h"
-#include "tools/skim_question.h"
 #include "tools/source_gap.h"
 #include "tools/virtual_run.h"
 

@@ -28,6 +28,11 @@ scenarios::RunSpec make_source_drive(const std::string& tire);
 /// A number of a result. Throws RunFailure where it could not be read off.
 double number(const Json& result, const char* key);
 
+/// Of a tire of which only the class is known, a50's law is taken, its loss scaled: the factor that gives a coefficient
+/// in the ISO test, where a tire with more loss runs warmer.
+double find_loss_factor(double rrc_N_per_kN);
+void scale_loss(models::TireFile& tire, double factor);
+
 /// Where `f` changes its sign between `low` and `high`.
 double find_root(const std::function<double(double)>& f, double low, double high);
 

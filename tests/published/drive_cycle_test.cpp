@@ -8,9 +8,8 @@
 #include "models/tire/rolling_resistance.h"
 #include "sim/core/schema.h"
 #include "tests/support/drum_fixture.h"
-#include "tools/figure_3_13.h"
-#include "tools/published_numbers.h"
 #include "tools/tire_drive.h"
+#include "tools/virtual_tests.h"
 
 using namespace rollrig;
 

@@ -6,7 +6,6 @@
 #include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tests/support/page_numbers.h"
-#include "tools/skim_question.h"
 #include "tools/source_gap.h"
 
 using namespace rollrig;
