@@ -1,12 +1,9 @@
-#include <fmt/format.h>
-
+#include <boost/scope_exit.hpp>
 #include <filesystem>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/output/diagnosis_json.h"
-#include "models/effect.h"
 #include "scenarios/common/written_set.h"
-#include "sim/core/file_io.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 #include "tools/source_gap.h"
@@ -17,34 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own, which goes with the object.
-class Scratch {
- public:
-  Scratch() {
-    std::string name = (fs::temp_directory_path() / "rollrig-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 measurements::MeasurementSet measure(const std::string& tire, const std::string& assignment) {
   const scenarios::RunSpec spec = make_spec("transient_skim", tire, {assignment}, {{"sensors", "source"}});
-  const Scratch scratch;
+  std::string folder = (fs::temp_directory_path() / "rollrig-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  BOOST_SCOPE_EXIT_ALL(&) {
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  };
   for (const auto& [name, content] :
        scenarios::write_measurement_set(spec, scenarios::run_scenario(spec, {}), "transient")) {
-    write_output((scratch.path() / name).string(), content);
+    write_output((fs::path(folder) / name).string(), content);
   }
-  return measurements::read_measurement_set(scratch.path().string());
+  return measurements::read_measurement_set(folder);
 }
 
 /// What is named, "or" between what cannot be told apart; else the verdict.
