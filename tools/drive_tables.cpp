@@ -19,6 +19,10 @@ double find_rms(const std::vector<double>& a, const std::vector<double>& b) {
   return std::sqrt(squares);
 }
 
+std::string expected_file(const char* table) { return fmt::format("{}/{}/expected.toml", kPublishedFolder, table); }
+
+}  // namespace
+
 Rows list_sections(const Drives& drives) {
   Rows rows;
   for (const std::string& tire : kTires) {
@@ -32,19 +36,19 @@ Rows list_sections(const Drives& drives) {
   return rows;
 }
 
-void add_figure_3_13(DriveTables& tables) {
+std::pair<Rows, Rows> list_figure_3_13() {
   const std::vector<double> published = read_published_tire(kPublishedFolder, "a50").sections();
-  tables.figure_3_13 = {section_row("published", published) + " |"};
+  Rows rows{section_row("published", published) + " |"};
+  Rows fits;
   for (const double C_J_per_K : {18040.0, 25300.0}) {
     const CoolingFit fit = fit_cooling_to_figure_3_13(published, C_J_per_K);
-    tables.figure_3_13.push_back(section_row(fmt::format("C {:.0f} J/K", C_J_per_K), fit.differences) +
-                                 fmt::format(" {:.2f} |", 100.0 * fit.rms));
-    tables.figure_3_13_fits.push_back(fmt::format("at {:.0f} J/K z {:.1f} W/K and f {:.2f} W s/(m K)", C_J_per_K,
-                                                  fit.rest_conductance_W_per_K, fit.speed_conductance_W_s_per_m_K));
+    rows.push_back(section_row(fmt::format("C {:.0f} J/K", C_J_per_K), fit.differences) +
+                   fmt::format(" {:.2f} |", 100.0 * fit.rms));
+    fits.push_back(fmt::format("at {:.0f} J/K z {:.1f} W/K and f {:.2f} W s/(m K)", C_J_per_K,
+                               fit.rest_conductance_W_per_K, fit.speed_conductance_W_s_per_m_K));
   }
+  return {rows, fits};
 }
-
-std::string expected_file(const char* table) { return fmt::format("{}/{}/expected.toml", kPublishedFolder, table); }
 
 Rows list_table_5_1(const Drives& drives) {
   Rows rows;
@@ -76,20 +80,6 @@ Rows list_table_4_2() {
     });
   }
   return rows;
-}
-
-}  // namespace
-
-DriveTables make_drive_tables() {
-  Drives drives;
-  for (const std::string& tire : kTires) drives[tire] = drive_source_test(tire);
-  DriveTables tables;
-  tables.sections = list_sections(drives);
-  add_figure_3_13(tables);
-  tables.table_5_1 = list_table_5_1(drives);
-  tables.table_4_2 = list_table_4_2();
-  tables.statements = list_statements(drives);
-  return tables;
 }
 
 }  // namespace rollrig::tools

@@ -129,14 +129,16 @@ Rows list_temperatures() {
 
 std::string make_published_page() {
   using fmt::literals::operator""_a;
-  const DriveTables drive = make_drive_tables();
-  return fill_page("published", "sections"_a = join(drive.sections), "figure_3_13"_a = join(drive.figure_3_13),
-                   "figure_3_13_fits"_a = fmt::join(drive.figure_3_13_fits, "; "),
-                   "table_5_1"_a = join(drive.table_5_1), "table_4_2"_a = join(drive.table_4_2),
-                   "statements"_a = join(drive.statements), "iso"_a = join(list_iso()),
-                   "warm_up"_a = join(list_warm_ups()), "vehicle_load"_a = join(list_vehicle_loads()),
-                   "pressure"_a = join(list_pressure_ratios()), "load"_a = join(list_loads()),
-                   "speed"_a = join(list_speeds()), "temperature"_a = join(list_temperatures()));
+  Drives drives;
+  for (const std::string& tire : kTires) drives[tire] = drive_source_test(tire);
+  const auto [figure_3_13, fits] = list_figure_3_13();
+  return fill_page("published", "sections"_a = join(list_sections(drives)), "figure_3_13"_a = join(figure_3_13),
+                   "figure_3_13_fits"_a = fmt::join(fits, "; "), "table_5_1"_a = join(list_table_5_1(drives)),
+                   "table_4_2"_a = join(list_table_4_2()), "statements"_a = join(list_statements(drives)),
+                   "iso"_a = join(list_iso()), "warm_up"_a = join(list_warm_ups()),
+                   "vehicle_load"_a = join(list_vehicle_loads()), "pressure"_a = join(list_pressure_ratios()),
+                   "load"_a = join(list_loads()), "speed"_a = join(list_speeds()),
+                   "temperature"_a = join(list_temperatures()));
 }
 
 }  // namespace rollrig::tools
