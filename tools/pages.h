@@ -17,6 +17,8 @@ extern const char* const kPublishedFolder;  // tests/published
 /// Rows of a table in Markdown, a line each.
 using Rows = std::vector<std::string>;
 std::string join(const Rows& rows);
+/// Text as it may stand in a cell of such a table.
+std::string escape_cell(const std::string& text);
 
 /// tools/pages/<name>.md with `values`, which are named arguments of fmt, in its holes.
 template <class... Values>

@@ -82,11 +82,6 @@ std::string write_declared(const std::vector<const Registered*>& all) {
   return page;
 }
 
-std::string escape_cell(std::string cell) {
-  text::replace_all(cell, "|", "\\|");
-  return cell;
-}
-
 /// A line that says "Assumed", and what goes on of its comment: code before, words after.
 std::string write_assumed_row(const std::string& file, const std::vector<std::string>& lines, std::size_t line) {
   const std::size_t at = lines[line].find(kAssumed);

@@ -1,5 +1,4 @@
 #include <boost/algorithm/string/join.hpp>
-#include <boost/algorithm/string/replace.hpp>
 
 #include "measurements/measurement_set.h"
 #include "models/tire/tire_file.h"
@@ -10,9 +9,6 @@
 
 namespace rollrig::tools {
 namespace {
-
-/// A cell of a Markdown table.
-std::string cell(const std::string& text) { return boost::algorithm::replace_all_copy(text, "|", "\\|"); }
 
 std::string list_or_none(const std::vector<std::string>& words) {
   return words.empty() ? "none" : boost::algorithm::join(words, ", ");
@@ -30,12 +26,12 @@ std::string describe(const scenarios::Scenario& scenario) {
                                  about.procedure, about.source);
   text += "\n| setting | allowed | default | meaning |\n|---|---|---|---|\n";
   for (const scenarios::SettingInfo& setting : scenario.settings) {
-    text +=
-        fmt::format("| `{}` | {} | {} | {} |\n", setting.key, cell(setting.range), setting.fallback, cell(setting.doc));
+    text += fmt::format("| `{}` | {} | {} | {} |\n", setting.key, escape_cell(setting.range), setting.fallback,
+                        escape_cell(setting.doc));
   }
   text += "\n| result | meaning |\n|---|---|\n";
   for (const scenarios::ResultInfo& result : scenario.results) {
-    text += fmt::format("| `{}` | {} |\n", result.key, cell(result.doc));
+    text += fmt::format("| `{}` | {} |\n", result.key, escape_cell(result.doc));
   }
   return text;
 }
@@ -45,10 +41,10 @@ std::string describe(const models::EffectInfo& effect) {
                                  effect.equation, effect.source);
   text += "\n| parameter | allowed | usual | off at | meaning |\n|---|---|---|---|---|\n";
   for (const models::EffectParameter& parameter : effect.parameters) {
-    text +=
-        fmt::format("| `{}` | {} | {:.4g} to {:.4g}{} | {} | {} |\n", parameter.key, cell(parameter.range.to_string()),
-                    parameter.prior.low, parameter.prior.high, parameter.prior.either_sign ? ", either sign" : "",
-                    parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", cell(parameter.doc));
+    text += fmt::format("| `{}` | {} | {:.4g} to {:.4g}{} | {} | {} |\n", parameter.key,
+                        escape_cell(parameter.range.to_string()), parameter.prior.low, parameter.prior.high,
+                        parameter.prior.either_sign ? ", either sign" : "",
+                        parameter.off.has_value() ? fmt::format("{}", *parameter.off) : "", escape_cell(parameter.doc));
   }
   text += fmt::format("\n*Acts on* {}", list_or_none(rigs::list_machines(effect.acts_on)));
   if (effect.only_against != nullptr) text += ", only against the baseline `constant_rrc`";
@@ -63,9 +59,9 @@ std::string describe(const models::EffectInfo& effect) {
 std::string describe_keys(const std::vector<Field>& fields) {
   Rows rows{"| key | allowed | default | meaning |", "|---|---|---|---|"};
   for (const Field& field : fields) {
-    rows.push_back(fmt::format("| `{}` | {} | {} | {} |", field.key, cell(field.range.to_string()),
+    rows.push_back(fmt::format("| `{}` | {} | {} | {} |", field.key, escape_cell(field.range.to_string()),
                                field.fallback.has_value() ? fmt::format("{:.6g}", *field.fallback) : "required",
-                               cell(field.doc)));
+                               escape_cell(field.doc)));
   }
   return join(rows);
 }
