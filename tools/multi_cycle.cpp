@@ -83,8 +83,7 @@ std::vector<SimulatedSection> simulate_multi_cycle(const MultiCycleTest& test,
   std::vector<SimulatedSection> sections;
   const Json result = scenarios::run_scenario(spec, {}).result;
   for (const Json& section : result["sections"]) {
-    sections.push_back({section["name"].get<std::string>(), 1e3 * section["distance_km"].get<double>(),
-                        3600.0 * section["wheel_energy_Wh"].get<double>(),
+    sections.push_back({1e3 * section["distance_km"].get<double>(), 3600.0 * section["wheel_energy_Wh"].get<double>(),
                         3600.0 * section["recuperated_Wh"].get<double>()});
   }
   return sections;

@@ -21,7 +21,6 @@ std::vector<CertificateSection> read_certificate(const std::string& path);
 
 /// A section as it is simulated, whole vehicle.
 struct SimulatedSection {
-  std::string name;
   double distance_m = 0.0;
   double drive_J = 0.0;        // given out at the driven hubs
   double recuperated_J = 0.0;  // taken in there

@@ -154,7 +154,6 @@ GapMatch match(const GapCurve& curve, const Errors& wanted, std::optional<std::s
 GapCandidate match_all(const GapCurve& curve, const PowerErrors& wanted) {
   GapCandidate candidate;
   candidate.effect = curve.effect;
-  candidate.sign = curve.sign;
   const auto& hooks = curve.effect->hooks<double>();
   candidate.is_of_tire = hooks.loss != nullptr || hooks.thermal != nullptr || hooks.gas != nullptr;
   candidate.common = match(curve, flatten(wanted), std::nullopt);

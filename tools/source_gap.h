@@ -37,7 +37,6 @@ struct GapMatch {
 /// One effect against the table, measured power above or below the model's.
 struct GapCandidate {
   const models::Effect* effect = nullptr;
-  int sign = 1;
   bool is_of_tire = false;          // it changes the tire's loss, heat or gas: each tire may have its own size
   GapMatch common;                  // one size for all three tires
   std::array<GapMatch, 3> of_tire;  // one for each
