@@ -5,17 +5,14 @@
 
 #include "rigs/multibody_drum.h"
 #include "rigs/quasi_static_drum.h"
-#include "scenarios/run/run_spec.h"
+#include "tools/virtual_run.h"
 
 namespace {
 
 using namespace rollrig;
 
 scenarios::RunSpec make_spec(const char* fidelity) {
-  ConfigTable document = scenarios::make_run_document("iso_28580");
-  set_config_value(document, "tire", "a50", "bench");
-  set_config_value(document, "fidelity", fidelity, "bench");
-  return scenarios::read_run_spec(document, "");
+  return tools::make_spec("iso_28580", "a50", {}, {{"fidelity", fidelity}});
 }
 
 double find_peak_MB() {

@@ -3,23 +3,15 @@
 #include <benchmark/benchmark.h>
 
 #include "scenarios/common/vehicle_bench.h"
-#include "scenarios/run/run_spec.h"
+#include "tools/virtual_run.h"
 
 namespace {
 
 using namespace rollrig;
 
-scenarios::RunSpec make_spec(const char* scenario, const char* fidelity, const std::vector<std::string>& settings) {
-  ConfigTable document = scenarios::make_run_document(scenario);
-  set_config_value(document, "tire", "a50", "bench");
-  set_config_value(document, "fidelity", fidelity, "bench");
-  for (const std::string& setting : settings) scenarios::set_run_value(document, setting);
-  return scenarios::read_run_spec(document, "");
-}
-
 void run_scenario(benchmark::State& state, const char* scenario, const char* fidelity,
                   const std::vector<std::string>& settings) {
-  const scenarios::RunSpec spec = make_spec(scenario, fidelity, settings);
+  const scenarios::RunSpec spec = tools::make_spec(scenario, "a50", settings, {{"fidelity", fidelity}});
   scenarios::Outcome outcome;
   for (auto _ : state) outcome = scenarios::run_scenario(spec, {});
   state.counters["mechanical_closure"] = outcome.recording.audit.calc_closure(sim::EnergyTerm::Ledger::kMechanical);
@@ -42,7 +34,7 @@ void drive(benchmark::State& state, const scenarios::RunSpec& spec, const scenar
 }
 
 void city_cycle(benchmark::State& state, const char* fidelity) {
-  const scenarios::RunSpec spec = make_spec("sae_j1634", fidelity, {});
+  const scenarios::RunSpec spec = tools::make_spec("sae_j1634", "a50", {}, {{"fidelity", fidelity}});
   const scenarios::VehicleConditions conditions = make_conditions(spec, 1);
   scenarios::VehicleProgram program(conditions, 1.0, 20.0 / 3.6);
   program.drive(scenarios::read_speed_trace("udds"), "city");
@@ -51,7 +43,7 @@ void city_cycle(benchmark::State& state, const char* fidelity) {
 
 /// One coastdown from 130 km/h to standstill, four wheels, tires at 23 degC.
 void coastdown(benchmark::State& state, const char* fidelity, const char* scenario) {
-  const scenarios::RunSpec spec = make_spec(scenario, fidelity, {});
+  const scenarios::RunSpec spec = tools::make_spec(scenario, "a50", {}, {{"fidelity", fidelity}});
   const scenarios::VehicleConditions conditions = make_conditions(spec, 4);
   scenarios::VehicleProgram program(conditions, 1.0, 0.0);
   program.start_at(130.0 / 3.6);
