@@ -1,5 +1,5 @@
 #pragma once
-/// The parts of the command line.
+/// The parts of the command line, and what all programs of the project have in common of it.
 
 #include <CLI/CLI.hpp>
 
@@ -20,6 +20,12 @@ enum ExitStatus { kDone = 0, kDiffers = 1, kInputError = 2, kRunFailed = 3, kInt
 /// What a subcommand does when it is called; set by the add_ functions below.
 using Action = std::function<int()>;
 
+/// Calls what makes a program's command line and runs it. Returns the exit status; errors go to standard error.
+int run_program(const std::function<int()>& body);
+
+/// Reads the command line and does what its subcommand has set in `action`.
+int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv);
+
 /// A subcommand that calls `run` with its options, which are the caller's to declare.
 template <class Options, class Run>
 std::pair<CLI::App*, std::shared_ptr<Options>> add_command(CLI::App& parent, Action& action, const std::string& name,
@@ -35,6 +41,26 @@ inline InputError usage_error(const std::string& what, const std::string& option
                               const std::string& allowed) {
   return InputError({what, "command line", 0, option, value, allowed, ""});
 }
+
+/// CLI11's message, and the nearest option or subcommand when a word was not expected.
+InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
+
+/// Long option names of an app, such as "--tire"; here as below without what is hidden.
+std::vector<std::string> list_options(const CLI::App& app);
+/// A subcommand by name or alias, or nullptr.
+const CLI::App* find_subcommand(const CLI::App& app, const std::string& name);
+/// Names of its subcommands.
+std::vector<std::string> list_subcommands(const CLI::App& app);
+
+/// --only and --without: which effects are in the comparison, shared by diagnose and validation.
+struct ComparisonOptions {
+  std::vector<std::string> only;
+  std::vector<std::string> without;
+
+  void add_to(CLI::App& command);
+  /// Throws InputError: an effect that there is not, with the nearest; one that is asked for and left out.
+  void check() const;
+};
 
 /// Each adds one subcommand with its options to `app` and sets `action` when that subcommand is called.
 void add_run_command(CLI::App& app, Action& action);

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "cli/command.h"
-#include "cli/comparison_options.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/diagnose.h"

@@ -1,5 +1,3 @@
-#include "cli/comparison_options.h"
-
 #include <algorithm>
 
 #include "cli/command.h"

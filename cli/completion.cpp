@@ -8,7 +8,6 @@
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
-#include "cli/typo.h"
 #include "rollrig/assets.h"
 #include "rollrig/diagnose.h"
 #include "sim/core/error.h"

@@ -8,8 +8,6 @@
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
-#include "cli/program.h"
-#include "cli/typo.h"
 #include "sim/core/error.h"
 
 namespace rollrig::cli {

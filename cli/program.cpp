@@ -1,5 +1,3 @@
-#include "cli/program.h"
-
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -7,7 +5,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "cli/typo.h"
+#include "cli/command.h"
 #include "rollrig/progress.h"
 #include "sim/core/error_text.h"
 #include "sim/core/text.h"

@@ -1,8 +1,8 @@
-#include "cli/typo.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "cli/command.h"
 
 namespace rollrig::cli {
 namespace {

@@ -4,7 +4,6 @@
 #include <iostream>
 #include <set>
 
-#include "cli/comparison_options.h"
 #include "cli/progress.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"

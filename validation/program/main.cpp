@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "cli/help_formatter.h"
-#include "cli/program.h"
 #include "validation/program/commands.h"
 
 namespace rollrig::validation {
