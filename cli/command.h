@@ -52,6 +52,12 @@ const CLI::App* find_subcommand(const CLI::App& app, const std::string& name);
 /// Names of its subcommands.
 std::vector<std::string> list_subcommands(const CLI::App& app);
 
+/// --threads, 0 where it is not given.
+inline void add_threads(CLI::App& command, int& threads,
+                        const std::string& doc = "Threads [as many as the machine has]") {
+  command.add_option("--threads", threads, doc)->check(CLI::Range(1, 1024));
+}
+
 /// --only and --without: which effects are in the comparison, shared by diagnose and validation.
 struct ComparisonOptions {
   std::vector<std::string> only;

@@ -38,8 +38,7 @@ void add_drum(CLI::App& command, const std::string& option, std::optional<double
 int convert_command(const ConvertOptions& options) {
   Output output(options.output);
   const ConvertedLoss converted = convert_loss(options.input);
-  output.write(converted);
-  output.print(converted.text);
+  output.show(converted);
   return kDone;
 }
 

@@ -46,8 +46,7 @@ int diagnose_all(const DiagnoseOptions& options, const std::vector<std::string>&
     ProgressLine progress("diagnose", options.output.quiet);
     return diagnose_fleet(sets, make_options(options, progress));
   }();
-  output.write(fleet);
-  output.print(fleet.text);
+  output.show(fleet);
   int status = kDone;
   for (const FleetMember& member : fleet.members) {
     if (member.failure.empty()) continue;
@@ -110,8 +109,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
   options->comparison.add_to(*command);
-  command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
-      ->check(CLI::Range(1, 1024));
+  add_threads(*command, options->threads);
 }
 
 }  // namespace rollrig::cli

@@ -28,16 +28,14 @@ int fit_tire_command(const FitTireOptions& options) {
     how.progress = progress.callback();
     fit = fit_tire(set, how);
   }
-  output.write(fit);
-  output.print(fit.text);
+  output.show(fit);
   return fit.suspicion.empty() ? kDone : kDiffers;  // as of validate
 }
 
 int fit_drum_coastdown_command(const FitDrumCoastdownOptions& options) {
   Output output(options.output);
   const Report fit = fit_drum_coastdown(options.set, options.data);
-  output.write(fit);
-  output.print(fit.text);
+  output.show(fit);
   return kDone;
 }
 
@@ -65,8 +63,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   options->output.add_to(*tire, "File for fit.json, - for standard output", "Folder for the tire file and fit.json");
   tire->add_flag("--load-map", options->fit.load_map, "Fit A0, A1, B0, B1 at each load of the set");
   tire->add_flag("--free-h", options->fit.free_H, "Fit H even where the gas temperature was not measured");
-  tire->add_option("--threads", options->fit.threads, "Threads [as many as the machine has]")
-      ->check(CLI::Range(1, 1024));
+  add_threads(*tire, options->fit.threads);
 }
 
 }  // namespace rollrig::cli

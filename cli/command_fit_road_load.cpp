@@ -110,8 +110,7 @@ int fit_road_load_command(const FitRoadLoadOptions& options) {
   const RoadLoadFitOptions how = make_fit_options(options);
   Output output(options.output);
   const RoadLoad fit = fit_road_load(options.csv, how, options.sessions);
-  output.write(fit);
-  output.print(fit.text);
+  output.show(fit);
   return kDone;
 }
 

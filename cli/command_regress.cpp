@@ -32,8 +32,7 @@ int regress_command(const RegressOptions& options) {
   }();
   output.require_no_input();
   if (options.update) found = update_goldens(found);
-  output.write(found);
-  output.print(found.text);
+  output.show(found);
   return find_status(found.runs);
 }
 
@@ -44,8 +43,7 @@ void add_regress_command(CLI::App& app, Action& action) {
       app, action, "regress", "Rerun all regression scenarios against their goldens", &regress_command);
   command->add_option("folder", options->folder, "Folder of run files [assets/regression]");
   command->add_flag("--update", options->update, "Write goldens that differ, are missing or cannot be read");
-  command->add_option("--threads", options->threads, "Threads [as many as the machine has]")
-      ->check(CLI::Range(1, 1024));
+  add_threads(*command, options->threads);
   options->output.add_to(*command, "File for the comparison, - for standard output");
 }
 

@@ -22,8 +22,7 @@ int sweep_command(const SweepOptions& options) {
     ProgressLine progress("sweep", options.output.quiet);
     result = sweep.carry_out(progress.callback());
   }
-  output.write(result);
-  output.print(result.text);
+  output.show(result);
   return kDone;
 }
 
@@ -41,8 +40,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->add_option("--show", options->sweep.shown,
                    "Results in the terminal's table, with commas [the first that change]")
       ->delimiter(',');
-  command->add_option("--threads", options->sweep.threads, "Threads [as many as the machine has]")
-      ->check(CLI::Range(1, 1024));
+  add_threads(*command, options->sweep.threads);
   options->output.add_to(*command, "File for the results, - for standard output",
                          "Folder for sweep.csv, sweep.json, manifests/");
 }

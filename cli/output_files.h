@@ -66,6 +66,11 @@ class Output {
   void require_no_input() const { files_.require_no_input(); }
   /// Writes the files into --out, the JSON to --json, the page to --html, as far as they are wanted.
   void write(const Report& report);
+  /// Writes the report, then prints its text.
+  void show(const Report& report) {
+    write(report);
+    print(report.text);
+  }
   /// Prints `text` and where the page and the files are, unless nothing is to be printed.
   void print(const std::string& text) const;
 

@@ -105,7 +105,7 @@ int known_cause_command(const RunOptions& options) {
 
 void add_common(CLI::App& command, RunOptions& options) {
   add_set_to(command, options.set);
-  add_threads_to(command, "Cases at the same time [as many as the machine has cores]", options.threads);
+  cli::add_threads(command, options.threads, "Cases at the same time [as many as the machine has cores]");
   command.add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 

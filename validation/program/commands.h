@@ -20,8 +20,6 @@ constexpr const char* kLeftOutFolder = "answers-left-out";  // likewise: without
 
 /// The validation set that a command is for.
 void add_set_to(CLI::App& command, std::string& set);
-/// How many cases a command works on at a time.
-void add_threads_to(CLI::App& command, const std::string& what, int& threads);
 
 /// A place in a validation set, unless another is given.
 std::string place_in(const std::string& set, const std::string& name, const std::string& given = {});

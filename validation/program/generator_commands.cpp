@@ -178,7 +178,7 @@ void add_upper_bound(CLI::App& app, cli::Action& action) {
   command->add_option("--sets", order->cases)->delimiter(',')->group("");
   command->add_flag("--detection", order->detection_alone,
                     "Whether each is to be seen, and not what it can be told from: a tenth of the time");
-  add_threads_to(*command, kThreads, order->threads);
+  cli::add_threads(*command, order->threads, kThreads);
 }
 
 void add_follow_up(CLI::App& app, cli::Action& action) {
@@ -188,7 +188,7 @@ void add_follow_up(CLI::App& app, cli::Action& action) {
   add_set_to(*command, order->set);
   command->alias("followup");
   command->add_flag("--drawn", order->drawn, "The tests drawn from the menu, not those proposed");
-  add_threads_to(*command, kThreads, order->threads);
+  cli::add_threads(*command, order->threads, kThreads);
 }
 
 }  // namespace

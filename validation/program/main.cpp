@@ -11,11 +11,6 @@ void add_set_to(CLI::App& command, std::string& set) {
   command.add_option("set", set, "Folder made by rollrig_validation make")->required();
 }
 
-void add_threads_to(CLI::App& command, const std::string& what, int& threads) {
-  constexpr int kMostThreads = 1024;
-  command.add_option("--threads", threads, what)->check(CLI::Range(1, kMostThreads));
-}
-
 std::string place_in(const std::string& set, const std::string& name, const std::string& given) {
   return given.empty() ? (std::filesystem::path(set) / name).string() : given;
 }
