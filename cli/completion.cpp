@@ -4,7 +4,6 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <iostream>
-#include <memory>
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
@@ -175,11 +174,11 @@ int completion_command(const CLI::App& app, const std::string& shell) {
 }  // namespace
 
 void add_completion_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("completion", "Print a completion script: bash, zsh or fish");
+  const auto [command, shell] =
+      add_command<std::string>(app, action, "completion", "Print a completion script: bash, zsh or fish",
+                               [&app](const std::string& name) { return completion_command(app, name); });
   command->footer("Use: eval \"$(rollrig completion bash)\"");
-  auto shell = std::make_shared<std::string>();
   command->add_option("shell", *shell, "bash, zsh or fish")->required();
-  command->callback([&app, shell, &action] { action = [&app, shell] { return completion_command(app, *shell); }; });
 }
 
 }  // namespace rollrig::cli

@@ -1,7 +1,7 @@
 #include "cli/help_formatter.h"
 
 #include <algorithm>
-#include <cctype>
+#include <boost/algorithm/string/case_conv.hpp>
 
 namespace rollrig::cli {
 
@@ -17,9 +17,7 @@ std::string describe_value(const CLI::Option& option) {
     return check;
   }
   if (type.empty() || check.rfind(type, 0) == 0) return check;
-  std::transform(check.begin(), check.end(), check.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return check + " " + type;
+  return boost::algorithm::to_lower_copy(check) + " " + type;
 }
 
 }  // namespace rollrig::cli

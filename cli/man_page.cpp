@@ -1,7 +1,9 @@
 // rollrig man: the manual page, from the same texts as --help.
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <iostream>
+#include <regex>
 
 #include "cli/command.h"
 #include "cli/help_formatter.h"
@@ -11,20 +13,11 @@ namespace rollrig::cli {
 namespace {
 
 /// Text as roff takes it literally.
-std::string escape(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    const bool starts_line = escaped.empty() || escaped.back() == '\n';
-    if (starts_line && (c == '.' || c == '\'')) escaped += "\\&";
-    if (c == '\\') {
-      escaped += "\\e";
-    } else if (c == '-') {
-      escaped += "\\-";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
+std::string escape(std::string text) {
+  boost::algorithm::replace_all(text, "\\", "\\e");
+  boost::algorithm::replace_all(text, "-", "\\-");
+  static const std::regex command("(^|\n)([.'])");
+  return std::regex_replace(text, command, "$1\\&$2");
 }
 
 /// A text as running lines, short enough as escaping lengthens them.
