@@ -9,7 +9,6 @@
 #include "sim/core/text.h"
 #include "validation/program/commands.h"
 #include "validation/scoring/baselines/baselines.h"
-#include "validation/scoring/known_cause.h"
 #include "validation/scoring/ranks.h"
 #include "validation/scoring/run_cases.h"
 

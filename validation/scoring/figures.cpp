@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <functional>
 
-#include "validation/scoring/ideal_observer.h"
 #include "validation/scoring/score.h"
 
 namespace rollrig::validation {

@@ -1,9 +1,8 @@
-#include "validation/scoring/ideal_observer.h"
-
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 
 #include "diagnosis/thresholds.h"
+#include "validation/scoring/score.h"
 
 namespace rollrig::validation {
 

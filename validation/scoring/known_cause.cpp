@@ -1,9 +1,8 @@
-#include "validation/scoring/known_cause.h"
-
 #include <algorithm>
 
 #include "models/effect.h"
 #include "validation/scoring/follow_up.h"
+#include "validation/scoring/run_cases.h"
 
 namespace rollrig::validation {
 

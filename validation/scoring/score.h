@@ -2,6 +2,7 @@
 /// The score of a validation set: each figure beside its target, tables by effect, campaign and size, and what was
 /// missed.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,6 +51,21 @@ struct ScoreOptions {
   double detectable_d_prime = 5.0;  // from here on an effect is to be found (docs/validation.md, "Figures of merit")
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
 };
+
+/// Chances of an ideal observer of the same cases with one case, since nobody names what the data do not show; none
+/// where its upper bound lacks what it takes.
+using Chance = std::function<std::optional<double>(const Case&)>;
+
+/// That it raises a gap at 1 % false alarms: Phi(d' - 2.326).
+/// Checked  tests/validation/scoring/ideal_observer_test.cpp, as those below
+std::optional<double> find_chance_of_detection(const Case& one);
+/// 1 where less than three other effects are within 3 nats of the truth, else 0.
+std::optional<double> find_chance_of_small_set(const Case& one);
+/// 1 where a pair is told from every single effect, else 0.
+std::optional<double> find_chance_of_pair(const Case& one, double detectable_d_prime);
+
+/// Mean chance; none where one of the cases has none, or there is no case.
+std::optional<double> find_mean_chance(const std::vector<Case>& cases, const Chance& chance);
 
 /// What the answers state, of the cases that could be diagnosed.
 std::vector<Stated> list_stated(const std::vector<Case>& cases);

@@ -1,10 +1,9 @@
 // What nobody can name: chances of an ideal observer.
-#include "validation/scoring/ideal_observer.h"
+#include "validation/scoring/score.h"
 
 #include <catch2/catch.hpp>
 
 #include "tests/validation/scoring/hand_made_cases.h"
-#include "validation/scoring/score.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;

@@ -5,7 +5,6 @@
 
 #include "sim/core/error.h"
 #include "tests/validation/scoring/validation_set_folder.h"
-#include "validation/scoring/known_cause.h"
 #include "validation/scoring/run_cases.h"
 #include "validation/scoring/score.h"
 
