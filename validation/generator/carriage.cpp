@@ -1,8 +1,8 @@
-#include "validation/generator/carriage.h"
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "validation/generator/machine.h"
 
 namespace rollrig::generator::carriage {
 namespace {

@@ -94,6 +94,15 @@ std::string write_file(const Specimen& specimen, int version, const std::string&
 double calc_drum_factor(const Specimen& specimen);
 }  // namespace rig
 
+/// What the kinds have in common on which a carriage presses one tire: their runs, and what turns.
+namespace carriage {
+/// A campaign of one of the laboratories in `kinds`, drawn by the seed of the order. The kinds of its runs are "warm-up
+/// <km/h>", "speed steps", "load sweep", "transient skim" and "up and down".
+Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen, const std::vector<CampaignKind>& kinds);
+/// Machine::calc_moving_mass_kg: of the drum or belt, and of the wheel where it is not lifted.
+double calc_moving_mass_kg(const Specimen& specimen, double load_N, double target_load_N);
+}  // namespace carriage
+
 /// From that drum to a flat surface.
 double calc_flat_factor(const Specimen& specimen);
 double find_unit_lever(const Specimen& specimen);

@@ -1,7 +1,6 @@
 /// One tire that a carriage presses on a drum. The motor's torque is measured.
 #include <fmt/format.h>
 
-#include "validation/generator/carriage.h"
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator::drum {

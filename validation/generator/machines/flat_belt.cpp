@@ -1,7 +1,6 @@
 /// One tire that a carriage presses on a flat belt over two drums. The force that drives the belt is measured.
 #include <fmt/format.h>
 
-#include "validation/generator/carriage.h"
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator::flat_belt {
