@@ -16,21 +16,15 @@ using Conversion = double (*)(double value, double neutral);
 
 /// What makes the generator's size of an effect's own, where they are not the same number (docs/validation_effects.md,
 /// "Meaning of a size").
-const std::map<std::string, Conversion>& size_conversions() {
-  static const std::map<std::string, Conversion> conversions{
-      {"convection_law", [](double deficit, double neutral) { return neutral - deficit; }},
-      {"pressure_exponent", [](double shift, double neutral) { return neutral + shift; }},
-      {"slip_loss", [](double compliance, double) { return 1.0 / compliance; }},
-      {"torque_zero_drift", [](double per_hour, double) { return per_hour / 6.0; }},  // per 10 min
-  };
-  return conversions;
-}
+const std::map<std::string, Conversion> kSizeConversions{
+    {"convection_law", [](double deficit, double neutral) { return neutral - deficit; }},
+    {"pressure_exponent", [](double shift, double neutral) { return neutral + shift; }},
+    {"slip_loss", [](double compliance, double) { return 1.0 / compliance; }},
+    {"torque_zero_drift", [](double per_hour, double) { return per_hour / 6.0; }},  // per 10 min
+};
 
 /// Effects whose size means something else in the generator's law, so that nothing can be compared.
-const std::set<std::string>& sizes_apart() {
-  static const std::set<std::string> ids{"bearing_warmup", "gas_heat_transfer", "tire_temperature", "tread_liner_lag"};
-  return ids;
-}
+const std::set<std::string> kSizesApart{"bearing_warmup", "gas_heat_transfer", "tire_temperature", "tread_liner_lag"};
 
 }  // namespace
 
@@ -106,10 +100,10 @@ std::string Case::said() const {
 std::optional<SizeCheck> Case::check_size() const {
   if (!is_single() || !has_cause() || !is_exact()) return std::nullopt;
   const TrueEffect& effect = truth.effects.front();
-  if (sizes_apart().count(effect.id) > 0 || std::isnan(effect.size)) return std::nullopt;
-  const auto known = size_conversions().find(effect.id);
+  if (kSizesApart.count(effect.id) > 0 || std::isnan(effect.size)) return std::nullopt;
+  const auto known = kSizeConversions.find(effect.id);
   const auto convert = [&](double value) {
-    return known == size_conversions().end() ? value : known->second(value, effect.neutral);
+    return known == kSizeConversions.end() ? value : known->second(value, effect.neutral);
   };
   for (const diagnosis::ParameterEstimate& parameter : cause().parameters) {
     if (parameter.name.rfind(effect.id + ".", 0) != 0) continue;  // the first of an effect's parameters is its size

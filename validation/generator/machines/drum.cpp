@@ -6,49 +6,46 @@
 namespace rollrig::generator::drum {
 
 /// Each has warm-ups, fast running, a load sweep, skims within a run, and a run at another pressure.
-const std::vector<CampaignKind>& campaign_kinds() {
-  static const std::vector<CampaignKind> kinds{{"tire maker",
-                                                {{"warm-up 80", "day-1"},
-                                                 {"transient skim", "day-1"},
-                                                 {"speed steps", "day-1"},
-                                                 {"load sweep", "day-2"},
-                                                 {"warm-up 120", "day-2"},
-                                                 {"warm-up 80", "day-2", 220}}},
-                                               {"university",
-                                                {{"warm-up 120", "day-1"},
-                                                 {"load sweep", "day-1", 0, 240},
-                                                 {"warm-up 40", "day-2"},
-                                                 {"transient skim", "day-2", 320},
-                                                 {"up and down", "day-3"},
-                                                 {"speed steps", "day-3", 0, 180}}},
-                                               {"car maker",
-                                                {{"speed steps", "day-1"},
-                                                 {"transient skim", "day-1", 0, 120},
-                                                 {"load sweep", "day-1"},
-                                                 {"warm-up 80", "day-2"},
-                                                 {"speed steps", "day-2", 240},
-                                                 {"warm-up 120", "day-2", 0, 150}}},
-                                               {"test house",
-                                                {{"warm-up 80", "day-1"},
-                                                 {"load sweep", "day-1"},
-                                                 {"load sweep", "day-2", 230},
-                                                 {"speed steps", "day-2"},
-                                                 {"transient skim", "day-3"},
-                                                 {"warm-up 130", "day-3"}}},
-                                               {"institute",
-                                                {{"up and down", "day-1"},
-                                                 {"warm-up 80", "day-1", 310},
-                                                 {"transient skim", "day-1", 0, 200},
-                                                 {"speed steps", "day-2"},
-                                                 {"load sweep", "day-2"},
-                                                 {"transient skim", "day-2", 250}}}};
-  return kinds;
-}
+const std::vector<CampaignKind> kCampaigns{{"tire maker",
+                                            {{"warm-up 80", "day-1"},
+                                             {"transient skim", "day-1"},
+                                             {"speed steps", "day-1"},
+                                             {"load sweep", "day-2"},
+                                             {"warm-up 120", "day-2"},
+                                             {"warm-up 80", "day-2", 220}}},
+                                           {"university",
+                                            {{"warm-up 120", "day-1"},
+                                             {"load sweep", "day-1", 0, 240},
+                                             {"warm-up 40", "day-2"},
+                                             {"transient skim", "day-2", 320},
+                                             {"up and down", "day-3"},
+                                             {"speed steps", "day-3", 0, 180}}},
+                                           {"car maker",
+                                            {{"speed steps", "day-1"},
+                                             {"transient skim", "day-1", 0, 120},
+                                             {"load sweep", "day-1"},
+                                             {"warm-up 80", "day-2"},
+                                             {"speed steps", "day-2", 240},
+                                             {"warm-up 120", "day-2", 0, 150}}},
+                                           {"test house",
+                                            {{"warm-up 80", "day-1"},
+                                             {"load sweep", "day-1"},
+                                             {"load sweep", "day-2", 230},
+                                             {"speed steps", "day-2"},
+                                             {"transient skim", "day-3"},
+                                             {"warm-up 130", "day-3"}}},
+                                           {"institute",
+                                            {{"up and down", "day-1"},
+                                             {"warm-up 80", "day-1", 310},
+                                             {"transient skim", "day-1", 0, 200},
+                                             {"speed steps", "day-2"},
+                                             {"load sweep", "day-2"},
+                                             {"transient skim", "day-2", 250}}}};
 
 void draw_own(std::uint64_t, Specimen&) {}
 
 Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen) {
-  return carriage::draw_campaign(order, specimen, campaign_kinds());
+  return carriage::draw_campaign(order, specimen, kCampaigns);
 }
 
 std::string write_file(const Specimen& specimen) {

@@ -1,7 +1,5 @@
 /// One wheel of a vehicle that is tied down on rollers. The loss force between hub and roller is measured. Driven are
 /// published cycles, constant speeds, and both mixed, cold and after rests.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -57,28 +55,25 @@ void mixed(Draws& draws, SpeedTrace& trace) {
   drive("udds", trace);
 }
 
-const std::vector<CampaignKind>& campaign_kinds() {
-  static const std::vector<CampaignKind> kinds{
-      {"certification",
-       {{"multi-cycle", "day-1"},
-        {"multi-cycle", "day-1", 0, 15},
-        {"constant speeds", "day-2"},
-        {"mixed", "day-2", 250, 40}}},
-      {"cold chamber",
-       {{"multi-cycle", "day-1"}, {"multi-cycle", "day-2", 0, 0, -5}, {"constant speeds", "day-3", 0, 0, 35}}},
-      {"research",
-       {{"constant speeds", "day-1"},
-        {"mixed", "day-1", 0, 30, 0, 1.15},
-        {"constant speeds", "day-2", 240},
-        {"multi-cycle", "day-2", 0, 90, 0, 0.85},
-        {"mixed", "day-3", 0, 0, 8}}},
-      {"developer",
-       {{"mixed", "day-1"},
-        {"multi-cycle", "day-1", 0, 60, 0, 1.2},
-        {"constant speeds", "day-2", 310},
-        {"mixed", "day-2", 0, 20}}}};
-  return kinds;
-}
+const std::vector<CampaignKind> kCampaigns{
+    {"certification",
+     {{"multi-cycle", "day-1"},
+      {"multi-cycle", "day-1", 0, 15},
+      {"constant speeds", "day-2"},
+      {"mixed", "day-2", 250, 40}}},
+    {"cold chamber",
+     {{"multi-cycle", "day-1"}, {"multi-cycle", "day-2", 0, 0, -5}, {"constant speeds", "day-3", 0, 0, 35}}},
+    {"research",
+     {{"constant speeds", "day-1"},
+      {"mixed", "day-1", 0, 30, 0, 1.15},
+      {"constant speeds", "day-2", 240},
+      {"multi-cycle", "day-2", 0, 90, 0, 0.85},
+      {"mixed", "day-3", 0, 0, 8}}},
+    {"developer",
+     {{"mixed", "day-1"},
+      {"multi-cycle", "day-1", 0, 60, 0, 1.2},
+      {"constant speeds", "day-2", 310},
+      {"mixed", "day-2", 0, 20}}}};
 
 /// Force of the wheel on the roller at each row: its share of what moves the vehicle, or of its friction brakes.
 std::vector<double> find_longitudinal_N(const std::vector<double>& speeds_m_s, double load_N,
@@ -131,7 +126,7 @@ std::vector<Leg> draw_legs(Draws& draws, const std::string& kind, double load_N,
 Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen) {
   constexpr Cooling kCooling{12.0, 20.0, 45.0};  // Assumed
   Draws draws(order.seed, "campaign");
-  const CampaignKind& kind = draws.pick(campaign_kinds());
+  const CampaignKind& kind = draws.pick(kCampaigns);
   const double load_N = 50.0 * draws.whole(88, 112);
   return draw_runs(order, kind, kCooling, specimen, [&](Draws& own, const RunKind& what) {
     return draw_legs(own, what.kind, std::round(load_N * what.payload / 50.0) * 50.0, specimen);

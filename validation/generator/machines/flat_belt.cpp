@@ -6,23 +6,20 @@
 namespace rollrig::generator::flat_belt {
 
 /// As on a drum: warm-ups, fast running, a load sweep, skims within a run, and a run at another pressure.
-const std::vector<CampaignKind>& campaign_kinds() {
-  static const std::vector<CampaignKind> kinds{{"belt of a tire maker",
-                                                {{"warm-up 80", "day-1"},
-                                                 {"load sweep", "day-1"},
-                                                 {"speed steps", "day-1", 0, 150},
-                                                 {"transient skim", "day-2"},
-                                                 {"warm-up 130", "day-2"},
-                                                 {"load sweep", "day-2", 230}}},
-                                               {"belt of a test house",
-                                                {{"speed steps", "day-1"},
-                                                 {"warm-up 80", "day-1", 240},
-                                                 {"load sweep", "day-2"},
-                                                 {"up and down", "day-2", 0, 180},
-                                                 {"transient skim", "day-3"},
-                                                 {"warm-up 120", "day-3", 310}}}};
-  return kinds;
-}
+const std::vector<CampaignKind> kCampaigns{{"belt of a tire maker",
+                                            {{"warm-up 80", "day-1"},
+                                             {"load sweep", "day-1"},
+                                             {"speed steps", "day-1", 0, 150},
+                                             {"transient skim", "day-2"},
+                                             {"warm-up 130", "day-2"},
+                                             {"load sweep", "day-2", 230}}},
+                                           {"belt of a test house",
+                                            {{"speed steps", "day-1"},
+                                             {"warm-up 80", "day-1", 240},
+                                             {"load sweep", "day-2"},
+                                             {"up and down", "day-2", 0, 180},
+                                             {"transient skim", "day-3"},
+                                             {"warm-up 120", "day-3", 310}}}};
 
 /// Assumed: after machines with a steel belt over two drums on a plane bearing, which takes as much as the drums' own.
 void draw_own(std::uint64_t seed, Specimen& specimen) {
@@ -37,7 +34,7 @@ void draw_own(std::uint64_t seed, Specimen& specimen) {
 }
 
 Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen) {
-  return carriage::draw_campaign(order, specimen, campaign_kinds());
+  return carriage::draw_campaign(order, specimen, kCampaigns);
 }
 
 std::string write_file(const Specimen& specimen) {
