@@ -62,9 +62,8 @@ std::string make_csv(const SweepResult& sweep) {
   columns.insert(columns.end(), sweep.results.begin(), sweep.results.end());
   CsvWriter csv(columns);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
-    csv.begin_row();
     for (const std::string& value : sweep.points[i]) csv.add(value);
-    for (const double value : sweep.values[i]) csv.add(value, 12);
+    for (const double value : sweep.values[i]) csv.add(CsvWriter::Rounded{value, 12});
     csv.end_row();
   }
   return csv.take();

@@ -189,16 +189,17 @@ std::string make_fleet_csv(const std::vector<TestCar>& cars, const std::vector<F
   for (const char* name : {"refit_error_percent", "refit_error_at_km_h", "largest_off_N", "failure"}) {
     columns.emplace_back(name);
   }
+  using Rounded = CsvWriter::Rounded;
   CsvWriter csv(columns);
   for (std::size_t i = 0; i < cars.size(); ++i) {
     const FleetResult& result = results[i];
-    csv.begin_row();
     for (const std::string& text : {cars[i].make, cars[i].model, cars[i].drive}) csv.add(text);
-    csv.add(cars[i].mass_kg, 7);
+    csv.add(Rounded{cars[i].mass_kg, 7});
     const auto add = [&csv](const std::optional<Load>& given) {
       const Load load = given.value_or(Load{NAN, NAN, NAN});
-      Load::visit(load,
-                  [&](const Field& field, const double& value) { csv.add(unit_of_key(field.key).from_si(value), 6); });
+      Load::visit(load, [&](const Field& field, const double& value) {
+        csv.add(Rounded{unit_of_key(field.key).from_si(value), 6});
+      });
     };
     add(cars[i].target);
     add(cars[i].set);
@@ -206,11 +207,8 @@ std::string make_fleet_csv(const std::vector<TestCar>& cars, const std::vector<F
     add(result.set_all);
     add(result.set_driven);
     add(result.set_driveline);
-    csv.add(100.0 * result.refit_error, 3);
-    csv.add(3.6 * result.refit_error_at_m_s, 4);
-    csv.add(result.largest_off_N, 4);
-    csv.add(result.failure);
-    csv.end_row();
+    csv.add_row(Rounded{100.0 * result.refit_error, 3}, Rounded{3.6 * result.refit_error_at_m_s, 4},
+                Rounded{result.largest_off_N, 4}, result.failure);
   }
   return csv.take();
 }

@@ -58,7 +58,6 @@ std::string write_inputs(const MeasuredRun& run, const MachineKind& kind) {
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
     const bool is_end = row == 0 || row + 1 == run.time_s.size();
     if (!is_end && is_between(run, columns, row)) continue;
-    csv.begin_row();
     csv.add(run.time_s[row]);
     for (const Quantity& column : columns) csv.add(column.file_unit().from_si(run.column(column)[row]));
     csv.end_row();

@@ -94,19 +94,10 @@ std::string make_deceleration_csv(const CoastSet& set, const DrumCoastdownFit& f
     for (std::size_t i = 0; i < analysis.decelerations.size(); ++i) {
       const DecelerationFit& at = analysis.decelerations[i];
       const double none = std::nan("");
-      csv.begin_row();
-      csv.add(run.id);
-      csv.add(std::string(name_of(run.state)));
-      csv.add(run.direction);
-      csv.add(run.pressure_Pa > 0.0 ? run.pressure_Pa / 1e3 : none);
-      csv.add(std::string(name_of(analysis.body)));
-      csv.add(3.6 * set.speeds_m_s[i]);
-      csv.add(at.available ? at.value_m_s2 : none);
-      csv.add(at.available ? at.sd_m_s2 : none);
-      csv.add(at.available ? at.scatter_m_s : none);
-      csv.add(static_cast<double>(at.rows));
-      csv.add(at.why);
-      csv.end_row();
+      csv.add_row(run.id, name_of(run.state), run.direction, run.pressure_Pa > 0.0 ? run.pressure_Pa / 1e3 : none,
+                  name_of(analysis.body), 3.6 * set.speeds_m_s[i], at.available ? at.value_m_s2 : none,
+                  at.available ? at.sd_m_s2 : none, at.available ? at.scatter_m_s : none, static_cast<double>(at.rows),
+                  at.why);
     }
   }
   return csv.take();
@@ -117,16 +108,9 @@ std::string make_residual_csv(const CoastSet& set, const DrumCoastdownFit& fit) 
   for (const CoastAnalysis& analysis : fit.analyses) {
     for (std::size_t i = 0; i < analysis.decelerations.size(); ++i) {
       for (const FittedRow& row : analysis.decelerations[i].residuals) {
-        csv.begin_row();
-        csv.add(set.runs[analysis.run].id);
-        csv.add(std::string(name_of(analysis.body)));
-        csv.add(3.6 * set.speeds_m_s[i]);
-        csv.add(row.time_s);
-        csv.add(3.6 * row.speed_m_s);
-        csv.add(3.6 * row.fitted_m_s);
-        csv.add(3.6 * (row.speed_m_s - row.fitted_m_s), 4);
-        csv.add(row.weight, 3);
-        csv.end_row();
+        csv.add_row(set.runs[analysis.run].id, name_of(analysis.body), 3.6 * set.speeds_m_s[i], row.time_s,
+                    3.6 * row.speed_m_s, 3.6 * row.fitted_m_s,
+                    CsvWriter::Rounded{3.6 * (row.speed_m_s - row.fitted_m_s), 4}, CsvWriter::Rounded{row.weight, 3});
       }
     }
   }

@@ -192,16 +192,9 @@ std::string write_road_load_residuals(const CoastdownFile& file, const RoadLoadF
                  "fit_" + unit, "residual_" + unit, "sd_" + unit, "weight"});
   for (const RoadLoadPoint& point : fit.points) {
     const CoastdownRun& run = file.data.runs[point.run];
-    csv.begin_row();
-    csv.add(run.id);
-    csv.add(run.session);
-    csv.add(heading_text(run.heading));
-    for (const double value :
-         {kKmhPerMs * point.high_m_s, kKmhPerMs * point.low_m_s, point.duration_s, kKmhPerMs * point.speed_m_s,
-          point.force_N, point.fit_N, point.residual_N, point.sd_N, 1.0 / (point.sd_N * point.sd_N)}) {
-      csv.add(value);
-    }
-    csv.end_row();
+    csv.add_row(run.id, run.session, heading_text(run.heading), kKmhPerMs * point.high_m_s, kKmhPerMs * point.low_m_s,
+                point.duration_s, kKmhPerMs * point.speed_m_s, point.force_N, point.fit_N, point.residual_N, point.sd_N,
+                1.0 / (point.sd_N * point.sd_N));
   }
   return csv.take();
 }

@@ -14,7 +14,6 @@ std::string make_run_csv(const ResampledRun& run) {
   for (const auto& column : run.columns) header.push_back(column.first.header());
   CsvWriter csv(header);
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
-    csv.begin_row();
     csv.add(run.time_s[row]);
     for (const auto& [quantity, values] : run.columns) csv.add(quantity.file_unit().from_si(values[row]));
     csv.end_row();
@@ -54,15 +53,8 @@ std::string make_marks_csv(const Import& imported) {
   CsvWriter csv({"log", "line", "column", "from_s", "to_s", "value", "reason"});
   for (const Log& log : imported.logs) {
     for (const Mark& mark : log.marks) {
-      csv.begin_row();
-      csv.add(mark.log);
-      csv.add(static_cast<double>(mark.line));
-      csv.add(mark.column.header());
-      csv.add(mark.from_s, 15);
-      csv.add(mark.to_s, 15);
-      csv.add(mark.value.value_or(std::numeric_limits<double>::quiet_NaN()));
-      csv.add(mark.reason);
-      csv.end_row();
+      csv.add_row(mark.log, static_cast<double>(mark.line), mark.column.header(), CsvWriter::Rounded{mark.from_s, 15},
+                  CsvWriter::Rounded{mark.to_s, 15}, mark.value.value_or(std::nan("")), mark.reason);
     }
   }
   return csv.take();

@@ -40,7 +40,6 @@ std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<do
     if (time_s < run.start_s - kSlack_s || time_s > run.end_s + kSlack_s) continue;
     const bool cut_before = std::abs(time_s - run.start_s) <= kSlack_s && row > 0;
     const bool cut_after = std::abs(time_s - run.end_s) <= kSlack_s && row + 1 < recording.row_count();
-    csv.begin_row();
     csv.add(time_s - run.start_s);
     for (const Quantity& column : columns) {
       const bool beyond = (cut_before || cut_after) && holds(kind.columns.measured, column);

@@ -119,13 +119,8 @@ std::vector<GoldenValue> read_golden(const std::string& path) {
 std::string write_golden(const std::vector<GoldenValue>& golden) {
   CsvWriter csv({"quantity", "time_s", "value", "absolute_tolerance", "relative_tolerance"});
   for (const GoldenValue& value : golden) {
-    csv.begin_row();
-    csv.add(value.quantity);
-    csv.add(value.time_s);
-    csv.add(value.value, 10);
-    csv.add(value.absolute_tolerance);
-    csv.add(value.relative_tolerance);
-    csv.end_row();
+    csv.add_row(value.quantity, value.time_s, CsvWriter::Rounded{value.value, 10}, value.absolute_tolerance,
+                value.relative_tolerance);
   }
   return csv.take();
 }

@@ -12,7 +12,6 @@ std::string make_recording_csv(const sim::Recording<double>& recording) {
   }
   CsvWriter csv(columns);
   for (std::size_t row = 0; row < recording.row_count(); ++row) {
-    csv.begin_row();
     csv.add(recording.time_s[row]);
     csv.add(recording.phases[recording.phase[row]].name);
     for (std::size_t i = 0; i < units.size(); ++i) csv.add(units[i].from_si(recording.values[i][row]));

@@ -261,39 +261,20 @@ std::vector<double> CsvTable::increasing_times(const std::string& column) const 
 }
 
 CsvWriter::CsvWriter(const std::vector<std::string>& columns) {
-  begin_row();
   for (const std::string& column : columns) add(column);
   end_row();
 }
 
-void CsvWriter::begin_row() { first_in_row_ = true; }
-
-void CsvWriter::separate() {
-  if (!first_in_row_) text_ += ',';
-  first_in_row_ = false;
-}
-
-void CsvWriter::add(double value, int digits) {
-  separate();
-  if (std::isnan(value)) return;
-  const double written = value == 0.0 ? 0.0 : value;  // no "-0"
-  fmt::format_to(std::back_inserter(text_), "{:.{}g}", written, digits);
+void CsvWriter::add(const Rounded& number) {
+  const double written = number.value == 0.0 ? 0.0 : number.value;  // no "-0"
+  if (!std::isnan(written)) fmt::format_to(std::back_inserter(text_), "{:.{}g}", written, number.digits);
+  text_ += ',';
 }
 
 void CsvWriter::add(const std::string& text) {
-  separate();
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    text_ += text;
-    return;
-  }
-  text_ += '"';
-  for (const char c : text) {
-    if (c == '"') text_ += '"';
-    text_ += c;
-  }
-  text_ += '"';
+  const bool is_plain = text.find_first_of(",\"\r\n") == std::string::npos;
+  text_ += is_plain ? text : '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
+  text_ += ',';
 }
-
-void CsvWriter::end_row() { text_ += '\n'; }
 
 }  // namespace rollrig

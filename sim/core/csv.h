@@ -64,23 +64,29 @@ class CsvTable {
   std::vector<Row> rows_;
 };
 
-/// Builds CSV text. Numbers are written so that reading them back gives the same value to `digits`
-/// significant digits.
+/// Builds CSV text. Numbers are written so that reading them back gives the same value to so many significant digits,
+/// nine unless Rounded says otherwise.
 class CsvWriter {
  public:
   explicit CsvWriter(const std::vector<std::string>& columns);
 
-  void begin_row();
-  void add(double value, int digits = 9);  // NaN is written as an empty field
+  struct Rounded {
+    double value;
+    int digits;
+  };
+  void add(const Rounded& number);  // NaN is written as an empty field
+  void add(double value) { add(Rounded{value, 9}); }
   void add(const std::string& text);
-  void end_row();
+  void end_row() { text_.back() = '\n'; }
+  template <class... Cells>
+  void add_row(const Cells&... cells) {
+    (add(cells), ...);
+    end_row();
+  }
   std::string take() { return std::move(text_); }
 
  private:
-  void separate();
-
   std::string text_;
-  bool first_in_row_ = true;
 };
 
 }  // namespace rollrig

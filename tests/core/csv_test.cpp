@@ -33,10 +33,7 @@ TEST_CASE("numbers come in SI units and empty cells as NaN where they may be emp
 
 TEST_CASE("what is written is read back", "[fast]") {
   CsvWriter writer({"time_s", "text"});
-  writer.begin_row();
-  writer.add(1.0 / 3.0, 17);
-  writer.add("with \"quotes\", and comma");
-  writer.end_row();
+  writer.add_row(CsvWriter::Rounded{1.0 / 3.0, 17}, "with \"quotes\", and comma");
   const CsvTable csv = parse(writer.take());
   CHECK(csv.numbers({"time_s", any_number(), ""})[0] == 1.0 / 3.0);
   CHECK(csv.text("text")[0] == "with \"quotes\", and comma");

@@ -71,13 +71,7 @@ std::string write_coastdown_csv(const estimation::CoastdownData& data) {
   CsvWriter csv({"time_s", "speed_km_h", "run", "heading", "ambient_degC"});
   for (const auto& run : data.runs) {
     for (std::size_t i = 0; i < run.time_s.size(); ++i) {
-      csv.begin_row();
-      csv.add(run.time_s[i]);
-      csv.add(3.6 * run.speed_m_s[i]);
-      csv.add(run.id);
-      csv.add(std::string(run.heading > 0 ? "+" : "-"));
-      csv.add(20.0);
-      csv.end_row();
+      csv.add_row(run.time_s[i], 3.6 * run.speed_m_s[i], run.id, run.heading > 0 ? "+" : "-", 20.0);
     }
   }
   return csv.take();
