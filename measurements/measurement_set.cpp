@@ -10,6 +10,7 @@
 #include "sim/core/assets.h"
 #include "sim/core/csv.h"
 #include "sim/core/file_io.h"
+#include "sim/core/json.h"
 
 namespace fs = std::filesystem;
 
@@ -23,7 +24,7 @@ std::string set_file_of(const std::string& folder) {
 
 std::string folder_of(const std::string& file) { return fs::path(file).parent_path().string(); }
 
-MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, const MachineKind& kind) {
+MeasuredRun read_run(const ConfigTable& table, const std::string& folder, const MachineKind& kind) {
   TableReader reader(table, "[[run]]");
   MeasuredRun run;
   run.id = reader.text("id");
@@ -37,12 +38,7 @@ MeasuredRun read_run_table(const ConfigTable& table, const std::string& folder, 
     missing.nearest = nearest_file(run.file);
     throw InputError(missing);
   }
-  run.session = reader.text("session");
-  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", models::kTemperatureRange, ""});
-  run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
-  run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
-  run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
-  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
+  read_run_table(reader, run);
   if (reader.flag_or("reversed", false)) {
     if (is_of_vehicle(kind.traits))
       throw reader.problem("reversed", "only a drum is turned the other way round", "false");
@@ -91,13 +87,10 @@ void check_runs(const MeasurementSet& set) {
     for (const Quantity& channel : measured_channels(*set.kind)) {
       if (!run.has(channel) || set.sensors.count(channel) > 0) continue;
       const std::string heading = channel.header();
-      InputProblem problem;
-      problem.what = fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, heading);
-      problem.file = set.path;
-      problem.key = fmt::format("[sensors.{}]", heading);
-      problem.allowed =
-          "a table [sensors." + heading + "] with offset_sd, drift_sd, drift_time_s, noise_sd, resolution";
-      throw InputError(problem);
+      const std::string table = fmt::format("[sensors.{}]", heading);
+      throw InputError(
+          {fmt::format("run '{}' measures '{}', and no sensor is given for it", run.id, heading), set.path, 0, table,
+           "", fmt::format("a table {} with offset_sd, drift_sd, drift_time_s, noise_sd, resolution", table), ""});
     }
   }
 }
@@ -108,6 +101,28 @@ bool MeasuredRun::has_samples(const Quantity& quantity) const {
   const auto at = columns.find(quantity);
   return at != columns.end() &&
          std::any_of(at->second.begin(), at->second.end(), [](double value) { return !std::isnan(value); });
+}
+
+void read_run_table(TableReader& reader, RunTable& run) {
+  run.session = reader.text("session");
+  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", models::kTemperatureRange, ""});
+  run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
+  run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
+  run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
+  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
+}
+
+std::string write_run_table(const RunTable& run) {
+  const auto quote = [](const std::string& text) { return Json(text).dump(); };  // as TOML has it too
+  std::string text = fmt::format(
+      "\n[[run]]\nid = {}\nfile = {}\nsession = {}\ninitial_tire_temperature_degC = {:.10g}\ncold_pressure_kPa = "
+      "{:.10g}\n",
+      quote(run.id), quote(run.id + ".csv"), quote(run.session), run.initial_tire_temperature_K - kZeroCelsius_K,
+      run.cold_pressure_Pa / 1e3);
+  if (run.rest_before_s.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_s / 60.0);
+  if (run.started_warm) text += "tire_state = \"warm\"\n";
+  if (run.force_at_standstill) text += "force_at_standstill = true\n";
+  return text;
 }
 
 MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind) {
@@ -190,7 +205,7 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   if (const ConfigTable* sensors = reader.table("sensors")) {
     set.sensors = models::read_sensors(*sensors, measured_channels(*set.kind));
   }
-  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run_table(*run, base, *set.kind));
+  for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run(*run, base, *set.kind));
   reader.finish();
   if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
   for (MeasuredRun& run : set.runs) read_run_columns(set.kind->columns, run);

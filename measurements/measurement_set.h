@@ -15,17 +15,21 @@ namespace rollrig::measurements {
 using rigs::MachineKind;
 using rigs::measured_channels;
 
-struct MeasuredRun {
+/// What [[run]] says of a run beside its samples.
+struct RunTable {
   std::string id;
-  std::string file;  // path
-  std::string session;
+  std::string session = "session";
   double initial_tire_temperature_K = 0.0;
-  double cold_pressure_Pa = 0.0;
+  double cold_pressure_Pa = 0.0;  // gauge, at that temperature
   std::optional<double> rest_before_s;
   bool started_warm = false;
+  // The force read while the surface stands, nothing holding it, is the sensor's zero.
+  bool force_at_standstill = false;
+};
+
+struct MeasuredRun : RunTable {
+  std::string file;       // path
   bool reversed = false;  // a drum, turned the other way round
-  bool force_at_standstill =
-      false;  // the force read while the surface stands, nothing holding it, is the sensor's zero
   std::vector<double> time_s;
   QuantityMap<std::vector<double>> columns;  // SI; NaN where there is no sample
 
@@ -63,6 +67,11 @@ MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind);
 /// The machine that a set or a mapping names: a rig, or a vehicle on the road. Decides the kind of `set`, whose
 /// tire has been read; returns the machine's file as it is. Throws InputError.
 std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set);
+
+/// Of a [[run]] all but its id. Throws InputError.
+void read_run_table(TableReader& reader, RunTable& run);
+/// [[run]] of a set, its samples in <id>.csv.
+std::string write_run_table(const RunTable& run);
 
 /// Tables [sensors.<channel>] of sets and run files.
 std::string write_sensors(const models::SensorSet& sensors);

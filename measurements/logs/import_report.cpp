@@ -21,19 +21,6 @@ std::string make_run_csv(const ResampledRun& run) {
   return csv.take();
 }
 
-std::string make_run_table(const ImportedRun& run) {
-  const RunPlan& plan = run.plan;
-  std::string text = fmt::format(
-      "\n[[run]]\nid = {}\nfile = {}\nsession = {}\ninitial_tire_temperature_degC = {:.10g}\ncold_pressure_kPa = "
-      "{:.10g}\n",
-      quote(plan.id), quote(plan.id + ".csv"), quote(plan.session), plan.initial_tire_temperature_K - kZeroCelsius_K,
-      plan.cold_pressure_Pa / 1e3);
-  if (plan.rest_before_s.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *plan.rest_before_s / 60.0);
-  if (plan.started_warm) text += "tire_state = \"warm\"\n";
-  if (plan.force_at_standstill) text += "force_at_standstill = true\n";
-  return text;
-}
-
 std::string make_set_toml(const Mapping& mapping, const Import& imported) {
   std::string text = "# Made by rollrig import; import.json says how.\n";
   for (const ClockEstimate& clock : imported.clocks) {
@@ -45,7 +32,7 @@ std::string make_set_toml(const Mapping& mapping, const Import& imported) {
                       mapping.set.kind->names_rig() ? "rig = \"rig.toml\"" : "vehicle = \"vehicle.toml\"",
                       quote(mapping.baseline));
   text += write_sensors(imported.sensors);
-  for (const ImportedRun& run : imported.runs) text += make_run_table(run);
+  for (const ImportedRun& run : imported.runs) text += write_run_table(run.plan);
   return text;
 }
 

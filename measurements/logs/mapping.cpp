@@ -160,7 +160,7 @@ void read_clock(TableReader& top, ClockPlan& clock) {
   reader.finish();
 }
 
-RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapping& mapping) {
+RunPlan read_run_plan(const ConfigTable& table, const std::string& folder, const Mapping& mapping) {
   TableReader reader(table, "[[run]]");
   RunPlan run;
   run.origin = table.origin;
@@ -171,15 +171,10 @@ RunPlan read_run(const ConfigTable& table, const std::string& folder, const Mapp
   if (boost::algorithm::to_lower_copy(run.id) == "marks") {
     throw reader.problem("id", "marks.csv is the file of what was not taken over", "another id");
   }
-  run.session = reader.text("session");
+  read_run_table(reader, run);
   run.torque_log = (fs::path(folder) / reader.text("torque_log")).string();
   const std::string tire_log = mapping.tire_log.has_value() ? reader.text("tire_log") : std::string();
   if (!tire_log.empty()) run.tire_log = (fs::path(folder) / tire_log).string();
-  run.initial_tire_temperature_K = reader.number({"initial_tire_temperature_degC", between(-80.0, 250.0), ""});
-  run.cold_pressure_Pa = reader.number({"cold_pressure_kPa", between(20.0, 2000.0), ""});
-  run.rest_before_s = reader.number_or_none({"rest_before_min", non_negative(), ""});
-  run.started_warm = reader.text_or("tire_state", "soaked", {"soaked", "warm"}) == "warm";
-  run.force_at_standstill = reader.flag_or("force_at_standstill", false);
   run.from = reader.text_or("from", "");
   run.to = reader.text_or("to", "");
   reader.finish();
@@ -267,7 +262,7 @@ Mapping read_mapping(const std::string& path, const std::string& data_folder) {
   mapping.longest_given_gap_s = reader.number({"longest_given_gap_s", non_negative(), "", mapping.longest_given_gap_s});
   mapping.spike_threshold = reader.number({"spike_threshold", between(4.0, 1000.0), "", mapping.spike_threshold});
   const std::string folder = data_folder.empty() ? base : data_folder;
-  for (const ConfigTable* run : reader.tables("run")) mapping.runs.push_back(read_run(*run, folder, mapping));
+  for (const ConfigTable* run : reader.tables("run")) mapping.runs.push_back(read_run_plan(*run, folder, mapping));
   if (mapping.runs.empty()) throw reader.problem("run", "the mapping has no runs", "one [[run]] table at least");
   for (std::size_t i = 0; i < mapping.runs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {

@@ -54,17 +54,10 @@ struct ClockPlan {
   std::optional<double> shift_sd_s;
 };
 
-struct RunPlan {
-  std::string id;
-  std::string session;
+struct RunPlan : RunTable {
   std::string torque_log;  // path
   std::string tire_log;    // path; empty where there is none
-  double initial_tire_temperature_K = 0.0;
-  double cold_pressure_Pa = 0.0;
-  std::optional<double> rest_before_s;
-  bool started_warm = false;
-  bool force_at_standstill = false;
-  std::string from;  // time stamps as in the torque log; empty: its first and last row
+  std::string from;        // time stamps as in the torque log; empty: its first and last row
   std::string to;
   Origin origin;
 };

@@ -69,15 +69,7 @@ void simulate_rows(const RunSpec& spec, const RecordedInputs&, const measurement
   outcome.recording.audit.require_closed(sim::kAuditLimit);
   put_given_first(rows, *set.kind, outcome.recording);
   name_phases(outcome.recording);
-  SetRun run;
-  run.id = rows.id;
-  run.start_s = rows.time_s.front();
-  run.end_s = rows.time_s.back();
-  run.initial_tire_temperature_K = rows.initial_tire_temperature_K;
-  run.cold_pressure_Pa = rows.cold_pressure_Pa;
-  run.rest_before_s = rows.rest_before_s;
-  run.started_warm = rows.started_warm;
-  outcome.set_runs = {run};
+  outcome.set_runs = {SetRun{rows, rows.time_s.front(), rows.time_s.back()}};
   apply_sensors(spec, outcome.recording);
   if (progress) progress(1.0);
 }

@@ -78,7 +78,6 @@ measurements::MeasuredRun RecordedInputs::make_rows(const RunSpec& spec) const {
   const measurements::MeasuredRun longer = add_run_up(run, run_up_s);
   measurements::MeasuredRun rows;
   rows.id = run.id;
-  rows.session = "session";
   rows.initial_tire_temperature_K = *initial_tire_K;
   rows.cold_pressure_Pa = *pressure_Pa;
   rows.rest_before_s = rest_before_s;

@@ -63,17 +63,6 @@ std::vector<Quantity> find_columns(const rigs::MachineKind& kind, const sim::Rec
   return columns;
 }
 
-std::string write_run_table(const SetRun& run) {
-  std::string text = fmt::format(
-      "\n[[run]]\nid = \"{0}\"\nfile = \"{0}.csv\"\nsession = \"session\"\n"
-      "initial_tire_temperature_degC = {1:.10g}\ncold_pressure_kPa = {2:.10g}\n",
-      run.id, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3);
-  if (run.rest_before_s.has_value()) text += fmt::format("rest_before_min = {:.10g}\n", *run.rest_before_s / 60.0);
-  if (run.started_warm) text += "tire_state = \"warm\"\n";
-  if (run.force_at_standstill) text += "force_at_standstill = true\n";
-  return text;
-}
-
 }  // namespace
 
 std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
@@ -91,7 +80,7 @@ std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, co
                                 spec.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
   set += measurements::write_sensors(sensors);
   for (const SetRun& run : outcome.set_runs) {
-    set += write_run_table(run);
+    set += measurements::write_run_table(run);
     files[run.id + ".csv"] = write_run_csv(kind, outcome.recording, run, columns);
   }
   files["set.toml"] = set;

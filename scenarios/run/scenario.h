@@ -40,15 +40,9 @@ struct RunSpec {
 };
 
 /// Part of a run that makes one run of a measurement set: rolling from a soaked tire.
-struct SetRun {
-  std::string id;
+struct SetRun : measurements::RunTable {
   double start_s = 0.0;
   double end_s = 0.0;
-  double initial_tire_temperature_K = 0.0;
-  double cold_pressure_Pa = 0.0;  // gauge, at that temperature
-  std::optional<double> rest_before_s;
-  bool started_warm = false;
-  bool force_at_standstill = false;
 };
 
 struct Outcome {
