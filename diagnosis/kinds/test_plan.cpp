@@ -56,6 +56,16 @@ RunPlan& RunPlan::roll(double minutes, double load_N, double speed_km_h, bool re
   return *this;
 }
 
+RunPlan& RunPlan::roll_at_loads(double minutes, const std::vector<double>& loads_N, double speed_km_h) {
+  for (const double load_N : loads_N) roll(minutes, load_N, speed_km_h);
+  return *this;
+}
+
+RunPlan& RunPlan::roll_at_speeds(double minutes, double load_N, const std::vector<double>& speeds_km_h) {
+  for (const double speed_km_h : speeds_km_h) roll(minutes, load_N, speed_km_h);
+  return *this;
+}
+
 RunPlan& RunPlan::pull(double longitudinal_force_N) {
   conditions_.held[quantities::kLongitudinalForce] = longitudinal_force_N;
   return *this;
@@ -103,9 +113,7 @@ void RunPlan::add_row(double speed_km_h) {
   }
 }
 
-RunPlan begin_warm(const TestConditions& at) {
-  return RunPlan(at, kUsual_km_h).roll(kWarmUp_min, at.load_N, kUsual_km_h, false);
-}
+RunPlan begin_warm(const TestConditions& at) { return begin_cold(at).roll(kWarmUp_min, at.load_N, kUsual_km_h, false); }
 
 RunPlan begin_cold(const TestConditions& at) { return {at, kUsual_km_h}; }
 
@@ -121,12 +129,14 @@ PlannedTest fit_rim_thermocouple(PlannedTest test) {
   return test;
 }
 
-PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<measurements::MeasuredRun> runs) {
-  PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, std::move(runs), {}, false, soaks > 0};
-  for (std::size_t i = 0; i < test.runs.size(); ++i) {
-    test.runs[i].id = fmt::format("{}-{}", id, i + 1);
-    test.runs[i].session = test.runs[i].reversed ? "next, reversed" : "next";
-    test.hours += test.runs[i].time_s.back() / 3600.0;
+PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<RunPlan> runs) {
+  PlannedTest test{id, std::move(description), kSetUp_h + soaks * kSoak_h, {}, {}, false, soaks > 0};
+  for (RunPlan& plan : runs) {
+    measurements::MeasuredRun run = plan.finish();
+    run.id = fmt::format("{}-{}", id, test.runs.size() + 1);
+    run.session = run.reversed ? "next, reversed" : "next";
+    test.hours += run.time_s.back() / 3600.0;
+    test.runs.push_back(std::move(run));
   }
   return test;
 }

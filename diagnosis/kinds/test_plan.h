@@ -31,7 +31,10 @@ class RunPlan {
   RunPlan(const TestConditions& conditions, double first_km_h);
 
   /// Sets the load at once, goes to the speed by 1 km/h a second, then holds both for `minutes`.
-  RunPlan& roll(double minutes, double load_N, double speed_km_h, bool read = true);
+  RunPlan& roll(double minutes, double load_N, double speed_km_h = kUsual_km_h, bool read = true);
+  /// The same at one load or speed after the other.
+  RunPlan& roll_at_loads(double minutes, const std::vector<double>& loads_N, double speed_km_h = kUsual_km_h);
+  RunPlan& roll_at_speeds(double minutes, double load_N, const std::vector<double>& speeds_km_h);
   RunPlan& stand(double minutes, double load_N, bool read = true) { return roll(minutes, load_N, 0.0, read); }
   /// Drive force of the wheel from now on, negative where it brakes.
   RunPlan& pull(double longitudinal_force_N);
@@ -65,6 +68,6 @@ RunPlan begin_cold(const TestConditions& at);
 TestConditions read_rim_too(TestConditions at);
 PlannedTest fit_rim_thermocouple(PlannedTest test);
 
-PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<measurements::MeasuredRun> runs);
+PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<RunPlan> runs);
 
 }  // namespace rollrig::diagnosis
