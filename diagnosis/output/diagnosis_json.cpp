@@ -8,14 +8,6 @@ namespace {
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json number(const std::optional<double>& value) { return value.has_value() ? number(*value) : Json(nullptr); }
 
-/// A list of what `convert` makes of each item; [] where there is none.
-template <class T, class Convert>
-Json list(const std::vector<T>& items, Convert&& convert) {
-  Json json = Json::array();
-  for (const T& item : items) json.push_back(convert(item));
-  return json;
-}
-
 Json make_parameter(const ParameterEstimate& parameter) {
   return {{"name", parameter.name},
           {"value", number(parameter.value)},
@@ -29,7 +21,7 @@ Json make_cause(const Cause& cause) {
   return {{"effects", cause.effects},
           {"probability", number(cause.probability)},
           {"indistinguishable_from", cause.indistinguishable_from},
-          {"parameters", list(cause.parameters, make_parameter)},
+          {"parameters", make_list(cause.parameters, make_parameter)},
           {"adequate", cause.adequate},
           {"objections", cause.objections}};
 }
@@ -48,7 +40,7 @@ Json make_gap(const Gap& gap) {
       {"black_box_percent", number(gap.black_box_percent)},
       {"held_out", gap.held_out},
       {"unit", "noise floors"},
-      {"channels", list(gap.channels, [](const ChannelGap& at) -> Json {
+      {"channels", make_list(gap.channels, [](const ChannelGap& at) -> Json {
          return {
              {"channel", at.channel}, {"unit", at.unit}, {"before", number(at.before)}, {"after", number(at.after)}};
        })}};
@@ -99,12 +91,12 @@ Json make_diagnosis_json(const Findings& findings) {
           {"set", findings.set},
           {"verdict", name_of(findings.verdict)},
           {"probability", probability},
-          {"causes", list(findings.causes, make_cause)},
+          {"causes", make_list(findings.causes, make_cause)},
           {"gap", make_gap(findings.gap)},
-          {"where", list(findings.where, make_location)},
-          {"balance", list(findings.balance, make_balance)},
-          {"next_test", list(findings.next_tests, make_next_test)},
-          {"next_sensor", list(findings.next_sensors, make_next_sensor)},
+          {"where", make_list(findings.where, make_location)},
+          {"balance", make_list(findings.balance, make_balance)},
+          {"next_test", make_list(findings.next_tests, make_next_test)},
+          {"next_sensor", make_list(findings.next_sensors, make_next_sensor)},
           {"not_excluded", findings.not_excluded},
           {"without_run", make_lone_run(findings.without_run)},
           {"warnings", findings.warnings}};

@@ -32,8 +32,7 @@ Json to_json(const SpeedPoint& point) {
   put(json, "drum_alone_m_s2", point.drum_alone_m_s2);
   put(json, "drum_alone_repeatability", point.drum_repeatability);
   put(json, "wheel_alone_m_s2", point.wheel_alone_m_s2);
-  json["pressures"] = Json::array();
-  for (const PressureLevel& level : point.levels) json["pressures"].push_back(to_json(level));
+  json["pressures"] = make_list(point.levels, [](const PressureLevel& level) { return to_json(level); });
   json["repeat_scatter"] = point.repeat_scatter;
   if (point.pressure_exponent.has_value()) {
     json["pressure_exponent"] = to_json(*point.pressure_exponent);
@@ -78,10 +77,8 @@ Json make_coastdown_json(const CoastSet& set, const DrumCoastdownFit& fit) {
                                   {"from_km_h", 3.6 * resonance.range.from_m_s},
                                   {"to_km_h", 3.6 * resonance.range.to_m_s}});
   }
-  json["speeds"] = Json::array();
-  for (const SpeedPoint& point : fit.points) json["speeds"].push_back(to_json(point));
-  json["runs"] = Json::array();
-  for (const CoastAnalysis& analysis : fit.analyses) json["runs"].push_back(to_json(set, analysis));
+  json["speeds"] = make_list(fit.points, [](const SpeedPoint& point) { return to_json(point); });
+  json["runs"] = make_list(fit.analyses, [&set](const CoastAnalysis& analysis) { return to_json(set, analysis); });
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;
 }

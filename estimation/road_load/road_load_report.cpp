@@ -169,10 +169,9 @@ Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& op
   json["scatter"] = scatter_json(fit);
   json["slope"] = number_or_null(fit.slope);
   if (fit.slope.has_value()) json["slope_sd"] = fit.slope_sd;
-  json["winds"] = Json::array();
-  for (const SessionWind& wind : fit.winds) {
-    json["winds"].push_back({{"session", wind.session}, {"wind_m_s", wind.wind_m_s}, {"wind_m_s_sd", wind.sd_m_s}});
-  }
+  json["winds"] = make_list(fit.winds, [](const SessionWind& wind) -> Json {
+    return {{"session", wind.session}, {"wind_m_s", wind.wind_m_s}, {"wind_m_s_sd", wind.sd_m_s}};
+  });
   json["headings"] = Json::array();
   for (const HeadingFit& heading : fit.headings) {
     Json part = coefficients_json(heading.estimate, fit.per_mass);

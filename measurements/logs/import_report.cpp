@@ -48,29 +48,27 @@ std::string make_marks_csv(const Import& imported) {
 }
 
 Json make_clock_json(const ClockEstimate& clock) {
-  Json json;
-  json["torque_log"] = clock.torque_log;
-  json["tire_log"] = clock.tire_log;
-  json["method"] = clock.method;
-  json["shift_s"] = clock.clock.shift_s;
-  json["shift_sd_s"] = clock.calc_shift_sd_s();
-  json["sd_parts_s"] = {
-      {"statistical", clock.statistical_sd_s}, {"sampling", clock.sampling_sd_s}, {"response_lag", clock.lag_sd_s}};
-  json["at_tire_log_s"] = clock.clock.reference_s;
-  json["rate_ppm"] = 1e6 * clock.clock.rate;
-  json["rate_sd_ppm"] = 1e6 * clock.rate_sd;
-  json["rate_is_decided_by_data"] = clock.rate_is_decided;
-  json["searched_s"] = {clock.searched_from_s, clock.searched_to_s};
-  json["log_likelihood_gain"] = clock.gain;
-  json["log_likelihood_gain_of_next"] = clock.gain_next;
-  json["evidence"] = Json::array();
-  for (const ClockEvidence& evidence : clock.evidence) {
-    json["evidence"].push_back({{"channel", evidence.channel.header()},
-                                {"kind", evidence.is_common ? "common" : "response"},
-                                {"rows", evidence.rows},
-                                {"explained_percent", 100.0 * evidence.explained}});
-  }
-  return json;
+  return {
+      {"torque_log", clock.torque_log},
+      {"tire_log", clock.tire_log},
+      {"method", clock.method},
+      {"shift_s", clock.clock.shift_s},
+      {"shift_sd_s", clock.calc_shift_sd_s()},
+      {"sd_parts_s",
+       {{"statistical", clock.statistical_sd_s}, {"sampling", clock.sampling_sd_s}, {"response_lag", clock.lag_sd_s}}},
+      {"at_tire_log_s", clock.clock.reference_s},
+      {"rate_ppm", 1e6 * clock.clock.rate},
+      {"rate_sd_ppm", 1e6 * clock.rate_sd},
+      {"rate_is_decided_by_data", clock.rate_is_decided},
+      {"searched_s", {clock.searched_from_s, clock.searched_to_s}},
+      {"log_likelihood_gain", clock.gain},
+      {"log_likelihood_gain_of_next", clock.gain_next},
+      {"evidence", make_list(clock.evidence, [](const ClockEvidence& evidence) -> Json {
+         return {{"channel", evidence.channel.header()},
+                 {"kind", evidence.is_common ? "common" : "response"},
+                 {"rows", evidence.rows},
+                 {"explained_percent", 100.0 * evidence.explained}};
+       })}};
 }
 
 /// A value as the log has it, without what the way to SI and back added in the last digits.
@@ -84,44 +82,37 @@ Json make_json(const QuantityMap<T>& values) {
 }
 
 Json make_log_json(const Log& log) {
-  Json json;
-  json["file"] = log.file;
-  json["form"] = log.form;
-  json["rows"] = log.time_s.size();
-  json["interval_s"] = log.interval_s;
-  json["ignored_columns"] = log.ignored_columns;
-  json["taken_as_zero"] = make_json(log.dead_banded);
-  json["marks"] = Json::array();
-  for (const Mark& mark : log.marks) {
-    Json entry{{"line", mark.line},
-               {"column", mark.column.name().empty() ? Json(nullptr) : Json(mark.column.header())},
-               {"from_s", mark.from_s},
-               {"to_s", mark.to_s},
-               {"value", mark.value.has_value() ? as_read(*mark.value) : Json(nullptr)},
-               {"reason", mark.reason}};
-    json["marks"].push_back(std::move(entry));
-  }
-  return json;
+  return {{"file", log.file},
+          {"form", log.form},
+          {"rows", log.time_s.size()},
+          {"interval_s", log.interval_s},
+          {"ignored_columns", log.ignored_columns},
+          {"taken_as_zero", make_json(log.dead_banded)},
+          {"marks", make_list(log.marks, [](const Mark& mark) -> Json {
+             return {{"line", mark.line},
+                     {"column", mark.column.name().empty() ? Json(nullptr) : Json(mark.column.header())},
+                     {"from_s", mark.from_s},
+                     {"to_s", mark.to_s},
+                     {"value", mark.value.has_value() ? as_read(*mark.value) : Json(nullptr)},
+                     {"reason", mark.reason}};
+           })}};
 }
 
 Json make_run_json(const ImportedRun& run) {
-  Json json;
-  json["id"] = run.plan.id;
-  json["rows"] = run.rows.time_s.size();
-  json["start_on_torque_log_s"] = run.rows.start_s;
-  json["clock"] = run.clock.has_value() ? Json(*run.clock) : Json(nullptr);
-  json["samples_a_row"] = make_json(run.rows.samples_a_row);
-  json["rows_between_samples"] = make_json(run.rows.rows_between);
-  json["empty"] = Json::array();
-  for (const EmptyRange& range : run.rows.empty) {
-    json["empty"].push_back({{"column", range.column.header()},
-                             {"from_s", range.from_s},
-                             {"to_s", range.to_s},
-                             {"rows", range.rows},
-                             {"rows_left_out", range.rows_left_out},
-                             {"reason", range.reason}});
-  }
-  return json;
+  return {{"id", run.plan.id},
+          {"rows", run.rows.time_s.size()},
+          {"start_on_torque_log_s", run.rows.start_s},
+          {"clock", run.clock.has_value() ? Json(*run.clock) : Json(nullptr)},
+          {"samples_a_row", make_json(run.rows.samples_a_row)},
+          {"rows_between_samples", make_json(run.rows.rows_between)},
+          {"empty", make_list(run.rows.empty, [](const EmptyRange& range) -> Json {
+             return {{"column", range.column.header()},
+                     {"from_s", range.from_s},
+                     {"to_s", range.to_s},
+                     {"rows", range.rows},
+                     {"rows_left_out", range.rows_left_out},
+                     {"reason", range.reason}};
+           })}};
 }
 
 }  // namespace
@@ -139,17 +130,12 @@ std::map<std::string, std::string> make_set_files(const Mapping& mapping, const 
 }
 
 Json make_import_json(const Mapping& mapping, const Import& imported) {
-  Json json;
-  json["format"] = "rollrig-import-report/1";
-  json["set"] = mapping.set.name;
-  json["clocks"] = Json::array();
-  for (const ClockEstimate& clock : imported.clocks) json["clocks"].push_back(make_clock_json(clock));
-  json["runs"] = Json::array();
-  for (const ImportedRun& run : imported.runs) json["runs"].push_back(make_run_json(run));
-  json["logs"] = Json::array();
-  for (const Log& log : imported.logs) json["logs"].push_back(make_log_json(log));
-  json["warnings"] = imported.warnings;
-  return json;
+  return {{"format", "rollrig-import-report/1"},
+          {"set", mapping.set.name},
+          {"clocks", make_list(imported.clocks, make_clock_json)},
+          {"runs", make_list(imported.runs, make_run_json)},
+          {"logs", make_list(imported.logs, make_log_json)},
+          {"warnings", imported.warnings}};
 }
 
 }  // namespace rollrig::measurements
