@@ -6,7 +6,7 @@
 #include "cli/output_files.h"
 #include "rollrig/measurement_set.h"
 #include "sim/core/columns.h"
-#include "sim/core/error_text.h"
+#include "sim/core/error.h"
 
 namespace rollrig::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/measurement_set.h"
-#include "sim/core/error_text.h"
+#include "sim/core/error.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {

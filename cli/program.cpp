@@ -7,7 +7,7 @@
 
 #include "cli/command.h"
 #include "rollrig/progress.h"
-#include "sim/core/error_text.h"
+#include "sim/core/error.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {

@@ -9,7 +9,7 @@
 
 #include "diagnosis/output/diagnosis_json.h"
 #include "diagnosis/output/summary.h"
-#include "sim/core/error_text.h"
+#include "sim/core/error.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
 

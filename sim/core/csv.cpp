@@ -172,14 +172,8 @@ void CsvTable::require_known(const std::vector<std::string>& known) const {
 std::size_t CsvTable::find_column(const std::string& column) const {
   const auto it = std::find(columns_.begin(), columns_.end(), column);
   if (it != columns_.end()) return static_cast<std::size_t>(it - columns_.begin());
-  InputProblem problem;
-  problem.what = fmt::format("missing column '{}'", column);
-  problem.file = path_;
-  problem.line = form_.header_line;
-  problem.key = column;
-  problem.allowed = "it beside these: " + boost::algorithm::join(columns_, ", ");
-  problem.nearest = nearest_name(column, columns_);
-  throw InputError(problem);
+  throw InputError({fmt::format("missing column '{}'", column), path_, form_.header_line, column, "",
+                    "it beside these: " + boost::algorithm::join(columns_, ", "), nearest_name(column, columns_)});
 }
 
 std::vector<std::string> CsvTable::text(const std::string& column) const {

@@ -9,6 +9,8 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/join.hpp>
 
+#include "sim/core/text.h"
+
 namespace rollrig {
 namespace {
 
@@ -64,12 +66,23 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 }
 
 InputProblem unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
-  InputProblem problem;
-  problem.what = fmt::format("unknown {} '{}'", kind, name);
-  problem.value = name;
-  problem.allowed = boost::algorithm::join(known, ", ");
-  problem.nearest = nearest_name(name, known);
-  return problem;
+  return {fmt::format("unknown {} '{}'", kind, name),
+          "",
+          0,
+          "",
+          name,
+          boost::algorithm::join(known, ", "),
+          nearest_name(name, known)};
+}
+
+std::string format_error(const std::string& start, const InputProblem& problem) {
+  constexpr std::size_t kLabelColumns = 11;  // two spaces, the label, a space
+  std::string text = wrap(start + problem.what, 2).substr(2);
+  for (const ProblemPart& part : list_parts(problem)) {
+    text += fmt::format("  {:<8} ", part.label);
+    text += part.is_copied ? part.content + "\n" : wrap(part.content, kLabelColumns).substr(kLabelColumns);
+  }
+  return text;
 }
 
 }  // namespace rollrig

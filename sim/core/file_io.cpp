@@ -30,11 +30,7 @@ namespace rollrig {
 namespace {
 
 InputError file_problem(const std::string& what, const std::string& path, const std::string& allowed = {}) {
-  InputProblem problem;
-  problem.what = what;
-  problem.file = path;
-  problem.allowed = allowed;
-  return InputError(problem);
+  return InputError({what, path, 0, "", "", allowed, ""});
 }
 
 InputError write_problem(const std::string& path, int error_number) {

@@ -61,11 +61,8 @@ const ConfigValue* TableReader::find(const std::string& key) {
 const ConfigValue& TableReader::require(const std::string& key) {
   const ConfigValue* value = find(key);
   if (value != nullptr) return *value;
-  InputProblem missing;
-  missing.what = fmt::format("missing key '{}'", key);
-  missing.file = table_.origin.file;
-  missing.line = table_.origin.line;
-  missing.key = full_key(key);
+  InputProblem missing{
+      fmt::format("missing key '{}'", key), table_.origin.file, table_.origin.line, full_key(key), "", "", ""};
   std::vector<std::string> others = table_.keys();  // an uncertainty beside a number that is not there is in its place
   others.erase(std::remove(others.begin(), others.end(), key + "_sd"), others.end());
   const std::string nearest = nearest_name(key, others);
