@@ -3,7 +3,6 @@
 #include "api/data.h"
 #include "report/page.h"
 #include "report/run_page.h"
-#include "scenarios/common/written_set.h"
 
 namespace rollrig {
 

@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "models/ambient_correction.h"
+#include "models/tire/conversion_laws.h"
 #include "models/tire/drum_curvature.h"
-#include "models/tire/tire_diameter.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {

@@ -2,7 +2,7 @@
 /// A measured loss carried from one set of conditions to another, factor by factor (`rollrig convert`).
 
 #include "include/rollrig/convert.h"
-#include "models/tire/pressure_factor.h"
+#include "models/tire/conversion_laws.h"
 
 namespace rollrig::estimation {
 

@@ -14,7 +14,7 @@
 #include "models/tire/inflation_gas.h"
 #include "models/tire/thermal_network.h"
 #include "models/tire/tire.h"
-#include "models/vehicle/vehicle_body.h"
+#include "models/vehicle/road_load.h"
 
 namespace rollrig::models {
 

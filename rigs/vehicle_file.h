@@ -8,7 +8,6 @@
 
 #include "models/tire/tire_file.h"
 #include "models/vehicle/road_load.h"
-#include "models/vehicle/vehicle_body.h"
 #include "sim/core/schema.h"
 
 namespace rollrig::rigs {

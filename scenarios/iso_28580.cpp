@@ -2,7 +2,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "models/ambient_correction.h"
+#include "models/tire/conversion_laws.h"
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
 

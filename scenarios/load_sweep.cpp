@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/sweep_evaluation.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::load_sweep {
 

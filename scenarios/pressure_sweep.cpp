@@ -1,6 +1,6 @@
 /// Pressure sweep (§3.2.4.2): RRc at several cold pressures, each from a soaked tire.
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/sweep_evaluation.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::pressure_sweep {
 

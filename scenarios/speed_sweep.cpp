@@ -1,6 +1,6 @@
 /// Speed sweep (§3.2.5): RRc at several speeds, each from a soaked tire, with repeated measurement cycles.
 #include "scenarios/common/drum_bench.h"
-#include "scenarios/common/sweep_evaluation.h"
+#include "scenarios/common/readings.h"
 
 namespace rollrig::scenarios::speed_sweep {
 

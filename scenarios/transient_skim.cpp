@@ -1,7 +1,6 @@
 /// Skim tests spread over the warm-up (§3.2.7): does the parasitic loss change as the tire warms?
 #include "scenarios/common/drum_bench.h"
 #include "scenarios/common/readings.h"
-#include "scenarios/common/sweep_evaluation.h"
 
 namespace rollrig::scenarios::transient_skim {
 

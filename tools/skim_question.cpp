@@ -3,7 +3,6 @@
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/output/diagnosis_json.h"
-#include "scenarios/common/written_set.h"
 #include "sim/core/parallel.h"
 #include "sim/core/units.h"
 #include "tools/source_gap.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// Rolling resistance of one tire as a function of speed, temperature, pressure and load.
 
-#include "models/tire/pressure_factor.h"
+#include "models/tire/conversion_laws.h"
 #include "models/tire/tire.h"
 
 namespace rollrig::models {

@@ -1,10 +1,27 @@
 #pragma once
-/// Road load of a vehicle as a parabola over speed: the three numbers that test records publish.
+/// Road load of a vehicle: what of the vehicle enters it, and the parabola over speed that test records publish.
 
 #include "sim/core/scalar.h"
 #include "sim/core/schema.h"
 
 namespace rollrig::models {
+
+/// What every use of a vehicle needs (formats.md).
+template <class S>
+struct VehicleBody {
+  S mass_kg{};
+  S rotating_mass_kg{};
+  S drag_area_m2{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"mass_kg", positive(), "Mass as tested"}, p.mass_kg);
+    visit(Field{"rotating_mass_kg", non_negative(), "Equivalent mass of all that turns, wheels included"},
+          p.rotating_mass_kg);
+    visit(Field{"drag_area_m2", non_negative(), "Drag coefficient times frontal area; not needed beside [road_load]"},
+          p.drag_area_m2);
+  }
+};
 
 /// A, B, C of a vehicle on a level road in still air. Files carry B and C per km/h, the program per m/s.
 template <class S>

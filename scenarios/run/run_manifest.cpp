@@ -1,6 +1,7 @@
 // What went into a run and what came out, as JSON.
 
 #include "scenarios/run/run_spec.h"
+#include "sim/core/csv.h"
 #include "sim/core/file_io.h"
 
 namespace rollrig::scenarios {
@@ -130,6 +131,23 @@ Json make_result_json(const RunSpec& spec, const Outcome& outcome) {
                     {"terms_J", terms}};
   if (!outcome.warnings.empty()) json["warnings"] = outcome.warnings;
   return json;
+}
+
+std::string make_recording_csv(const sim::Recording<double>& recording) {
+  std::vector<std::string> columns{"time_s", "phase"};
+  std::vector<Unit> units;
+  for (const sim::Channel& channel : recording.channels) {
+    columns.push_back(channel.quantity.header());
+    units.push_back(channel.quantity.file_unit());
+  }
+  CsvWriter csv(columns);
+  for (std::size_t row = 0; row < recording.row_count(); ++row) {
+    csv.add(recording.time_s[row]);
+    csv.add(recording.phases[recording.phase[row]].name);
+    for (std::size_t i = 0; i < units.size(); ++i) csv.add(units[i].from_si(recording.values[i][row]));
+    csv.end_row();
+  }
+  return csv.take();
 }
 
 }  // namespace rollrig::scenarios

@@ -1,6 +1,7 @@
 #pragma once
 /// From a run document (a file, or the command line's options) to a RunSpec.
 
+#include <map>
 #include <string>
 
 #include "scenarios/run/scenario.h"
@@ -27,6 +28,11 @@ Json make_result_json(const RunSpec& spec, const Outcome& outcome);
 
 /// The recording as CSV text: time, phase, channels in the units of their names.
 std::string make_recording_csv(const sim::Recording<double>& recording);
+
+/// The files of a set with the runs that `outcome` marks: set.toml, tire.toml, rig.toml (of the road: vehicle.toml) and
+/// one CSV a run, its fields left empty where formats.md has no sample. For a scenario that writes sets.
+std::map<std::string, std::string> write_measurement_set(const RunSpec& spec, const Outcome& outcome,
+                                                         const std::string& name);
 
 const char* name_of(Fidelity fidelity);
 const char* name_of(models::Baseline baseline);

@@ -9,7 +9,6 @@
 
 #include "diagnosis/kinds/kinds.h"
 #include "measurements/sensor_file.h"
-#include "scenarios/common/written_set.h"
 #include "scenarios/run/run_spec.h"
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/diagnosis/hand_made.h"

@@ -6,7 +6,7 @@
 
 #include "build_paths.h"
 #include "measurements/resimulation.h"
-#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "tests/support/drum_fixture.h"

@@ -1,9 +1,7 @@
 // Factors between conditions of a test: tire diameter (2.1), pressure (3.4), air (ISO 28580).
 #include <catch2/catch.hpp>
 
-#include "models/ambient_correction.h"
-#include "models/tire/pressure_factor.h"
-#include "models/tire/tire_diameter.h"
+#include "models/tire/conversion_laws.h"
 
 using namespace rollrig;
 using models::calc_ambient_correction;

@@ -5,7 +5,7 @@
 #include "diagnosis/diagnosis.h"
 #include "estimation/tire_fit/fit_tire.h"
 #include "measurements/resimulation.h"
-#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/machines.h"

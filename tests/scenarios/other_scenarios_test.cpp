@@ -2,7 +2,7 @@
 #include <cmath>
 #include <set>
 
-#include "scenarios/common/sweep_evaluation.h"
+#include "scenarios/common/readings.h"
 #include "tests/support/drum_fixture.h"
 
 using namespace rollrig;

@@ -3,7 +3,7 @@
 
 #include "measurements/measurement_set.h"
 #include "measurements/resimulation.h"
-#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/temporary_folder.h"

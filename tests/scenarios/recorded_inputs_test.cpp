@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "measurements/resimulation.h"
-#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
 #include "sim/energy_audit.h"
 #include "tests/support/drum_fixture.h"

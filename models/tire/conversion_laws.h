@@ -1,10 +1,36 @@
 #pragma once
-/// Correction of rolling resistance to the reference temperature of the air.
+/// Rolling resistance against the diameter of the tire, its pressure and the air.
 
 #include "sim/core/scalar.h"
 #include "sim/core/units.h"
 
 namespace rollrig::models {
+
+/// Factor from a tire of diameter D_1 to one of D_2, everything else being similar: F_r2 = factor F_r1.
+/// Equation  F_r ~ D^(-1/3), so the factor is (D_1/D_2)^(1/3)
+/// Symbols   D_1, D_2 outer diameters [m]
+/// Validity  D > 0; tires of one construction
+/// Source    (2.1)
+/// Checked   tests/models/conversion_laws_test.cpp
+template <class S>
+S calc_tire_diameter_factor(const S& diameter_1_m, const S& diameter_2_m) {
+  using std::pow;
+  return pow(diameter_1_m / diameter_2_m, S(1.0 / 3.0));
+}
+
+constexpr double kPressureExponent = 0.4;  // (3.4)
+
+/// F_r over F_r at the reference pressure, at equal tire temperature.
+/// Equation  (p/p_ref)^-a
+/// Symbols   p, p_ref gauge pressures [Pa]; a exponent, 0.4 in (3.4)
+/// Validity  p > 0; a 0.3 to 0.5 by the tests that §2.2.2.3 quotes
+/// Source    (3.4)
+/// Checked   tests/models/conversion_laws_test.cpp
+template <class S>
+S calc_pressure_factor(const S& pressure_Pa, const S& reference_pressure_Pa, const S& exponent) {
+  using std::pow;
+  return pow(pressure_Pa / reference_pressure_Pa, -exponent);
+}
 
 constexpr double kAmbientCoefficient_per_K = 0.008;                  // K_t of ISO 28580 for car tires
 constexpr double kReferenceAmbient_K = kZeroCelsius_K + 25.0;        // ISO 28580

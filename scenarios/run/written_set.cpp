@@ -1,5 +1,5 @@
 // Runs of a scenario as the files of a measurement set.
-#include "scenarios/common/written_set.h"
+#include "scenarios/run/run_spec.h"
 
 #include <algorithm>
 #include <cmath>
