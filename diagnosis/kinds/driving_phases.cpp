@@ -1,4 +1,4 @@
-#include "diagnosis/kinds/driving_phases.h"
+#include "diagnosis/kinds/kinds.h"
 
 #include <fmt/format.h>
 

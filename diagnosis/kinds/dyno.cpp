@@ -1,9 +1,8 @@
 /// Sets measured on a dynamometer: one wheel of a vehicle on its roller; its loss and its tire are measured.
 #include <cmath>
 
-#include "diagnosis/kinds/driving_phases.h"
-#include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "measurements/sample_selection.h"
 #include "models/parasitic_loss.h"
 

@@ -1,7 +1,6 @@
 /// Sets measured on the road: a vehicle whose traction force is known from its motor, and nothing of its tires.
 #include <cmath>
 
-#include "diagnosis/kinds/driving_phases.h"
 #include "diagnosis/kinds/kinds.h"
 #include "measurements/sample_selection.h"
 #include "sim/core/units.h"

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "diagnosis/kinds/kind_with_rig.h"
 #include "diagnosis/kinds/kinds.h"
+#include "diagnosis/kinds/measurement_kind.h"
 #include "measurements/sample_selection.h"
 #include "models/parasitic_loss.h"
 #include "scenarios/common/drum_conditions.h"

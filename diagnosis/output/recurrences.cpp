@@ -1,4 +1,3 @@
-#include "diagnosis/output/recurrences.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,43 @@
 #pragma once
-/// Coastdowns from a CSV file: a time trace, or times through speed bins. See docs/formats.md.
+/// Coastdowns, and the CSV files that hold them: speed over time, or times through speed bins. See docs/formats.md.
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "estimation/road_load/coastdown_data.h"
-
 namespace rollrig::estimation {
+
+/// Time to fall from one speed to a lower one.
+struct SpeedBin {
+  double high_m_s = 0.0;
+  double low_m_s = 0.0;
+  double duration_s = 0.0;
+};
+
+/// Weather and road, one value a sample (or a bin); empty where it was not measured.
+struct CoastdownConditions {
+  std::vector<double> ambient_K;
+  std::vector<double> ambient_pressure_Pa;
+  std::vector<double> wind_m_s;       // along the road, positive against the + heading
+  std::vector<double> crosswind_m_s;  // across the road
+  std::vector<double> slope;          // rise over run, positive uphill in the + heading
+};
+
+/// One coastdown. Either the trace or the bins are filled.
+struct CoastdownRun {
+  std::string id;
+  std::string session;            // runs of one session share the wind
+  int heading = 0;                // +1, -1; 0 where it is not known
+  std::optional<double> start_s;  // on any clock that the runs of a session share
+  std::vector<double> time_s;     // increasing
+  std::vector<double> speed_m_s;
+  std::vector<SpeedBin> bins;  // by falling speed
+  CoastdownConditions conditions;
+};
+
+struct CoastdownData {
+  std::vector<CoastdownRun> runs;
+};
 
 struct CoastdownFile {
   CoastdownData data;

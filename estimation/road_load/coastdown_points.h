@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "estimation/road_load/coastdown_data.h"
+#include "estimation/road_load/coastdown_file.h"
 
 namespace rollrig::estimation {
 

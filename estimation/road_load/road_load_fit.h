@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "estimation/road_load/coastdown_data.h"
+#include "estimation/road_load/coastdown_file.h"
 #include "include/rollrig/fit_options.h"
 #include "models/vehicle/road_load.h"
 

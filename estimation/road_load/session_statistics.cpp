@@ -1,4 +1,4 @@
-#include "estimation/road_load/session_statistics.h"
+#include "estimation/road_load/road_load_checks.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Phases of a run in which a vehicle is driven.
 #include <catch2/catch.hpp>
 
-#include "diagnosis/kinds/driving_phases.h"
+#include "diagnosis/kinds/kinds.h"
 
 using namespace rollrig;
 using diagnosis::find_driving_phases;
