@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator {

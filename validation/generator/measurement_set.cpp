@@ -140,15 +140,23 @@ Laws find_common_laws(const std::vector<std::string>& effects, const Machine& ma
   return {has_all(false), machine.has_constant_law && has_all(true)};
 }
 
+Json draw_truth(const SetOrder& order) {
+  const Laboratory lab = draw_laboratory(order);
+  Json truth = describe_set(order, lab);
+  draw_effects(order, lab.specimen, &truth["effects"]);
+  return truth;
+}
+
 MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
   const Laboratory lab = draw_laboratory(order);
+  const Effects effects = draw_effects(order, lab.specimen);
   MadeSet made;
-  made.truth = describe_set(order, lab);
-  const Effects effects = draw_effects(order, lab.specimen, &made.truth["effects"]);
+  made.truth = draw_truth(order);
   const std::vector<RunRecord> records = record_all(lab.specimen, lab.campaign, effects);
   made.files = write_files(order, lab, records, order.noise_free);
   const std::vector<RunRecord> without = effects.empty() ? records : record_all(lab.specimen, lab.campaign, {});
   made.truth["signal_floors"] = find_signal(lab, records, without);
+  if (!order.campaign.empty()) made.truth["campaign_kind"] = order.campaign;
   if (with_counterfactual) made.counterfactual = write_files(order, lab, without, true);
   return made;
 }

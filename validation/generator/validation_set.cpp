@@ -82,7 +82,7 @@ std::vector<Plan> draw_plans(const ValidationSetOrder& order) {
   return plans;
 }
 
-MadeSet make_planned(const ValidationSetOrder& order, const Plan& plan, const std::string& name) {
+SetOrder order_case(const ValidationSetOrder& order, const Plan& plan, const std::string& name) {
   Draws draws(order.seed, "campaign/" + name);
   const CampaignChoice campaign = draws.pick(find_campaigns(order.campaigns, plan.effects));
   SetOrder set;
@@ -94,9 +94,8 @@ MadeSet make_planned(const ValidationSetOrder& order, const Plan& plan, const st
   set.machine = campaign.machine;
   set.run_kind = campaign.run_kind;
   set.runs = std::min(order.runs, campaign.runs);
-  MadeSet made = make_set(set, order.counterfactual);
-  if (order.kind == kMixed) made.truth["campaign_kind"] = campaign.name;
-  return made;
+  set.campaign = campaign.name;
+  return set;
 }
 
 Json describe_order(const ValidationSetOrder& order) {
@@ -155,6 +154,14 @@ std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campai
   return ids;
 }
 
+std::vector<SetOrder> draw_cases(const ValidationSetOrder& order) {
+  std::vector<SetOrder> cases;
+  for (const Plan& plan : draw_plans(order)) {
+    cases.push_back(order_case(order, plan, fmt::format("{:04}", cases.size() + 1)));
+  }
+  return cases;
+}
+
 void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
                           const Progress& progress) {
   validation::require_new_folder(order.out, "--out");
@@ -162,17 +169,16 @@ void write_validation_set(const ValidationSetOrder& order, const std::function<v
   const auto add = [&folder](const std::string& name, const Files& files) {
     for (const auto& [file, content] : files) folder.add(name + "/" + file, content);
   };
-  const std::vector<Plan> plans = draw_plans(order);
+  const std::vector<SetOrder> cases = draw_cases(order);
   Json truth = describe_order(order);
-  for (std::size_t i = 0; i < plans.size(); ++i) {
-    const std::string name = fmt::format("{:04}", i + 1);
-    MadeSet made = make_planned(order, plans[i], name);
-    add("sets/" + name, made.files);
-    if (order.counterfactual) add("counterfactual/" + name, made.counterfactual);
+  for (const SetOrder& one : cases) {
+    MadeSet made = make_set(one, order.counterfactual);
+    add("sets/" + one.name, made.files);
+    if (order.counterfactual) add("counterfactual/" + one.name, made.counterfactual);
     folder.flush();
     made.truth["set_sha256"] = validation::hash_files(made.files);
-    truth["sets"][name] = std::move(made.truth);
-    progress(static_cast<double>(i + 1) / static_cast<double>(plans.size()));
+    truth["sets"][one.name] = std::move(made.truth);
+    progress(static_cast<double>(truth["sets"].size()) / static_cast<double>(cases.size()));
     throw_if_interrupted();
   }
   const std::string text = truth.dump(1) + "\n";

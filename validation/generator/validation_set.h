@@ -42,6 +42,9 @@ struct ValidationSetOrder {
 /// Effects that sets of these campaigns have: of the catalog, or outside of it.
 std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside);
 
+/// Its cases, in their order; each is a function of the seed and its place.
+std::vector<SetOrder> draw_cases(const ValidationSetOrder& order);
+
 /// Writes <out>/sets/<number>/, <out>/truth.json and <out>/truth.sha256, which sha256sum -c reads. `hashed` is told the
 /// SHA-256 of truth.json before any of it stands at its place.
 void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,

@@ -9,6 +9,7 @@
 
 #include "tests/support/run_program.h"
 #include "tests/validation/generator/generated_set.h"
+#include "validation/generator/options.h"
 
 using namespace rollrig;
 using namespace rollrig::tests;
@@ -74,14 +75,21 @@ struct Drawn {
   }
 };
 
-/// The truth of a validation set with so many cases of each effect and no others.
-Json make_truth(const std::string& arguments) {
-  const TemporaryFolder folder;
-  const auto made = run_validation("make --singles 0 --pairs 0 --none 0 --outside 0 --runs 1 " + arguments + " --out " +
-                                   folder.file("set"));
-  INFO(made.err);
-  REQUIRE(made.status == 0);
-  return Json::parse(read_file(folder.file("set/truth.json")));
+/// Truths of a validation set with so many cases of each effect and no others.
+std::vector<Json> draw_truths(const std::string& kind, int each, std::uint64_t seed) {
+  generator::ValidationSetOrder order;
+  order.seed = seed;
+  order.kind = kind;
+  order.campaigns = generator::read_campaigns(kind);
+  order.effects = kind == "dyno"
+                      ? std::vector<std::string>{"slip_loss", "brake_heat", "tie_down_load", "curvature_exponent"}
+                      : generator::drawn_effects(order.campaigns, false);
+  order.each = each;
+  order.singles = order.pairs = order.none = order.outside = 0;
+  order.runs = 1;
+  std::vector<Json> truths;
+  for (const generator::SetOrder& one : generator::draw_cases(order)) truths.push_back(generator::draw_truth(one));
+  return truths;
 }
 
 /// Where the size of an effect on a drum is said to hold.
@@ -138,8 +146,7 @@ double mean_change(const GeneratedSet& made, const Reference& at) {
 using Counts = std::map<std::string, std::map<std::string, int>>;
 
 void count_forms(const std::string& kind, Counts& counts) {
-  const Json truth = make_truth("--seed 51 --each 12 " + kind);
-  for (const auto& [number, set] : truth.at("sets").items()) {
+  for (const Json& set : draw_truths(kind, 12, 51)) {
     const Json& effect = set.at("effects").at(0);
     ++counts[effect.at("id").get<std::string>()][effect.at("form").get<std::string>()];
   }
@@ -152,11 +159,9 @@ TEST_CASE("sizes lie mostly but not always in the catalog's ranges, base paramet
   Drawn drawn;
   int inside = 0;
   int all = 0;
-  for (const char* kind :
-       {"--kind drum", "--kind road", "--kind dyno --effects slip_loss,brake_heat,tie_down_load,curvature_exponent"}) {
-    const Json truth = make_truth(fmt::format("{} --seed 77 --each {}", kind, kEach));
+  for (const char* kind : {"drum", "road", "dyno"}) {
     std::map<std::string, int> before = drawn.inside;
-    for (const auto& [number, set] : truth.at("sets").items()) drawn.add(set);
+    for (const Json& set : draw_truths(kind, kEach, 77)) drawn.add(set);
     for (auto& [id, count] : drawn.inside) {
       INFO(kind << ", " << id << ": " << count - before[id] << " of " << kEach);
       if (count == before[id]) continue;
@@ -180,9 +185,7 @@ TEST_CASE("sizes lie mostly but not always in the catalog's ranges, base paramet
 
 TEST_CASE("each effect of the catalog has two forms, and seeds draw both about as often", "[slow]") {
   Counts counts;
-  count_forms("--kind drum", counts);
-  count_forms("--kind dyno --effects slip_loss,brake_heat,tie_down_load,curvature_exponent", counts);
-  count_forms("--kind road", counts);
+  for (const char* kind : {"drum", "dyno", "road"}) count_forms(kind, counts);
   CHECK(counts.size() == 34);
   const auto forms = list_forms();
   int first = 0;
