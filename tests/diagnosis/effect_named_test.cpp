@@ -5,6 +5,7 @@
 #include "diagnosis/diagnosis.h"
 #include "measurements/resimulation.h"
 #include "tests/diagnosis/answers.h"
+#include "tests/diagnosis/driving_sets.h"
 #include "tests/support/drum_sets.h"
 #include "tests/support/fit_study.h"
 #include "tests/support/machines.h"
@@ -36,7 +37,8 @@ measurements::MeasurementSet measure_with(const measurements::MeasurementSet& ca
 
 TEST_CASE("a set simulated with an effect is named, or the effect is listed as one it would not show", "[slow]") {
   constexpr double kLargeSize = 0.9;  // near the upper end of the prior
-  const measurements::MeasurementSet campaign = tests::simulate_campaign(tests::make_wide_campaign());
+  measurements::MeasurementSet campaign = tests::simulate_campaign(tests::make_wide_campaign());
+  for (measurements::MeasuredRun& run : campaign.runs) run = tests::thin_out(run, 2);
   int named = 0;
   for (const models::Effect* effect : models::all_effects()) {
     const models::EffectInfo& info = effect->info;
