@@ -1,5 +1,5 @@
 #pragma once
-/// What objects of the API hold, and what its results are made with.
+/// What objects of the API hold, and how its inputs and results are converted.
 
 #include <map>
 #include <string>

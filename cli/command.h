@@ -1,5 +1,6 @@
 #pragma once
-/// The parts of the command line, and what all programs of the project have in common of it.
+/// The parts of the command line, and what all programs of the project share: reading options, answering errors, exit
+/// statuses.
 
 #include <CLI/CLI.hpp>
 
@@ -17,7 +18,7 @@ namespace rollrig::cli {
 /// Exit statuses of formats.md.
 enum ExitStatus { kDone = 0, kDiffers = 1, kInputError = 2, kRunFailed = 3, kInterrupted = 130 };
 
-/// What a subcommand does when it is called; set by the add_ functions below.
+/// What a subcommand does when it is called; set by the add_..._command functions below.
 using Action = std::function<int()>;
 
 /// Calls what makes a program's command line and runs it. Returns the exit status; errors go to standard error.
@@ -45,7 +46,7 @@ inline InputError usage_error(const std::string& what, const std::string& option
 /// CLI11's message, and the nearest option or subcommand when a word was not expected.
 InputProblem explain_usage_error(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv);
 
-/// Long option names of an app, such as "--tire"; here as below without what is hidden.
+/// Long option names of an app, such as "--tire". Hidden ones are left out, here and in list_subcommands().
 std::vector<std::string> list_options(const CLI::App& app);
 /// A subcommand by name or alias, or nullptr.
 const CLI::App* find_subcommand(const CLI::App& app, const std::string& name);

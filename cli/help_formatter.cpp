@@ -1,6 +1,5 @@
 #include "cli/help_formatter.h"
 
-#include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
 
 namespace rollrig::cli {

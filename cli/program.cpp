@@ -1,3 +1,4 @@
+// What all programs share: options read, errors answered, exit statuses.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 

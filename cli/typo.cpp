@@ -1,3 +1,4 @@
+// Usage errors with the nearest known name.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -38,6 +38,7 @@ template <class S>
 S& find_parameter(models::Context<S>& context, const std::string& key) {
   S* found = nullptr;
   visit_parameters(context, [&](const std::string& table, const Field& field, S& member) {
+    // As key == table + "." + output_key, without making a string each time.
     const std::size_t dot = table.size();
     const bool is_named = key.size() > dot && key[dot] == '.' && key.compare(0, dot, table) == 0 &&
                           key.compare(dot + 1, std::string::npos, field.output_key()) == 0;

@@ -1,3 +1,4 @@
+// HDF5: groups, data sets and the attribute "unit".
 #include <fmt/format.h>
 #include <hdf5.h>
 

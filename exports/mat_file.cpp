@@ -1,3 +1,4 @@
+// MATLAB's .mat, version 5.
 #include <fmt/format.h>
 #include <matio.h>
 #include <sys/mman.h>

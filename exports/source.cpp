@@ -1,3 +1,4 @@
+// What can be exported, read from where rollrig wrote it.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
-/// What is exported, whatever the file: named things in groups. Units stand in the names and are told beside them by
-/// the files (unit_of_key). Where it comes from, and the files that are made of it.
+/// What is exported: named things in groups, the same for every kind of file; where they are read from; and the files
+/// that are made of them. Units stand in the names, and the files tell them beside the names (unit_of_key).
 
 #include <set>
 #include <string>

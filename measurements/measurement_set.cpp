@@ -112,8 +112,9 @@ void read_run_table(TableReader& reader, RunTable& run) {
   run.force_at_standstill = reader.flag_or("force_at_standstill", false);
 }
 
+std::string quote(const std::string& text) { return Json(text).dump(); }  // its escapes are among those of TOML
+
 std::string write_run_table(const RunTable& run) {
-  const auto quote = [](const std::string& text) { return Json(text).dump(); };  // as TOML has it too
   std::string text = fmt::format(
       "\n[[run]]\nid = {}\nfile = {}\nsession = {}\ninitial_tire_temperature_degC = {:.10g}\ncold_pressure_kPa = "
       "{:.10g}\n",

@@ -15,7 +15,7 @@ namespace rollrig::measurements {
 using rigs::MachineKind;
 using rigs::measured_channels;
 
-/// What [[run]] says of a run beside its samples.
+/// What [[run]] says of a run in sets and mappings alike.
 struct RunTable {
   std::string id;
   std::string session = "session";
@@ -68,10 +68,13 @@ MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind);
 /// tire has been read; returns the machine's file as it is. Throws InputError.
 std::string read_machine(TableReader& reader, const std::string& folder, MeasurementSet& set);
 
-/// Of a [[run]] all but its id. Throws InputError.
+/// The keys of a [[run]] that RunTable holds, but for its id. Throws InputError.
 void read_run_table(TableReader& reader, RunTable& run);
-/// [[run]] of a set, its samples in <id>.csv.
+/// A [[run]] of set.toml; its samples are in <id>.csv.
 std::string write_run_table(const RunTable& run);
+
+/// A text as TOML has it.
+std::string quote(const std::string& text);
 
 /// Tables [sensors.<channel>] of sets and run files.
 std::string write_sensors(const models::SensorSet& sensors);

@@ -255,12 +255,14 @@ sim::Recording<S> run_on(Machine&& machine, const sim::Program& program) {
   return sim::simulate<S>(machine, integrator, program);
 }
 
-/// Steps for the integrator of order 4. Assumed: up to two fifths of the gas's time constant; while the speed changes,
-/// up to a quarter of the 12 km/h below which errors of a recorded speed matter most (models/effects/speed_record.cpp).
+/// Steps for the integrator of order 4. Assumed: at most two fifths of the gas's time constant; while the speed
+/// changes, at most the time in which it changes by 0.75 m/s, less than a quarter of the 12 km/h below which an error
+/// of the recorded speed matters most (models/effects/speed_record.cpp).
 void limit_steps(sim::Phase& phase) {
+  constexpr double kMostChange_m_s = 0.75;
   phase.max_step_s = 10.0;
   for (sim::Segment& segment : phase.segments) {
-    constexpr double kMostChange_m_s = 0.75;
+    // No limit at constant speed: the slope is 0.
     segment.max_step_s = kMostChange_m_s / std::abs(segment.inputs[rigs::index_of(DrumInput::kSpeed)].slope_per_s);
   }
 }

@@ -93,7 +93,7 @@ Block make_explanation(const models::EffectInfo& info) {
   add("Source", {info.source});
   add("Own parameters", parameters);
   add("Confused with", confusions);
-  add("Separated from those by", info.splitting_tests);
+  add("Separated by", info.splitting_tests);
   return {{"type", "definitions"}, {"title", info.id}, {"items", items}};
 }
 

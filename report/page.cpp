@@ -4,8 +4,8 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
-// The page without its data, page_template.html, made of report/web (CMakeLists.txt): taken in by the assembler, which
-// finds it from the project's root, as a literal would take a compiler long.
+// The page without its data, page_template.html, is made of report/web (CMakeLists.txt). The assembler takes it in, and
+// finds it from the project's root: a literal of that size would take the compiler long.
 asm(R"(
   .pushsection .rodata
   .globl rollrig_page_template_begin, rollrig_page_template_end

@@ -13,7 +13,7 @@ using Drives = std::map<std::string, TireDrive>;
 
 /// Tables 4.4 and 4.5.
 Rows list_sections(const Drives& drives);
-/// a50 with the coefficients of that figure, and what was fitted.
+/// Figure 3.13: a50 with its coefficients, a row for each heat capacity, and the conductances fitted to each.
 std::pair<Rows, Rows> list_figure_3_13();
 Rows list_table_5_1(const Drives& drives);
 Rows list_table_4_2();

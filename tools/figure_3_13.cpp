@@ -1,3 +1,4 @@
+// Tire a50 with the coefficients of the source's own example.
 #include <ceres/ceres.h>
 
 #include <cmath>

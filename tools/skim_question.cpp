@@ -1,5 +1,8 @@
+// The source's open question (§5.2): is the parasitic loss that falls in the warm-up the rig's or the tire's?
 #include <boost/scope_exit.hpp>
+#include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 
 #include "diagnosis/diagnosis.h"
 #include "diagnosis/output/diagnosis_json.h"

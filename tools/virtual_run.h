@@ -28,9 +28,10 @@ scenarios::RunSpec make_source_drive(const std::string& tire);
 /// A number of a result. Throws RunFailure where it could not be read off.
 double number(const Json& result, const char* key);
 
-/// Of a tire of which only the class is known, a50's law is taken, its loss scaled: the factor that gives a coefficient
-/// in the ISO test, where a tire with more loss runs warmer.
+/// Factor on a50's loss that gives this coefficient in the ISO test, for a tire of which only the class is known. A
+/// tire with more loss runs warmer, so it is not the ratio of the coefficients.
 double find_loss_factor(double rrc_N_per_kN);
+/// Multiplies the loss of a tire.
 void scale_loss(models::TireFile& tire, double factor);
 
 /// Where `f` changes its sign between `low` and `high`.

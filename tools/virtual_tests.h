@@ -1,5 +1,6 @@
 #pragma once
-/// The virtual tests by which a tire of the source is calibrated: parameters, observations, weights.
+/// The virtual tests by which a tire of the source is calibrated: parameters, observations, weights; and a50 fitted
+/// with the coefficients of Figure 3.13.
 
 #include <array>
 #include <string>
@@ -62,7 +63,7 @@ class VirtualTests {
   scenarios::RunSpec iso_, warm_up_, warm_up_iso_, speed_sweep_, drive_;
 };
 
-/// Tire a50 with the coefficients of the source's own example.
+/// Conductances of a50 that were fitted with the coefficients of Figure 3.13.
 struct CoolingFit {
   double rest_conductance_W_per_K = 0.0;
   double speed_conductance_W_s_per_m_K = 0.0;

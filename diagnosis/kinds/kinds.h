@@ -1,9 +1,26 @@
 #pragma once
-/// The kinds that there are, and their menus of tests. For the files of this folder alone: others ask kind_of().
+/// The kinds that there are, their menus of tests, what those with a rig share, and the phases of a drive. For the
+/// files of this folder and their tests: others ask kind_of().
 
 #include "diagnosis/kinds/measurement_kind.h"
 
 namespace rollrig::diagnosis {
+
+/// What kinds of sets measured on a machine with a rig file have in common.
+class KindWithRig : public MeasurementKind {
+ public:
+  Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
+                                   const models::Context<double>& context) const override {
+    Uncertainties uncertainties;
+    add_tire(set.tire, set.rig->thermal_name(), context, true, uncertainties);
+    add_parasitic_loss(*set.rig, uncertainties);
+    return uncertainties;
+  }
+
+  double usual_ambient_K(const measurements::MeasurementSet& set) const override {
+    return set.rig->environment.ambient_K;
+  }
+};
 
 #define ROLLRIG_MACHINE(word) const MeasurementKind& word##_kind();
 #include "rigs/machines.def"

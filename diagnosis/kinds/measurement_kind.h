@@ -60,22 +60,6 @@ class MeasurementKind {
                                                   double reading) const = 0;
 };
 
-/// What kinds of sets measured on a machine with a rig file have in common.
-class KindWithRig : public MeasurementKind {
- public:
-  Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
-                                   const models::Context<double>& context) const override {
-    Uncertainties uncertainties;
-    add_tire(set.tire, set.rig->thermal_name(), context, true, uncertainties);
-    add_parasitic_loss(*set.rig, uncertainties);
-    return uncertainties;
-  }
-
-  double usual_ambient_K(const measurements::MeasurementSet& set) const override {
-    return set.rig->environment.ambient_K;
-  }
-};
-
 /// The kind of a set.
 const MeasurementKind& kind_of(const measurements::MeasurementSet& set);
 

@@ -32,7 +32,7 @@ class RunPlan {
 
   /// Sets the load at once, goes to the speed by 1 km/h a second, then holds both for `minutes`.
   RunPlan& roll(double minutes, double load_N, double speed_km_h = kUsual_km_h, bool read = true);
-  /// The same at one load or speed after the other.
+  /// roll() at each of the loads, or of the speeds, in turn.
   RunPlan& roll_at_loads(double minutes, const std::vector<double>& loads_N, double speed_km_h = kUsual_km_h);
   RunPlan& roll_at_speeds(double minutes, double load_N, const std::vector<double>& speeds_km_h);
   RunPlan& stand(double minutes, double load_N, bool read = true) { return roll(minutes, load_N, 0.0, read); }
@@ -68,6 +68,7 @@ RunPlan begin_cold(const TestConditions& at);
 TestConditions read_rim_too(TestConditions at);
 PlannedTest fit_rim_thermocouple(PlannedTest test);
 
+/// A test of these runs, which it ends and names; its hours are those of set-up, of so many soaks and of the runs.
 PlannedTest make_test(const char* id, std::string description, int soaks, std::vector<RunPlan> runs);
 
 }  // namespace rollrig::diagnosis

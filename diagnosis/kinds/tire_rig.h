@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "diagnosis/kinds/kinds.h"
-#include "diagnosis/kinds/measurement_kind.h"
 #include "measurements/sample_selection.h"
 #include "models/parasitic_loss.h"
 #include "scenarios/common/drum_conditions.h"

@@ -70,7 +70,7 @@ std::string describe_info(const models::EffectInfo& info) {
   text += section("Visible in", join_or(rigs::list_visible(info), "no measured channel"));
   text += section("Leaves unchanged", join_or(rigs::list_clean(info), "no measured channel"));
   text += "Confused with\n" + describe_confusions(info);
-  return text + "Separated from those by\n" + describe_tests(info);
+  return text + "Separated by\n" + describe_tests(info);
 }
 
 }  // namespace

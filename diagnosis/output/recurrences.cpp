@@ -1,4 +1,4 @@
-
+// Which effects come back from set to set, with the machine or with the tire.
 #include <algorithm>
 #include <cmath>
 #include <map>

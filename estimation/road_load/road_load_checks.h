@@ -1,5 +1,6 @@
 #pragma once
-/// Whether coastdowns keep to what SAE J1263, J2263 and UN GTR 15 ask for, and how they drift.
+/// Whether coastdowns keep to what SAE J1263, J2263 and UN GTR 15 ask for, how they drift in a session, and how well
+/// pairs of both headings repeat.
 
 #include <string>
 #include <vector>

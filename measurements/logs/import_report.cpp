@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "measurements/logs/import.h"
 #include "sim/core/csv.h"
 
 namespace rollrig::measurements {
 namespace {
-
-/// A TOML string; the escapes of JSON are among its own.
-std::string quote(const std::string& text) { return Json(text).dump(); }
 
 std::string make_run_csv(const ResampledRun& run) {
   std::vector<std::string> header{"time_s"};

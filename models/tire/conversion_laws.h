@@ -1,5 +1,5 @@
 #pragma once
-/// Rolling resistance against the diameter of the tire, its pressure and the air.
+/// Factors of rolling resistance between tire diameters, pressures and temperatures of the air.
 
 #include "sim/core/scalar.h"
 #include "sim/core/units.h"

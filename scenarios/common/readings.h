@@ -1,6 +1,6 @@
 #pragma once
 /// What a test engineer reads off a recording: means over windows, rolling resistance per cycle (§3.2.3.2),
-/// its corrections (§3.2.3.3) and its uncertainty (§4.1.1).
+/// its corrections (§3.2.3.3) and its uncertainty (§4.1.1), and what sweeps make of several of them.
 
 #include <optional>
 #include <vector>

@@ -1,4 +1,4 @@
-// What went into a run and what came out, as JSON.
+// What went into a run and what came out: manifest and result as JSON, the recording as CSV.
 
 #include "scenarios/run/run_spec.h"
 #include "sim/core/csv.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// From a run document (a file, or the command line's options) to a RunSpec.
+/// From a run document (a file, or the command line's options) to a RunSpec, and from a run to its files.
 
 #include <map>
 #include <string>

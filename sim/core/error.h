@@ -1,5 +1,5 @@
 #pragma once
-/// What messages about a user's mistake are made of.
+/// Messages about a user's mistake: what they are made of, and how a person reads them.
 
 #include <string>
 #include <vector>

@@ -27,7 +27,7 @@ measurements::MeasurementSet make_road_set(const std::vector<models::ActiveEffec
 void measure_again(measurements::MeasurementSet& set, const std::vector<models::ActiveEffect>& effects,
                    const std::function<void(models::Context<double>&)>& change = {});
 
-/// A run as it is where every `step`-th row alone is recorded.
+/// The run with every step-th of its rows.
 measurements::MeasuredRun thin_out(const measurements::MeasuredRun& run, std::size_t step);
 
 }  // namespace rollrig::tests

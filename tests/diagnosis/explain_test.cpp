@@ -30,8 +30,8 @@ TEST_CASE("an effect's explanation holds all that its declaration knows", "[fast
     const models::EffectInfo& info = effect->info;
     const std::string text = diagnosis::explain_effect(info.id);
     INFO(text);
-    for (const char* title : {"Equation", "Source", "Own parameters", "Acts on", "Visible in", "Confused with",
-                              "Separated from those by"}) {
+    for (const char* title :
+         {"Equation", "Source", "Own parameters", "Acts on", "Visible in", "Confused with", "Separated by"}) {
       CHECK_THAT(text, Contains(title));
     }
     for (const models::EffectParameter& parameter : info.parameters) {

@@ -140,7 +140,7 @@ TEST_CASE("rows far apart are simulated in parts, so that a steady run does not 
 TEST_CASE("on a drum, steps are short enough for what sensors show, with each effect as well", "[fast]") {
   const MeasurementSet set = tests::simulate_campaign({"a50", {{"transient_skim", {"repeats=1"}}}, {}});
   const MeasuredRun& smooth = set.runs.front();
-  MeasuredRun kinked = smooth;  // a step cannot be longer than a row where no straight line goes on
+  MeasuredRun kinked = smooth;  // rows not in a straight line are segments of their own: no step is longer than a row
   std::vector<double>& ambient_degC = kinked.columns.at("ambient_degC");
   for (std::size_t row = 0; row < ambient_degC.size(); row += 2) ambient_degC[row] += 1e-4;
   std::vector<std::vector<ActiveEffect>> cases{{}};
@@ -154,9 +154,9 @@ TEST_CASE("on a drum, steps are short enough for what sensors show, with each ef
     const auto differ_by = [&](const char* channel) {
       return largest_difference(usual.channel(channel), fine.channel(channel));
     };
-    CHECK(differ_by("drum_torque_Nm") < 0.02);          // a tenth of the noise of a row
-    CHECK(differ_by("liner_temperature_degC") < 0.01);  // a tenth of the resolution
-    CHECK(differ_by("cavity_pressure_kPa") < 10.0);     // Pa
+    CHECK(differ_by("drum_torque_Nm") < 0.02);          // less than a tenth of the noise of a row, 0.25 N m
+    CHECK(differ_by("liner_temperature_degC") < 0.01);  // a tenth of the resolution, 0.1 K
+    CHECK(differ_by("cavity_pressure_kPa") < 10.0);     // in Pa: a tenth of the resolution, 0.1 kPa
   }
 }
 

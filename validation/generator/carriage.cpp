@@ -1,3 +1,4 @@
+// What kinds share in which a carriage presses one tire on the surface: their runs, and the mass that turns.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>

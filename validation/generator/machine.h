@@ -94,7 +94,7 @@ std::string write_file(const Specimen& specimen, int version, const std::string&
 double calc_drum_factor(const Specimen& specimen);
 }  // namespace rig
 
-/// What the kinds have in common on which a carriage presses one tire: their runs, and what turns.
+/// What kinds share in which a carriage presses one tire on the surface: their runs, and the mass that turns.
 namespace carriage {
 /// A campaign of one of the laboratories in `kinds`, drawn by the seed of the order. The kinds of its runs are "warm-up
 /// <km/h>", "speed steps", "load sweep", "transient skim" and "up and down".
@@ -103,7 +103,7 @@ Campaign draw_campaign(const CampaignOrder& order, const Specimen& specimen, con
 double calc_moving_mass_kg(const Specimen& specimen, double load_N, double target_load_N);
 }  // namespace carriage
 
-/// From that drum to a flat surface.
+/// From the drum on which A holds, of 2 m, to a flat surface.
 double calc_flat_factor(const Specimen& specimen);
 double find_unit_lever(const Specimen& specimen);
 

@@ -118,6 +118,13 @@ Json describe_set(const SetOrder& order, const Laboratory& lab) {
   return truth;
 }
 
+/// What is drawn of a set; `effects` become those that its truth describes.
+Json describe_drawn(const SetOrder& order, const Laboratory& lab, Effects& effects) {
+  Json truth = describe_set(order, lab);
+  effects = draw_effects(order, lab.specimen, &truth["effects"]);
+  return truth;
+}
+
 }  // namespace
 
 Files follow_up(const SetOrder& order, std::vector<RunPlan> further) {
@@ -141,17 +148,15 @@ Laws find_common_laws(const std::vector<std::string>& effects, const Machine& ma
 }
 
 Json draw_truth(const SetOrder& order) {
-  const Laboratory lab = draw_laboratory(order);
-  Json truth = describe_set(order, lab);
-  draw_effects(order, lab.specimen, &truth["effects"]);
-  return truth;
+  Effects effects;
+  return describe_drawn(order, draw_laboratory(order), effects);
 }
 
 MadeSet make_set(const SetOrder& order, bool with_counterfactual) {
   const Laboratory lab = draw_laboratory(order);
-  const Effects effects = draw_effects(order, lab.specimen);
+  Effects effects;
   MadeSet made;
-  made.truth = draw_truth(order);
+  made.truth = describe_drawn(order, lab, effects);
   const std::vector<RunRecord> records = record_all(lab.specimen, lab.campaign, effects);
   made.files = write_files(order, lab, records, order.noise_free);
   const std::vector<RunRecord> without = effects.empty() ? records : record_all(lab.specimen, lab.campaign, {});

@@ -27,7 +27,7 @@ struct SetOrder {
   bool noise_free = false;
   bool nominal_base = false;
   std::string name = "campaign";
-  std::string campaign;  // name of its choice in a mixed validation set
+  std::string campaign;  // name of the CampaignChoice that was drawn; empty where all cases are of one kind
 };
 
 using Files = std::map<std::string, std::string>;  // contents by name
@@ -49,7 +49,7 @@ struct Laws {
 /// Against which all of `effects` are to be found together on a machine; with `drawn`, as validation sets have them.
 Laws find_common_laws(const std::vector<std::string>& effects, const Machine& machine, bool drawn);
 
-/// The truth of a set, but for what its effects do to the channels.
+/// What is drawn of a set: its truth but for signal_floors and campaign_kind, which make_set() adds.
 Json draw_truth(const SetOrder& order);
 
 /// Makes a set. Its files are a function of the order and nothing else.

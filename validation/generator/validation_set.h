@@ -42,7 +42,7 @@ struct ValidationSetOrder {
 /// Effects that sets of these campaigns have: of the catalog, or outside of it.
 std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside);
 
-/// Its cases, in their order; each is a function of the seed and its place.
+/// The cases of an order; each is a function of the seed and its place.
 std::vector<SetOrder> draw_cases(const ValidationSetOrder& order);
 
 /// Writes <out>/sets/<number>/, <out>/truth.json and <out>/truth.sha256, which sha256sum -c reads. `hashed` is told the

@@ -1,3 +1,4 @@
+// What an ideal observer of the same cases would reach.
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 

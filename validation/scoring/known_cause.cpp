@@ -1,8 +1,10 @@
+// Fits that know the cause, made once the truth is open.
 #include <algorithm>
 
 #include "models/effect.h"
 #include "validation/scoring/follow_up.h"
 #include "validation/scoring/run_cases.h"
+#include "validation/scoring/truth.h"
 
 namespace rollrig::validation {
 

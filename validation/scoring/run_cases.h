@@ -1,5 +1,5 @@
 #pragma once
-/// Diagnoses the cases of a validation set, one answer file a case.
+/// Diagnoses the cases of a validation set, one answer file a case. The tasks of known causes alone need the truth.
 
 #include <functional>
 #include <map>
@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "validation/scoring/answer.h"
-#include "validation/scoring/truth.h"
 
 namespace rollrig::validation {
+
+struct Truth;
 
 /// A case to be diagnosed, and with which effects in the comparison.
 struct Task {

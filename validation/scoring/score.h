@@ -1,6 +1,6 @@
 #pragma once
-/// The score of a validation set: each figure beside its target, tables by effect, campaign and size, and what was
-/// missed.
+/// The score of a validation set: each figure beside its target, tables by effect, campaign and size, what was missed,
+/// and what an ideal observer would reach.
 
 #include <functional>
 #include <map>
@@ -52,8 +52,8 @@ struct ScoreOptions {
   double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
 };
 
-/// Chances of an ideal observer of the same cases with one case, since nobody names what the data do not show; none
-/// where its upper bound lacks what it takes.
+/// The chance that an ideal observer has with one case: nobody names what the data do not show. None where the case has
+/// no upper bound that tells it.
 using Chance = std::function<std::optional<double>(const Case&)>;
 
 /// That it raises a gap at 1 % false alarms: Phi(d' - 2.326).

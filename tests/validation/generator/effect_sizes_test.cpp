@@ -1,7 +1,5 @@
 // Sizes and base parameters of the independent generator are drawn as the catalog and the files say; each effect has
 // two functional forms, in which its size means the same.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -75,7 +73,8 @@ struct Drawn {
   }
 };
 
-/// Truths of a validation set with so many cases of each effect and no others.
+/// Truths of a validation set with so many cases of each effect and no others; on a dyno, of four that the others of
+/// these tests do not show.
 std::vector<Json> draw_truths(const std::string& kind, int each, std::uint64_t seed) {
   generator::ValidationSetOrder order;
   order.seed = seed;
