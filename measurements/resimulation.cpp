@@ -122,7 +122,7 @@ bool continues(const sim::Segment& before, const sim::Segment& next) {
 models::TireParameters<double> find_parameters(const models::TireFile& tire, models::Baseline baseline, double load_N,
                                                double pressure_Pa) {
   return baseline == models::Baseline::kConstantRrc ? tire.parameters_with_class_values(load_N, pressure_Pa)
-                                                    : tire.parameters_on("", baseline);
+                                                    : tire.parameters_on({""}, baseline);
 }
 
 }  // namespace

@@ -39,7 +39,16 @@ const MachineKind& read_kind(TableReader& file) {
 
 /// Whether the file says what the first format could not.
 bool is_new_form(const RigFile& rig) {
-  return !rig.conductances_of.empty() || std::string(rig.kind->word) != rig.kind->former_word;
+  return !rig.conductances_of.empty() || rig.tire_cooling.is_given() ||
+         std::string(rig.kind->word) != rig.kind->former_word;
+}
+
+/// Whether a table that may be left out was there.
+template <class Group>
+bool has_numbers(const Group& group) {
+  bool has = false;
+  Group::visit(group, [&has](const Field&, const double& value) { has = has || value != 0.0; });
+  return has;
 }
 
 }  // namespace
@@ -67,7 +76,7 @@ std::string write_rig(const RigFile& rig) {
   if (!rig.conductances_of.empty()) text += fmt::format("conductances_of = \"{}\"\n", rig.conductances_of);
   if (rig.driven_wheels_only) text += fmt::format("rollers_under = \"{}\"\n", kDrivenWheels);
   RigFile::visit_tables(rig, [&](const char* name, const auto& table, Presence presence) {
-    if (presence == Presence::kOptional && rig.skim.load_N <= 0.0) return;
+    if (presence == Presence::kOptional && !has_numbers(table)) return;
     if constexpr (std::is_same_v<decltype(table), const models::ParasiticParameters<double>&>) {
       text += write_group(name, table, &rig.parasitic_uncertainties);
     } else {
@@ -81,7 +90,7 @@ const char* name_of_rolling_wheels(const RigFile& rig) { return rig.driven_wheel
 
 models::Context<double> make_context(const models::TireFile& tire, const RigFile& rig, models::Baseline baseline) {
   models::Context<double> context;
-  context.tire = tire.parameters_on(rig.thermal_name(), baseline);
+  context.tire = tire.parameters_on(rig.cooling_rig(), baseline);
   context.parasitic = rig.parasitic;
   context.machine = rig.kind->traits;
   if (is_indoors(context.machine)) {

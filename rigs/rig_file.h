@@ -118,9 +118,12 @@ struct RigFile {
   CarriageParameters carriage;
   DriveParameters drive;
   TieDownParameters tie_down;
+  models::TireCooling tire_cooling;  // none given: tires must have their conductances
 
   /// The rig by whose name a tire file has its conductances.
   const std::string& thermal_name() const { return conductances_of.empty() ? name : conductances_of; }
+  /// What a tire takes its conductances from.
+  models::CoolingRig cooling_rig() const { return {thermal_name(), tire_cooling}; }
   bool is_curved() const { return drum.diameter_m > 0.0; }
   double curvature_per_m() const { return is_curved() ? 2.0 / drum.diameter_m : 0.0; }
   /// Torque at the axis of drum or roller over force at its surface; 1 of a belt, whose motor is taken as a force.
@@ -144,6 +147,7 @@ struct RigFile {
     if (has_skim(machine)) visit("carriage", rig.carriage, Presence::kDefaults);
     if (is_tied_down(machine)) visit("tie_down", rig.tie_down, Presence::kDefaults);
     if (is_indoors(machine)) visit("drive", rig.drive, Presence::kDefaults);
+    visit("tire_cooling", rig.tire_cooling, Presence::kOptional);
   }
 };
 

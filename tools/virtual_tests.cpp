@@ -53,7 +53,7 @@ Calibration Calibration::of(const models::TireFile& tire) {
   const auto& rr = p.rolling_resistance;
   const double A80_N = rr.A0_N + rr.A1_N_s_per_m * kLowSpeed_m_s;
   const double A120_N = rr.A0_N + rr.A1_N_s_per_m * kHighSpeed_m_s;
-  const auto on = [&tire](const char* rig) { return tire.parameters_on(rig, models::Baseline::kCombined).thermal; };
+  const auto on = [&tire](const char* rig) { return tire.parameters_on({rig}, models::Baseline::kCombined).thermal; };
   const double drum_G_W_per_K = models::calc_cooling_W_per_K(on("drum_2m"), kLowSpeed_m_s);
   Calibration c;
   c.x = {std::log(A80_N),

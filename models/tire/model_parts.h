@@ -1,5 +1,5 @@
 #pragma once
-/// Parts of which tire models are made: the source's law of the loss, and the rubber as one node.
+/// Parts of which tire models are made: the source's law of the loss, and the rubber as one node or two.
 
 #include "models/tire/rolling_resistance.h"
 #include "models/tire/tire_model.h"
@@ -53,6 +53,57 @@ struct OneNode {
     network.air_W_per_K[index_of(outside)] = (S(1.0) - to_road) * thermal.rest_conductance_W_per_K +
                                              thermal.speed_conductance_W_s_per_m_K * now.boundary.air_speed_m_s;
     network.link(Node::kLiner, Node::kGas) = thermal.H_gas_W_per_K;
+  }
+};
+
+/// Tread and carcass have temperatures of their own.
+/// Equation  c C dT_t/dt = h Q + P - (z + f v)(T_t - T_amb) - G (T_t - T_c),
+///           (1 - c) C dT_c/dt = (1 - h) Q + G (T_t - T_c) - H (T_c - T_gas); loss seen at T = m T_t + (1 - m) T_c
+/// Symbols   T_t, T_c temperatures of tread and carcass, where the liner's sensor sits [K]; c, h, m shares of the tread
+///           [1]; Q heat of rolling resistance, P friction of the contact [W]; G between both [W/K]; the rest as above
+/// Validity  of z the road's share acts on T_t - T_surface
+/// Checked   tests/models/two_node_test.cpp
+struct TreadAndCarcass : OneNode {
+  /// Places of its numbers, which stand before others of a model.
+  enum Parameter { kCapacityShare, kHeatShare, kLossShare, kConductance, kCount };
+
+  // Assumed: usual values of passenger-car tires, the tread with its belts. Masses of the parts are weighed or read
+  // off a section; what arises where and flows between them is fitted at best.
+  static std::vector<TireModelParameter> parameters() {
+    return {
+        {{"tread_share_of_heat_capacity", between(0.01, 0.99), "c, of the rubber's heat capacity that is the tread's"},
+         0.45,
+         0.1},
+        {{"tread_share_of_heat", between(0.0, 1.0), "h, of the heat of rolling resistance that arises in the tread"},
+         0.7,
+         0.2},
+        {{"tread_share_of_loss", between(0.0, 1.0), "m, weight of the tread in the temperature that the loss follows"},
+         0.7,
+         0.2},
+        {{"conductance_W_per_K", positive(), "G, between tread and carcass"}, 60.0, 0.3}};
+  }
+
+  template <class S>
+  static S find_loss_temperature_K(const TireParameters<S>& tire, const ThermalNetwork<S>& network) {
+    const S& carcass_K = network.temperature_K[index_of(Node::kLiner)];
+    return carcass_K + tire.own[kLossShare] * (network.temperature_K[index_of(Node::kTread)] - carcass_K);
+  }
+
+  template <class S>
+  static void fill_network(const Instant<S>& now, ThermalNetwork<S>& network) {
+    const TireParameters<S>& tire = now.context->tire;
+    const S tread_J_per_K = tire.own[kCapacityShare] * tire.thermal.heat_capacity_J_per_K;
+    network.heat_capacity_J_per_K[index_of(Node::kTread)] = tread_J_per_K;
+    network.heat_capacity_J_per_K[index_of(Node::kLiner)] = tire.thermal.heat_capacity_J_per_K - tread_J_per_K;
+    network.link(Node::kLiner, Node::kTread) = tire.own[kConductance];
+    fill_cooling(now, Node::kTread, network);
+  }
+
+  template <class S>
+  static void add_heat(const TireParameters<S>& tire, HeatSource source, const S& heat_W, ThermalNetwork<S>& network) {
+    const S tread_W = source == HeatSource::kFriction ? heat_W : S(tire.own[kHeatShare] * heat_W);
+    network.heat_W[index_of(Node::kTread)] += tread_W;
+    network.heat_W[index_of(Node::kLiner)] += heat_W - tread_W;
   }
 };
 

@@ -73,22 +73,31 @@ struct SpeedLines {
   }
 };
 
-/// Parameters of the rolling-resistance law; see models/tire/rolling_resistance.h.
+/// What a law of the loss refers to, and how the loss goes with pressure.
 template <class S>
-struct RollingResistanceParameters : SpeedLines<S> {
+struct LossReference {
   S reference_load_N{};
   S reference_pressure_Pa{};  // gauge
   S reference_drum_diameter_m{};
   S pressure_exponent{};
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"reference_load_N", positive(), "Load at which the loss of the law holds"}, p.reference_load_N);
+    visit(Field{"reference_pressure_kPa", positive(), "Gauge pressure at which it holds"}, p.reference_pressure_Pa);
+    visit(Field{"reference_drum_diameter_m", positive(), "Drum on which it holds"}, p.reference_drum_diameter_m);
+    visit(Field{"pressure_exponent", between(0.0, 2.0), "a of (p/p_ref)^-a"}, p.pressure_exponent);
+  }
+};
+
+/// Parameters of the source's law; see models/tire/rolling_resistance.h.
+template <class S>
+struct RollingResistanceParameters : LossReference<S>, SpeedLines<S> {
   S lowest_speed_m_s{};
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"reference_load_N", positive(), "Load at which A0 and A1 hold"}, p.reference_load_N);
-    visit(Field{"reference_pressure_kPa", positive(), "Gauge pressure at which A0 and A1 hold"},
-          p.reference_pressure_Pa);
-    visit(Field{"reference_drum_diameter_m", positive(), "Drum on which A0 and A1 hold"}, p.reference_drum_diameter_m);
-    visit(Field{"pressure_exponent", between(0.0, 2.0), "a of (p/p_ref)^-a"}, p.pressure_exponent);
+    LossReference<S>::visit(p, visit);
     visit(Field{"lowest_speed_km_h", between(0.0, 100.0), "Below it A and B are held at their values there", 0.0},
           p.lowest_speed_m_s);
     SpeedLines<S>::visit(p, visit);
@@ -123,19 +132,14 @@ struct TireThermalParameters {
     visit(Field{"gas_heat_capacity_J_per_K", positive(), "Heat capacity of the inflation gas"},
           p.gas_heat_capacity_J_per_K);
     visit(Field{"H_gas_W_per_K", positive(), "Conductance from rubber to gas"}, p.H_gas_W_per_K);
-    visit(Field{"conductance_at_rest_W_per_K",
-                non_negative(),
-                "Speed-independent conductance to air and road",
-                {},
-                "z_W_per_K"},
+    visit(Field{"conductance_at_rest_W_per_K", non_negative(),
+                "Speed-independent conductance to air and road. 0 with that per speed: by the rig's [tire_cooling]",
+                0.0, "z_W_per_K"},
           p.rest_conductance_W_per_K);
     visit(Field{"road_share_of_conductance_at_rest", between(0.0, 1.0),
                 "Share of the conductance at rest that goes to the road. Assumed: 0.5", 0.5, "road_share_of_z"},
           p.road_share_of_rest_conductance);
-    visit(Field{"conductance_per_speed_W_s_per_m_K",
-                non_negative(),
-                "Conductance to air per unit of speed",
-                {},
+    visit(Field{"conductance_per_speed_W_s_per_m_K", non_negative(), "Conductance to air per unit of speed", 0.0,
                 "f_W_s_per_m_K"},
           p.speed_conductance_W_s_per_m_K);
   }

@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <boost/algorithm/string/trim.hpp>
+#include <algorithm>
+#include <boost/math/constants/constants.hpp>
 
 #include "models/tire/tire_model.h"
 #include "sim/core/error.h"
 
 namespace rollrig::models {
 namespace {
-
-constexpr int kFormatVersion = 2;
-constexpr const char* kFormat = "rollrig-tire";
 
 /// Reads a table; false where it is absent. Beside the values stand uncertainties where there is a place for them.
 template <class Group>
@@ -53,6 +51,20 @@ void read_load_map(const ConfigTable& rolling_resistance, TireFile& tire) {
     tire.values.load_map.push_back(entry);
     tire.standard_uncertainties.load_map.push_back(uncertainty);
   }
+}
+
+/// Both conductances, or neither, so that the rig's cooling gives them.
+void check_conductances(const ConfigTable& thermal) {
+  const std::vector<std::string> keys = thermal.keys();
+  const auto has = [&keys](const char* key, const char* old_key) {
+    return std::count(keys.begin(), keys.end(), key) + std::count(keys.begin(), keys.end(), old_key) > 0;
+  };
+  const bool at_rest = has("conductance_at_rest_W_per_K", "z_W_per_K");
+  if (at_rest == has("conductance_per_speed_W_s_per_m_K", "f_W_s_per_m_K")) return;
+  const char* missing = at_rest ? "conductance_per_speed_W_s_per_m_K" : "conductance_at_rest_W_per_K";
+  throw TableReader(thermal, "[thermal]")
+      .problem(missing, "missing key: one conductance stands without the other",
+               "both, or neither where [tire_cooling] of the rig gives them");
 }
 
 void read_rig_thermal(const ConfigTable& thermal, TireFile& tire) {
@@ -101,13 +113,24 @@ InputError missing_table(const TireFile& tire, const char* table, const std::str
                      0, "", "", fmt::format("a table [{}]", table), ""});
 }
 
+bool gives_conductances(const TireThermalParameters<double>& thermal) {
+  return thermal.rest_conductance_W_per_K > 0.0 || thermal.speed_conductance_W_s_per_m_K > 0.0;
+}
+
+InputError no_conductances(const TireFile& tire, const std::string& rig) {
+  const std::string where = rig.empty() ? "the road" : fmt::format("rig '{}'", rig);
+  return InputError({fmt::format("tire '{}' has no conductances, and {} has no [tire_cooling]", tire.name, where),
+                     tire.path, 0, "[thermal] conductance_at_rest_W_per_K", "",
+                     "conductances of the tire, or a table [tire_cooling] of the rig", ""});
+}
+
 }  // namespace
 
 TireFile read_tire(const ConfigTable& config) {
   TireFile tire;
   tire.path = config.origin.file;
   TableReader file(config, "");
-  check_format(file, kFormat, kFormatVersion);
+  check_format(file, kTireFormat, kTireFormatVersion);
   tire.name = file.text("name");
   tire.designation = file.text_or("designation", tire.name);
   read_model(file, tire);
@@ -115,16 +138,26 @@ TireFile read_tire(const ConfigTable& config) {
   check_geometry(*file.table("geometry"), tire.values.geometry);
   tire.has_stiffness = read_group(file, "stiffness", tire.values.stiffness);
   TireParameters<double>& sd = tire.standard_uncertainties;
-  tire.has_rolling_resistance =
-      read_group(file, "rolling_resistance", tire.values.rolling_resistance, &sd.rolling_resistance, "load_map");
-  if (tire.has_rolling_resistance) {
+  const bool has_lines = !tire.values.model().info.uses("loss_reference");
+  if (has_lines) {
+    tire.has_rolling_resistance =
+        read_group(file, "rolling_resistance", tire.values.rolling_resistance, &sd.rolling_resistance, "load_map");
+  } else {
+    LossReference<double>& reference = tire.values.rolling_resistance;
+    LossReference<double>& reference_sd = sd.rolling_resistance;
+    tire.has_rolling_resistance = read_group(file, "rolling_resistance", reference, &reference_sd);
+  }
+  if (tire.has_rolling_resistance && has_lines) {
     const ConfigTable& table = *file.table("rolling_resistance");
     check_loss(table, "[rolling_resistance]", tire.values.rolling_resistance,
                tire.values.rolling_resistance.lowest_speed_m_s);
     read_load_map(table, tire);
   }
   tire.has_thermal = read_group(file, "thermal", tire.values.thermal, &sd.thermal, "rig");
-  if (tire.has_thermal) read_rig_thermal(*file.table("thermal"), tire);
+  if (tire.has_thermal) {
+    check_conductances(*file.table("thermal"));
+    read_rig_thermal(*file.table("thermal"), tire);
+  }
   tire.has_constant = read_group(file, "constant", tire.values.constant, &sd.constant);
   Iso28580Reference iso_28580;
   if (read_group(file, "iso_28580", iso_28580)) tire.iso_28580 = iso_28580;
@@ -137,21 +170,37 @@ const TireModel& TireFile::model(Baseline baseline) const {
   return baseline == Baseline::kConstantRrc ? find_tire_model(kConstantModel) : values.model();
 }
 
-TireParameters<double> TireFile::parameters_on(const std::string& rig_name, Baseline baseline) const {
+double calc_outer_area_m2(const TireGeometry<double>& geometry) {
+  using boost::math::constants::pi;
+  const double outer_m = geometry.outer_diameter_m;
+  const double rim_m = geometry.rim_diameter_m;
+  return pi<double>() * (0.5 * (outer_m * outer_m - rim_m * rim_m) + outer_m * geometry.section_width_m);
+}
+
+TireParameters<double> TireFile::parameters_on(const CoolingRig& rig, Baseline baseline) const {
   const TireModelInfo& info = model(baseline).info;
   if (!has_stiffness) throw missing_table(*this, "stiffness", "a rig");
-  for (const auto& [table, is_there] : {std::pair{"rolling_resistance", has_rolling_resistance},
-                                        std::pair{"thermal", has_thermal}, std::pair{"constant", has_constant}}) {
-    if (info.uses(table) && !is_there) throw missing_table(*this, table, fmt::format("tire model {}", info.id));
+  for (const auto& [table, is_there] :
+       {std::pair{"rolling_resistance", has_rolling_resistance}, std::pair{"loss_reference", has_rolling_resistance},
+        std::pair{"thermal", has_thermal}, std::pair{"constant", has_constant}}) {
+    if (info.uses(table) && !is_there) {
+      throw missing_table(*this, table == std::string("loss_reference") ? "rolling_resistance" : table,
+                          fmt::format("tire model {}", info.id));
+    }
   }
   TireParameters<double> on_rig = values;
   if (baseline == Baseline::kConstantRrc) on_rig.own = {&model(baseline), {}};
-  const auto it = rig_thermal.find(rig_name);
-  if (it == rig_thermal.end()) return on_rig;
   auto& thermal = on_rig.thermal;
-  thermal.rest_conductance_W_per_K = it->second.rest_conductance_W_per_K.value_or(thermal.rest_conductance_W_per_K);
-  thermal.speed_conductance_W_s_per_m_K =
-      it->second.speed_conductance_W_s_per_m_K.value_or(thermal.speed_conductance_W_s_per_m_K);
+  if (const auto own = rig_thermal.find(rig.name); own != rig_thermal.end()) {
+    thermal.rest_conductance_W_per_K = own->second.rest_conductance_W_per_K.value_or(thermal.rest_conductance_W_per_K);
+    thermal.speed_conductance_W_s_per_m_K =
+        own->second.speed_conductance_W_s_per_m_K.value_or(thermal.speed_conductance_W_s_per_m_K);
+  }
+  if (!info.uses("thermal") || gives_conductances(thermal)) return on_rig;
+  if (!rig.cooling.is_given()) throw no_conductances(*this, rig.name);
+  const double area_m2 = calc_outer_area_m2(values.geometry);
+  thermal.rest_conductance_W_per_K = area_m2 * rig.cooling.at_rest_W_per_m2_K;
+  thermal.speed_conductance_W_s_per_m_K = area_m2 * rig.cooling.per_speed_W_s_per_m3_K;
   return on_rig;
 }
 
@@ -173,84 +222,6 @@ TireParameters<double> TireFile::parameters_with_class_values(double load_N, dou
     law.pressure_exponent = 0.4;
   }
   return filled;
-}
-
-namespace {
-
-/// Builds TOML lines "key = value   # note".
-class TomlText {
- public:
-  explicit TomlText(const std::map<std::string, std::string>& notes) : notes_(notes) {}
-
-  void header(const std::string& header) {
-    text_ += fmt::format("\n{}\n", header);
-    table_ = boost::algorithm::trim_copy_if(header, boost::algorithm::is_any_of("[]"));
-  }
-  void line(const std::string& key, const std::string& value) {
-    const std::string assignment = fmt::format("{} = {}", key, value);
-    const auto note = notes_.find(table_.empty() ? key : table_ + "." + key);
-    text_ += note == notes_.end() ? assignment + "\n" : fmt::format("{:<36} # {}\n", assignment, note->second);
-  }
-  void number(const std::string& key, double si_value) {
-    line(key, fmt::format("{:.10g}", unit_of_key(key).from_si(si_value)));
-  }
-  template <class Group>
-  void group(const std::string& name, const Group& values, const Group* uncertainties = nullptr) {
-    header(name);
-    std::vector<double> sd;
-    if (uncertainties != nullptr)
-      Group::visit(*uncertainties, [&sd](const Field&, const double& x) { sd.push_back(x); });
-    std::size_t i = 0;
-    Group::visit(values, [&](const Field& field, const double& value) {
-      number(field.key, value);
-      const std::string sd_key = std::string(field.key) + "_sd";
-      if (i < sd.size() && sd[i] > 0.0) number(sd_key, sd[i]);
-      ++i;
-    });
-  }
-  std::string take() { return std::move(text_); }
-
- private:
-  const std::map<std::string, std::string>& notes_;
-  std::string text_;
-  std::string table_;
-};
-
-}  // namespace
-
-std::string write_tire(const TireFile& tire, const std::map<std::string, std::string>& notes) {
-  TomlText out(notes);
-  out.line("format", fmt::format("\"{}/{}\"", kFormat, kFormatVersion));
-  out.line("name", "\"" + tire.name + "\"");
-  out.line("designation", "\"" + tire.designation + "\"");
-  const std::string& model = tire.values.model().info.id;
-  if (&tire.values.model() != &default_tire_model()) out.line("model", "\"" + model + "\"");
-  const TireParameters<double>& sd = tire.standard_uncertainties;
-  out.group("[geometry]", tire.values.geometry);
-  if (tire.has_stiffness) out.group("[stiffness]", tire.values.stiffness);
-  if (tire.has_rolling_resistance) {
-    out.group("[rolling_resistance]", tire.values.rolling_resistance, &sd.rolling_resistance);
-    for (std::size_t i = 0; i < tire.values.load_map.size(); ++i) {
-      out.group("[[rolling_resistance.load_map]]", tire.values.load_map[i], &sd.load_map[i]);
-    }
-  }
-  if (tire.has_thermal) {
-    out.group("[thermal]", tire.values.thermal, &sd.thermal);
-    for (const auto& [rig, at] : tire.rig_thermal) {
-      out.header(fmt::format("[thermal.rig.{}]", rig));
-      RigThermal::visit(at, [&out](const Field& field, const std::optional<double>& value) {
-        if (value.has_value()) out.number(field.key, *value);
-      });
-    }
-  }
-  if (!tire.values.own.values.empty()) out.group("[" + model + "]", tire.values.own, &sd.own);
-  if (tire.has_constant) out.group("[constant]", tire.values.constant, &sd.constant);
-  if (tire.iso_28580.has_value()) out.group("[iso_28580]", *tire.iso_28580);
-  if (!tire.sweep_loads_N.empty()) {
-    out.header("[load_sweep]");
-    out.line("loads_N", fmt::format("[{:.10g}]", fmt::join(tire.sweep_loads_N, ", ")));
-  }
-  return out.take();
 }
 
 }  // namespace rollrig::models

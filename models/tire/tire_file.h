@@ -9,6 +9,9 @@
 
 namespace rollrig::models {
 
+constexpr const char* kTireFormat = "rollrig-tire";
+constexpr int kTireFormatVersion = 2;
+
 /// Conductances as identified on one rig ([thermal.rig.<name>]); what is absent there is taken from [thermal].
 struct RigThermal {
   std::optional<double> rest_conductance_W_per_K;
@@ -25,6 +28,34 @@ struct RigThermal {
     visit(Field{"conductance_per_speed_W_s_per_m_K_sd", positive(), "", {}, "f_W_s_per_m_K_sd"},
           p.speed_conductance_sd_W_s_per_m_K);
   }
+};
+
+/// Heat that a rig's air and surface take from a tire, per area of its outside ([tire_cooling] of a rig).
+/// Equation  z = k A, f = k_v A,  A = pi/2 (D^2 - d^2) + pi D W
+/// Symbols   z, f conductances of the tire at rest [W/K] and per speed [W s/(m K)]; k, k_v those per area; A two
+///           sidewalls and the tread [m2]; D, d outer and rim diameter, W section width [m]
+/// Source    Assumed: all of the outside gives heat alike
+struct TireCooling {
+  double at_rest_W_per_m2_K = 0.0;
+  double per_speed_W_s_per_m3_K = 0.0;
+
+  bool is_given() const { return at_rest_W_per_m2_K > 0.0 || per_speed_W_s_per_m3_K > 0.0; }
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"at_rest_W_per_m2_K", non_negative(), "k, heat transfer from the outside of a tire"},
+          p.at_rest_W_per_m2_K);
+    visit(Field{"per_speed_W_s_per_m3_K", non_negative(), "k_v, its rise with speed"}, p.per_speed_W_s_per_m3_K);
+  }
+};
+
+/// A of TireCooling [m2].
+double calc_outer_area_m2(const TireGeometry<double>& geometry);
+
+/// The rig on which a tire runs, as far as its heat is concerned.
+struct CoolingRig {
+  std::string name;       // by which a tire may have conductances of its own there
+  TireCooling cooling{};  // of tires that have none
 };
 
 /// [iso_28580]: what the tire's label or a test says, for comparison and as default test conditions.
@@ -65,9 +96,9 @@ struct TireFile {
   /// The model of the tire against a baseline.
   const TireModel& model(Baseline baseline) const;
 
-  /// The parameters as they hold on a rig of that name. Throws InputError when a table is absent that
-  /// the model needs.
-  TireParameters<double> parameters_on(const std::string& rig_name, Baseline baseline) const;
+  /// The parameters as they hold on a rig: conductances of [thermal.rig.<name>], else of [thermal], else by the rig's
+  /// cooling. Throws InputError when a table is absent that the model needs, or there are no conductances.
+  TireParameters<double> parameters_on(const CoolingRig& rig, Baseline baseline) const;
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
   /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,

@@ -99,7 +99,7 @@ Json make_manifest(const RunSpec& spec, const Outcome& outcome) {
   manifest["tolerance_factor"] = spec.tolerance_factor;
   manifest["settings"] = outcome.settings;
   manifest["tire"] =
-      tire_to_json(spec.tire, spec.scenario->has_rig() ? spec.tire.parameters_on(spec.rig.thermal_name(), spec.baseline)
+      tire_to_json(spec.tire, spec.scenario->has_rig() ? spec.tire.parameters_on(spec.rig.cooling_rig(), spec.baseline)
                                                        : spec.tire.values);
   if (spec.scenario->has_rig()) manifest["rig"] = rig_to_json(spec.rig);
   if (spec.vehicle.has_value()) manifest["vehicle"] = vehicle_to_json(*spec.vehicle);

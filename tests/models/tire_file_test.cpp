@@ -44,10 +44,10 @@ TEST_CASE("a tire of another model is written and read with that model's own num
   CHECK(back.values.model().info.id == "two_node");
   CHECK(back.values.own.values == tire.values.own.values);
   CHECK(back.standard_uncertainties.own.values == tire.standard_uncertainties.own.values);
-  CHECK(&back.parameters_on("drum_2m", models::Baseline::kCombined).model() == &tire.values.model());
+  CHECK(&back.parameters_on({"drum_2m"}, models::Baseline::kCombined).model() == &tire.values.model());
   models::TireFile constant = back;
   constant.has_constant = true;
-  const auto on_rig = constant.parameters_on("drum_2m", models::Baseline::kConstantRrc);
+  const auto on_rig = constant.parameters_on({"drum_2m"}, models::Baseline::kConstantRrc);
   CHECK(on_rig.model().info.id == models::kConstantModel);
   CHECK(on_rig.own.values.empty());
 }
@@ -109,11 +109,55 @@ TEST_CASE("values of a rig's own stand in for the general ones on that rig only"
   models::TireFile tire = tests::read_asset_tire();
   tire.rig_thermal = {{"here", {5.0, {}, {}, {}}}};
   const auto combined = models::Baseline::kCombined;
-  CHECK(tire.parameters_on("here", combined).thermal.rest_conductance_W_per_K == 5.0);
-  CHECK(tire.parameters_on("here", combined).thermal.speed_conductance_W_s_per_m_K ==
+  CHECK(tire.parameters_on({"here"}, combined).thermal.rest_conductance_W_per_K == 5.0);
+  CHECK(tire.parameters_on({"here"}, combined).thermal.speed_conductance_W_s_per_m_K ==
         tire.values.thermal.speed_conductance_W_s_per_m_K);
-  CHECK(tire.parameters_on("there", combined).thermal.rest_conductance_W_per_K ==
+  CHECK(tire.parameters_on({"there"}, combined).thermal.rest_conductance_W_per_K ==
         tire.values.thermal.rest_conductance_W_per_K);
+}
+
+TEST_CASE("a tire without conductances is cooled by the rig, in proportion to its outer area", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  tire.rig_thermal.clear();
+  tire.values.thermal.rest_conductance_W_per_K = tire.values.thermal.speed_conductance_W_s_per_m_K = 0.0;
+  models::TireGeometry<double>& geometry = tire.values.geometry;
+  geometry.outer_diameter_m = 0.6;  // sidewalls 2 pi (0.09 - 0.04) m2, tread 0.6 pi 0.2 m2
+  geometry.rim_diameter_m = 0.4;
+  geometry.section_width_m = 0.2;
+  const auto combined = models::Baseline::kCombined;
+  const auto on_rig = tire.parameters_on({"somewhere", {10.0, 2.0}}, combined).thermal;
+  CHECK(on_rig.rest_conductance_W_per_K == Approx(6.9115).epsilon(1e-4));
+  CHECK(on_rig.speed_conductance_W_s_per_m_K == Approx(1.3823).epsilon(1e-4));
+  CHECK_THROWS_WITH(tire.parameters_on({"somewhere"}, combined),
+                    Catch::Contains("rig 'somewhere' has no [tire_cooling]"));
+  tire.rig_thermal["somewhere"].rest_conductance_W_per_K = 15.0;  // its own come first
+  CHECK(tire.parameters_on({"somewhere", {10.0, 2.0}}, combined).thermal.rest_conductance_W_per_K == 15.0);
+  CHECK(tire.parameters_on({"elsewhere", {10.0, 2.0}}, combined).thermal.rest_conductance_W_per_K ==
+        Approx(6.9115).epsilon(1e-4));
+}
+
+TEST_CASE("one conductance without the other is refused", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  tire.rig_thermal.clear();
+  std::string text = models::write_tire(tire);
+  const std::size_t line = text.find("conductance_at_rest_W_per_K");
+  text.erase(line, text.find('\n', line) + 1 - line);
+  CHECK_THROWS_WITH(models::read_tire(parse_config(text, "half.toml")),
+                    Catch::Contains("conductance_at_rest_W_per_K") && Catch::Contains("half.toml"));
+}
+
+TEST_CASE("a tire with the bounded law has no lines over speed in its file, and comes back from it", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  tire.values.own = tests::make_own("bounded");
+  tire.standard_uncertainties.own = {tire.values.own.model, std::vector<double>(tire.values.own.values.size())};
+  const std::string text = models::write_tire(tire);
+  CHECK_THAT(text, !Catch::Contains("A0_N") && Catch::Contains("speed_rise = 0.3"));
+  const models::TireFile back = models::read_tire(parse_config(text, "bounded.toml"));
+  CHECK(back.values.own.values == tire.values.own.values);
+  CHECK(back.values.rolling_resistance.reference_load_N == tire.values.rolling_resistance.reference_load_N);
+  std::string with_line = text;
+  with_line.replace(with_line.find("pressure_exponent"), 0, "A0_N = 30.0\n");
+  CHECK_THROWS_WITH(models::read_tire(parse_config(with_line, "bounded.toml")), Catch::Contains("A0_N"));
 }
 
 TEST_CASE("tables that a use does not need may be absent, and what it needs is named", "[fast]") {
@@ -133,7 +177,7 @@ rrc_N_per_kN_sd = 2.5
   const models::TireFile tire = models::read_tire(parse_config(text, "road.toml"));
   CHECK(tire.values.constant.rrc == Approx(0.009));
   CHECK(tire.standard_uncertainties.constant.rrc == Approx(0.0025));
-  CHECK_THROWS_WITH(tire.parameters_on("drum_2m", models::Baseline::kCombined),
+  CHECK_THROWS_WITH(tire.parameters_on({"drum_2m"}, models::Baseline::kCombined),
                     Catch::Contains("has no table") && Catch::Contains("road.toml"));
   // Against a constant coefficient effects take values of the class, and what the file has stays.
   const models::TireParameters<double> filled = tire.parameters_with_class_values(4000.0, 260e3);

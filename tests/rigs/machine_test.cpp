@@ -21,6 +21,17 @@ TEST_CASE("every rig file is written as it was read", "[fast]") {
   }
 }
 
+TEST_CASE("how a rig cools tires is written and read, in the new format alone", "[fast]") {
+  rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", "drum_2m")));
+  CHECK_THAT(rigs::write_rig(rig), Catch::StartsWith("format = \"rollrig-rig/1\"") && !Catch::Contains("tire_cooling"));
+  rig.tire_cooling = {11.0, 1.5};
+  const std::string text = rigs::write_rig(rig);
+  CHECK_THAT(text, Catch::StartsWith("format = \"rollrig-rig/2\""));
+  const rigs::RigFile again = rigs::read_rig(parse_config(text, "rig.toml"));
+  CHECK(again.tire_cooling.at_rest_W_per_m2_K == 11.0);
+  CHECK(again.tire_cooling.per_speed_W_s_per_m3_K == 1.5);
+}
+
 TEST_CASE("a road by its former word is still read, and its asset still found", "[fast]") {
   const rigs::RigFile rig = rigs::read_rig(parse_config(R"(format = "rollrig-rig/1"
 name = "flat"

@@ -22,7 +22,7 @@ models::Context<double> make_vehicle_context(const measurements::MeasurementSet&
   models::Context<double> context;
   // A constant coefficient needs no more than the geometry, so the file may lack what a rig needs.
   const bool is_constant = set.baseline == models::Baseline::kConstantRrc;
-  context.tire = is_constant ? set.tire.values : set.tire.parameters_on("", set.baseline);
+  context.tire = is_constant ? set.tire.values : set.tire.parameters_on({""}, set.baseline);
   if (is_constant) context.tire.own = {&models::find_tire_model(models::kConstantModel), {}};
   context.machine = tests::kRoad->traits;
   return context;

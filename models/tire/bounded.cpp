@@ -1,0 +1,99 @@
+/// A loss between two levels over speed, and between two over temperature; tread and carcass as in two_node.
+#include "models/reference_conditions.h"
+#include "models/tire/model_parts.h"
+
+namespace rollrig::models {
+namespace {
+
+struct Bounded : TreadAndCarcass {
+  enum Parameter {
+    kLoss = TreadAndCarcass::kCount,
+    kSpeedRise,
+    kFall,
+    kFallRise,
+    kLoadExponent,
+    kStepSpeed,
+    kStepPower,
+    kColdest,
+    kHottest,
+    kWidth
+  };
+
+  static TireModelInfo info() {
+    TireModelInfo info;
+    info.id = "bounded";
+    info.summary =
+        "The loss rises with speed from one level to another, and falls with temperature from one level to another, "
+        "so that it stays physical at all speeds and temperatures; tread and carcass as in two_node";
+    info.equation =
+        "F_rr = K F_0 (Fz/Fz_ref)^b (p/p_ref)^-a exp(s (S - S_80) - B (1 + c (S - S_80)) (theta(T) - theta(30 degC))), "
+        "S = v^q/(v^q + v_m^q), S_80 that at 80 km/h, theta = w ln((1 + exp((T - T_m)/w))/(1 + exp((T - T_h)/w))); T "
+        "and the heat balances of the model two_node";
+    info.source =
+        "Between T_m and T_h the exponential of Kolekar and Narasimhan (2024) (3.2); nodes as in two_node. Assumed: "
+        "levels on both sides, as of rubber that is glassy or rubbery, where the exponential would go on rising or "
+        "falling, and of a loss that speed raises once";
+    info.nodes = {{Node::kLiner, "carcass"}, {Node::kTread, "tread"}};
+    info.tables = {"loss_reference", "thermal"};
+    info.parameters = parameters();
+    // Usual values: the tires of the source, calibrated together. Those without an uncertainty are common to all.
+    const std::vector<TireModelParameter> law{
+        {{"loss_N", positive(), "F_0, at 80 km/h, 30 degC and the references of [rolling_resistance]"}, 38.0, 0.03},
+        {{"speed_rise", non_negative(), "s, logarithm of the loss at high over that at low speed, at 30 degC"},
+         0.3,
+         0.1},
+        {{"fall_per_degC", non_negative(), "B, relative fall with the tire's temperature at 80 km/h"}, 0.016, 0.1},
+        {{"speed_rise_of_fall", any_number(), "c, how much that fall rises from low to high speed"}, 0.0, 0.0},
+        {{"load_exponent", between(0.3, 2.0), "b"}, 1.1, 0.05},
+        {{"step_speed_km_h", positive(), "v_m, at which the rise is half done"}, 62.0, 0.0},
+        {{"step_power", between(1.0, 10.0), "q, how steep it is"}, 4.0, 0.0},
+        {{"coldest_degC", any_number(), "T_m, below which the loss rises no further"}, 25.0, 0.0},
+        {{"hottest_degC", any_number(), "T_h, above which it falls no further"}, 70.0, 0.0},
+        {{"transition_K", positive(), "w, over which a rise or a fall ends"}, 4.0, 0.0}};
+    info.parameters.insert(info.parameters.end(), law.begin(), law.end());
+    return info;
+  }
+
+  template <class S>
+  static S calc_loss_N(const Instant<S>& now) {
+    using std::abs;
+    using std::exp;
+    using std::pow;
+    const TireParameters<S>& tire = now.context->tire;
+    const LossReference<S>& reference = tire.rolling_resistance;
+    const OwnParameters<S>& own = tire.own;
+    const S load_factor = pow(positive_part(now.motion.load_N) / reference.reference_load_N, own[kLoadExponent]);
+    const S pressure_factor =
+        calc_pressure_factor(now.pressure_Pa, reference.reference_pressure_Pa, reference.pressure_exponent);
+    const S above_80 =
+        calc_speed_step(S(abs(now.motion.speed_m_s)), own) - calc_speed_step(get_reference_speed_m_s<S>(), own);
+    const S reference_K = quantity<S>(kZeroCelsius_K + 30.0, dimension::kTemperature);
+    const S warmer_dK = calc_bounded_dK(now.loss.temperature_K, own) - calc_bounded_dK(reference_K, own);
+    const S fall_per_K = own[kFall] * (S(1.0) + own[kFallRise] * above_80);
+    return load_factor * pressure_factor * own[kLoss] * exp(own[kSpeedRise] * above_80 - fall_per_K * warmer_dK);
+  }
+
+ private:
+  /// S of the equation, 0 at standstill, 1 at high speed.
+  template <class S>
+  static S calc_speed_step(const S& speed_m_s, const OwnParameters<S>& own) {
+    using std::pow;
+    const S power = pow(speed_m_s / own[kStepSpeed], own[kStepPower]);
+    return power / (S(1.0) + power);
+  }
+
+  /// theta of the equation: T - T_m between T_m and T_h, 0 below and T_h - T_m above, smooth between.
+  template <class S>
+  static S calc_bounded_dK(const S& temperature_K, const OwnParameters<S>& own) {
+    using std::exp;
+    using std::log;
+    const auto above = [&](const S& from_K) { return log(S(1.0) + exp((temperature_K - from_K) / own[kWidth])); };
+    return own[kWidth] * (above(own[kColdest]) - above(own[kHottest]));
+  }
+};
+
+}  // namespace
+
+const TireModel& tire_model_bounded() { return make_tire_model<Bounded>(); }
+
+}  // namespace rollrig::models

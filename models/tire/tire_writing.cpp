@@ -1,0 +1,92 @@
+// A tire file as TOML.
+#include <fmt/format.h>
+
+#include <boost/algorithm/string/trim.hpp>
+
+#include "models/tire/tire_file.h"
+#include "models/tire/tire_model.h"
+#include "sim/core/units.h"
+
+namespace rollrig::models {
+namespace {
+
+/// Builds TOML lines "key = value   # note".
+class TomlText {
+ public:
+  explicit TomlText(const std::map<std::string, std::string>& notes) : notes_(notes) {}
+
+  void header(const std::string& header) {
+    text_ += fmt::format("\n{}\n", header);
+    table_ = boost::algorithm::trim_copy_if(header, boost::algorithm::is_any_of("[]"));
+  }
+  void line(const std::string& key, const std::string& value) {
+    const std::string assignment = fmt::format("{} = {}", key, value);
+    const auto note = notes_.find(table_.empty() ? key : table_ + "." + key);
+    text_ += note == notes_.end() ? assignment + "\n" : fmt::format("{:<36} # {}\n", assignment, note->second);
+  }
+  void number(const std::string& key, double si_value) {
+    line(key, fmt::format("{:.10g}", unit_of_key(key).from_si(si_value)));
+  }
+  template <class Group>
+  void group(const std::string& name, const Group& values, const Group* uncertainties = nullptr) {
+    header(name);
+    std::vector<double> sd;
+    if (uncertainties != nullptr)
+      Group::visit(*uncertainties, [&sd](const Field&, const double& x) { sd.push_back(x); });
+    std::size_t i = 0;
+    Group::visit(values, [&](const Field& field, const double& value) {
+      number(field.key, value);
+      const std::string sd_key = std::string(field.key) + "_sd";
+      if (i < sd.size() && sd[i] > 0.0) number(sd_key, sd[i]);
+      ++i;
+    });
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  const std::map<std::string, std::string>& notes_;
+  std::string text_;
+  std::string table_;
+};
+
+}  // namespace
+
+std::string write_tire(const TireFile& tire, const std::map<std::string, std::string>& notes) {
+  TomlText out(notes);
+  out.line("format", fmt::format("\"{}/{}\"", kTireFormat, kTireFormatVersion));
+  out.line("name", "\"" + tire.name + "\"");
+  out.line("designation", "\"" + tire.designation + "\"");
+  const std::string& model = tire.values.model().info.id;
+  if (&tire.values.model() != &default_tire_model()) out.line("model", "\"" + model + "\"");
+  const TireParameters<double>& sd = tire.standard_uncertainties;
+  out.group("[geometry]", tire.values.geometry);
+  if (tire.has_stiffness) out.group("[stiffness]", tire.values.stiffness);
+  if (tire.has_rolling_resistance && tire.values.model().info.uses("loss_reference")) {
+    const LossReference<double>& reference = tire.values.rolling_resistance;
+    out.group("[rolling_resistance]", reference, static_cast<const LossReference<double>*>(&sd.rolling_resistance));
+  } else if (tire.has_rolling_resistance) {
+    out.group("[rolling_resistance]", tire.values.rolling_resistance, &sd.rolling_resistance);
+    for (std::size_t i = 0; i < tire.values.load_map.size(); ++i) {
+      out.group("[[rolling_resistance.load_map]]", tire.values.load_map[i], &sd.load_map[i]);
+    }
+  }
+  if (tire.has_thermal) {
+    out.group("[thermal]", tire.values.thermal, &sd.thermal);
+    for (const auto& [rig, at] : tire.rig_thermal) {
+      out.header(fmt::format("[thermal.rig.{}]", rig));
+      RigThermal::visit(at, [&out](const Field& field, const std::optional<double>& value) {
+        if (value.has_value()) out.number(field.key, *value);
+      });
+    }
+  }
+  if (!tire.values.own.values.empty()) out.group("[" + model + "]", tire.values.own, &sd.own);
+  if (tire.has_constant) out.group("[constant]", tire.values.constant, &sd.constant);
+  if (tire.iso_28580.has_value()) out.group("[iso_28580]", *tire.iso_28580);
+  if (!tire.sweep_loads_N.empty()) {
+    out.header("[load_sweep]");
+    out.line("loads_N", fmt::format("[{:.10g}]", fmt::join(tire.sweep_loads_N, ", ")));
+  }
+  return out.take();
+}
+
+}  // namespace rollrig::models
