@@ -1,4 +1,8 @@
 /// A loss between two levels over speed, and between two over temperature; tread and carcass as in two_node.
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "models/reference_conditions.h"
 #include "models/tire/model_parts.h"
 
@@ -14,10 +18,12 @@ struct Bounded : TreadAndCarcass {
     kLoadExponent,
     kStepSpeed,
     kStepPower,
-    kColdest,
-    kHottest,
-    kWidth
+    kColdLimit,
+    kHotLimit,
+    kLimitWidth
   };
+
+  static constexpr double kReference_K = kZeroCelsius_K + 30.0;  // at which F_0 holds
 
   static TireModelInfo info() {
     TireModelInfo info;
@@ -34,9 +40,11 @@ struct Bounded : TreadAndCarcass {
         "levels on both sides, as of rubber that is glassy or rubbery, where the exponential would go on rising or "
         "falling, and of a loss that speed raises once";
     info.nodes = {{Node::kLiner, "carcass"}, {Node::kTread, "tread"}};
-    info.tables = {"loss_reference", "thermal"};
+    info.tables = {"rolling_resistance", "thermal"};
+    info.has_speed_lines = false;
+    info.find_mistake = &find_mistake;
     info.parameters = parameters();
-    // Usual values: the tires of the source, calibrated together. Those without an uncertainty are common to all.
+    // Assumed: usual values of passenger-car tires; numbers without an uncertainty are not fitted.
     const std::vector<TireModelParameter> law{
         {{"loss_N", positive(), "F_0, at 80 km/h, 30 degC and the references of [rolling_resistance]"}, 38.0, 0.03},
         {{"speed_rise", non_negative(), "s, logarithm of the loss at high over that at low speed, at 30 degC"},
@@ -47,9 +55,9 @@ struct Bounded : TreadAndCarcass {
         {{"load_exponent", between(0.3, 2.0), "b"}, 1.1, 0.05},
         {{"step_speed_km_h", positive(), "v_m, at which the rise is half done"}, 62.0, 0.0},
         {{"step_power", between(1.0, 10.0), "q, how steep it is"}, 4.0, 0.0},
-        {{"coldest_degC", any_number(), "T_m, below which the loss rises no further"}, 25.0, 0.0},
-        {{"hottest_degC", any_number(), "T_h, above which it falls no further"}, 70.0, 0.0},
-        {{"transition_K", positive(), "w, over which a rise or a fall ends"}, 4.0, 0.0}};
+        {{"cold_limit_degC", any_number(), "T_m, below which the loss is constant"}, 25.0, 0.0},
+        {{"hot_limit_degC", any_number(), "T_h, above which it is constant"}, 70.0, 0.0},
+        {{"limit_width_K", positive(), "w, over which the law goes over into a constant loss"}, 4.0, 0.0}};
     info.parameters.insert(info.parameters.end(), law.begin(), law.end());
     return info;
   }
@@ -67,7 +75,7 @@ struct Bounded : TreadAndCarcass {
         calc_pressure_factor(now.pressure_Pa, reference.reference_pressure_Pa, reference.pressure_exponent);
     const S above_80 =
         calc_speed_step(S(abs(now.motion.speed_m_s)), own) - calc_speed_step(get_reference_speed_m_s<S>(), own);
-    const S reference_K = quantity<S>(kZeroCelsius_K + 30.0, dimension::kTemperature);
+    const S reference_K = quantity<S>(kReference_K, dimension::kTemperature);
     const S warmer_dK = calc_bounded_dK(now.loss.temperature_K, own) - calc_bounded_dK(reference_K, own);
     const S fall_per_K = own[kFall] * (S(1.0) + own[kFallRise] * above_80);
     return load_factor * pressure_factor * own[kLoss] * exp(own[kSpeedRise] * above_80 - fall_per_K * warmer_dK);
@@ -82,13 +90,30 @@ struct Bounded : TreadAndCarcass {
     return power / (S(1.0) + power);
   }
 
+  /// Without it, heat would raise the loss, or speed would lower it at some temperature.
+  /// Equation  T_m < T_h;  s >= B c (theta(T) - theta(30 degC)) between both levels of theta
+  static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {
+    const double cold_K = own[kColdLimit];
+    const double hot_K = own[kHotLimit];
+    if (cold_K >= hot_K) {
+      return TireModelMistake{"hot_limit_degC", "the limits of the law are in the wrong order",
+                              fmt::format("more than cold_limit_degC = {:.5g}", cold_K - kZeroCelsius_K)};
+    }
+    const double at_30_dK = calc_bounded_dK(kReference_K, own);
+    const double fall_rise_per_K = own[kFall] * own[kFallRise];
+    const double least = std::max(fall_rise_per_K * (hot_K - cold_K - at_30_dK), -fall_rise_per_K * at_30_dK);
+    if (own[kSpeedRise] >= least) return std::nullopt;
+    return TireModelMistake{"speed_rise", "the loss would fall with speed at some temperature",
+                            fmt::format(">= {:.4g}, or speed_rise_of_fall nearer to 0", least)};
+  }
+
   /// theta of the equation: T - T_m between T_m and T_h, 0 below and T_h - T_m above, smooth between.
   template <class S>
   static S calc_bounded_dK(const S& temperature_K, const OwnParameters<S>& own) {
     using std::exp;
     using std::log;
-    const auto above = [&](const S& from_K) { return log(S(1.0) + exp((temperature_K - from_K) / own[kWidth])); };
-    return own[kWidth] * (above(own[kColdest]) - above(own[kHottest]));
+    const auto above = [&](const S& from_K) { return log(S(1.0) + exp((temperature_K - from_K) / own[kLimitWidth])); };
+    return own[kLimitWidth] * (above(own[kColdLimit]) - above(own[kHotLimit]));
   }
 };
 

@@ -91,6 +91,11 @@ void read_model(TableReader& file, TireFile& tire) {
   if (!read_group(file, table, tire.values.own, &tire.standard_uncertainties.own)) {
     throw file.problem(table, fmt::format("missing table [{0}], which model \"{0}\" needs", table));
   }
+  if (model.info.find_mistake == nullptr) return;
+  if (const auto mistake = model.info.find_mistake(tire.values.own)) {
+    throw TableReader(*file.table(table), fmt::format("[{}]", table))
+        .problem(mistake->key, mistake->what, mistake->allowed);
+  }
 }
 
 void read_sweep_loads(TableReader& file, TireFile& tire) {
@@ -138,7 +143,7 @@ TireFile read_tire(const ConfigTable& config) {
   check_geometry(*file.table("geometry"), tire.values.geometry);
   tire.has_stiffness = read_group(file, "stiffness", tire.values.stiffness);
   TireParameters<double>& sd = tire.standard_uncertainties;
-  const bool has_lines = !tire.values.model().info.uses("loss_reference");
+  const bool has_lines = tire.values.model().info.has_speed_lines;
   if (has_lines) {
     tire.has_rolling_resistance =
         read_group(file, "rolling_resistance", tire.values.rolling_resistance, &sd.rolling_resistance, "load_map");
@@ -180,27 +185,25 @@ double calc_outer_area_m2(const TireGeometry<double>& geometry) {
 TireParameters<double> TireFile::parameters_on(const CoolingRig& rig, Baseline baseline) const {
   const TireModelInfo& info = model(baseline).info;
   if (!has_stiffness) throw missing_table(*this, "stiffness", "a rig");
-  for (const auto& [table, is_there] :
-       {std::pair{"rolling_resistance", has_rolling_resistance}, std::pair{"loss_reference", has_rolling_resistance},
-        std::pair{"thermal", has_thermal}, std::pair{"constant", has_constant}}) {
-    if (info.uses(table) && !is_there) {
-      throw missing_table(*this, table == std::string("loss_reference") ? "rolling_resistance" : table,
-                          fmt::format("tire model {}", info.id));
-    }
+  for (const auto& [table, is_there] : {std::pair{"rolling_resistance", has_rolling_resistance},
+                                        std::pair{"thermal", has_thermal}, std::pair{"constant", has_constant}}) {
+    if (info.uses(table) && !is_there) throw missing_table(*this, table, fmt::format("tire model {}", info.id));
   }
   TireParameters<double> on_rig = values;
   if (baseline == Baseline::kConstantRrc) on_rig.own = {&model(baseline), {}};
   auto& thermal = on_rig.thermal;
-  if (const auto own = rig_thermal.find(rig.name); own != rig_thermal.end()) {
-    thermal.rest_conductance_W_per_K = own->second.rest_conductance_W_per_K.value_or(thermal.rest_conductance_W_per_K);
-    thermal.speed_conductance_W_s_per_m_K =
-        own->second.speed_conductance_W_s_per_m_K.value_or(thermal.speed_conductance_W_s_per_m_K);
+  const auto found = rig_thermal.find(rig.name);
+  const RigThermal own = found != rig_thermal.end() ? found->second : RigThermal{};
+  const bool has_own = own.rest_conductance_W_per_K.has_value() && own.speed_conductance_W_s_per_m_K.has_value();
+  if (info.uses("thermal") && !gives_conductances(thermal) && !has_own) {
+    if (!rig.cooling.is_given()) throw no_conductances(*this, rig.name);
+    const double area_m2 = calc_outer_area_m2(values.geometry);
+    thermal.rest_conductance_W_per_K = area_m2 * rig.cooling.at_rest_W_per_m2_K;
+    thermal.speed_conductance_W_s_per_m_K = area_m2 * rig.cooling.per_speed_W_s_per_m3_K;
   }
-  if (!info.uses("thermal") || gives_conductances(thermal)) return on_rig;
-  if (!rig.cooling.is_given()) throw no_conductances(*this, rig.name);
-  const double area_m2 = calc_outer_area_m2(values.geometry);
-  thermal.rest_conductance_W_per_K = area_m2 * rig.cooling.at_rest_W_per_m2_K;
-  thermal.speed_conductance_W_s_per_m_K = area_m2 * rig.cooling.per_speed_W_s_per_m3_K;
+  thermal.rest_conductance_W_per_K = own.rest_conductance_W_per_K.value_or(thermal.rest_conductance_W_per_K);
+  thermal.speed_conductance_W_s_per_m_K =
+      own.speed_conductance_W_s_per_m_K.value_or(thermal.speed_conductance_W_s_per_m_K);
   return on_rig;
 }
 

@@ -97,7 +97,8 @@ struct TireFile {
   const TireModel& model(Baseline baseline) const;
 
   /// The parameters as they hold on a rig: conductances of [thermal.rig.<name>], else of [thermal], else by the rig's
-  /// cooling. Throws InputError when a table is absent that the model needs, or there are no conductances.
+  /// cooling, each by itself. Throws InputError when a table is absent that the model needs, or there are no
+  /// conductances.
   TireParameters<double> parameters_on(const CoolingRig& rig, Baseline baseline) const;
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of

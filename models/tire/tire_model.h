@@ -4,12 +4,20 @@
 /// A tire model is one file, models/tire/<id>.cpp: a struct with a static `info()` and a static function template for
 /// each member of TireModelHooks, handed to make_tire_model(). See docs/add_a_tire_model.md.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "models/ports.h"
 
 namespace rollrig::models {
+
+/// Own numbers that do not go together.
+struct TireModelMistake {
+  const char* key;
+  const char* what;
+  std::string allowed;
+};
 
 /// Everything about a tire model that is not an equation in code.
 struct TireModelInfo {
@@ -22,6 +30,9 @@ struct TireModelInfo {
   std::vector<TireModelParameter> parameters{};  // its own, table [<id>] of the tire file
   bool loss_follows_heat = true;                 // whether the loss depends on the tire's temperature
   bool loss_follows_curvature = true;            // whether K of drum_curvature.h applies
+  bool has_speed_lines = true;                   // whether [rolling_resistance] has A0 to B1, and a load map
+  /// What is wrong with own numbers of which each is within its range; may be null.
+  std::optional<TireModelMistake> (*find_mistake)(const OwnParameters<double>&) = nullptr;
 
   /// Whether numbers of a table of the tire file enter: its own, one of `tables`, or "load_map.0" and so on.
   bool uses(const std::string& table) const;

@@ -61,7 +61,7 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
   const TireParameters<double>& sd = tire.standard_uncertainties;
   out.group("[geometry]", tire.values.geometry);
   if (tire.has_stiffness) out.group("[stiffness]", tire.values.stiffness);
-  if (tire.has_rolling_resistance && tire.values.model().info.uses("loss_reference")) {
+  if (tire.has_rolling_resistance && !tire.values.model().info.has_speed_lines) {
     const LossReference<double>& reference = tire.values.rolling_resistance;
     out.group("[rolling_resistance]", reference, static_cast<const LossReference<double>*>(&sd.rolling_resistance));
   } else if (tire.has_rolling_resistance) {

@@ -32,7 +32,7 @@ double calc_loss_N(const models::Context<double>& context, double speed_km_h, do
 
 TEST_CASE("between its levels the bounded loss falls by the source's exponential", "[fast]") {
   const models::Context<double> context = make_bounded(
-      {{"fall_per_degC", 0.015}, {"coldest_degC", kZeroCelsius_K}, {"hottest_degC", kZeroCelsius_K + 100.0}});
+      {{"fall_per_degC", 0.015}, {"cold_limit_degC", kZeroCelsius_K}, {"hot_limit_degC", kZeroCelsius_K + 100.0}});
   for (const double speed_km_h : {30.0, 80.0, 150.0}) {
     const double ratio = calc_loss_N(context, speed_km_h, 60.0) / calc_loss_N(context, speed_km_h, 40.0);
     CHECK(ratio == Approx(std::exp(-0.015 * 20.0)).epsilon(1e-4));
@@ -40,8 +40,9 @@ TEST_CASE("between its levels the bounded loss falls by the source's exponential
 }
 
 TEST_CASE("the bounded loss neither rises in the cold nor falls in the heat without end", "[fast]") {
-  const models::Context<double> context = make_bounded(
-      {{"fall_per_degC", 0.016}, {"coldest_degC", kZeroCelsius_K + 20.0}, {"hottest_degC", kZeroCelsius_K + 70.0}});
+  const models::Context<double> context = make_bounded({{"fall_per_degC", 0.016},
+                                                        {"cold_limit_degC", kZeroCelsius_K + 20.0},
+                                                        {"hot_limit_degC", kZeroCelsius_K + 70.0}});
   const double coldest_N = calc_loss_N(context, 80.0, -60.0);
   const double hottest_N = calc_loss_N(context, 80.0, 200.0);
   CHECK(hottest_N / coldest_N == Approx(std::exp(-0.016 * 50.0)).epsilon(1e-6));  // what lies between the levels
@@ -84,8 +85,8 @@ TEST_CASE("at 80 km/h and 30 degC the bounded loss is the number of the file, wh
 TEST_CASE("the fall of the bounded loss may be another at low speed", "[fast]") {
   const models::Context<double> context = make_bounded({{"fall_per_degC", 0.016},
                                                         {"speed_rise_of_fall", 0.5},
-                                                        {"coldest_degC", kZeroCelsius_K - 100.0},
-                                                        {"hottest_degC", kZeroCelsius_K + 200.0}});
+                                                        {"cold_limit_degC", kZeroCelsius_K - 100.0},
+                                                        {"hot_limit_degC", kZeroCelsius_K + 200.0}});
   const auto fall_per_K = [&](double speed_km_h) {
     return std::log(calc_loss_N(context, speed_km_h, 40.0) / calc_loss_N(context, speed_km_h, 50.0)) / 10.0;
   };

@@ -131,7 +131,9 @@ TEST_CASE("a tire without conductances is cooled by the rig, in proportion to it
   CHECK_THROWS_WITH(tire.parameters_on({"somewhere"}, combined),
                     Catch::Contains("rig 'somewhere' has no [tire_cooling]"));
   tire.rig_thermal["somewhere"].rest_conductance_W_per_K = 15.0;  // its own come first
-  CHECK(tire.parameters_on({"somewhere", {10.0, 2.0}}, combined).thermal.rest_conductance_W_per_K == 15.0);
+  const auto own_at_rest = tire.parameters_on({"somewhere", {10.0, 2.0}}, combined).thermal;
+  CHECK(own_at_rest.rest_conductance_W_per_K == 15.0);
+  CHECK(own_at_rest.speed_conductance_W_s_per_m_K == Approx(1.3823).epsilon(1e-4));
   CHECK(tire.parameters_on({"elsewhere", {10.0, 2.0}}, combined).thermal.rest_conductance_W_per_K ==
         Approx(6.9115).epsilon(1e-4));
 }
@@ -158,6 +160,28 @@ TEST_CASE("a tire with the bounded law has no lines over speed in its file, and 
   std::string with_line = text;
   with_line.replace(with_line.find("pressure_exponent"), 0, "A0_N = 30.0\n");
   CHECK_THROWS_WITH(models::read_tire(parse_config(with_line, "bounded.toml")), Catch::Contains("A0_N"));
+}
+
+TEST_CASE("a file of the bounded law is refused where heat would raise the loss, or speed would lower it", "[fast]") {
+  models::TireFile tire = tests::read_asset_tire();
+  tire.values.own = tests::make_own("bounded");
+  tire.standard_uncertainties.own = {tire.values.own.model, std::vector<double>(tire.values.own.values.size())};
+  const std::string text = models::write_tire(tire);
+  const auto read_with = [&text](const std::string& key, const std::string& value) {
+    std::string changed = text;
+    const std::size_t at = changed.find(key + " = ");
+    changed.replace(at, changed.find('\n', at) - at, key + " = " + value);
+    return models::read_tire(parse_config(changed, "bounded.toml"));
+  };
+  CHECK_NOTHROW(read_with("speed_rise", "0.3"));
+  CHECK_THROWS_WITH(read_with("hot_limit_degC", "20.0"),
+                    Catch::Contains("hot_limit_degC") && Catch::Contains("more than cold_limit_degC = 25"));
+  // B c (theta - theta at 30 degC) is at most 0.016 x 40 K of c, and at least -0.016 x 5 K of it.
+  CHECK_NOTHROW(read_with("speed_rise_of_fall", "0.4"));
+  CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "0.6"),
+                    Catch::Contains("speed_rise") && Catch::Contains("fall with speed"));
+  CHECK_NOTHROW(read_with("speed_rise_of_fall", "-2.5"));
+  CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "-5.0"), Catch::Contains("fall with speed"));
 }
 
 TEST_CASE("tables that a use does not need may be absent, and what it needs is named", "[fast]") {
