@@ -1,4 +1,5 @@
 // What all programs share: options read, errors answered, exit statuses.
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -30,9 +31,17 @@ int report(const char* kind, const std::string& what, int status) {
   return status;
 }
 
+/// A simulation asks again and again for recordings of a megabyte. Memory that goes back to the system in between costs
+/// a tenth of a diagnosis' time in page faults.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
+
 }  // namespace
 
 int run_program(const std::function<int()>& body) {
+  keep_freed_memory();
   install_interrupt_handler();
   spdlog::set_default_logger(spdlog::stderr_color_mt("rollrig"));
   spdlog::set_pattern("%^%l%$: %v");

@@ -33,6 +33,7 @@ struct Sums {
   VectorXd beta;
   std::vector<MatrixXd> S;  // X'W V_i W X
   MatrixXd H;               // tr(P V_i P V_j)
+  VectorXd trace;           // tr(W V_i W V_i), of which H(i, i) is what the coefficients leave
   VectorXd q;               // y'P V_i P y
   double chi2 = 0.0;
 };
@@ -69,6 +70,7 @@ Sums sum_up(const std::vector<LinearBlock>& blocks, const VectorXd& components, 
   sums.beta = sums.Q * b;
   sums.S.assign(static_cast<std::size_t>(m), MatrixXd::Zero(p, p));
   sums.H = MatrixXd::Zero(m, m);
+  sums.trace = VectorXd::Zero(m);
   sums.q = VectorXd::Zero(m);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const LinearBlock& block = blocks[k];
@@ -87,6 +89,7 @@ Sums sum_up(const std::vector<LinearBlock>& blocks, const VectorXd& components, 
         const double direct = G.back().cwiseProduct(G[sj].transpose()).sum();
         const double through_fit = (U.back().transpose() * weighted[k].W * U[sj]).cwiseProduct(sums.Q).sum();
         sums.H(i, j) += direct - 2.0 * through_fit;
+        if (j == i) sums.trace(i) += direct;
       }
     }
   }
@@ -155,12 +158,7 @@ LinearEstimate step_variance_components(const std::vector<LinearBlock>& blocks, 
   estimate.covariance = sums.Q;
   estimate.chi2 = sums.chi2;
   for (Index i = 0; i < components.size(); ++i) {
-    double direct = 0.0;
-    for (const LinearBlock& block : blocks) {
-      const MatrixXd G = weigh(block, components).W * block.patterns[static_cast<std::size_t>(i)];
-      direct += G.cwiseProduct(G.transpose()).sum();
-    }
-    estimate.decided.push_back(sums.H(i, i) > kUndecided * direct);
+    estimate.decided.push_back(sums.H(i, i) > kUndecided * sums.trace(i));
   }
   std::vector<Index> kept;
   estimate.components = solve_components(sums, floors, estimate.decided, kept);

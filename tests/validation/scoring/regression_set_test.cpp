@@ -25,11 +25,21 @@ std::string join(const json& effects) {
   return fmt::format("{}", fmt::join(effects.get<std::vector<std::string>>(), ","));
 }
 
-/// Hash, verdict, first cause and probabilities of each case, and all counts of the score.
+/// Hash of what the generator draws. The rest of the truth is simulated, and may differ in the last digit between
+/// compilers.
+std::string hash_draws(json truth) {
+  for (json& set : truth["sets"]) {
+    set.erase("set_sha256");
+    set.erase("signal_floors");
+  }
+  return rollrig::calc_sha256(truth.dump());
+}
+
+/// Hash of the draws, verdict, first cause and probabilities of each case, and all counts of the score.
 json summarize(const std::string& root, const json& score, const json& effects) {
-  const std::string truth = read_file(root + "/truth.json");
-  const json cases = json::parse(truth)["sets"];
-  json now = {{"effects", effects}, {"hash", rollrig::calc_sha256(truth)}};
+  const json truth = json::parse(read_file(root + "/truth.json"));
+  const json& cases = truth["sets"];
+  json now = {{"effects", effects}, {"hash", hash_draws(truth)}};
   for (const json& figure : score["figures"]) {
     if (figure["n"] > 0) now["figures"][figure["id"].get<std::string>()] = {figure["k"], figure["n"]};
   }
