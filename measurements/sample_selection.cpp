@@ -5,29 +5,40 @@
 
 namespace rollrig::measurements {
 
-bool is_load_change(const MeasuredRun& run, std::size_t row) {
+namespace {
+
+bool is_load_change(const std::vector<double>& load_N, std::size_t row) {
   constexpr double kSameLoad = 0.01;  // Assumed: load control holds to 1 %
-  if (row == 0) return false;
-  const std::vector<double>& load_N = run.column(models::quantities::kLoad);
-  return std::abs(load_N[row] - load_N[row - 1]) > kSameLoad * std::max(load_N[row], load_N[row - 1]);
+  return row > 0 && std::abs(load_N[row] - load_N[row - 1]) > kSameLoad * std::max(load_N[row], load_N[row - 1]);
+}
+
+double find_acceleration(const std::vector<double>& time_s, const std::vector<double>& speed_m_s, std::size_t row) {
+  const std::size_t first = std::min(row, time_s.size() - 2);
+  return (speed_m_s[first + 1] - speed_m_s[first]) / (time_s[first + 1] - time_s[first]);
+}
+
+}  // namespace
+
+bool is_load_change(const MeasuredRun& run, std::size_t row) {
+  return is_load_change(run.column(models::quantities::kLoad), row);
 }
 
 double find_acceleration(const MeasuredRun& run, std::size_t row) {
-  const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
-  const std::size_t first = std::min(row, run.time_s.size() - 2);
-  return (speed_m_s[first + 1] - speed_m_s[first]) / (run.time_s[first + 1] - run.time_s[first]);
+  return find_acceleration(run.time_s, run.column(models::quantities::kSpeed), row);
 }
 
 std::vector<bool> find_settled_rows(const MeasuredRun& run) {
   constexpr double kKink_m_s2 = 0.1;  // Assumed: change of acceleration that disturbs the torque
   const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
+  const std::vector<double>& load_N = run.column(models::quantities::kLoad);
   const std::size_t n = run.time_s.size();
   std::vector<bool> settled(n, true);
   double disturbed_s = run.time_s.front() - kSettling_s;  // a run starts in equilibrium
   for (std::size_t row = 0; row < n; ++row) {
     if (row > 0) {
-      const bool kinked = std::abs(find_acceleration(run, row) - find_acceleration(run, row - 1)) > kKink_m_s2;
-      if (is_load_change(run, row) || kinked) {
+      const double change_m_s2 =
+          find_acceleration(run.time_s, speed_m_s, row) - find_acceleration(run.time_s, speed_m_s, row - 1);
+      if (is_load_change(load_N, row) || std::abs(change_m_s2) > kKink_m_s2) {
         disturbed_s = run.time_s[row];
         settled[row - 1] = false;  // its averaging interval may reach into the change
       }

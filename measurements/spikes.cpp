@@ -1,6 +1,7 @@
 #include "measurements/spikes.h"
 
 #include <algorithm>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <limits>
 
@@ -20,11 +21,12 @@ double take_median(std::vector<double> values) {
   return 0.5 * (*middle + *std::max_element(values.begin(), middle));
 }
 
-/// The values about rows [i, i + length) of those that are there.
-std::vector<double> find_neighbors(const std::vector<double>& values, std::size_t i, std::size_t length) {
-  std::vector<double> found;
+/// The values about rows [i, i + length) of those that are there, in increasing order.
+boost::container::static_vector<double, 2 * kSide> find_neighbors(const std::vector<double>& values, std::size_t i,
+                                                                  std::size_t length) {
+  boost::container::static_vector<double, 2 * kSide> found;
   for (std::size_t k = i > kSide ? i - kSide : 0; k < std::min(values.size(), i + length + kSide); ++k) {
-    if (k < i || k >= i + length) found.push_back(values[k]);
+    if (k < i || k >= i + length) found.insert(std::upper_bound(found.begin(), found.end(), values[k]), values[k]);
   }
   return found;
 }
@@ -36,19 +38,19 @@ struct Departure {
 };
 
 Departure calc_departure(const std::vector<double>& values, std::size_t i, std::size_t length) {
-  const std::vector<double> neighbors = find_neighbors(values, i, length);
-  const auto [low, high] = std::minmax_element(neighbors.begin(), neighbors.end());
+  const auto neighbors = find_neighbors(values, i, length);
+  const double low = neighbors.front(), high = neighbors.back();
+  const double median = 0.5 * (neighbors[(neighbors.size() - 1) / 2] + neighbors[neighbors.size() / 2]);
   double weakest = std::numeric_limits<double>::infinity();
   double beyond = std::numeric_limits<double>::infinity();
-  const double median = take_median(neighbors);
   bool up = true, down = true;
   for (std::size_t k = i; k < i + length; ++k) {
     weakest = std::min(weakest, std::abs(values[k] - median));
-    beyond = std::min(beyond, std::max(values[k] - *high, *low - values[k]));
-    up = up && values[k] > *high;
-    down = down && values[k] < *low;
+    beyond = std::min(beyond, std::max(values[k] - high, low - values[k]));
+    up = up && values[k] > high;
+    down = down && values[k] < low;
   }
-  return {weakest, up || down ? beyond : 0.0, *high - *low};
+  return {weakest, up || down ? beyond : 0.0, high - low};
 }
 
 }  // namespace
@@ -90,16 +92,19 @@ std::vector<std::size_t> find_spikes(const std::vector<double>& values, double t
   }
   std::vector<std::size_t> spikes;
   if (there.size() < 4 * kSide) return spikes;
+  std::vector<Departure> alone;
   std::vector<double> sizes;
-  for (std::size_t i = 0; i < there.size(); ++i) sizes.push_back(calc_departure(there, i, 1).size);
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    alone.push_back(calc_departure(there, i, 1));
+    sizes.push_back(alone.back().size);
+  }
   const double limit = threshold * std::max(1.4826 * take_median(sizes), floor);
-  const auto stands_out = [&](std::size_t i, std::size_t length) {
-    if (i + length > there.size()) return false;
-    const Departure departure = calc_departure(there, i, length);
+  const auto stands_out = [limit](const Departure& departure) {
     return departure.size > limit && departure.beyond > std::max(limit, departure.range);
   };
   for (std::size_t i = 1; i + 1 < there.size(); ++i) {  // an end leaves, but nothing shows that it comes back
-    const std::size_t length = stands_out(i, 1) ? 1 : stands_out(i, 2) && i + 2 < there.size() ? 2 : 0;
+    std::size_t length = stands_out(alone[i]) ? 1 : 0;
+    if (length == 0 && i + 2 < there.size() && stands_out(calc_departure(there, i, 2))) length = 2;
     for (std::size_t k = i; k < i + length; ++k) {
       if (is_judged[at[k]]) spikes.push_back(at[k]);
     }

@@ -191,8 +191,11 @@ InputError CsvTable::cell_error(std::size_t row, const std::string& column, cons
 }
 
 double CsvTable::parse_cell(std::size_t row, const Field& field, const std::string& cell) const {
-  const std::string range = field.range.to_string();
-  const std::string allowed = range.empty() ? "a number" : "a number " + range;
+  const auto make_error = [&](const std::string& what, bool with_point = false) {
+    const std::string range = field.range.to_string();
+    const std::string allowed = range.empty() ? "a number" : "a number " + range;
+    return cell_error(row, field.key, what, with_point ? allow(allowed + " with a decimal point", form_) : allowed);
+  };
   double value = 0.0;
   std::string plain = cell;
   if (form_.decimal != '.') {
@@ -203,12 +206,10 @@ double CsvTable::parse_cell(std::size_t row, const Field& field, const std::stri
   const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
     const bool has_comma = form_.decimal == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
-    throw cell_error(row, field.key, fmt::format("'{}' is not a number", cell),
-                     has_comma ? allow(allowed + " with a decimal point", form_) : allowed);
+    throw make_error(fmt::format("'{}' is not a number", cell), has_comma);
   }
-  if (!std::isfinite(value)) throw cell_error(row, field.key, fmt::format("'{}' is not finite", cell), allowed);
-  if (!field.range.contains(value))
-    throw cell_error(row, field.key, fmt::format("{} is out of range", field.key), allowed);
+  if (!std::isfinite(value)) throw make_error(fmt::format("'{}' is not finite", cell));
+  if (!field.range.contains(value)) throw make_error(fmt::format("{} is out of range", field.key));
   return value;
 }
 
