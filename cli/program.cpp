@@ -1,5 +1,4 @@
 // What all programs share: options read, errors answered, exit statuses.
-#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -10,6 +9,7 @@
 #include "cli/command.h"
 #include "rollrig/progress.h"
 #include "sim/core/error.h"
+#include "sim/core/freed_memory.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -29,13 +29,6 @@ int report(const char* kind, const std::string& what, int status) {
     std::cerr << (count_characters(line) <= 80 ? line + "\n" : wrap(line, 2).substr(2));
   }
   return status;
-}
-
-/// A simulation asks again and again for recordings of a megabyte. Memory that goes back to the system in between costs
-/// a tenth of a diagnosis' time in page faults.
-void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // the most that glibc takes
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
 }  // namespace

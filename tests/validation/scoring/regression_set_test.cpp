@@ -73,7 +73,7 @@ TEST_CASE("a validation set of ten cases comes out as it did", "[slow]") {
   const json score = json::parse(read_file(folder.file("score.json")));
   const json now = summarize(folder.file("set"), score, stored["effects"]);
   INFO("if that is meant: " << kStored << " is to hold\n" << now.dump(1));
-  CHECK(now["hash"] == stored["hash"]);  // the generator makes the same cases
+  CHECK(now["hash"] == stored["hash"]);  // the generator draws the same
   CHECK(now["figures"] == stored["figures"]);
   REQUIRE(now["cases"].size() == stored["cases"].size());
   for (const auto& [number, one] : now["cases"].items()) {
