@@ -54,7 +54,7 @@ void add_tire(const models::TireFile& tire, const std::string& rig, const models
   };
   auto& usual = uncertainties.usual;
   const auto& map = context.tire.load_map;
-  if (enters("rolling_resistance") && map.empty()) {
+  if (enters("rolling_resistance") && model.has_speed_lines && map.empty()) {
     add_lines("tire.rolling_resistance.", context.tire.rolling_resistance, usual);
   }
   for (std::size_t i = 0; i < map.size() && enters("load_map"); ++i)

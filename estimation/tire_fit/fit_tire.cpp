@@ -157,7 +157,7 @@ void require_fittable_set(const measurements::MeasurementSet& set) {
   const models::TireModelInfo& model = set.tire.values.model().info;
   if (!model.uses("rolling_resistance") || !model.has_speed_lines) {
     throw InputError({"the loss of this tire's model has no A0 to B1, which are what is fitted", set.tire.path, 0,
-                      "model", model.id, "a model whose [rolling_resistance] has them", ""});
+                      "model", model.id, "a model with A0 to B1 in [rolling_resistance]", ""});
   }
 }
 

@@ -44,7 +44,7 @@ struct Bounded : TreadAndCarcass {
     info.has_speed_lines = false;
     info.find_mistake = &find_mistake;
     info.parameters = parameters();
-    // Assumed: usual values of passenger-car tires; numbers without an uncertainty are not fitted.
+    // Assumed: usual values of passenger-car tires; a diagnosis does not move numbers without an uncertainty.
     const std::vector<TireModelParameter> law{
         {{"loss_N", positive(), "F_0, at 80 km/h, 30 degC and the references of [rolling_resistance]"}, 38.0, 0.03},
         {{"speed_rise", non_negative(), "s, logarithm of the loss at high over that at low speed, at 30 degC"},
@@ -57,7 +57,7 @@ struct Bounded : TreadAndCarcass {
         {{"step_power", between(1.0, 10.0), "q, how steep it is"}, 4.0, 0.0},
         {{"cold_limit_degC", any_number(), "T_m, below which the loss is constant"}, 25.0, 0.0},
         {{"hot_limit_degC", any_number(), "T_h, above which it is constant"}, 70.0, 0.0},
-        {{"limit_width_K", positive(), "w, over which the law goes over into a constant loss"}, 4.0, 0.0}};
+        {{"limit_width_K", positive(), "w, width of the transition to a constant loss"}, 4.0, 0.0}};
     info.parameters.insert(info.parameters.end(), law.begin(), law.end());
     return info;
   }
@@ -90,7 +90,7 @@ struct Bounded : TreadAndCarcass {
     return power / (S(1.0) + power);
   }
 
-  /// Without it, heat would raise the loss, or speed would lower it at some temperature.
+  /// Refuses limits in the wrong order, and numbers with which speed would lower the loss at some temperature.
   /// Equation  T_m < T_h;  s >= B c (theta(T) - theta(30 degC)) between both levels of theta
   static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {
     const double cold_K = own[kColdLimit];

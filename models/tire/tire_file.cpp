@@ -194,9 +194,7 @@ TireParameters<double> TireFile::parameters_on(const CoolingRig& rig, Baseline b
   auto& thermal = on_rig.thermal;
   const auto found = rig_thermal.find(rig.name);
   const RigThermal own = found != rig_thermal.end() ? found->second : RigThermal{};
-  const bool has_own = own.rest_conductance_W_per_K.has_value() && own.speed_conductance_W_s_per_m_K.has_value();
-  if (info.uses("thermal") && !gives_conductances(thermal) && !has_own) {
-    if (!rig.cooling.is_given()) throw no_conductances(*this, rig.name);
+  if (info.uses("thermal") && !gives_conductances(thermal) && rig.cooling.is_given()) {
     const double area_m2 = calc_outer_area_m2(values.geometry);
     thermal.rest_conductance_W_per_K = area_m2 * rig.cooling.at_rest_W_per_m2_K;
     thermal.speed_conductance_W_s_per_m_K = area_m2 * rig.cooling.per_speed_W_s_per_m3_K;
@@ -204,6 +202,7 @@ TireParameters<double> TireFile::parameters_on(const CoolingRig& rig, Baseline b
   thermal.rest_conductance_W_per_K = own.rest_conductance_W_per_K.value_or(thermal.rest_conductance_W_per_K);
   thermal.speed_conductance_W_s_per_m_K =
       own.speed_conductance_W_s_per_m_K.value_or(thermal.speed_conductance_W_s_per_m_K);
+  if (info.uses("thermal") && !gives_conductances(thermal)) throw no_conductances(*this, rig.name);
   return on_rig;
 }
 

@@ -12,7 +12,8 @@ namespace rollrig::models {
 constexpr const char* kTireFormat = "rollrig-tire";
 constexpr int kTireFormatVersion = 2;
 
-/// Conductances as identified on one rig ([thermal.rig.<name>]); what is absent there is taken from [thermal].
+/// Conductances as identified on one rig ([thermal.rig.<name>]); what is absent there is that of [thermal], or of the
+/// rig's cooling.
 struct RigThermal {
   std::optional<double> rest_conductance_W_per_K;
   std::optional<double> rest_conductance_sd_W_per_K;
@@ -96,9 +97,9 @@ struct TireFile {
   /// The model of the tire against a baseline.
   const TireModel& model(Baseline baseline) const;
 
-  /// The parameters as they hold on a rig: conductances of [thermal.rig.<name>], else of [thermal], else by the rig's
-  /// cooling, each by itself. Throws InputError when a table is absent that the model needs, or there are no
-  /// conductances.
+  /// The parameters as they hold on a rig. Each conductance is that of [thermal.rig.<name>]; else both are those of
+  /// [thermal], or, where there are none, by the rig's cooling. Throws InputError when a table is absent that the model
+  /// needs, or there are no conductances.
   TireParameters<double> parameters_on(const CoolingRig& rig, Baseline baseline) const;
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of

@@ -12,11 +12,11 @@
 
 namespace rollrig::models {
 
-/// Own numbers that do not go together.
+/// Own parameters that contradict each other.
 struct TireModelMistake {
-  const char* key;
-  const char* what;
-  std::string allowed;
+  const char* key;      // of the parameter that the message names
+  const char* what;     // is wrong
+  std::string allowed;  // values of that parameter
 };
 
 /// Everything about a tire model that is not an equation in code.
@@ -31,7 +31,7 @@ struct TireModelInfo {
   bool loss_follows_heat = true;                 // whether the loss depends on the tire's temperature
   bool loss_follows_curvature = true;            // whether K of drum_curvature.h applies
   bool has_speed_lines = true;                   // whether [rolling_resistance] has A0 to B1, and a load map
-  /// What is wrong with own numbers of which each is within its range; may be null.
+  /// What is wrong with own parameters of which each is within its range; may be null.
   std::optional<TireModelMistake> (*find_mistake)(const OwnParameters<double>&) = nullptr;
 
   /// Whether numbers of a table of the tire file enter: its own, one of `tables`, or "load_map.0" and so on.

@@ -134,6 +134,9 @@ TEST_CASE("a tire without conductances is cooled by the rig, in proportion to it
   const auto own_at_rest = tire.parameters_on({"somewhere", {10.0, 2.0}}, combined).thermal;
   CHECK(own_at_rest.rest_conductance_W_per_K == 15.0);
   CHECK(own_at_rest.speed_conductance_W_s_per_m_K == Approx(1.3823).epsilon(1e-4));
+  const auto alone = tire.parameters_on({"somewhere"}, combined).thermal;  // a rig without cooling
+  CHECK(alone.rest_conductance_W_per_K == 15.0);
+  CHECK(alone.speed_conductance_W_s_per_m_K == 0.0);
   CHECK(tire.parameters_on({"elsewhere", {10.0, 2.0}}, combined).thermal.rest_conductance_W_per_K ==
         Approx(6.9115).epsilon(1e-4));
 }
@@ -162,7 +165,8 @@ TEST_CASE("a tire with the bounded law has no lines over speed in its file, and 
   CHECK_THROWS_WITH(models::read_tire(parse_config(with_line, "bounded.toml")), Catch::Contains("A0_N"));
 }
 
-TEST_CASE("a file of the bounded law is refused where heat would raise the loss, or speed would lower it", "[fast]") {
+TEST_CASE("a file of the bounded law is refused if its limits are in the wrong order or its loss would fall with speed",
+          "[fast]") {
   models::TireFile tire = tests::read_asset_tire();
   tire.values.own = tests::make_own("bounded");
   tire.standard_uncertainties.own = {tire.values.own.model, std::vector<double>(tire.values.own.values.size())};
@@ -176,10 +180,10 @@ TEST_CASE("a file of the bounded law is refused where heat would raise the loss,
   CHECK_NOTHROW(read_with("speed_rise", "0.3"));
   CHECK_THROWS_WITH(read_with("hot_limit_degC", "20.0"),
                     Catch::Contains("hot_limit_degC") && Catch::Contains("more than cold_limit_degC = 25"));
-  // B c (theta - theta at 30 degC) is at most 0.016 x 40 K of c, and at least -0.016 x 5 K of it.
+  // theta less that at 30 degC goes from -6 K to 39 K: s = 0.3 is enough up to 0.016/K x 39 K x c.
   CHECK_NOTHROW(read_with("speed_rise_of_fall", "0.4"));
   CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "0.6"),
-                    Catch::Contains("speed_rise") && Catch::Contains("fall with speed"));
+                    Catch::Contains("[bounded] speed_rise\n") && Catch::Contains("fall with speed"));
   CHECK_NOTHROW(read_with("speed_rise_of_fall", "-2.5"));
   CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "-5.0"), Catch::Contains("fall with speed"));
 }
