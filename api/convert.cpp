@@ -33,6 +33,23 @@ void require_both(const Given& from, const Given& to) {
       {fmt::format("{} is given without {}", given, missing), "command line", 0, missing, "", "both, or neither", ""});
 }
 
+/// Refuses an exponent or coefficient whose condition is not given.
+void require_condition(const Given& number, const Given& condition) {
+  if (!number.second.has_value() || condition.second.has_value()) return;
+  throw InputError({fmt::format("{} has no effect without {}", number.first, condition.first), "command line", 0,
+                    number.first, fmt::format("{:g}", *number.second),
+                    fmt::format("together with {}, or not at all", condition.first), ""});
+}
+
+/// Before the tire's own exponent is put in, which is there in any case.
+void require_conditions(const ConversionInput& input) {
+  const LossConditions& to = input.to;
+  require_condition({"--pressure-exponent", input.pressure_exponent}, {"--to-pressure", to.pressure_Pa});
+  require_condition({"--load-exponent", input.load_exponent}, {"--to-load", to.load_N});
+  require_condition({"--diameter-exponent", input.diameter_exponent}, {"--to-tire-diameter", to.tire_diameter_m});
+  require_condition({"--ambient-coefficient", input.ambient_coefficient_per_K}, {"--to-ambient", to.ambient_K});
+}
+
 void check_conversion(const ConversionInput& input) {
   const LossConditions& from = input.from;
   const LossConditions& to = input.to;
@@ -49,7 +66,10 @@ void check_conversion(const ConversionInput& input) {
   require_in_range(positive(), "pressure_kPa", "a number > 0 in kPa, gauge", {pressure, to_pressure});
   require_in_range(air_K, "ambient_degC", "a number >= -60 and <= 80 in degC", {air, to_air});
   require_in_range(between(-1.0, 3.0), "exponent", "-1 to 3", {{"--pressure-exponent", input.pressure_exponent}});
-  require_in_range(between(0.0, 3.0), "exponent", "0 to 3", {{"--load-exponent", input.load_exponent}});
+  require_in_range(between(0.0, 3.0), "exponent", "0 to 3",
+                   {{"--load-exponent", input.load_exponent}, {"--diameter-exponent", input.diameter_exponent}});
+  require_in_range(between(0.0, 0.02), "coefficient", "0 to 0.02 in 1/degC",
+                   {{"--ambient-coefficient", input.ambient_coefficient_per_K}});
   if (input.loss.force_N.has_value() == input.loss.rrc_N_per_kN.has_value()) {
     throw InputError(
         {"a loss is given once", "command line", 0, "--force", "", "either --force <N> or --rrc <N/kN>", ""});
@@ -124,11 +144,16 @@ std::string format_conversion(const ConvertedLoss& converted) {
 
 ConvertedLoss convert_loss(const ConversionInput& given) {
   ConversionInput input = given;
+  require_conditions(input);
   apply_tire(input);
   check_conversion(input);
+  const estimation::ConversionLaws usual;
   ConvertedLoss converted;
   static_cast<ConversionFactors&>(converted) = estimation::convert_loss(
-      input.from, input.to, input.pressure_exponent.value_or(models::kPressureExponent), input.load_exponent);
+      input.from, input.to,
+      {input.pressure_exponent.value_or(usual.pressure_exponent), input.load_exponent.value_or(usual.load_exponent),
+       input.diameter_exponent.value_or(usual.diameter_exponent),
+       input.ambient_coefficient_per_K.value_or(usual.ambient_coefficient_per_K)});
   apply_factor(input, converted);
   converted.text = format_conversion(converted);
   converted.json = to_text(make_conversion_json(converted));

@@ -65,8 +65,12 @@ void add_convert_command(CLI::App& app, Action& action) {
   add_in_unit(*command, "--to-pressure", to.pressure_Pa, "pressure_kPa", "Gauge pressure to convert to in kPa");
   add_in_unit(*command, "--from-ambient", from.ambient_K, "ambient_degC", "Temperature of the air in degC");
   add_in_unit(*command, "--to-ambient", to.ambient_K, "ambient_degC", "Temperature of the air to convert to in degC");
-  command->add_option("--pressure-exponent", input.pressure_exponent, "a of (p/p_ref)^-a [the tire's, else 0.4]");
-  command->add_option("--load-exponent", input.load_exponent, "Exponent of the force over load [1]");
+  command->add_option("--pressure-exponent", input.pressure_exponent,
+                      "a of (p/p_ref)^-a; needs --to-pressure [the tire's, else 0.4]");
+  command->add_option("--load-exponent", input.load_exponent, "Exponent of the force over load; needs --to-load [1]");
+  command->add_option("--diameter-exponent", input.diameter_exponent, "n of D^-n; needs --to-tire-diameter [1/3]");
+  command->add_option("--ambient-coefficient", input.ambient_coefficient_per_K,
+                      "K_t of ISO 28580 in 1/degC, as of the tire's class; needs --to-ambient [0.008, class C1]");
   command->add_option("--json", options->output.json, "File for the result, - for standard output");
 }
 

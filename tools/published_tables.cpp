@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tools/drive_tables.h"
 #include "tools/virtual_run.h"
 
@@ -34,6 +36,20 @@ Rows list_warm_ups() {
                                  number(r, "start_excess_percent"), number(r, "band_drop_percent"),
                                  number(r, "band_drop_N"), number(r, "band_B_per_degC")));
     }
+  }
+  return rows;
+}
+
+/// Slope of the ISO test's RRc over air temperature, and what remains of the difference after the correction.
+Rows list_slopes() {
+  Rows rows;
+  for (const std::string& tire : kTires) {
+    const Json cold = run("iso_28580", tire, {"ambient_degC=20"});
+    const Json warm = run("iso_28580", tire, {"ambient_degC=30"});
+    const auto ratio = [&](const char* key) { return number(cold, key) / number(warm, key); };
+    rows.push_back(fmt::format("| {}, virtual ISO test | {:.2f} | {:+.1f} |", tire,
+                               -10.0 * std::log(ratio("rrc_N_per_kN")),
+                               100.0 * (ratio("rrc_25degC_2m_N_per_kN") - 1.0)));
   }
   return rows;
 }
@@ -135,7 +151,7 @@ std::string make_published_page() {
   return fill_page("published", "sections"_a = join(list_sections(drives)), "figure_3_13"_a = join(figure_3_13),
                    "figure_3_13_fits"_a = fmt::join(fits, "; "), "table_5_1"_a = join(list_table_5_1(drives)),
                    "table_4_2"_a = join(list_table_4_2()), "statements"_a = join(list_statements(drives)),
-                   "iso"_a = join(list_iso()), "warm_up"_a = join(list_warm_ups()),
+                   "iso"_a = join(list_iso()), "slopes"_a = join(list_slopes()), "warm_up"_a = join(list_warm_ups()),
                    "vehicle_load"_a = join(list_vehicle_loads()), "pressure"_a = join(list_pressure_ratios()),
                    "load"_a = join(list_loads()), "speed"_a = join(list_speeds()),
                    "temperature"_a = join(list_temperatures()));

@@ -29,8 +29,10 @@ struct ConversionInput {
   Loss loss;  // one of the two
   LossConditions from, to;
   std::string tire;  // name of an asset, or a path: its diameter and pressure exponent, where they are absent here
-  std::optional<double> pressure_exponent;  // a of (p/p_ref)^-a; absent: that of the tire, else 0.4
-  double load_exponent = 1.0;               // of the force: 1 is (3.5), RRc independent of load
+  std::optional<double> pressure_exponent;          // a of (p/p_ref)^-a; absent: that of the tire, else 0.4
+  std::optional<double> load_exponent;              // of the force; absent: 1 as in (3.5), RRc independent of load
+  std::optional<double> diameter_exponent;          // n of D^-n; absent: 1/3 as in (2.1)
+  std::optional<double> ambient_coefficient_per_K;  // K_t of ISO 28580; absent: 0.008, of class C1
 };
 
 /// One factor of a conversion, its conditions as text with their unit.
@@ -54,7 +56,9 @@ struct ConvertedLoss : ConversionFactors, Report {
 /// Converts a loss. With from.load_N, `given` and `result` have both force and RRc.
 /// Example  convert_loss({{32.0, {}}, {1.0, 0.7}, {0.0}}).result.force_N: from a drum of radius 1 m to the flat road
 /// Errors   InputError: not one loss; a value out of its range; a drum, pressure or temperature on one side alone; a
-///          load or tire diameter in `to` alone; a drum without a tire diameter; an unknown tire
+///          load or tire diameter in `to` alone; a drum without a tire diameter; an exponent or
+///          coefficient without the conditions it applies to; air so cold that K_t gives no positive loss; an unknown
+///          tire
 ConvertedLoss convert_loss(const ConversionInput& input);
 
 }  // namespace rollrig

@@ -6,16 +6,19 @@
 
 namespace rollrig::models {
 
+constexpr double kDiameterExponent = 1.0 / 3.0;  // (2.1)
+constexpr double kOtherDiameterExponent = 0.62;  // of -4.8 % for +8.3 %: Redrouthu and Das, Chalmers 2014
+
 /// Factor from a tire of diameter D_1 to one of D_2, everything else being similar: F_r2 = factor F_r1.
-/// Equation  F_r ~ D^(-1/3), so the factor is (D_1/D_2)^(1/3)
-/// Symbols   D_1, D_2 outer diameters [m]
+/// Equation  F_r ~ D^-n, so the factor is (D_1/D_2)^n
+/// Symbols   D_1, D_2 outer diameters [m]; n exponent, 1/3 in (2.1)
 /// Validity  D > 0; tires of one construction
 /// Source    (2.1)
 /// Checked   tests/models/conversion_laws_test.cpp
 template <class S>
-S calc_tire_diameter_factor(const S& diameter_1_m, const S& diameter_2_m) {
+S calc_tire_diameter_factor(const S& diameter_1_m, const S& diameter_2_m, const S& exponent) {
   using std::pow;
-  return pow(diameter_1_m / diameter_2_m, S(1.0 / 3.0));
+  return pow(diameter_1_m / diameter_2_m, exponent);
 }
 
 constexpr double kPressureExponent = 0.4;  // (3.4)
@@ -32,20 +35,21 @@ S calc_pressure_factor(const S& pressure_Pa, const S& reference_pressure_Pa, con
   return pow(pressure_Pa / reference_pressure_Pa, -exponent);
 }
 
-constexpr double kAmbientCoefficient_per_K = 0.008;                  // K_t of ISO 28580 for car tires
+constexpr double kAmbientCoefficient_per_K = 0.008;                  // K_t of ISO 28580 for class C1
 constexpr double kReferenceAmbient_K = kZeroCelsius_K + 25.0;        // ISO 28580
 constexpr double kLowestCorrectedAmbient_K = kZeroCelsius_K + 20.0;  // ISO 28580: allowed for a test
 constexpr double kHighestCorrectedAmbient_K = kZeroCelsius_K + 30.0;
 
 /// Factor from a loss measured in air of T_amb to that in air of 25 degC.
 /// Equation  1 + K_t (T_amb - 25 degC)
-/// Symbols   K_t 0.008 1/degC; T_amb temperature of the air [K]
-/// Validity  car tires, 20 to 30 degC (is_ambient_correction_valid); zero or less below -100 degC
-/// Source    ISO 28580 as in §3.2.3.3, K_t from the standard
+/// Symbols   K_t [1/K], 0.008 for class C1, 0.010 for C2 and for C3 of load index 121 or less, 0.006 for C3 with a
+///           higher load index; T_amb temperature of the air [K]
+/// Validity  20 to 30 degC (is_ambient_correction_valid); positive above 25 degC - 1/K_t, for C1 -100 degC
+/// Source    ISO 28580 as in §3.2.3.3, K_t from the standard and from UN Regulation No. 117, Annex 6
 /// Checked   tests/models/conversion_laws_test.cpp
 template <class S>
-S calc_ambient_correction(const S& ambient_K) {
-  return S(1.0) + S(kAmbientCoefficient_per_K) * (ambient_K - S(kReferenceAmbient_K));
+S calc_ambient_correction(const S& ambient_K, const S& coefficient_per_K = S(kAmbientCoefficient_per_K)) {
+  return S(1.0) + coefficient_per_K * (ambient_K - S(kReferenceAmbient_K));
 }
 
 /// Whether the standard allows its correction at this temperature.

@@ -86,8 +86,8 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
                                const DrumConditions& conditions);
 
 /// RRc corrected to 25 degC and to the 2 m drum.
-/// Equation  RRc K_r (1 + K_t (T_amb - 25 degC)), K_t = 0.008 1/degC, K_r of (3.1) to R_2 = 1 m
-/// Validity  car tires, 20 to 30 degC; warned of outside
+/// Equation  RRc K_r (1 + K_t (T_amb - 25 degC)), K_t = 0.008 1/degC of class C1, K_r of (3.1) to R_2 = 1 m
+/// Validity  tires of class C1, 20 to 30 degC; a warning outside
 /// Source    ISO 28580 as in §3.2.3.3, K_t from the standard
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec);
 

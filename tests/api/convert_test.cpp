@@ -49,6 +49,11 @@ TEST_CASE("a loss is converted as the command converts it", "[fast]") {
   CHECK(converted.factors.size() == 5);  // drum, tire diameter, pressure, air, load
   input.pressure_exponent = 0.5;
   CHECK(convert_loss(input).json == run_program(command + " --pressure-exponent 0.5 --json -").out);
+  input.load_exponent = 0.9;
+  input.diameter_exponent = 0.62;
+  input.ambient_coefficient_per_K = 0.006;
+  const std::string laws = " --pressure-exponent 0.5 --load-exponent 0.9 --diameter-exponent 0.62";
+  CHECK(convert_loss(input).json == run_program(command + laws + " --ambient-coefficient 0.006 --json -").out);
 }
 
 TEST_CASE("a converted loss, converted back, is the measured one, as force and as RRc", "[fast]") {
@@ -80,6 +85,21 @@ TEST_CASE("a loss is smaller on the flat road, at a higher pressure and in warme
   CHECK(convert({}) == 32.0);
 }
 
+TEST_CASE("an exponent or coefficient whose condition is not given is refused, and named", "[fast]") {
+  ConversionInput input;
+  input.loss.force_N = 32.0;
+  CHECK(find_refused(input).empty());
+  const auto refused = [&input](const auto& change) {
+    ConversionInput changed = input;
+    change(changed);
+    return find_refused(changed);
+  };
+  CHECK(refused([](auto& changed) { changed.pressure_exponent = 0.5; }) == "--pressure-exponent");
+  CHECK(refused([](auto& changed) { changed.load_exponent = 0.9; }) == "--load-exponent");
+  CHECK(refused([](auto& changed) { changed.diameter_exponent = 0.5; }) == "--diameter-exponent");
+  CHECK(refused([](auto& changed) { changed.ambient_coefficient_per_K = 0.006; }) == "--ambient-coefficient");
+}
+
 TEST_CASE("a conversion that has no sense is refused, and the option is named", "[fast]") {
   CHECK(find_refused(make_conversion()).empty());
   const auto refused = [](const auto& change) {
@@ -97,6 +117,7 @@ TEST_CASE("a conversion that has no sense is refused, and the option is named", 
   CHECK(refused([](auto& input) { input.from.load_N.reset(); }) == "--load");
   CHECK(refused([](auto& input) { input.from.tire_diameter_m.reset(); }) == "--tire-diameter");
   CHECK(refused([](auto& input) { input.load_exponent = -1.0; }) == "--load-exponent");
+  CHECK(refused([](auto& input) { input.ambient_coefficient_per_K = 0.8; }) == "--ambient-coefficient");
   ConversionInput unknown = make_conversion();
   unknown.tire = "a5O";
   CHECK_THROWS_AS(convert_loss(unknown), rollrig::InputError);

@@ -9,10 +9,11 @@ using models::calc_pressure_factor;
 using models::calc_tire_diameter_factor;
 
 TEST_CASE("a tire eight times as large loses half (2.1); a larger one always less", "[fast]") {
-  CHECK(calc_tire_diameter_factor(0.1, 0.8) == Approx(0.5));
-  CHECK(calc_tire_diameter_factor(0.6, 0.7) < 1.0);
-  CHECK(calc_tire_diameter_factor(0.7, 0.7) == 1.0);
-  CHECK(calc_tire_diameter_factor(0.6, 0.7) * calc_tire_diameter_factor(0.7, 0.6) == Approx(1.0));
+  CHECK(calc_tire_diameter_factor(0.1, 0.8, models::kDiameterExponent) == Approx(0.5));
+  CHECK(calc_tire_diameter_factor(0.6, 0.7, models::kDiameterExponent) < 1.0);
+  CHECK(calc_tire_diameter_factor(0.6, 0.7, 0.62) < calc_tire_diameter_factor(0.6, 0.7, 1.0 / 3.0));
+  CHECK(calc_tire_diameter_factor(0.7, 0.7, 0.4) == 1.0);
+  CHECK(calc_tire_diameter_factor(0.6, 0.7, 0.4) * calc_tire_diameter_factor(0.7, 0.6, 0.4) == Approx(1.0));
 }
 
 TEST_CASE("250 kPa over 280 kPa is 1.0463 with the source's exponent", "[fast]") {
@@ -27,6 +28,7 @@ TEST_CASE("the standard's correction: none at 25 degC, 0.8 % a degree, cold air 
   CHECK(calc_ambient_correction(298.15) == 1.0);
   CHECK(calc_ambient_correction(299.15) == Approx(1.008));
   CHECK(calc_ambient_correction(293.15) == Approx(0.96));
+  CHECK(calc_ambient_correction(293.15, 0.006) == Approx(0.97));
   CHECK(models::is_ambient_correction_valid(293.15));
   CHECK(models::is_ambient_correction_valid(303.15));
   CHECK_FALSE(models::is_ambient_correction_valid(292.65));
