@@ -6,17 +6,18 @@
 
 namespace rollrig::scenarios::load_sweep {
 
-struct Settings : CycleSettings {
+struct Settings : SteadyCycleSettings {
   std::vector<double> loads_N;
   double measurement_s = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    CycleSettings::visit(p, visit);
+    SteadyCycleSettings::visit(p, visit);
     visit(Field{"loads_N", between(100.0, 100000.0),
                 "Loads in the order in which they are run; default: those of Tables 3.3 and 3.4 for the tire"},
           p.loads_N);
-    visit(Field{"measurement_min", between(1.0, 600.0), "Load of each measurement cycle (§3.2.1 item 8)", 10.0},
+    visit(Field{"measurement_min", between(1.0, 600.0),
+                "Load of each measurement cycle (§3.2.1 item 8), after settle_min", 10.0},
           p.measurement_s);
   }
 
@@ -27,7 +28,7 @@ struct Settings : CycleSettings {
 };
 
 struct Results {
-  std::vector<Cycle> cycles;
+  std::vector<SteadyCycle> cycles;
   double rrc_span = 0.0;
   std::optional<double> load_exponent;
 
@@ -50,7 +51,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
     check_test_load(spec, "loads_N", load_N);
     program.roll(fmt::format("warm-up {:.0f} N", load_N), settings.warm_up_s, load_N);
     program.skim(fmt::format("warm-up skim {:.0f} N", load_N), settings.skim_s);
-    program.roll(fmt::format("measurement {:.0f} N", load_N), settings.measurement_s, load_N);
+    program.roll(fmt::format("measurement {:.0f} N", load_N), settings.settle_s + settings.measurement_s, load_N);
     program.skim(fmt::format("skim {:.0f} N", load_N), settings.skim_s);
   }
   return program;
@@ -61,7 +62,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   Results results;
   std::vector<double> load_N, loss_N, rrc;
   for (std::size_t i = 1; i < all.size(); i += 2) {  // of each load, the cycle after its warm-up cycle
-    results.cycles.push_back(all[i]);
+    results.cycles.push_back({all[i]});
     load_N.push_back(all[i].loaded.load_N);
     loss_N.push_back(all[i].rolling_resistance_N);
     rrc.push_back(all[i].rrc);
@@ -69,6 +70,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   const auto [low, high] = std::minmax_element(rrc.begin(), rrc.end());
   results.rrc_span = *high - *low;
   if (has_two_values(loads_of(settings, spec))) results.load_exponent = fit_power(load_N, loss_N);
+  if (const auto warning = warn_of_unsettled(results.cycles)) outcome.warnings.push_back(*warning);
   return results;
 }
 
@@ -76,7 +78,8 @@ Scenario make() {
   return make_drum_scenario(
       {"load_sweep", "RRc at several loads, one speed, one cold pressure",
        "Soak, pressure, run-up, then at each load a warm-up cycle (30 min and 3 min skim) and a measurement cycle "
-       "(10 min and 3 min skim), without a pause; the measurement cycle is reported.",
+       "(10 min and 3 min skim), without a pause; the measurement cycle is reported. It is longer by settle_min: ten "
+       "minutes after a skim test, the tire is not in steady state.",
        "Kolekar and Narasimhan (2024) §3.2.4.1, §4.1.3, Tables 3.3 and 3.4"},
       &plan, &evaluate);
 }

@@ -4,22 +4,22 @@
 
 namespace rollrig::scenarios::pressure_sweep {
 
-struct Settings : CycleSettings {
+struct Settings : SteadyCycleSettings {
   std::vector<double> pressures_Pa{250e3, 280e3, 300e3};  // §3.2.4.2
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    CycleSettings::visit(p, visit);
+    SteadyCycleSettings::visit(p, visit);
     visit(Field{"pressures_kPa", between(50.0, 1000.0), "Gauge pressures, each set on a soaked tire"}, p.pressures_Pa);
   }
 };
 
 struct PressureCycle {
-  Cycle cycle;
+  SteadyCycle steady;
   double pressure_set_Pa = 0.0;
 
   void visit(ResultSheet& visit) const {
-    cycle.visit(visit);
+    steady.visit(visit);
     visit(Result{"pressure_set_kPa", "set", ".0f", "as set after the soak, gauge"}, pressure_set_Pa);
   }
 };
@@ -46,7 +46,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   for (const double pressure_Pa : settings.pressures_Pa) {
     const std::string at = fmt::format("{:.6g} kPa", pressure_Pa / 1e3);
     program.begin_test(fmt::format("pressure-{:.6g}", pressure_Pa / 1e3), {pressure_Pa, {}, {}});
-    program.roll("warm-up " + at, settings.warm_up_s);
+    program.roll("warm-up " + at, settings.warm_up_s + settings.settle_s);
     program.skim("skim " + at, settings.skim_s);
     program.end_test();
   }
@@ -55,11 +55,14 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
 
 Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome) {
   Results results;
+  std::vector<SteadyCycle> steady;
   std::vector<double> loss_N;
   for (const Cycle& cycle : find_cycles(outcome.recording, spec, settings.conditions)) {
-    results.cycles.push_back({cycle, settings.pressures_Pa[loss_N.size()]});
+    steady.push_back({cycle});
+    results.cycles.push_back({steady.back(), settings.pressures_Pa[loss_N.size()]});
     loss_N.push_back(cycle.rolling_resistance_N);
   }
+  if (const auto warning = warn_of_unsettled(steady)) outcome.warnings.push_back(*warning);
   if (has_two_values(settings.pressures_Pa)) {
     results.exponent = fit_power(settings.pressures_Pa, loss_N);
     results.first_to_second = loss_N[0] / loss_N[1];
@@ -70,7 +73,8 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
 Scenario make() {
   return make_drum_scenario(
       {"pressure_sweep", "RRc at several cold pressures, one load, one speed",
-       "For each pressure: soak, pressure set and verified, run-up, warm-up cycle (30 min and 3 min skim), run-down.",
+       "For each pressure: soak, pressure set and verified, run-up, warm-up cycle (30 min and 3 min skim), run-down. "
+       "The warm-up cycle is longer by settle_min, after which the tire is in steady state.",
        "Kolekar and Narasimhan (2024) §3.2.4.2, §4.1.4, (4.1)"},
       &plan, &evaluate);
 }

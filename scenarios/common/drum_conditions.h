@@ -88,4 +88,20 @@ struct CycleSettings {
   }
 };
 
+constexpr double kDefaultSettle_min = 60.0;  // Assumed: leaves less than 0.2 % of RRc of a passenger car's tire
+
+/// The same where the loss is meant as that of a tire in steady state.
+struct SteadyCycleSettings : CycleSettings {
+  double settle_s = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    CycleSettings::visit(p, visit);
+    visit(Field{"settle_min", between(0.0, 600.0),
+                "Further load before each measurement, until the tire is in steady state; 0: as in §3.2",
+                kDefaultSettle_min},
+          p.settle_s);
+  }
+};
+
 }  // namespace rollrig::scenarios

@@ -21,6 +21,23 @@ double calc_force_method_N(const Reading& reading, const RunSpec& spec) {
   return reading.spindle_force_N * models::calc_rolling_ratio(loaded_radius_m, spec.rig.curvature_per_m());
 }
 
+/// How far the loss under load is from steady state at the end of a range. Empty where it is too short to tell.
+std::optional<double> read_unsettled(const sim::Recording<double>& recording, const RunSpec& spec,
+                                     const LoadRange& range, const Window& end, double parasitic_N) {
+  const double window_s = end.end_s - end.start_s;
+  const double margin_s = range.end_s - end.end_s;
+  const double start_s = range.start_s + margin_s + window_s;  // load, speed and gas have settled
+  const double step_s = 0.5 * (end.start_s - start_s);
+  if (step_s < window_s) return std::nullopt;
+  const auto point = [&](double from_s) {
+    const Window window{from_s, from_s + window_s};
+    const double force = calc_mean(recording, spec, window, spec.rig.kind->traits.force);
+    return SettlingPoint{force / spec.rig.lever_m() - parasitic_N,
+                         calc_mean(recording, spec, window, quantities::kLinerTemperature)};
+  };
+  return estimate_unsettled({point(start_s), point(start_s + step_s), point(end.start_s)});
+}
+
 }  // namespace
 
 double calc_mean(const sim::Recording<double>& recording, const RunSpec& spec, const Window& window,
@@ -56,6 +73,25 @@ Cycle evaluate_cycle(const Reading& loaded, const Reading& skim, const RunSpec& 
   return cycle;
 }
 
+std::optional<double> estimate_unsettled(const std::array<SettlingPoint, 3>& points) {
+  const auto& [start, middle, end] = points;
+  const double first_K = middle.liner_temperature_K - start.liner_temperature_K;
+  const double second_K = end.liner_temperature_K - middle.liner_temperature_K;
+  if (std::abs(second_K) >= std::abs(first_K)) return std::nullopt;
+  const double decay = second_K / first_K;
+  const double left = decay * decay / (1.0 - decay * decay);
+  const double steady_N = end.loss_N + (end.loss_N - start.loss_N) * left;
+  return end.loss_N / steady_N - 1.0;
+}
+
+std::optional<std::string> warn_of_unsettled(const std::vector<SteadyCycle>& cycles) {
+  double most = 0.0;
+  for (const SteadyCycle& steady : cycles) most = std::max(most, std::abs(steady.cycle.unsettled.value_or(0.0)));
+  if (most <= kSettled) return std::nullopt;
+  return fmt::format(
+      "RRc is up to {:.1f} % away from that in steady state (unsettled_percent): settle_min is too short", 1e2 * most);
+}
+
 std::vector<LoadRange> find_test_ranges(const sim::Recording<double>& recording, const RunSpec& spec) {
   const auto first = static_cast<std::ptrdiff_t>(recording.row_at(0.0));
   const auto from_zero = [first](const std::vector<double>& values) {
@@ -75,7 +111,9 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
   std::vector<Cycle> cycles;
   for (std::size_t i = 0; i + 1 < ranges.size(); ++i) {
     if (ranges[i].loaded && !ranges[i + 1].loaded) {
-      cycles.push_back(evaluate_cycle(read(ranges[i]), read(ranges[i + 1]), spec));
+      Cycle cycle = evaluate_cycle(read(ranges[i]), read(ranges[i + 1]), spec);
+      cycle.unsettled = read_unsettled(recording, spec, ranges[i], cycle.loaded.window, cycle.parasitic_N);
+      cycles.push_back(cycle);
     }
   }
   if (cycles.empty()) throw RunFailure("the run ended before a load and a skim test could be averaged");
@@ -128,6 +166,11 @@ Cycle average_cycles(const std::vector<Cycle>& cycles) {
     mean.rolling_resistance_N += cycle.rolling_resistance_N / n;
     mean.rrc += cycle.rrc / n;
     mean.force_method_N += cycle.force_method_N / n;
+  }
+  if (mean.unsettled.has_value()) {
+    double sum = 0.0;
+    for (const Cycle& cycle : cycles) sum += cycle.unsettled.value_or(*mean.unsettled);
+    mean.unsettled = sum / n;
   }
   for (Reading Cycle::*part : {&Cycle::loaded, &Cycle::skim}) {
     std::optional<double>& torque_Nm = (mean.*part).drum_torque_Nm;

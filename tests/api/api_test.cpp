@@ -29,7 +29,7 @@ rollrig::RunInput make_input(const std::string& scenario, const std::vector<std:
 
 /// A drum run with sensors, as a set in `folder`.
 void write_set(const TemporaryFolder& folder) {
-  rollrig::RunInput input = make_input("speed_sweep", {"speeds_km_h=[80,120]", "warm_up_min=10"});
+  rollrig::RunInput input = make_input("speed_sweep", {"speeds_km_h=[80,120]", "warm_up_min=10", "settle_min=0"});
   input.sensors = "source";
   const rollrig::Run run(input);
   CHECK(run.writes_set());

@@ -24,7 +24,7 @@ struct SetFolder {
   explicit SetFolder(const std::string& effects = "") {
     const auto made = run_program(
         "run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80,120]' --set "
-        "warm_up_min=10 --write-set set --quiet " +
+        "warm_up_min=10 --set settle_min=0 --write-set set --quiet " +
             effects,
         folder.path());
     INFO(made.err);

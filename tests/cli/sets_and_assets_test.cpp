@@ -22,7 +22,7 @@ using rollrig::tests::write_file;
 TEST_CASE("a set is written, validated and fitted", "[fast]") {
   const TemporaryFolder folder;
   REQUIRE(run_program("run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80, 120]' "
-                      "--set measurement_cycles=1 --write-set set --quiet",
+                      "--set measurement_cycles=1 --set settle_min=0 --write-set set --quiet",
                       folder.path())
               .status == 0);
   CHECK_THAT(run_program("validate set", folder.path()).out, Contains("2 runs"));
@@ -50,7 +50,7 @@ namespace {
 /// A set of two runs in "set", its pressures in bar under a kPa heading where wanted.
 void write_small_set(const TemporaryFolder& folder, bool in_bar) {
   REQUIRE(run_program("run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80, 120]' "
-                      "--set measurement_cycles=1 --write-set set --quiet",
+                      "--set measurement_cycles=1 --set settle_min=0 --write-set set --quiet",
                       folder.path())
               .status == 0);
   if (!in_bar) return;

@@ -74,7 +74,7 @@ TEST_CASE("the program of a drum run joins rows that go on in a straight line", 
 }
 
 TEST_CASE("means that reach beyond the cut of a run are left empty", "[fast]") {
-  const WrittenSet written("pressure_sweep", {"warm_up_min=2"});
+  const WrittenSet written("pressure_sweep", {"warm_up_min=2", "settle_min=0"});
   const measurements::MeasurementSet set = measurements::read_measurement_set(written.folder.path());
   REQUIRE(set.runs.size() == 3);
   for (const auto& run : set.runs) {

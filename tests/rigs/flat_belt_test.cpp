@@ -108,7 +108,7 @@ TEST_CASE("every bench scenario is carried out on a belt", "[fast]") {
 }
 
 TEST_CASE("a set of a belt is written, read, resimulated, fitted and diagnosed", "[slow]") {
-  scenarios::RunSpec spec = make_spec("flat_belt", "speed_sweep", "quasi_static");
+  scenarios::RunSpec spec = make_spec("flat_belt", "speed_sweep", "quasi_static", {"settle_min=0"});
   spec.sensors = tests::kFlatBelt->default_sensors;
   const auto outcome = scenarios::run_scenario(spec, {});
   const tests::TemporaryFolder folder;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "measurements/sensor_file.h"
 #include "scenarios/common/readings.h"
 #include "tests/support/drum_fixture.h"
 
@@ -82,6 +83,65 @@ TEST_CASE("a speed sweep averages its measurement cycles and rises with speed", 
   REQUIRE(outcome.result["cycles"].size() == 3);
   CHECK(outcome.result["cycles"][0]["rrc_N_per_kN"] < outcome.result["cycles"][2]["rrc_N_per_kN"]);
   CHECK(outcome.result["cycles"][1]["speed_km_h"].get<double>() == Approx(80.0));
+}
+
+TEST_CASE("sweeps report the steady state, as after a very long hold", "[fast]") {
+  struct Sweep {
+    const char* name;
+    const char* values;
+  };
+  for (const auto& [name, values] :
+       {Sweep{"speed_sweep", "speeds_km_h=[30,70,110]"}, Sweep{"load_sweep", "loads_N=[6300,4100]"},
+        Sweep{"pressure_sweep", "pressures_kPa=[240,310]"}}) {
+    for (const char* tire : {"a40", "a50", "a60"}) {
+      INFO(name << ' ' << tire);
+      const auto sweep = run(name, tire, {values, "ambient_degC=21"});
+      const auto held = run(name, tire, {values, "ambient_degC=21", "settle_min=600"});
+      CHECK(sweep.warnings.empty());
+      REQUIRE(sweep.result["cycles"].size() == held.result["cycles"].size());
+      for (std::size_t i = 0; i < held.result["cycles"].size(); ++i) {
+        const auto rrc = [&](const scenarios::Outcome& of) {
+          return of.result["cycles"][i]["rrc_N_per_kN"].get<double>();
+        };
+        // a tenth of what ten minutes after a skim test leave
+        CHECK(rrc(sweep) == Approx(rrc(held)).epsilon(2e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("a sweep with the source's short cycles says how far it is from steady state, and warns", "[fast]") {
+  for (const char* tire : {"a40", "a50", "a60"}) {
+    INFO(tire);
+    const auto brief = run("speed_sweep", tire, {"speeds_km_h=[40,110]", "settle_min=0"});
+    const auto held = run("speed_sweep", tire, {"speeds_km_h=[40,110]", "settle_min=600"});
+    REQUIRE(brief.warnings.size() == 1);
+    CHECK_THAT(brief.warnings[0], Catch::Contains("settle_min"));
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto& cycle = brief.result["cycles"][i];
+      const double above = cycle["rrc_N_per_kN"].get<double>() / held.result["cycles"][i]["rrc_N_per_kN"].get<double>();
+      // a fifth: the pressure and the fall of the loss over temperature make the decay not quite exponential
+      CHECK(cycle["unsettled_percent"].get<double>() == Approx(1e2 * (above - 1.0)).epsilon(0.2));
+    }
+  }
+}
+
+TEST_CASE("what a torque sensor's noise does to a settled tire is no reason for a warning", "[fast]") {
+  scenarios::RunSpec spec = make_spec("speed_sweep", "a60", {}, "quasi_static");
+  spec.sensors = measurements::read_sensor_asset("source");
+  CHECK(scenarios::run_scenario(spec, {}).warnings.empty());
+}
+
+TEST_CASE("what is left of an exponential decay is estimated exactly", "[fast]") {
+  const auto point = [](double time_s) {
+    const double decay = std::exp(-time_s / 500.0);
+    return scenarios::SettlingPoint{30.0 + 4.0 * decay, 310.0 - 7.0 * decay};
+  };
+  const auto unsettled = scenarios::estimate_unsettled({point(0.0), point(300.0), point(600.0)});
+  REQUIRE(unsettled.has_value());
+  CHECK(*unsettled == Approx(point(600.0).loss_N / 30.0 - 1.0));
+  CHECK_FALSE(scenarios::estimate_unsettled({{{30.0, 310.0}, {29.0, 311.0}, {28.0, 313.0}}}).has_value());
+  CHECK_FALSE(scenarios::estimate_unsettled({{{30.0, 310.0}, {30.0, 310.0}, {30.0, 310.0}}}).has_value());
 }
 
 TEST_CASE("a load sweep takes the loads of the tire's own table", "[fast]") {

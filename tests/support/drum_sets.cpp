@@ -52,8 +52,8 @@ Campaign make_short_campaign() {
 
 Campaign make_wide_campaign() {
   Campaign campaign = make_short_campaign();
-  campaign.parts.push_back({"load_sweep", {}});
-  campaign.parts.push_back({"pressure_sweep", {}});
+  campaign.parts.push_back({"load_sweep", {"settle_min=0"}});
+  campaign.parts.push_back({"pressure_sweep", {"settle_min=0"}});
   return campaign;
 }
 
