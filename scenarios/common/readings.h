@@ -101,7 +101,8 @@ struct SettlingPoint {
 /// Equation  F_3 / F_steady - 1, F_steady = F_3 + (F_3 - F_1) q^2 / (1 - q^2), q = (T_3 - T_2) / (T_2 - T_1)
 /// Symbols   F loss, T liner temperature, at three times in equal distances; q decay from one time to the next. It is
 ///           read off T, because the noise of a torque sensor would hide it
-/// Validity  settling of the first order, in which loss and temperature decay alike; |q| < 1
+/// Validity  settling of the first order, in which loss and temperature decay alike; |q| < 1. After ten minutes,
+///           it is up to 1.7 times too large of a tire with two nodes, and as much with the noise of sensors
 /// Source    Aitken's extrapolation, exact for an exponential decay
 std::optional<double> estimate_unsettled(const std::array<SettlingPoint, 3>& points);
 
