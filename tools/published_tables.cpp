@@ -133,11 +133,9 @@ Rows list_temperatures() {
     const auto [air_dK, road_dK] = find_sensitivities(settings);
     rows.push_back(fmt::format("| {} | {:+.1f} | {:+.1f} |", label, air_dK, road_dK));
   };
-  add("a50 of the assets: z 17.2 W/K (half to the road), f 1.44 W s/(m K)", {});
-  add("as much in all, most of it to the road: z 44.8 W/K (0.90), f 0.2",
-      {"tire.thermal.rig.drum_2m.conductance_at_rest_W_per_K=44.8",
-       "tire.thermal.rig.drum_2m.conductance_per_speed_W_s_per_m_K=0.2",
-       "tire.thermal.road_share_of_conductance_at_rest=0.90"});
+  add("a50 of the assets: 0.8 of both conductances to the road", {});
+  add("half of that at rest to the road, that per speed to the air (files without shares)",
+      {"tire.thermal.road_share_of_conductance_at_rest=0.5", "tire.thermal.road_share_of_conductance_per_speed=0"});
   return rows;
 }
 

@@ -17,11 +17,11 @@ struct CombinedLaw {
 };
 
 /// All of the rubber has one temperature.
-/// Equation  C dT/dt = Q - (1 - s) z (T - T_amb) - s z (T - T_surface) - f v (T - T_amb) - H (T - T_gas),
+/// Equation  C dT/dt = Q - ((1 - s) z + (1 - s_v) f v) (T - T_amb) - (s z + s_v f v) (T - T_surface) - H (T - T_gas),
 ///           C_gas dT_gas/dt = H (T - T_gas)
 /// Symbols   T, T_gas temperatures of rubber and gas [K], Q heat that arises in the tire [W], C, C_gas heat capacities
-///           [J/K], z conductance at rest [W/K], s the road's share of it, f per speed [W s/(m K)], v speed of the air
-///           at the tire [m/s], H between rubber and gas [W/K]
+///           [J/K], z conductance at rest [W/K], f per speed [W s/(m K)], s, s_v the road's shares of both, v speed
+///           that carries heat off the tire [m/s], H between rubber and gas [W/K]
 /// Source    (3.8) to (3.13), (3.17); heat to the rim is left out (§3.3.2.1)
 /// Checked   tests/models/corner_test.cpp
 struct OneNode {
@@ -48,10 +48,12 @@ struct OneNode {
   static void fill_cooling(const Instant<S>& now, Node outside, ThermalNetwork<S>& network) {
     const TireThermalParameters<S>& thermal = now.context->tire.thermal;
     const S& to_road = thermal.road_share_of_rest_conductance;
+    const S by_speed_W_per_K = thermal.speed_conductance_W_s_per_m_K * now.boundary.air_speed_m_s;
+    const S by_speed_to_road_W_per_K = thermal.road_share_of_speed_conductance * by_speed_W_per_K;
     network.heat_capacity_J_per_K[index_of(Node::kGas)] = thermal.gas_heat_capacity_J_per_K;
-    network.road_W_per_K[index_of(outside)] = to_road * thermal.rest_conductance_W_per_K;
-    network.air_W_per_K[index_of(outside)] = (S(1.0) - to_road) * thermal.rest_conductance_W_per_K +
-                                             thermal.speed_conductance_W_s_per_m_K * now.boundary.air_speed_m_s;
+    network.road_W_per_K[index_of(outside)] = to_road * thermal.rest_conductance_W_per_K + by_speed_to_road_W_per_K;
+    network.air_W_per_K[index_of(outside)] =
+        (S(1.0) - to_road) * thermal.rest_conductance_W_per_K + (by_speed_W_per_K - by_speed_to_road_W_per_K);
     network.link(Node::kLiner, Node::kGas) = thermal.H_gas_W_per_K;
   }
 };
@@ -61,7 +63,7 @@ struct OneNode {
 ///           (1 - c) C dT_c/dt = (1 - h) Q + G (T_t - T_c) - H (T_c - T_gas); loss seen at T = m T_t + (1 - m) T_c
 /// Symbols   T_t, T_c temperatures of tread and carcass, where the liner's sensor sits [K]; c, h, m shares of the tread
 ///           [1]; Q heat of rolling resistance, P friction of the contact [W]; G between both [W/K]; the rest as above
-/// Validity  of z the road's share acts on T_t - T_surface
+/// Validity  the road's shares of z and f act on T_t - T_surface
 /// Checked   tests/models/two_node_test.cpp
 struct TreadAndCarcass : OneNode {
   /// Places of its numbers, which stand before others of a model.

@@ -125,6 +125,7 @@ struct TireThermalParameters {
   S rest_conductance_W_per_K{};  // the source's z
   S road_share_of_rest_conductance{};
   S speed_conductance_W_s_per_m_K{};  // the source's f
+  S road_share_of_speed_conductance{};
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
@@ -139,9 +140,12 @@ struct TireThermalParameters {
     visit(Field{"road_share_of_conductance_at_rest", between(0.0, 1.0),
                 "Share of the conductance at rest that goes to the road. Assumed: 0.5", 0.5, "road_share_of_z"},
           p.road_share_of_rest_conductance);
-    visit(Field{"conductance_per_speed_W_s_per_m_K", non_negative(), "Conductance to air per unit of speed", 0.0,
-                "f_W_s_per_m_K"},
+    visit(Field{"conductance_per_speed_W_s_per_m_K", non_negative(), "Conductance to air and road per unit of speed",
+                0.0, "f_W_s_per_m_K"},
           p.speed_conductance_W_s_per_m_K);
+    visit(Field{"road_share_of_conductance_per_speed", between(0.0, 1.0),
+                "Share of the conductance per speed that goes to the road. Default: all of it to the air", 0.0},
+          p.road_share_of_speed_conductance);
   }
 };
 

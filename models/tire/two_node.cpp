@@ -14,7 +14,7 @@ struct TwoNode : CombinedLaw, TreadAndCarcass {
     info.equation =
         "c C dT_t/dt = h Q + P - (z + f v)(T_t - T_amb) - G (T_t - T_c), (1 - c) C dT_c/dt = (1 - h) Q + G (T_t - "
         "T_c) - H (T_c - T_gas); Q = F_rr v, P friction of the contact; F_rr of the model combined at T = m T_t + (1 "
-        "- m) T_c; of z the road's share acts on T_t - T_surface; C, H, z, f: [thermal]";
+        "- m) T_c; the road's shares of z and f v act on T_t - T_surface; C, H, z, f: [thermal]";
     info.source =
         "Kolekar and Narasimhan (2024) (3.8) to (3.14), of whose one node (§3.3.2.1) these are two parts; tread, "
         "carcass and gas as bodies, with the heat of sliding in the tread: B. Shyrokau and D. Harsh, Tire model with "

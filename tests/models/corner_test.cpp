@@ -13,7 +13,8 @@ namespace {
 
 /// A corner in steady rolling, evaluated once.
 template <class S>
-Instant<S> evaluate(const Corner<S>& corner, std::vector<S> x, double speed, double load, std::vector<S>& rates) {
+Instant<S> evaluate(const Corner<S>& corner, std::vector<S> x, double speed, double load, std::vector<S>& rates,
+                    double surface_K = 300.0) {
   const auto q = [](double value, Dimension d) { return quantity<S>(value, d); };
   Instant<S> now;
   now.inflation = {q(280e3, dimension::kPressure), q(298.15, dimension::kTemperature), q(101325, dimension::kPressure)};
@@ -21,7 +22,7 @@ Instant<S> evaluate(const Corner<S>& corner, std::vector<S> x, double speed, dou
                   q(0.1, dimension::kAcceleration),
                   q(load, dimension::kForce),
                   q(298.15, dimension::kTemperature),
-                  q(300.0, dimension::kTemperature),
+                  q(surface_K, dimension::kTemperature),
                   true,
                   q(0.0, dimension::kForce),
                   q(0.0, dimension::kForce),
@@ -82,6 +83,30 @@ TEST_CASE("the road's share of z acts on the surface's temperature", "[fast]") {
   const Instant<double> now = evaluate(corner, states_at(corner, 310.0), 0.0, 5400.0, rates);
   CHECK(now.heat.to_road_W == Approx(0.25 * 12.0 * (310.0 - 300.0)));  // the recorded surface is at 300 K
   CHECK(now.heat.to_air_W == Approx(0.75 * 12.0 * (310.0 - 298.15)));
+}
+
+TEST_CASE("how air and road share the cooling matters only where their temperatures differ", "[fast]") {
+  tests::DrumFixture fixture;
+  fixture.tire.rig_thermal.clear();
+  models::TireThermalParameters<double>& thermal = fixture.tire.values.thermal;
+  thermal.rest_conductance_W_per_K = 12.0;
+  thermal.speed_conductance_W_s_per_m_K = 1.5;
+  thermal.road_share_of_rest_conductance = 0.25;
+  constexpr double kSpeed_m_s = 20.0;
+  constexpr double kTire_K = 310.0;
+  const auto cool = [&](double share, double surface_K) {
+    thermal.road_share_of_speed_conductance = share;
+    const Corner<double> corner = fixture.corner();
+    std::vector<double> rates;
+    return evaluate(corner, states_at(corner, kTire_K), kSpeed_m_s, 5400.0, rates, surface_K).heat;
+  };
+  const auto none = cool(0.0, 298.15);
+  const auto most = cool(0.9, 298.15);
+  CHECK(most.to_air_W + most.to_road_W == Approx(none.to_air_W + none.to_road_W));
+  CHECK(most.to_road_W > none.to_road_W);
+  const auto hot = cool(0.9, kTire_K);  // a surface as hot as the tire takes nothing
+  CHECK(hot.to_road_W == Approx(0.0).margin(1e-9));
+  CHECK(hot.to_air_W == Approx(most.to_air_W));
 }
 
 TEST_CASE("a constant coefficient takes neither speed nor temperature nor pressure", "[fast]") {

@@ -73,7 +73,7 @@ TEST_CASE("RRc rises with speed for every tire (§4.1.5)", "[published]") {
   }
 }
 
-TEST_CASE("the tire warms with the air and with the road, by eight tenths in all (§2.2.2.4, a trend)", "[published]") {
+TEST_CASE("the tire warms with the air and with the road, more by the road (§2.2.2.4; the split is chosen by it)", "[published]") {
   const auto liner = [](double air_degC, double road_degC) {
     return number("warm_up", "a50", "liner_temperature_degC",
                   {"warm_up_min=120", "initial_tire_temperature_degC=20", "ambient_degC=" + std::to_string(air_degC),
@@ -82,7 +82,6 @@ TEST_CASE("the tire warms with the air and with the road, by eight tenths in all
   };
   const double air_dK = liner(30.0, 20.0) - liner(20.0, 20.0);
   const double road_dK = liner(20.0, 30.0) - liner(20.0, 20.0);
-  CHECK(air_dK > 0.0);
-  CHECK(road_dK > 0.0);
-  CHECK(air_dK + road_dK == Approx(8.0).margin(1.0));  // Yokota: 1 to 2 and 6 to 7
+  CHECK(air_dK == Approx(1.5).margin(0.5));   // Yokota et al.: 1 to 2
+  CHECK(road_dK == Approx(6.5).margin(0.5));  // 6 to 7
 }

@@ -39,9 +39,12 @@ TEST_CASE("a rim in steady rolling passes on what its conductances in series let
   HandFedCorner<double> at(make_context_on(tests::kDrum), {rim_at(3.0, 0.0)});
   at.advance(8.0 * 3600.0, 20000);
   const auto& thermal = at.corner.context().tire.thermal;
-  const double rubber_air_W_per_K = (1.0 - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K +
-                                    thermal.speed_conductance_W_s_per_m_K * at.inputs.speed_m_s;
-  const double series_W_per_K = 1.0 / (1.0 / 3.0 + 1.0 / (0.4 * rubber_air_W_per_K));
+  const double at_rest_W_per_K = (1.0 - thermal.road_share_of_rest_conductance) * thermal.rest_conductance_W_per_K;
+  const double by_speed_W_per_K = thermal.speed_conductance_W_s_per_m_K * at.inputs.speed_m_s;
+  const double rubber_air_W_per_K =
+      at_rest_W_per_K + (1.0 - thermal.road_share_of_speed_conductance) * by_speed_W_per_K;
+  // the rim has no road under it: of its 0.4 none of what goes with speed is the road's
+  const double series_W_per_K = 1.0 / (1.0 / 3.0 + 1.0 / (0.4 * (at_rest_W_per_K + by_speed_W_per_K)));
   const double over_ambient_K = at.temperature_K(Node::kLiner) - at.inputs.ambient_K;
   CHECK(at.now.heat.to_air_W - rubber_air_W_per_K * over_ambient_K ==
         Approx(series_W_per_K * over_ambient_K).epsilon(1e-6));

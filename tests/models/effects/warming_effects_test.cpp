@@ -129,10 +129,11 @@ TEST_CASE("a surface warms to its rise with its time constant, and gives the tir
   at.advance(20.0 * 3600.0, 4000);
   CHECK(at.now.boundary.surface_K == Approx(298.15 + 8.0).epsilon(1e-9));
   const auto& thermal = at.corner.context().tire.thermal;
-  const double cold_to_road_W = thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K *
-                                (at.temperature_K(Node::kLiner) - 298.15);
-  CHECK(cold_to_road_W - at.now.heat.to_road_W ==
-        Approx(8.0 * thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K));
+  const double road_W_per_K =
+      thermal.road_share_of_rest_conductance * thermal.rest_conductance_W_per_K +
+      thermal.road_share_of_speed_conductance * thermal.speed_conductance_W_s_per_m_K * at.inputs.speed_m_s;
+  const double cold_to_road_W = road_W_per_K * (at.temperature_K(Node::kLiner) - 298.15);
+  CHECK(cold_to_road_W - at.now.heat.to_road_W == Approx(8.0 * road_W_per_K));
 }
 
 TEST_CASE("a surface warms more under more load and speed, and cools at rest", "[fast]") {
