@@ -12,12 +12,14 @@
 #include <iostream>
 
 #include "sim/core/file_io.h"
+#include "tools/number_in_file.h"
 #include "tools/virtual_tests.h"
 
 namespace {
 
 using namespace rollrig;
 using tools::Calibration;
+using tools::replace_number;
 using tools::VirtualTests;
 
 using Cost = ceres::DynamicNumericDiffCostFunction<VirtualTests, ceres::CENTRAL>;
@@ -73,21 +75,6 @@ void report(const VirtualTests& tests, const Fit& fit) {
                o.fitted, o.sd, o.residual);
   }
   fmt::print("  rms over the eight sections {:.3f} points\n", 100.0 * VirtualTests::section_rms(all));
-}
-
-/// Replaces the number of `key` in [table], keeping the comment where it stands.
-std::string replace_number(const std::string& text, const std::string& table, const std::string& key, double value) {
-  const std::size_t header = text.find("\n[" + table + "]");
-  const std::size_t line = text.find("\n" + key + " = ", header);
-  if (header == std::string::npos || line == std::string::npos)
-    throw RunFailure("no key " + key + " in [" + table + "]");
-  const std::size_t end = text.find('\n', line + 1);
-  const std::string old = text.substr(line + 1, end - line - 1);
-  const std::size_t comment = old.find('#');
-  std::string fresh = fmt::format("{} = {:.7g}", key, value);
-  constexpr std::size_t kCommentColumn = 37;  // as in the assets
-  if (comment != std::string::npos) fresh = fmt::format("{:<{}} {}", fresh, kCommentColumn, old.substr(comment));
-  return text.substr(0, line + 1) + fresh + text.substr(end);
 }
 
 void calibrate_file(const std::string& folder, const std::string& path) {

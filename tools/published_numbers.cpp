@@ -30,12 +30,19 @@ PublishedTire read_published_tire(const std::string& folder, const std::string& 
     out.band_B_high_per_K = reader.number({"band_B_high_per_degC", positive(), ""});
     out.band_low_N = reader.number_or_none({"band_low_N", positive(), ""});
     out.band_low_sd_N = reader.number_or_none({"band_low_N_sd", positive(), ""});
+    out.band_drop_percent = reader.number_or_none({"band_drop_percent", positive(), ""});
+    out.band_drop_N = reader.number_or_none({"band_drop_N", positive(), ""});
     out.city_3_fall_K = reader.number({"city_3_fall_K", positive(), ""});
   });
   read_published_table(folder + "/table_4_4_and_4_5/expected.toml", tire, [&out](TableReader& reader) {
     out.city = reader.numbers_or({"city_percent", any_number(), ""}, {});
     out.highway = reader.numbers_or({"highway_percent", any_number(), ""}, {});
     out.constant_speed = reader.numbers_or({"constant_speed_percent", any_number(), ""}, {});
+  });
+  read_published_table(folder + "/table_5_1/expected.toml", tire, [&out](TableReader& reader) {
+    out.city_Wh_per_km = reader.number({"city", positive(), ""});
+    out.highway_Wh_per_km = reader.number({"highway", positive(), ""});
+    for (const char* other : {"overall", "iso", "difference_percent"}) reader.number({other, any_number(), ""});
   });
   return out;
 }

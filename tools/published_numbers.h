@@ -22,10 +22,14 @@ struct PublishedTire {
   double band_B_high_per_K = 0.0;
   std::optional<double> band_low_N;
   std::optional<double> band_low_sd_N;
+  std::optional<double> band_drop_percent;  // §4.1.6, over 30 to 35 degC
+  std::optional<double> band_drop_N;
   double city_3_fall_K = 0.0;
   std::vector<double> city;            // Table 4.4, City 1 to 4
   std::vector<double> highway;         // Table 4.5, Highway 1 and 2
   std::vector<double> constant_speed;  // Table 4.5, 105 and 80 km/h
+  double city_Wh_per_km = 0.0;         // Table 5.1
+  double highway_Wh_per_km = 0.0;
 
   /// Sections in the order driven: city, highway, city, constant speed, twice.
   std::vector<double> sections() const;

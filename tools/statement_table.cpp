@@ -40,23 +40,6 @@ class StatementTable {
   Rows rows_;
 };
 
-double find_mean(const TireDrive& drive) {
-  double sum = 0.0, weight = 0.0;
-  for (const DriveSection& section : drive) {
-    sum += section.mean_degC() * section.time_s.back();
-    weight += section.time_s.back();
-  }
-  return sum / weight;
-}
-double find_span(const TireDrive& drive) {
-  double low = 1e9, high = -1e9;
-  for (const DriveSection& section : drive) {
-    low = std::min(low, section.lowest_degC());
-    high = std::max(high, section.highest_degC());
-  }
-  return high - low;
-}
-
 /// Half the range of a section's temperature.
 double find_half_range(const DriveSection& section) { return 0.5 * (section.highest_degC() - section.lowest_degC()); }
 
@@ -64,10 +47,10 @@ void add_dyno_setting(StatementTable& table) {
   Drives drives;
   for (const std::string& tire : kTires) drives[tire] = drive_dyno_setting(tire);
   const char* place = "§4.3.1";
-  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure_statement(drives, find_mean), "degC");
+  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure_statement(drives, find_mean_degC), "degC");
   table.add_limit(place, "within ±2 degC over the second highway section (half its range)",
                   measure_statement(drives, [](const TireDrive& d) { return find_half_range(d[1]); }), 2.0, "degC");
-  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_span), "degC");
+  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_range_K), "degC");
 }
 
 double find_last_rise(const DriveSection& section) {
@@ -90,7 +73,7 @@ double find_least_rise(const TireDrive& drive) {
 
 void add_drive_cycle(StatementTable& table, const Drives& drives) {
   const char* place = "§4.4.1";
-  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure_statement(drives, find_mean), "degC");
+  table.add_order(place, "temperatures a40 > a50 > a60 (mean)", measure_statement(drives, find_mean_degC), "degC");
   table.add_limit(place, "steady state in the constant-speed sections (change in the last 10 min, 105 km/h)",
                   measure_statement(drives, [](const TireDrive& d) { return find_last_rise(d[3]); }), 0.5, "degC");
   table.add_limit(place, "the same at 80 km/h",
@@ -114,7 +97,7 @@ void add_drive_cycle(StatementTable& table, const Drives& drives) {
               fmt::format("{:.1f} > {:.1f} ≈ {:.1f} > {:.1f} degC", m[2], m[1], m[3], m[0]),
               m[2] > m[1] && m[2] > m[3] && std::abs(m[1] - m[3]) < 1.0 && m[1] > m[0] && m[3] > m[0]);
   }
-  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_span), "degC");
+  table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_range_K), "degC");
 }
 
 /// RRc on the dynamometer by the law alone, N/kN.

@@ -11,10 +11,12 @@ namespace {
 
 using scenarios::VehicleConditions;
 
-VehicleConditions make_conditions(const scenarios::RunSpec& spec) {
+constexpr double kSourcePressure_Pa = 280e3;  // §3.4.1
+
+VehicleConditions make_conditions(const scenarios::RunSpec& spec, double pressure_Pa = kSourcePressure_Pa) {
   VehicleConditions conditions;
   conditions.wheels = 1;
-  conditions.pressure_Pa = 280e3;
+  conditions.pressure_Pa = pressure_Pa;
   conditions.complete(spec);
   return conditions;
 }
@@ -70,15 +72,19 @@ double DriveSection::at_degC(double after_s) const {
   return temperature_degC[std::min(row, temperature_degC.size() - 1)];
 }
 
-TireDrive drive_source_test(const std::string& tire) {
-  const scenarios::RunSpec spec = make_source_drive(tire);
+TireDrive drive_source_test(const std::string& tire) { return drive_source_test(make_source_drive(tire)); }
+
+TireDrive drive_source_test(const scenarios::RunSpec& spec) {
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   return read_sections(spec, make_conditions(spec).make_layout(spec), outcome.recording);
 }
 
 TireDrive drive_dyno_setting(const std::string& tire) {
-  const scenarios::RunSpec spec = make_source_drive(tire);
-  const VehicleConditions conditions = make_conditions(spec);
+  return drive_dyno_setting(make_source_drive(tire), kSourcePressure_Pa);
+}
+
+TireDrive drive_dyno_setting(const scenarios::RunSpec& spec, double pressure_Pa) {
+  const VehicleConditions conditions = make_conditions(spec, pressure_Pa);
   constexpr double kTrustedFrom_m_s = 20.0 / 3.6;  // §4.2.1
   scenarios::VehicleProgram program(conditions, spec.sample_interval_s, kTrustedFrom_m_s);
   const scenarios::SpeedTrace highway = scenarios::read_speed_trace("hwfet");
@@ -87,6 +93,24 @@ TireDrive drive_dyno_setting(const std::string& tire) {
   scenarios::Outcome outcome;
   scenarios::simulate_vehicle(spec, conditions, program, {}, outcome);
   return read_sections(spec, conditions.make_layout(spec), outcome.recording);
+}
+
+double find_mean_degC(const TireDrive& drive) {
+  double sum = 0.0, weight = 0.0;
+  for (const DriveSection& section : drive) {
+    sum += section.mean_degC() * section.time_s.back();
+    weight += section.time_s.back();
+  }
+  return sum / weight;
+}
+
+double find_range_K(const TireDrive& drive) {
+  double low = 1e9, high = -1e9;
+  for (const DriveSection& section : drive) {
+    low = std::min(low, section.lowest_degC());
+    high = std::max(high, section.highest_degC());
+  }
+  return high - low;
 }
 
 TireDrive select(const TireDrive& drive, const std::string& kind) {

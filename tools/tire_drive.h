@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/run/run_spec.h"
+
 namespace rollrig::tools {
 
 /// One section of a drive; energy counts above 20 km/h as in §4.4.2.
@@ -29,8 +31,16 @@ using TireDrive = std::vector<DriveSection>;
 
 /// The drive of §3.4.4: scenario sae_j1634, variant source, a quarter at 5400 N and 280 kPa.
 TireDrive drive_source_test(const std::string& tire);
+/// The same of a spec of make_source_drive(), whose tire or rig was changed.
+TireDrive drive_source_test(const scenarios::RunSpec& spec);
 /// The highway part of the dyno setting of §3.4.3: two highway cycles in a row, from cold tires.
 TireDrive drive_dyno_setting(const std::string& tire);
+/// The same of a spec of make_source_drive(), at a cold pressure.
+TireDrive drive_dyno_setting(const scenarios::RunSpec& spec, double pressure_Pa);
+
+/// Mean over the time of a drive, and the range, of the liner's temperature.
+double find_mean_degC(const TireDrive& drive);
+double find_range_K(const TireDrive& drive);
 
 /// Sections whose names begin with `kind`.
 TireDrive select(const TireDrive& drive, const std::string& kind);

@@ -1,0 +1,164 @@
+/// Calibrates the source's three tires together, on the bounded law (models/tire/bounded.cpp), with one heat transfer
+/// for each rig.
+///
+/// usage: calibrate_jointly <tests/published>
+/// Free: six numbers of each tire and one of each rig (joint_calibration.h). Residuals and their weights:
+/// joint_calibration.cpp. The files of <tests/published>/joint_calibration are rewritten in place, number by number.
+/// Written out: free numbers with standard errors and correlations, every observation, and a study that leaves out the
+/// observations of one table at a time.
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <iostream>
+#include <limits>
+
+#include "sim/core/file_io.h"
+#include "tools/joint_calibration.h"
+#include "tools/number_in_file.h"
+
+namespace {
+
+using namespace rollrig;
+using tools::joint::JointCalibration;
+using tools::joint::Observation;
+using tools::joint::Unknowns;
+
+// Ceres steps in proportion to a number: with this added to each, all take steps of 1e-3.
+constexpr double kShift = 10.0;
+constexpr double kRelativeStep = 1e-4;
+
+struct Cost {
+  const JointCalibration& tests;
+  std::size_t unknown_count;
+
+  bool operator()(double const* const* shifted, double* residuals) const {
+    Unknowns at(shifted[0], shifted[0] + unknown_count);
+    for (double& one : at) one -= kShift;
+    try {
+      for (const Observation& one : tests.observe(at)) *residuals++ = one.residual;
+    } catch (const RunFailure&) {
+      return false;  // Ceres shortens its step
+    }
+    return true;
+  }
+};
+
+struct Fit {
+  Unknowns at;
+  Eigen::MatrixXd covariance;
+};
+
+Fit fit(const JointCalibration& tests) {
+  Unknowns shifted = tests.read_unknowns();
+  for (double& one : shifted) one += kShift;
+  const std::size_t residual_count = tests.observe(tests.read_unknowns()).size();
+  ceres::NumericDiffOptions steps;
+  steps.relative_step_size = kRelativeStep;
+  auto* cost = new ceres::DynamicNumericDiffCostFunction<Cost, ceres::CENTRAL>(
+      new Cost{tests, shifted.size()}, ceres::TAKE_OWNERSHIP, steps);  // the problem takes it
+  cost->AddParameterBlock(static_cast<int>(shifted.size()));
+  cost->SetNumResiduals(static_cast<int>(residual_count));
+  ceres::Problem problem;
+  problem.AddResidualBlock(cost, nullptr, shifted.data());
+  ceres::Solver::Options options;
+  options.max_num_iterations = 60;
+  options.function_tolerance = 1e-5;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (summary.termination_type != ceres::CONVERGENCE) {
+    throw RunFailure("the calibration does not converge: " + summary.BriefReport());
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(residual_count, shifted.size());
+  std::vector<double> residuals(residual_count);
+  double* jacobian = rows.data();
+  const double* at = shifted.data();
+  cost->Evaluate(&at, residuals.data(), &jacobian);
+  Fit result;
+  for (const double one : shifted) result.at.push_back(one - kShift);
+  result.covariance = (rows.transpose() * rows).inverse();
+  return result;
+}
+
+void print_observations(const std::vector<Observation>& all) {
+  for (const Observation& one : all) {
+    fmt::print("  {:<6} {:<32} published {:>9.3f} fitted {:>9.3f} residual {:+.2f}\n", one.table, one.name,
+               one.published, one.fitted, one.residual);
+  }
+  fmt::print("  rms of Tables 4.4 and 4.5 {:.2f} points, of Table 5.1 {:.2f} Wh/km\n",
+             tools::joint::find_rms(all, {"4.4", "4.5"}), tools::joint::find_rms(all, {"5.1"}));
+}
+
+void print_numbers(const Fit& fit) {
+  const Eigen::VectorXd sd = fit.covariance.diagonal().cwiseSqrt();
+  for (std::size_t i = 0; i < fit.at.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    fmt::print("  {:<28} {:>9.4f} +- {:.4f}; correlations", tools::joint::name_of_unknown(i), fit.at[i], sd[row]);
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto column = static_cast<Eigen::Index>(k);
+      const double correlation = fit.covariance(row, column) / (sd[row] * sd[column]);
+      if (std::abs(correlation) > 0.5) fmt::print(" {:+.2f} ({})", correlation, tools::joint::name_of_unknown(k));
+    }
+    fmt::print("\n");
+  }
+}
+
+/// Each table from the others.
+void print_left_out(JointCalibration& tests) {
+  for (const std::string& table : tools::joint::kTables) {
+    tests.leave_out(table);
+    const Unknowns at = fit(tests).at;
+    tests.leave_out("");
+    fmt::print("  Table {} from the others: rms {:.2f}\n", table, tools::joint::find_rms(tests.observe(at), {table}));
+  }
+}
+
+/// Rewrites the files in place: the free numbers, and the standard uncertainties of those of the tires.
+void write_files(const tools::joint::CalibratedFiles& files, const Eigen::VectorXd& sd) {
+  for (std::size_t tire = 0; tire < tools::kTires.size(); ++tire) {
+    std::string text = read_text_file(files.tires[tire].path);
+    Eigen::Index i = 0;
+    for (const tools::joint::FreeNumber& one : tools::joint::list_free_numbers()) {
+      const double own_sd = sd[i++];
+      if (one.tire != tire) continue;
+      const double value = *tools::joint::find_number(files.tires[tire].values, one.key);
+      const char* table = one.key == std::string(tools::joint::kCapacity) ? "thermal" : "bounded";
+      text = tools::replace_number(text, table, one.key, value);
+      text =
+          tools::replace_number(text, table, std::string(one.key) + "_sd", one.is_positive ? value * own_sd : own_sd);
+    }
+    write_file_atomically(files.tires[tire].path, text);
+  }
+  for (const rigs::RigFile& rig : files.rigs) {
+    const models::TireCooling& cooling = rig.tire_cooling;
+    std::string text = read_text_file(rig.path);
+    text = tools::replace_number(text, "tire_cooling", "at_rest_W_per_m2_K", cooling.at_rest_W_per_m2_K);
+    text = tools::replace_number(text, "tire_cooling", "per_speed_W_s_per_m3_K", cooling.per_speed_W_s_per_m3_K);
+    write_file_atomically(rig.path, text);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: calibrate_jointly <tests/published>\n";
+    return 2;
+  }
+  try {
+    const std::string published = argv[1];
+    JointCalibration tests(tools::joint::read_files(published + "/joint_calibration"), published);
+    const Fit best = fit(tests);
+    print_numbers(best);
+    print_observations(tests.observe(best.at));
+    print_left_out(tests);
+    write_files(tests.put(best.at), best.covariance.diagonal().cwiseSqrt());
+  } catch (const InputError& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "calibration failed: " << error.what() << '\n';
+    return 3;
+  }
+  return 0;
+}
