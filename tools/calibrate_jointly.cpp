@@ -2,7 +2,7 @@
 /// for each rig.
 ///
 /// usage: calibrate_jointly <tests/published>
-/// Free: six numbers of each tire and one of each rig (joint_calibration.h). Residuals and their weights:
+/// Free: at most six numbers of each tire and one of each rig (joint_calibration.h). Residuals and their weights:
 /// joint_calibration.cpp. The files of <tests/published>/joint_calibration are rewritten in place, number by number.
 /// Written out: free numbers with standard errors and correlations, every observation, and a study that leaves out the
 /// observations of one table at a time.
@@ -11,7 +11,6 @@
 
 #include <Eigen/Dense>
 #include <iostream>
-#include <limits>
 
 #include "sim/core/file_io.h"
 #include "tools/joint_calibration.h"
@@ -73,7 +72,7 @@ Fit fit(const JointCalibration& tests) {
   std::vector<double> residuals(residual_count);
   double* jacobian = rows.data();
   const double* at = shifted.data();
-  cost->Evaluate(&at, residuals.data(), &jacobian);
+  if (!cost->Evaluate(&at, residuals.data(), &jacobian)) throw RunFailure("no derivatives where the fit ends");
   Fit result;
   for (const double one : shifted) result.at.push_back(one - kShift);
   result.covariance = (rows.transpose() * rows).inverse();
@@ -151,8 +150,8 @@ int main(int argc, char** argv) {
     const Fit best = fit(tests);
     print_numbers(best);
     print_observations(tests.observe(best.at));
-    print_left_out(tests);
     write_files(tests.put(best.at), best.covariance.diagonal().cwiseSqrt());
+    print_left_out(tests);
   } catch (const InputError& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 2;

@@ -24,7 +24,7 @@ constexpr double kStartSd_percent = 5.0;  // §6: 25 to 40 %
 constexpr double kSpanSd_N_kN = 0.03;     // §4.1.3: within 0.17 N/kN
 constexpr double kRiseSd_percent = 1.0;   // §4.1.5: RRc rises with speed
 constexpr double kOrderSd_K = 0.1;        // orders of temperatures and ranges
-constexpr double kRatioSd = 0.02;         // (4.1): +-0.9 N of about 30 N
+constexpr double kRatioSd = 0.03;         // (4.1): +-0.9 N of about 30 N
 constexpr double kColdSd = 0.003;         // loss at -20 degC over that at 25 degC, at most 1.45
 constexpr double kLeastMargin = 0.003;    // of the speed rise above that with which the loss would fall with speed
 constexpr double kMarginSd = 0.0005;
@@ -57,7 +57,7 @@ scenarios::RunSpec with(const CalibratedFiles& files, std::size_t tire, std::siz
   return spec;
 }
 
-/// True loss of the ISO test's last window over its load at 25 degC, and what of it the skim test subtracts.
+/// RRc as the ISO test reports it, and the share of the true loss that is left after the skim test.
 void read_iso(const scenarios::RunSpec& spec, TireResults& out) {
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const std::vector<double>& loss_N = outcome.recording.channel(models::quantities::kRollingResistance);
@@ -78,8 +78,8 @@ TireResults simulate(std::size_t tire, const CalibratedFiles& files) {
   const auto run = [](const scenarios::RunSpec& spec) { return scenarios::run_scenario(spec, {}).result; };
   read_iso(drum("iso_28580"), out);
   const Json warm_up = run(drum("warm_up", vehicle));
-  for (const char* key : {"band_drop_percent", "band_drop_N", "band_low_N", "liner_temperature_degC"}) {
-    out[key] = warm_up[key].is_number() ? warm_up[key].get<double>() : 0.0;
+  for (const char* key : {"band_drop_percent", "band_drop_N", "liner_temperature_degC"}) {
+    out[key] = number(warm_up, key);
   }
   out["start excess vehicle"] = number(warm_up, "start_excess_percent");
   out["start excess"] = number(run(drum("warm_up")), "start_excess_percent");
@@ -215,7 +215,7 @@ std::vector<Observation> JointCalibration::observe(const Unknowns& at) const {
     all.push_back(hold_within("prior", tire + " s", least_rise > 0.0 ? kLeastMargin : 0.0, kAny,
                               speed_rise - least_rise, kMarginSd));
   }
-  all.push_back(hold_within("4.1.4", "a40 pressure ratio", 1.0453, 1.0453, r[0]["pressure ratio"], kRatioSd));
+  all.push_back(deviate("4.1.4", "a40 pressure ratio", 1.0453, r[0]["pressure ratio"], kRatioSd));
   all.push_back(hold_within("4.4.3", "a40 by speed", 3.0, 5.0, r[0]["by speed"], 0.2));
   all.push_back(hold_within("4.4.3", "a40 by temperature", 0.75, 1.25, r[0]["by temperature"], 0.05));
   for (std::size_t i = 0; i + 1 < 3; ++i) {

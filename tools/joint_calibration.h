@@ -34,8 +34,8 @@ struct FreeNumber {
   bool is_positive;  // its logarithm is fitted
 };
 
-/// At most six of a tire. What is held is at the value of the files: the load exponent of a40, of which no load sweep
-/// tells it apart from the cooling of the drum; the conductance between tread and carcass of a50; both rises with
+/// At most six of a tire. What is held is at the value of the files: the load exponent of a40, because less cooling on
+/// the drum has the same effect; the conductance between tread and carcass of a50; both rises with
 /// speed of a60, which come out at their limit of 0.
 const std::vector<FreeNumber>& list_free_numbers();
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "sim/core/error.h"
@@ -14,10 +15,10 @@ inline std::string replace_number(const std::string& text, const std::string& ta
                                   double value) {
   const std::size_t header = text.find("\n[" + table + "]");
   const std::size_t line = text.find("\n" + key + " = ", header);
-  if (header == std::string::npos || line == std::string::npos) {
+  if (header == std::string::npos || line == std::string::npos || line > text.find("\n[", header + 1)) {
     throw RunFailure("no key " + key + " in [" + table + "]");
   }
-  const std::size_t end = text.find('\n', line + 1);
+  const std::size_t end = std::min(text.find('\n', line + 1), text.size());
   const std::string old = text.substr(line + 1, end - line - 1);
   const std::size_t comment = old.find('#');
   std::string fresh = fmt::format("{} = {:.7g}", key, value);

@@ -88,7 +88,7 @@ VirtualTests::VirtualTests(const std::string& tire_path, PublishedTire published
       iso_(make_spec("iso_28580", tire_path)),
       warm_up_(make_spec("warm_up", tire_path, {"load_N=5400", "pressure_kPa=280"})),
       warm_up_iso_(make_spec("warm_up", tire_path)),
-      speed_sweep_(make_spec("speed_sweep", tire_path)),
+      speed_sweep_(make_spec("speed_sweep", tire_path, {"settle_min=0"})),
       drive_(make_source_drive(tire_path)) {}
 
 void VirtualTests::observe_drive(const Calibration& at, std::vector<Observation>& all) const {

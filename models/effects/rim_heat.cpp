@@ -18,18 +18,17 @@ struct RimHeat {
         "well; 6 to 10 kg of light alloy; g about a half (bead seats, well of the rim), r: 4 to 30 W/K of 0.5 m2 in "
         "moving air, with the part that goes with speed as large as the tire's; the rim starts at the tire's "
         "temperature";
-    info.parameters = {
-        {"conductance_W_per_K",
-         between(0.0, 100.0),
-         {0.5, 4.0, Prior::Scale::kLog},
-         "U, from rubber and gas to the rim in all",
-         0.0},
-        {"gas_share", between(0.0, 1.0), {0.25, 0.75}, "g, of U that is from the gas"},
-        {"heat_capacity_kJ_per_K", between(0.5, 100.0), {5.0, 9.0}, "C_rim"},
-        {"air_ratio",
-         between(0.0, 20.0),
-         {0.15, 0.8, Prior::Scale::kLog},
-         "r, conductance of the rim to the air, relative to the tire's without the road's share of f v"}};
+    info.parameters = {{"conductance_W_per_K",
+                        between(0.0, 100.0),
+                        {0.5, 4.0, Prior::Scale::kLog},
+                        "U, from rubber and gas to the rim in all",
+                        0.0},
+                       {"gas_share", between(0.0, 1.0), {0.25, 0.75}, "g, of U that is from the gas"},
+                       {"heat_capacity_kJ_per_K", between(0.5, 100.0), {5.0, 9.0}, "C_rim"},
+                       {"air_ratio",
+                        between(0.0, 20.0),
+                        {0.15, 0.8, Prior::Scale::kLog},
+                        "r, conductance of the rim to the air, relative to the tire's; of f v, all counts"}};
     info.nodes[index_of(Node::kRim)] = true;
     info.faint_on = &is_on_road;  // some K cooler costs a few parts in a thousand of what accelerating takes
     info.visible_in = {quantities::kMachineForce, quantities::kLinerTemperature, quantities::kCavityPressure};
@@ -40,7 +39,7 @@ struct RimHeat {
   }
 
   /// Without conductance the rim goes its own way, unfelt, so that derivatives by it are right there. The rim touches
-  /// no road: what the tire gives to it per speed counts as given to the air.
+  /// no road: of the tire's f v the road's share counts as well.
   template <class S>
   static void thermal(const EffectView<S>& self, const Instant<S>& now, ThermalPort<S>& port) {
     const TireThermalParameters<S>& tire = now.context->tire.thermal;

@@ -22,6 +22,7 @@ struct CombinedLaw {
 /// Symbols   T, T_gas temperatures of rubber and gas [K], Q heat that arises in the tire [W], C, C_gas heat capacities
 ///           [J/K], z conductance at rest [W/K], f per speed [W s/(m K)], s, s_v the road's shares of both, v speed
 ///           that carries heat off the tire [m/s], H between rubber and gas [W/K]
+/// Validity  what moves the air by another law than v (effect convection_law) acts on the road's share of f v as well
 /// Source    (3.8) to (3.13), (3.17); heat to the rim is left out (§3.3.2.1)
 /// Checked   tests/models/corner_test.cpp
 struct OneNode {

@@ -73,7 +73,8 @@ TEST_CASE("RRc rises with speed for every tire (§4.1.5)", "[published]") {
   }
 }
 
-TEST_CASE("the tire warms with the air and with the road, more by the road (§2.2.2.4; the split is chosen by it)", "[published]") {
+TEST_CASE("the tire warms with the air and with the road, more by the road (§2.2.2.4; the split is chosen by it)",
+          "[published]") {
   const auto liner = [](double air_degC, double road_degC) {
     return number("warm_up", "a50", "liner_temperature_degC",
                   {"warm_up_min=120", "initial_tire_temperature_degC=20", "ambient_degC=" + std::to_string(air_degC),

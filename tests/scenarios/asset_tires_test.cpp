@@ -34,7 +34,7 @@ double measure_steady_rrc_N_per_kN(const std::string& tire, const std::vector<st
   return measure_rrc_N_per_kN(tire, 300.0, settings);
 }
 
-/// Relative fall of RRc per K of the air around 25 degC, after the standard's warm-up.
+/// Relative fall of RRc per K of the air around 25 degC, after a warm-up.
 double measure_ambient_slope_per_K(const std::string& tire, double warm_up_min) {
   const auto rrc_at = [&](const char* air) { return measure_rrc_N_per_kN(tire, warm_up_min, {air}); };
   return (rrc_at("ambient_degC=20") - rrc_at("ambient_degC=30")) / (10.0 * rrc_at("ambient_degC=25"));
