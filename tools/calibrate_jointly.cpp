@@ -61,8 +61,8 @@ Fit fit(const JointCalibration& tests) {
   ceres::Problem problem;
   problem.AddResidualBlock(cost, nullptr, shifted.data());
   ceres::Solver::Options options;
-  options.max_num_iterations = 60;
-  options.function_tolerance = 1e-5;
+  options.max_num_iterations = 200;
+  options.function_tolerance = 1e-4;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (summary.termination_type != ceres::CONVERGENCE) {
