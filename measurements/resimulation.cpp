@@ -25,8 +25,9 @@ using rigs::DrumInput;
 /// Parameters of a tire on the road, under a load and at a pressure.
 models::TireParameters<double> find_parameters(const models::TireFile& tire, models::Baseline baseline, double load_N,
                                                double pressure_Pa) {
-  return baseline == models::Baseline::kConstantRrc ? tire.parameters_with_class_values(load_N, pressure_Pa)
-                                                    : tire.parameters_on({""}, baseline);
+  if (baseline == models::Baseline::kConstantRrc) return tire.parameters_with_class_values(load_N, pressure_Pa);
+  static const rigs::RigFile road = rigs::find_kind_without_rig(&models::is_on_road).make_rig();
+  return tire.parameters_on(road.cooling_rig(), baseline);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "rigs/rig_file.h"
 #include "scenarios/common/coastdown_evaluation.h"
+#include "scenarios/common/iso_coefficient.h"
 #include "scenarios/common/vehicle_bench.h"
 #include "sim/core/assets.h"
 
@@ -76,10 +77,12 @@ struct Results {
     visit(Result{"within_criterion", "  within criterion_N", "", "whether it is within criterion_N"}, within_criterion);
     visit(ResultList{"differences", "Force at the wheels", "at speeds of 20 to 130 km/h"}, differences);
     visit(Result{"highway_rr_energy_Wh", "Rolling resistance on both highways", ".0f",
-                 "of all tires that roll, over both highway cycles"},
+                 "of all tires that roll (true loss), over both highway cycles"},
           highway_J);
     visit(Result{"highway_rr_energy_iso_Wh", "  by the ISO coefficient alone", ".0f",
-                 "the same by the tires' ISO coefficients; null where one has none"},
+                 "the same by the tires' ISO coefficients, with the loss that their skim tests subtracted; null where "
+                 "one has "
+                 "none"},
           highway_iso_J);
   }
 };
@@ -167,9 +170,9 @@ void add_highway(const RunSpec& spec, const Settings& settings, const sim::Recor
   }
   double iso_N = 0.0;
   for (const rigs::WheelPlace& wheel : layout.wheels) {
-    const auto& iso_28580 = rigs::tire_of(spec.vehicle->axles[wheel.axle], spec.tire).iso_28580;
-    if (!iso_28580.has_value()) return;
-    iso_N += iso_28580->rrc * wheel.static_load_N;
+    const auto rrc = calc_true_iso_rrc(rigs::tire_of(spec.vehicle->axles[wheel.axle], spec.tire), spec.baseline);
+    if (!rrc.has_value()) return;
+    iso_N += *rrc * wheel.static_load_N;
   }
   results.highway_iso_J = iso_N / layout.share * distance_m;
 }

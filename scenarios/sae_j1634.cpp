@@ -1,5 +1,6 @@
 /// SAE J1634 multi-cycle test on a dynamometer, in the standard's order or the source's (§3.4.4).
 
+#include "scenarios/common/iso_coefficient.h"
 #include "scenarios/common/vehicle_bench.h"
 
 namespace rollrig::scenarios::sae_j1634 {
@@ -72,9 +73,11 @@ struct Section {
   void visit(ResultSheet& visit) const {
     visit(Result{"name", "section", "", "its phase", Column::kBoth}, name);
     visit(Result{"distance_km", "", ".2f", "driven in it"}, distance_m);
-    visit(Result{"rr_energy_Wh", "model", ".1f", "energy of rolling resistance of one tire, counted stretches"}, rr_J);
+    visit(Result{"rr_energy_Wh", "model", ".1f",
+                 "energy of rolling resistance of one tire (true loss), counted stretches"},
+          rr_J);
     visit(Result{"rr_energy_iso_Wh", "ISO", ".1f",
-                 "the same by the tire's ISO coefficient; null where it has none, or no loss of its own"},
+                 "the same by iso_rrc_true_N_per_kN; null where the tire has no coefficient, or no loss of its own"},
           rr_iso_J);
     visit(Result{"difference_percent", "diff.", ".1f", "of the first from the second"}, calc_difference());
     visit(Result{"mean_rrc_N_per_kN", "RRc", ".2f", "mean over time of F_rr/Fz, counted stretches"}, mean_rrc);
@@ -97,6 +100,7 @@ struct Results {
   std::string wheels;
   double load_N = 0.0;
   double count_from_m_s = 0.0;
+  std::optional<double> iso_rrc;
   std::vector<Section> sections;
   std::optional<Section> total;
 
@@ -104,6 +108,9 @@ struct Results {
     visit(Remark{"Wheels simulated"}, wheels);
     visit(Remark{"Load of the tire"}, show_number("load_N", ".0f", load_N));
     visit(Remark{"Counted above"}, show_number("speed_km_h", ".0f", count_from_m_s));
+    visit(Result{"iso_rrc_true_N_per_kN", "ISO coefficient", ".3f",
+                 "of the tire's file, with the loss that its skim test subtracted; null where it has none"},
+          iso_rrc);
     visit(ResultList{"sections", "Rolling resistance of one tire, by model and by ISO coefficient; of all tires",
                      "each section", "Liner of that tire; energy of the whole vehicle, at its hubs and its battery"},
           sections, total);
@@ -140,6 +147,11 @@ bool is_section(const std::string& phase) {
   return phase.rfind("city", 0) == 0 || phase.rfind("highway", 0) == 0 || phase.rfind("constant speed", 0) == 0;
 }
 
+/// The ISO coefficient of the tire that is shown, as a true loss like the energy of the model.
+std::optional<double> find_iso_rrc(const RunSpec& spec, const rigs::VehicleLayout& layout) {
+  return calc_true_iso_rrc(rigs::tire_of(spec.vehicle->axles[layout.wheels.front().axle], spec.tire), spec.baseline);
+}
+
 Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
                          const sim::Recording<double>& recording, std::size_t phase) {
   using rigs::VehicleIntegral;
@@ -151,10 +163,10 @@ Section evaluate_section(const RunSpec& spec, const rigs::VehicleLayout& layout,
   section.distance_m = reader.common(VehicleIntegral::kDistance);
   section.rr_J = reader.wheel(WheelIntegral::kCountedRollingEnergy, 0);
   const bool tires_lose = is_indoors(spec.rig.kind->traits) || !spec.vehicle->road_load.has_value();
-  const auto& iso_28580 = rigs::tire_of(spec.vehicle->axles[layout.wheels.front().axle], spec.tire).iso_28580;
-  if (iso_28580.has_value() && tires_lose) {
+  const auto iso_rrc = find_iso_rrc(spec, layout);
+  if (iso_rrc.has_value() && tires_lose) {
     section.rr_iso_J =
-        iso_28580->rrc * layout.wheels.front().static_load_N * reader.common(VehicleIntegral::kCountedDistance);
+        *iso_rrc * layout.wheels.front().static_load_N * reader.common(VehicleIntegral::kCountedDistance);
   }
   const double counted_s = reader.common(VehicleIntegral::kCountedTime);
   if (counted_s > 0.0) section.mean_rrc = reader.wheel(WheelIntegral::kCountedRrc, 0) / counted_s;
@@ -201,6 +213,7 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
                                                                  plain_name(layout.wheels.front().position));
   results.load_N = layout.wheels.front().static_load_N;
   results.count_from_m_s = settings.calc_count_from_m_s();
+  results.iso_rrc = find_iso_rrc(spec, layout);
   for (std::size_t i = 0; i < outcome.recording.phases.size(); ++i) {
     if (!is_section(outcome.recording.phases[i].name)) continue;
     results.sections.push_back(evaluate_section(spec, layout, outcome.recording, i));

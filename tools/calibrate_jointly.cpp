@@ -146,7 +146,7 @@ int main(int argc, char** argv) {
   }
   try {
     const std::string published = argv[1];
-    JointCalibration tests(tools::joint::read_files(published + "/joint_calibration"), published);
+    JointCalibration tests(tools::joint::read_files(), published);
     const Fit best = fit(tests);
     print_numbers(best);
     print_observations(tests.observe(best.at));

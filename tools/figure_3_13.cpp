@@ -3,14 +3,17 @@
 
 #include <cmath>
 
-#include "tools/virtual_tests.h"
+#include "tools/figure_3_13.h"
+#include "tools/virtual_run.h"
 
 namespace rollrig::tools {
 namespace {
 
 scenarios::RunSpec make_spec(double heat_capacity_J_per_K) {
   scenarios::RunSpec spec = make_source_drive("a50");
+  spec.tire.values.own = {&models::default_tire_model(), {}};  // (3.5)
   auto& rr = spec.tire.values.rolling_resistance;
+  rr.lowest_speed_m_s = 20.0 / 3.6;  // §4.2.1
   rr.A1_N_s_per_m = (64.7752 - 55.1434) / (kHighSpeed_m_s - kLowSpeed_m_s);
   rr.A0_N = 55.1434 - rr.A1_N_s_per_m * kLowSpeed_m_s;
   rr.B1_s_per_m_K = (0.0191 - 0.0177) / (kHighSpeed_m_s - kLowSpeed_m_s);
@@ -26,8 +29,8 @@ struct Sections {
 
   std::vector<double> differences(const double* x) const {
     scenarios::RunSpec at = spec;
-    at.tire.rig_thermal["dyno_1m2"].rest_conductance_W_per_K = std::exp(x[0]);
-    at.tire.rig_thermal["dyno_1m2"].speed_conductance_W_s_per_m_K = std::exp(x[1]);
+    at.tire.values.thermal.rest_conductance_W_per_K = std::exp(x[0]);
+    at.tire.values.thermal.speed_conductance_W_s_per_m_K = std::exp(x[1]);
     std::vector<double> found;
     const Json result = scenarios::run_scenario(at, {}).result;
     for (const Json& section : result["sections"]) found.push_back(section["difference_percent"].get<double>() / 100.0);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "models/corner.h"
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "tools/tire_drive.h"
 
@@ -13,22 +13,22 @@ namespace rollrig::tools::joint {
 namespace {
 
 // Weights: standard deviations of the residuals, and ranges that bear on the fit from outside only.
-constexpr double kSectionSd_points = 0.33;  // points of Tables 4.4 and 4.5: what the law is expected to miss
+constexpr double kSectionSd_points = 0.27;  // points of Tables 4.4 and 4.5: what the law is expected to miss
 constexpr double kEnergySd_Wh_km = 0.25;    // Table 5.1, whose numbers differ from 4.4 and 4.5 by up to 0.3
-constexpr double kRrcRelativeSd = 0.0025;   // relative; half of the bar
+constexpr double kRrcRelativeSd = 0.002;    // relative; half of the bar
 constexpr double kSettingSd_Wh = 2.0;       // Table 4.2
 constexpr double kDropSd_percent = 0.1;     // §4.1.6
-constexpr double kDropSd_N = 0.03;
+constexpr double kDropSd_N = 0.025;
 constexpr double kCity3FallSd_K = 0.5;    // §4.4.3: "~10", "~7", "~5" degC
 constexpr double kStartSd_percent = 5.0;  // §6: 25 to 40 %
 constexpr double kSpanSd_N_kN = 0.03;     // §4.1.3: within 0.17 N/kN
 constexpr double kRiseSd_percent = 1.0;   // §4.1.5: RRc rises with speed
-constexpr double kOrderSd_K = 0.1;        // orders of temperatures and ranges
+constexpr double kOrderSd_K = 0.05;       // orders of temperatures and ranges
 constexpr double kRatioSd = 0.03;         // (4.1): +-0.9 N of about 30 N
 constexpr double kColdSd = 0.003;         // loss at -20 degC over that at 25 degC, at most 1.45
 constexpr double kLeastMargin = 0.003;    // of the speed rise above that with which the loss would fall with speed
 constexpr double kMarginSd = 0.0005;
-constexpr double kHighestColdRatio = 1.445;
+constexpr double kHighestColdRatio = 1.447;
 constexpr double kSofter_Pa = 20e3;  // A50's run of Table 4.2; see tests/published/table_4_2
 
 /// The speed rise with which the loss falls with speed at no temperature; see models/tire/bounded.cpp.
@@ -57,15 +57,6 @@ scenarios::RunSpec with(const CalibratedFiles& files, std::size_t tire, std::siz
   return spec;
 }
 
-/// RRc as the ISO test reports it, and the share of the true loss that is left after the skim test.
-void read_iso(const scenarios::RunSpec& spec, TireResults& out) {
-  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
-  const std::vector<double>& loss_N = outcome.recording.channel(models::quantities::kRollingResistance);
-  const auto at = [&](const char* end) { return loss_N[outcome.recording.row_at(number(outcome.result, end) - 30.0)]; };
-  out["reported share"] = 1.0 - at("skim_end_s") / at("end_s");
-  out["rrc"] = number(outcome.result, "rrc_25degC_2m_N_per_kN");
-}
-
 /// All virtual tests of one tire.
 TireResults simulate(std::size_t tire, const CalibratedFiles& files) {
   TireResults out;
@@ -76,7 +67,9 @@ TireResults simulate(std::size_t tire, const CalibratedFiles& files) {
     return with(files, tire, 0, make_spec(scenario, path, settings));
   };
   const auto run = [](const scenarios::RunSpec& spec) { return scenarios::run_scenario(spec, {}).result; };
-  read_iso(drum("iso_28580"), out);
+  const IsoTest iso = run_iso_test(drum("iso_28580"));
+  out["reported share"] = iso.reported_share;
+  out["rrc"] = iso.rrc_N_per_kN;
   const Json warm_up = run(drum("warm_up", vehicle));
   for (const char* key : {"band_drop_percent", "band_drop_N", "liner_temperature_degC"}) {
     out[key] = number(warm_up, key);
@@ -91,10 +84,8 @@ TireResults simulate(std::size_t tire, const CalibratedFiles& files) {
   out["pressure ratio"] =
       number(run(drum("pressure_sweep", {"pressures_kPa=[250, 280]", "settle_min=0"})), "first_to_second_ratio");
   const auto loss_at = [&](double degC) {
-    std::vector<std::string> settings = vehicle;
-    settings.push_back(fmt::format("ambient_degC={}", degC));
-    settings.push_back("warm_up_min=120");
-    return number(run(drum("warm_up", settings)), "rolling_resistance_N");
+    return number(run(drum("warm_up", {fmt::format("ambient_degC={}", degC), "warm_up_min=120"})),
+                  "rolling_resistance_N");
   };
   out["cold ratio"] = loss_at(-20.0) / loss_at(25.0);
   const TireDrive drive = drive_source_test(with(files, tire, 1, make_source_drive(path)));
@@ -107,12 +98,8 @@ TireResults simulate(std::size_t tire, const CalibratedFiles& files) {
   out["city 2 rise"] = drive[2].end_degC() - drive[2].start_degC();
   out["city 3 fall"] = drive[4].start_degC() - drive[4].end_degC();
   const double city_2_degC = drive[2].start_degC();
-  models::Context<double> context;
-  context.tire = files.tires[tire].values;
-  context.surface_curvature_per_m = 1.0 / 0.6;
-  const models::Corner<double> corner(context, {});
   const auto rrc_by_law = [&](double km_h, double degC) {
-    return corner.calc_law_N(km_h / 3.6, 5400.0, 280e3, degC + kZeroCelsius_K) / 5.4;
+    return calc_law_rrc_N_per_kN(files.tires[tire], km_h, degC);
   };
   out["by speed"] = rrc_by_law(90.0, city_2_degC) - rrc_by_law(40.0, city_2_degC);
   out["by temperature"] = rrc_by_law(90.0, city_2_degC) - rrc_by_law(90.0, city_2_degC + 6.0);
@@ -202,14 +189,20 @@ std::vector<Observation> JointCalibration::observe(const Unknowns& at) const {
     all.push_back(hold_within("6", tire + " start", 25.0, 40.0, v["start excess"], kStartSd_percent));
     all.push_back(hold_within("6", tire + " start veh", 25.0, 40.0, v["start excess vehicle"], 2.0 * kStartSd_percent));
     all.push_back(hold_within("4.1.3", tire + " load span", 0.0, 0.17, v["load span"], kSpanSd_N_kN));
-    all.push_back(hold_within("4.1.5", tire + " 40 to 80", 0.0, kAny, v["rise 40 to 80"], kRiseSd_percent));
-    all.push_back(hold_within("4.1.5", tire + " 80 to 120", 0.0, kAny, v["rise 80 to 120"], kRiseSd_percent));
+    // Not of a60: Table 4.5 has its loss fall by 2.9 points from 80 to 105 km/h.
+    const double least_rise_percent = tire == "a60" ? -kAny : 0.0;
+    for (const char* rise : {"rise 40 to 80", "rise 80 to 120"}) {
+      all.push_back(hold_within("4.1.5", tire + " " + rise, least_rise_percent, kAny, v[rise], kRiseSd_percent));
+    }
     all.push_back(hold_within("cold", tire + " cold ratio", 0.0, kHighestColdRatio, v["cold ratio"], kColdSd));
     const auto value = [&](const char* key) { return *find_number(files.tires[i].values, key); };
     const double capacity = 1640.0 * files.tires[i].values.geometry.mass_kg;
     all.push_back(deviate("prior", tire + " ln C", std::log(capacity), std::log(value(kCapacity)), 0.2));
     all.push_back(deviate("prior", tire + " b", 1.1, value("load_exponent"), 0.15));
     all.push_back(deviate("prior", tire + " c", 0.0, value("speed_rise_of_fall"), 1.0));
+    const double power = std::pow((80.0 / 3.6) / value("step_speed_km_h"), value("step_power"));
+    const double at_rest = 1.0 - value("speed_rise_of_fall") * power / (1.0 + power);
+    all.push_back(hold_within("prior", tire + " fall at rest", 0.01, kAny, at_rest, 0.002));
     const double speed_rise = value("speed_rise");
     const double least_rise = find_least_speed_rise(files.tires[i].values);
     all.push_back(hold_within("prior", tire + " s", least_rise > 0.0 ? kLeastMargin : 0.0, kAny,
@@ -264,11 +257,20 @@ double find_rms(const std::vector<Observation>& observations, const std::vector<
   return std::sqrt(squares / static_cast<double>(count));
 }
 
-CalibratedFiles read_files(const std::string& folder) {
+IsoTest run_iso_test(const scenarios::RunSpec& spec) {
+  const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+  const std::vector<double>& loss_N = outcome.recording.channel(models::quantities::kRollingResistance);
+  const auto at = [&](const char* end) { return loss_N[outcome.recording.row_at(number(outcome.result, end) - 30.0)]; };
+  return {number(outcome.result, "rrc_25degC_2m_N_per_kN"), 1.0 - at("skim_end_s") / at("end_s")};
+}
+
+CalibratedFiles read_files() {
   CalibratedFiles files;
-  const auto read = [&folder](const std::string& name) { return read_config(folder + '/' + name + ".toml"); };
-  for (std::size_t i = 0; i < kTires.size(); ++i) files.tires[i] = models::read_tire(read(kTires[i]));
-  for (std::size_t i = 0; i < kRigs.size(); ++i) files.rigs[i] = rigs::read_rig(read(kRigs[i]));
+  for (std::size_t i = 0; i < kTires.size(); ++i) {
+    files.tires[i] = models::read_tire(read_config(find_asset("tires", kTires[i])));
+  }
+  for (std::size_t i = 0; i < kRigs.size(); ++i)
+    files.rigs[i] = rigs::read_rig(read_config(find_asset("rigs", kRigs[i])));
   return files;
 }
 

@@ -91,6 +91,16 @@ std::string name_of_unknown(std::size_t i);
 /// Root mean square of virtual less published over the observations of some tables.
 double find_rms(const std::vector<Observation>& observations, const std::vector<std::string>& tables);
 
-/// Reads a40, a50, a60 and the rigs from a folder. Throws InputError.
-CalibratedFiles read_files(const std::string& folder);
+/// The tires and rigs of the assets. Throws InputError.
+CalibratedFiles read_files();
+
+/// The ISO test of a tire: what it reports, and the share of the true loss that is left after the skim test.
+struct IsoTest {
+  double rrc_N_per_kN = 0.0;
+  double reported_share = 0.0;
+
+  double true_rrc_N_per_kN() const { return rrc_N_per_kN / reported_share; }
+};
+IsoTest run_iso_test(const scenarios::RunSpec& spec);
+
 }  // namespace rollrig::tools::joint

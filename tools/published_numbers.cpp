@@ -26,10 +26,6 @@ PublishedTire read_published_tire(const std::string& folder, const std::string& 
   PublishedTire out;
   read_published_table(folder + "/source.toml", tire, [&out](TableReader& reader) {
     out.rrc_iso = reader.number({"rrc_iso_N_per_kN", positive(), ""});
-    out.band_B_low_per_K = reader.number({"band_B_low_per_degC", positive(), ""});
-    out.band_B_high_per_K = reader.number({"band_B_high_per_degC", positive(), ""});
-    out.band_low_N = reader.number_or_none({"band_low_N", positive(), ""});
-    out.band_low_sd_N = reader.number_or_none({"band_low_N_sd", positive(), ""});
     out.band_drop_percent = reader.number_or_none({"band_drop_percent", positive(), ""});
     out.band_drop_N = reader.number_or_none({"band_drop_N", positive(), ""});
     out.city_3_fall_K = reader.number({"city_3_fall_K", positive(), ""});

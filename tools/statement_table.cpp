@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/tire/drum_curvature.h"
-#include "models/tire/rolling_resistance.h"
 #include "tools/drive_tables.h"
 #include "tools/virtual_run.h"
 
@@ -100,14 +98,8 @@ void add_drive_cycle(StatementTable& table, const Drives& drives) {
   table.add_order(place, "a40 varies most, then a50, a60 (range)", measure_statement(drives, find_range_K), "degC");
 }
 
-/// RRc on the dynamometer by the law alone, N/kN.
 double find_rrc(const std::string& tire, double speed_km_h, double degC) {
-  const models::TireParameters<double> p = make_source_drive(tire).tire.values;
-  constexpr double kLoad_N = 5400.0, kPressure_Pa = 280e3, kRoller_per_m = 1.0 / 0.6;
-  const double to_roller = models::calc_drum_correction(2.0 / p.rolling_resistance.reference_drum_diameter_m,
-                                                        kRoller_per_m, p.geometry.outer_diameter_m / 2.0);
-  return 1e3 / kLoad_N * to_roller *
-         models::calc_rolling_resistance_N(p, speed_km_h / 3.6, kLoad_N, kPressure_Pa, kZeroCelsius_K + degC);
+  return calc_law_rrc_N_per_kN(make_source_drive(tire).tire, speed_km_h, degC);
 }
 
 void add_city_comparison(StatementTable& table, const Drives& drives) {

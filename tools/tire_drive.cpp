@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "models/corner.h"
 #include "scenarios/common/vehicle_bench.h"
 #include "tools/virtual_run.h"
 
@@ -93,6 +94,15 @@ TireDrive drive_dyno_setting(const scenarios::RunSpec& spec, double pressure_Pa)
   scenarios::Outcome outcome;
   scenarios::simulate_vehicle(spec, conditions, program, {}, outcome);
   return read_sections(spec, conditions.make_layout(spec), outcome.recording);
+}
+
+double calc_law_rrc_N_per_kN(const models::TireFile& tire, double speed_km_h, double tire_degC) {
+  constexpr double kRollerDiameter_m = 1.2, kLoad_N = 5400.0;
+  models::Context<double> context;
+  context.tire = tire.values;
+  context.surface_curvature_per_m = 2.0 / kRollerDiameter_m;
+  const models::Corner<double> corner(context, {});
+  return 1e3 / kLoad_N * corner.calc_law_N(speed_km_h / 3.6, kLoad_N, kSourcePressure_Pa, kZeroCelsius_K + tire_degC);
 }
 
 double find_mean_degC(const TireDrive& drive) {

@@ -38,6 +38,9 @@ TireDrive drive_dyno_setting(const std::string& tire);
 /// The same of a spec of make_source_drive(), at a cold pressure.
 TireDrive drive_dyno_setting(const scenarios::RunSpec& spec, double pressure_Pa);
 
+/// RRc of a tire on the rollers of 1.2 m at 5400 N and 280 kPa by its law alone, where all of it has one temperature.
+double calc_law_rrc_N_per_kN(const models::TireFile& tire, double speed_km_h, double tire_degC);
+
 /// Mean over the time of a drive, and the range, of the liner's temperature.
 double find_mean_degC(const TireDrive& drive);
 double find_range_K(const TireDrive& drive);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "measurements/resimulation.h"
 #include "measurements/sample_selection.h"
 #include "sim/core/assets.h"
 
@@ -81,6 +82,18 @@ void check_level(const MeasurementSet& set, const BaselineRuns& baseline, std::v
                   100.0 * std::abs(off), off > 0.0 ? "above" : "below", set.tire.name));
 }
 
+/// A tire of the assets as it would cool where the set's tire was run: in proportion to its outer area.
+models::TireFile read_tire_on_rig(const std::string& name, const MeasurementSet& set) {
+  models::TireFile tire = models::read_tire(read_config(find_asset("tires", name)));
+  const auto& cooling = measurements::make_context(set).tire.thermal;
+  const double area_ratio =
+      models::calc_outer_area_m2(tire.values.geometry) / models::calc_outer_area_m2(set.tire.values.geometry);
+  tire.rig_thermal.clear();
+  tire.values.thermal.rest_conductance_W_per_K = area_ratio * cooling.rest_conductance_W_per_K;
+  tire.values.thermal.speed_conductance_W_s_per_m_K = area_ratio * cooling.speed_conductance_W_s_per_m_K;
+  return tire;
+}
+
 /// Another tire of the assets, of another size, that fits the set far better as it stands.
 void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, int threads,
                        std::vector<std::string>& warnings) {
@@ -94,7 +107,7 @@ void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, 
   if (own < kVisible * static_cast<double>(set.runs.size())) return;
   for (const std::string& name : list_assets("tires")) {
     MeasurementSet other = set;
-    other.tire = models::read_tire(read_config(find_asset("tires", name)));
+    other.tire = read_tire_on_rig(name, set);
     const bool whole = other.tire.has_rolling_resistance && other.tire.has_thermal;
     if (!whole || other.tire.designation == set.tire.designation) continue;
     if (sum_of(resimulate_baseline(other, threads).misfits) > kFarBetter * own) continue;
@@ -107,6 +120,10 @@ void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, 
 
 std::vector<std::string> check_tire(const MeasurementSet& set, const BaselineRuns& baseline, int threads) {
   std::vector<std::string> warnings;
+  if (set.rig.has_value() && set.baseline == models::Baseline::kCombined) {
+    const auto warning = set.tire.find_foreign_rig(set.rig->cooling_rig());
+    if (warning.has_value()) warnings.push_back(*warning);
+  }
   check_conditions(set, warnings);
   check_level(set, baseline, warnings);
   check_other_tires(set, baseline, threads, warnings);

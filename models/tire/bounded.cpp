@@ -90,14 +90,22 @@ struct Bounded : TreadAndCarcass {
     return power / (S(1.0) + power);
   }
 
-  /// Refuses limits in the wrong order, and numbers with which speed would lower the loss at some temperature.
-  /// Equation  T_m < T_h;  s >= B c (theta(T) - theta(30 degC)) between both levels of theta
+  /// Refuses limits in the wrong order, and numbers with which heat would raise the loss at some speed, or speed lower it
+  /// at some temperature.
+  /// Equation  T_m < T_h;  1 + c (S - S_80) >= 0 from S = 0 to 1;  s >= B c (theta(T) - theta(30 degC)) between both
+  ///           levels of theta
   static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {
     const double cold_K = own[kColdLimit];
     const double hot_K = own[kHotLimit];
     if (cold_K >= hot_K) {
       return TireModelMistake{"hot_limit_degC", "the limits of the law are in the wrong order",
                               fmt::format("more than cold_limit_degC = {:.5g}", cold_K - kZeroCelsius_K)};
+    }
+    const double at_80 = calc_speed_step(get_reference_speed_m_s<double>(), own);
+    const double lowest_rise = -1.0 / (1.0 - at_80), highest_rise = 1.0 / at_80;
+    if (own[kFallRise] < lowest_rise || own[kFallRise] > highest_rise) {
+      return TireModelMistake{"speed_rise_of_fall", "the loss would rise with temperature at some speed",
+                              fmt::format("{:.4g} to {:.4g}", lowest_rise, highest_rise)};
     }
     const double at_30_dK = calc_bounded_dK(kReference_K, own);
     const double fall_rise_per_K = own[kFall] * own[kFallRise];

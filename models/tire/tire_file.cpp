@@ -206,6 +206,17 @@ TireParameters<double> TireFile::parameters_on(const CoolingRig& rig, Baseline b
   return on_rig;
 }
 
+std::optional<std::string> TireFile::find_foreign_rig(const CoolingRig& rig) const {
+  if (rig_thermal.empty() || rig_thermal.count(rig.name) > 0 || !gives_conductances(values.thermal))
+    return std::nullopt;
+  std::vector<std::string> named;
+  for (const auto& [own, conductances] : rig_thermal) named.push_back(own);
+  return fmt::format(
+      "tire '{}' has conductances for {}, and none for rig '{}': those of its [thermal] are used, and its "
+      "temperature may be several degC off",
+      name, fmt::join(named, ", "), rig.name);
+}
+
 TireParameters<double> TireFile::parameters_with_class_values(double load_N, double pressure_Pa) const {
   if (!has_constant) throw missing_table(*this, "constant", "baseline constant_rrc");
   TireParameters<double> filled = values;

@@ -101,6 +101,8 @@ struct TireFile {
   /// [thermal], or, where there are none, by the rig's cooling. Throws InputError when a table is absent that the model
   /// needs, or there are no conductances.
   TireParameters<double> parameters_on(const CoolingRig& rig, Baseline baseline) const;
+  /// A sentence where this tire names the rigs on which its conductances hold, and this rig is none of them.
+  std::optional<std::string> find_foreign_rig(const CoolingRig& rig) const;
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
   /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,

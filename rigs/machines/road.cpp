@@ -1,5 +1,6 @@
 /// A vehicle on the road. The traction force is known from its motor, and nothing of its tires.
 #include "rigs/rig_file.h"
+#include "sim/core/assets.h"
 
 namespace rollrig::rigs {
 
@@ -7,12 +8,19 @@ const MachineKind& machine_road();
 
 namespace {
 
+/// Of the road of the assets.
+models::TireCooling read_tire_cooling() {
+  static const models::TireCooling cooling = read_rig(read_config(find_asset("rigs", "road"))).tire_cooling;
+  return cooling;
+}
+
 /// Standard air over a level road.
 RigFile make_road() {
   RigFile road;
   road.name = "road";
   road.kind = &machine_road();
   road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
+  road.tire_cooling = read_tire_cooling();
   return road;
 }
 

@@ -2,6 +2,7 @@
 
 #include "models/vehicle/vehicle.h"
 #include "models/wheel/rolling_wheel.h"
+#include "scenarios/common/iso_coefficient.h"
 #include "scenarios/common/recorded_inputs.h"
 
 namespace rollrig::scenarios {
@@ -88,8 +89,8 @@ models::RoadLoad<double> VehicleConditions::find_default_set_load(const RunSpec&
     models::RoadLoad<double> load = *spec.vehicle->road_load;
     double rrc = 0.0;
     for (const rigs::VehicleAxle& axle : spec.vehicle->axles) {
-      const auto& iso_28580 = rigs::tire_of(axle, spec.tire).iso_28580;
-      if (iso_28580.has_value()) rrc += axle.load_share * iso_28580->rrc;
+      const models::TireFile& tire = rigs::tire_of(axle, spec.tire);
+      rrc += axle.load_share * calc_true_iso_rrc(tire, spec.baseline).value_or(0.0);
     }
     load.A_N -= rrc * spec.vehicle->body.mass_kg * kStandardGravity_m_s2;
     return load;

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "scenarios/run/run_spec.h"
 #include "scenarios/run/scenario.h"
 #include "sim/core/error.h"
 
@@ -11,10 +14,30 @@ namespace rollrig::scenarios {
 #include "scenarios/scenarios.def"
 #undef ROLLRIG_SCENARIO
 
+namespace {
+
+void warn_of_foreign_rig(const RunSpec& spec, Outcome& outcome) {
+  if (spec.baseline == models::Baseline::kConstantRrc) return;
+  const auto warn = [&](const models::TireFile& tire) {
+    const auto warning = tire.find_foreign_rig(spec.rig.cooling_rig());
+    if (warning.has_value()) outcome.warnings.push_back(*warning);
+  };
+  if (!spec.vehicle.has_value()) return warn(spec.tire);
+  for (const rigs::VehicleAxle& axle : spec.vehicle->axles) {
+    if (axle.tire.has_value()) warn(*axle.tire);
+  }
+  const auto has_own = [](const rigs::VehicleAxle& axle) { return axle.tire.has_value(); };
+  if (!std::all_of(spec.vehicle->axles.begin(), spec.vehicle->axles.end(), has_own)) warn(spec.tire);
+}
+
+}  // namespace
+
 PreparedRun prepare_run(const RunSpec& spec) {
   return [&spec, run = spec.scenario->prepare(spec)](const sim::Progress& progress) {
     try {
-      return run(progress);
+      Outcome outcome = run(progress);
+      warn_of_foreign_rig(spec, outcome);
+      return outcome;
     } catch (const RunFailure& failure) {
       if (spec.effects.empty()) throw;
       throw RunFailure(std::string(failure.what()) + "\neffects that were on: " + describe_effects(spec.effects));

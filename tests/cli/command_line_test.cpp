@@ -148,7 +148,7 @@ TEST_CASE("settings, tire and rig values, effects and sensors can be set", "[fas
   };
   const double plain = rrc("");
   CHECK(rrc("--set pressure_kPa=300") < plain);
-  CHECK(rrc("--set tire.rolling_resistance.A0_N=40") > plain);
+  CHECK(rrc("--set tire.bounded.loss_N=40") > plain);
   CHECK(rrc("--set rig.environment.ambient_degC=20") > plain);
   CHECK(rrc("--set effects.load_exponent.exponent=1.1") > plain);
   CHECK(rrc("--set effects.bearing_warmup.fall_per_K=0.02") == Approx(plain).epsilon(0.02));

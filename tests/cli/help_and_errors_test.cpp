@@ -86,8 +86,8 @@ TEST_CASE("errors stay within 80 columns, with all that is allowed and paths who
 }
 
 TEST_CASE("a run that fails exits with 3 and says why", "[fast]") {
-  // a drum that cannot turn the tire: a stiffness that no machine number holds
-  const auto run = run_program("run iso_28580 --tire a50 --set tire.rolling_resistance.A0_N=1e300");
+  // a drum that cannot turn the tire
+  const auto run = run_program("run iso_28580 --tire a50 --set tire.bounded.loss_N=1e300");
   CHECK(run.status == 3);
   CHECK_THAT(run.err, Contains("run failed"));
 }
@@ -101,7 +101,7 @@ TEST_CASE("a tire that an effect cools without end is a failed run that names th
                                  "timeout --foreground 60");
     INFO(fidelity);
     CHECK(run.status == 3);
-    CHECK_THAT(run.err, Contains("temperature of the tire's rubber") && Contains("tire_loss_in_skim (force_N = -20"));
+    CHECK_THAT(run.err, Contains("temperature of the tire's ") && Contains("tire_loss_in_skim (force_N = -20"));
   }
 }
 
@@ -112,11 +112,11 @@ TEST_CASE("a tire that heats without end is a failed run of recorded rows, too",
   for (int i = 0; i <= 2000; i += 2) rows += std::to_string(i) + ",120,5000,25,0\n";
   write_file(folder.file("rows.csv"), rows);
   const auto run = run_program(
-      "run follow_roller --tire a50 --set program=rows.csv --set tire.rolling_resistance.B0_per_degC=0 --set "
-      "tire.rolling_resistance.B1_s_per_m_degC=0 --set tire.rolling_resistance.A0_N=5000 --set "
+      "run follow_roller --tire a50 --set program=rows.csv --set tire.bounded.fall_per_degC=0 --set "
+      "tire.bounded.loss_N=5000 --set "
       "tire.thermal.z_W_per_K=0.01 --set tire.thermal.f_W_s_per_m_K=0",
       folder.path());
   INFO(run.out);
   CHECK(run.status == 3);
-  CHECK_THAT(run.err, Contains("temperature of the tire's rubber"));
+  CHECK_THAT(run.err, Contains("temperature of the tire's tread"));
 }

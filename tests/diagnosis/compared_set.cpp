@@ -53,7 +53,7 @@ measurements::MeasurementSet measure_on_drum(const std::vector<models::ActiveEff
   measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
-  set.tire = read_asset_tire();
+  set.tire = read_combined_tire();
   set.rig = read_asset_rig();  // where tests are nearly equally good, one drum has to be chosen
   set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");

@@ -6,6 +6,7 @@
 #include "diagnosis/kinds/measurement_kind.h"
 #include "scenarios/common/speed_trace.h"
 #include "sim/core/assets.h"
+#include "tests/support/drum_fixture.h"
 #include "tests/support/machines.h"
 
 namespace rollrig::tests {
@@ -76,7 +77,7 @@ measurements::MeasurementSet begin_set(tests::Machine kind, models::Baseline bas
   set.name = "simulated";
   set.kind = kind;
   set.baseline = baseline;
-  set.tire = models::read_tire(read_config(find_asset("tires", "a50")));
+  set.tire = read_combined_tire();
   set.tire.has_constant = true;
   set.tire.values.constant.rrc = 0.0075;
   set.sensors = kind->default_sensors;

@@ -24,7 +24,7 @@ measurements::MeasurementSet measure_constant(const rigs::RigFile& rig) {
   set.path = "simulated";
   set.name = "simulated";
   set.baseline = models::Baseline::kConstantRrc;
-  set.tire = tests::read_asset_tire();
+  set.tire = tests::read_combined_tire();
   set.tire.has_constant = true;
   set.tire.values.constant.rrc = kRrc;
   set.rig = rig;

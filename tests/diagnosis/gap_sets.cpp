@@ -59,7 +59,7 @@ measurements::MeasurementSet make_gap_set(const std::vector<models::ActiveEffect
   measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
-  set.tire = read_asset_tire();
+  set.tire = read_combined_tire();
   set.rig = make_uneven_drum();
   set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset(sensors);

@@ -26,7 +26,7 @@ measurements::MeasurementSet make_set() {
   measurements::MeasurementSet set;
   set.path = "set.toml";
   set.name = "campaign";
-  set.tire = tests::read_asset_tire();
+  set.tire = tests::read_combined_tire();
   set.rig = tests::read_asset_rig();
   set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");

@@ -9,6 +9,7 @@
 
 #include "diagnosis/checks/sample_checks.h"
 #include "tests/diagnosis/checked_sets.h"
+#include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/machines.h"
 
@@ -156,14 +157,17 @@ TEST_CASE("the same samples under two names are no second run", "[fast]") {
 }
 
 TEST_CASE("a wrong tire is warned of", "[fast]") {
+  tests::Campaign campaign = tests::make_short_campaign();
+  campaign.tire = find_asset("tires", "a50");
+  const MeasurementSet of_a50 = tests::simulate_campaign(campaign);
   for (const char* file : {"a40", "a60"}) {
-    MeasurementSet set = short_set();
+    MeasurementSet set = of_a50;
     set.tire = tests::read_asset_tire(file);
     const SetChecks checks = check_set(set);
     INFO(file);
     CHECK_THAT(join(checks.warnings), Contains("tire a50 (235/50 R19) fits these runs far better"));
     // a tire of the same size is the same one, with other numbers
-    set.tire.designation = tests::read_asset_tire("a50").designation;
+    set.tire.designation = of_a50.tire.designation;
     CHECK_THAT(join(check_set(set).warnings), !Contains("tire a50"));
   }
   MeasurementSet truck = short_set();

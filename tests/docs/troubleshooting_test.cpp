@@ -90,9 +90,8 @@ const std::vector<Mistake> kMistakes{
      "./rollrig fit road-load one_bin.csv --mass 2203", kFailed},
     {"The two logs have nothing in common", "cp " ROLLRIG_SOURCE_DIR "/tests/bad_input/import_* .",
      "./rollrig import import_nothing_in_common.toml --out joined", kWrongInput},
-    {"The run fails", "", "./rollrig run iso_28580 --tire a50 --set tire.rolling_resistance.B0_per_degC=-0.1", kFailed},
-    {"The run fails", "",
-     "./rollrig run iso_28580 --tire a50 --set tire.rolling_resistance.B0_per_degC=-0.1 --fidelity quasi_static",
+    {"The run fails", "", "./rollrig run iso_28580 --tire a50 --set tire.bounded.loss_N=5000", kFailed},
+    {"The run fails", "", "./rollrig run iso_28580 --tire a50 --set tire.bounded.loss_N=5000 --fidelity quasi_static",
      kFailed},
 };
 

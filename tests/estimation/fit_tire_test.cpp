@@ -168,7 +168,7 @@ TEST_CASE("missing samples are left out, and fewer samples widen the intervals",
 TEST_CASE("a map over load is fitted where there are several loads at two speeds", "[fast]") {
   measurements::MeasurementSet set = tests::make_warm_up_set("a50", "source", "quasi_static");
   const auto add_loads = [&](const char* speed) {
-    const auto spec = tests::make_spec("load_sweep", "a50",
+    const auto spec = tests::make_spec("load_sweep", tests::combined_tire_path(),
                                        {"loads_N=[7000, 4000]", "measurement_min=5", "settle_min=0",
                                         std::string("speed_km_h=") + speed, "effects.load_exponent.exponent=1.1"},
                                        "quasi_static");

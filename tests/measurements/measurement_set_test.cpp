@@ -24,7 +24,7 @@ struct WrittenSet {
   tests::TemporaryFolder folder;
 
   WrittenSet(const std::string& scenario, const std::vector<std::string>& settings)
-      : spec(tests::make_spec(scenario, "a50", settings, "quasi_static")) {
+      : spec(tests::make_spec(scenario, tests::combined_tire_path(), settings, "quasi_static")) {
     spec.sensors = models::SensorSet{};
     for (const char* channel : {"drum_torque_Nm", "liner_temperature_degC", "cavity_pressure_kPa"}) {
       (*spec.sensors)[channel] = {};

@@ -12,10 +12,10 @@ using models::calc_slip_force;
 namespace {
 
 models::ContactParameters<double> soft_contact() {
-  return models::make_contact_parameters(tests::read_asset_tire().values, 1.0 / 75000.0);
+  return models::make_contact_parameters(tests::read_combined_tire().values, 1.0 / 75000.0);
 }
 models::ContactParameters<double> stiff_contact() {
-  return models::make_contact_parameters(tests::read_asset_tire().values, 0.0);
+  return models::make_contact_parameters(tests::read_combined_tire().values, 0.0);
 }
 
 /// Slip force once the deflection has settled at constant speeds.
@@ -80,7 +80,7 @@ TEST_CASE("the stiff contact of the baseline dissipates under 0.1 N at 1 kN", "[
 
 TEST_CASE("dimensions of the contact", "[fast]") {
   using Q = DimensionedScalar;
-  const auto tire = models::convert_tire<Q>(tests::read_asset_tire().values);
+  const auto tire = models::convert_tire<Q>(tests::read_combined_tire().values);
   const auto p = models::make_contact_parameters(tire, Q(0.0, Dimension{} / dimension::kForce));
   const Q speed(20.0, dimension::kSpeed), deflection(1e-6, dimension::kLength), normal(5000.0, dimension::kForce);
   const auto slip = calc_slip_force(p, speed, speed, normal, deflection);

@@ -18,7 +18,7 @@ struct Surface {
   double radius_m;
 
   explicit Surface(double of_radius_m) : radius_m(of_radius_m) {
-    context.tire = tests::read_asset_tire().values;
+    context.tire = tests::read_combined_tire().values;
     if (radius_m == 0.0) return;
     context.surface_curvature_per_m = 1.0 / radius_m;
     context.machine_radius_m = radius_m;

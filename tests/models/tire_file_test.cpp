@@ -8,7 +8,7 @@
 using namespace rollrig;
 
 TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.standard_uncertainties.rolling_resistance.A0_N = 0.5;
   tire.values.load_map = {{{30.0, 0.8, 0.010, 1e-4}, 5000.0}, {{44.0, 1.2, 0.012, 2e-4}, 7000.0}};
   tire.standard_uncertainties.load_map.resize(2);
@@ -32,7 +32,7 @@ TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
 }
 
 TEST_CASE("a tire of another model is written and read with that model's own numbers", "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   CHECK(tire.values.model().info.id == "combined");
   CHECK(tire.values.own.values.empty());
   CHECK_THAT(models::write_tire(tire), !Catch::Contains("model ="));
@@ -106,7 +106,7 @@ H_gas_W_per_K = 4.5
 }
 
 TEST_CASE("values of a rig's own stand in for the general ones on that rig only", "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.rig_thermal = {{"here", {5.0, {}, {}, {}}}};
   const auto combined = models::Baseline::kCombined;
   CHECK(tire.parameters_on({"here"}, combined).thermal.rest_conductance_W_per_K == 5.0);
@@ -117,7 +117,7 @@ TEST_CASE("values of a rig's own stand in for the general ones on that rig only"
 }
 
 TEST_CASE("a tire without conductances is cooled by the rig, in proportion to its outer area", "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.rig_thermal.clear();
   tire.values.thermal.rest_conductance_W_per_K = tire.values.thermal.speed_conductance_W_s_per_m_K = 0.0;
   models::TireGeometry<double>& geometry = tire.values.geometry;
@@ -142,7 +142,7 @@ TEST_CASE("a tire without conductances is cooled by the rig, in proportion to it
 }
 
 TEST_CASE("one conductance without the other is refused", "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.rig_thermal.clear();
   std::string text = models::write_tire(tire);
   const std::size_t line = text.find("conductance_at_rest_W_per_K");
@@ -152,7 +152,7 @@ TEST_CASE("one conductance without the other is refused", "[fast]") {
 }
 
 TEST_CASE("a tire with the bounded law has no lines over speed in its file, and comes back from it", "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.values.own = tests::make_own("bounded");
   tire.standard_uncertainties.own = {tire.values.own.model, std::vector<double>(tire.values.own.values.size())};
   const std::string text = models::write_tire(tire);
@@ -167,7 +167,7 @@ TEST_CASE("a tire with the bounded law has no lines over speed in its file, and 
 
 TEST_CASE("a file of the bounded law is refused if its limits are in the wrong order or its loss would fall with speed",
           "[fast]") {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.values.own = tests::make_own("bounded");
   tire.standard_uncertainties.own = {tire.values.own.model, std::vector<double>(tire.values.own.values.size())};
   const std::string text = models::write_tire(tire);
@@ -215,7 +215,7 @@ rrc_N_per_kN_sd = 2.5
   CHECK(filled.rolling_resistance.reference_pressure_Pa == 260e3);
   CHECK(filled.thermal.heat_capacity_J_per_K > 9.0 * 1000.0);
   CHECK(filled.stiffness.vertical_N_per_m > 0.0);
-  const models::TireFile whole = tests::read_asset_tire();
+  const models::TireFile whole = tests::read_combined_tire();
   models::TireFile with_constant = whole;
   with_constant.has_constant = true;
   CHECK(with_constant.parameters_with_class_values(4000.0, 260e3).thermal.rest_conductance_W_per_K ==

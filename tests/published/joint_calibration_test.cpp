@@ -1,5 +1,5 @@
-// The joint calibration of the source's tires on the bounded law: what it reaches, with the files of joint_calibration
-// as they stand. README.md there says what is free and what is missed.
+// The joint calibration of the source's tires: what it reaches, with the tires and rigs of the assets as they stand.
+// docs/published.md says what is free and what is missed.
 #include <catch2/catch.hpp>
 #include <map>
 
@@ -14,8 +14,7 @@ const std::string kPublishedNumbers = ROLLRIG_SOURCE_DIR "/tests/published";
 
 const std::vector<tools::joint::Observation>& observe() {
   static const std::vector<tools::joint::Observation> kAll = [] {
-    const tools::joint::JointCalibration tests(tools::joint::read_files(kPublishedNumbers + "/joint_calibration"),
-                                               kPublishedNumbers);
+    const tools::joint::JointCalibration tests(tools::joint::read_files(), kPublishedNumbers);
     return tests.observe(tests.read_unknowns());
   }();
   return kAll;

@@ -34,8 +34,8 @@ VehicleFixture make_mixed_car(const char* rig) {
   VehicleFixture fixture(rig, true);
   tests::set_front_load(fixture.vehicle, 0.57);
   tests::set_front_drive(fixture.vehicle, 0.3);
-  fixture.vehicle.axles[kFront].tire = tests::read_asset_tire("a40");
-  fixture.vehicle.axles[kRear].tire = tests::read_asset_tire("a60");
+  fixture.vehicle.axles[kFront].tire = tests::read_combined_tire("a40");
+  fixture.vehicle.axles[kRear].tire = tests::read_combined_tire("a60");
   fixture.vehicle.axles[kRear].pressure_Pa = 310e3;
   return fixture;
 }

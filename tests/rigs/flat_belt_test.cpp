@@ -45,6 +45,7 @@ sim::Program make_program() {
 TEST_CASE("a drum of growing diameter tends to the belt of its moving mass and parasitic loss", "[fast]") {
   DrumFixture belt;
   belt.rig = read_asset("flat_belt");
+  belt.rig.conductances_of = "drum_2m";  // as the drum beside it
   const auto on_belt = belt.run_quasi_static(make_program());
   double former = 1e9;
   for (const double diameter_m : {20.0, 200.0, 2000.0}) {
@@ -90,8 +91,9 @@ TEST_CASE("the ISO coefficient of a tire comes out nearly alike on every surface
   const double on_2m = find_rrc("drum_2m", "quasi_static", "rrc_25degC_2m_N_per_kN");
   for (const char* fidelity : {"quasi_static", "multibody"}) {
     CHECK(find_rrc("drum_1m7", fidelity, "rrc_25degC_2m_N_per_kN") == Approx(on_2m).epsilon(0.01));
-    // On a plane the tire loses less and stays colder, which the correction leaves in.
-    CHECK(find_rrc("flat_belt", fidelity, "rrc_25degC_2m_N_per_kN") == Approx(1.02 * on_2m).epsilon(0.02));
+    // On a plane the tire loses 14 % less at equal temperature and stays some 2 to 3 degC colder, which the correction
+    // leaves in: at 0.018/degC, 4 to 5 %.
+    CHECK(find_rrc("flat_belt", fidelity, "rrc_25degC_2m_N_per_kN") == Approx(1.045 * on_2m).epsilon(0.01));
   }
   CHECK(find_rrc("flat_belt", "quasi_static", "rrc_N_per_kN") < 0.93 * on_2m);
   CHECK(find_rrc("drum_1m7", "quasi_static", "rrc_N_per_kN") > 1.01 * on_2m);

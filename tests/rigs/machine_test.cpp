@@ -23,6 +23,7 @@ TEST_CASE("every rig file is written as it was read", "[fast]") {
 
 TEST_CASE("how a rig cools tires is written and read, in the new format alone", "[fast]") {
   rigs::RigFile rig = rigs::read_rig(read_config(find_asset("rigs", "drum_2m")));
+  rig.tire_cooling = {};
   CHECK_THAT(rigs::write_rig(rig), Catch::StartsWith("format = \"rollrig-rig/1\"") && !Catch::Contains("tire_cooling"));
   rig.tire_cooling = {11.0, 1.5};
   const std::string text = rigs::write_rig(rig);

@@ -12,8 +12,8 @@ using tests::number;
 using tests::run;
 
 TEST_CASE("a warm-up reads the law's B off the curve, plus what the rising pressure adds", "[fast]") {
-  const auto outcome = run("warm_up", "a50", {"load_N=5400", "pressure_kPa=280"});
-  const auto tire = tests::read_asset_tire().values.rolling_resistance;
+  const auto outcome = run("warm_up", tests::combined_tire_path(), {"load_N=5400", "pressure_kPa=280"});
+  const auto tire = tests::read_combined_tire().values.rolling_resistance;
   const double law_B = tire.B0_per_K + tire.B1_s_per_m_K * 80.0 / 3.6;
   // absolute pressure 381.3 kPa over 298 K, gauge about 288 kPa: the pressure adds 0.4 * 1.279 / 288 = 0.0018;
   // that F_r lacks the skim share, which does not fall with it, adds 3 to 4 % of B
@@ -48,13 +48,13 @@ TEST_CASE("a skim series extrapolates to the rig alone when the tire's loss goes
   const std::vector<std::string> isothermal{"tire.rolling_resistance.B0_per_degC=0",
                                             "tire.rolling_resistance.B1_s_per_m_degC=0",
                                             "tire.rolling_resistance.pressure_exponent=0"};
-  const auto exact = run("skim_series", "a50", isothermal);
+  const auto exact = run("skim_series", tests::combined_tire_path(), isothermal);
   CHECK(number(exact, "intercept_N") == Approx(number(exact, "rig_alone_N")).epsilon(1e-6));
   std::vector<std::string> with_own_loss = isothermal;
   with_own_loss.push_back("effects.tire_loss_in_skim.force_N=2");
   with_own_loss.push_back("effects.tire_loss_in_skim.load_power=0");
   with_own_loss.push_back("effects.tire_loss_in_skim.fall_per_degC=0");
-  const auto own = run("skim_series", "a50", with_own_loss);
+  const auto own = run("skim_series", tests::combined_tire_path(), with_own_loss);
   CHECK(number(own, "intercept_N") - number(own, "rig_alone_N") == Approx(2.0).margin(0.05));
 }
 
@@ -72,10 +72,10 @@ TEST_CASE("a pressure sweep weakens the law's exponent by the warmer tire at low
   REQUIRE(outcome.result["cycles"].size() == 3);
   CHECK(outcome.set_runs.size() == 3);
   for (const auto& run_of_set : outcome.set_runs) {
-    CHECK(run_of_set.initial_tire_temperature_K == Approx(298.15).margin(0.01));
+    CHECK(run_of_set.initial_tire_temperature_K == Approx(298.15).margin(0.15));
   }
-  // The soak of 3 h leaves 0.01 K of the cycle before, in 298 K.
-  CHECK(outcome.set_runs[2].cold_pressure_Pa == Approx(300e3).epsilon(3e-5));
+  // The soak of 3 h leaves 0.1 K of the cycle before, in 298 K: 0.1 kPa of 400 (absolute).
+  CHECK(outcome.set_runs[2].cold_pressure_Pa == Approx(300e3).margin(150.0));
 }
 
 TEST_CASE("a speed sweep averages its measurement cycles and rises with speed", "[fast]") {
@@ -149,7 +149,8 @@ TEST_CASE("a load sweep takes the loads of the tire's own table", "[fast]") {
   const auto outcome = run("load_sweep", "a50");
   REQUIRE(outcome.result["cycles"].size() == 3);
   CHECK(outcome.result["cycles"][1]["load_N"].get<double>() == Approx(6100.0));
-  CHECK(number(outcome, "steady_state_load_exponent") < 1.0);  // (3.5) is proportional only at equal temperature
+  // (3.5) is proportional only at equal temperature
+  CHECK(number(run("load_sweep", tests::combined_tire_path()), "steady_state_load_exponent") < 1.0);
 }
 
 TEST_CASE("a power is fitted exactly to a power", "[fast]") {

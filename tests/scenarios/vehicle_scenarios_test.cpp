@@ -159,7 +159,9 @@ TEST_CASE("rollers under a vehicle that is given by its road load leave its tire
   auto spec = tests::make_spec("dyno_setting", "a50");
   spec.vehicle->road_load = models::RoadLoad<double>{150.0, 1.0, 0.4};
   const auto set = scenarios::VehicleConditions::find_default_set_load(spec);
-  CHECK(set.A_N == Approx(150.0 - 5.2e-3 * 4.0 * 5400.0).epsilon(1e-5));
+  // The file's coefficient lacks the loss at the 200 N of its skim test, under 1 % of that at 6865 N.
+  CHECK(set.A_N < 150.0 - 5.2e-3 * 4.0 * 5400.0);
+  CHECK(set.A_N > 150.0 - 1.01 * 5.2e-3 * 4.0 * 5400.0);
   CHECK(set.B_N_s_per_m == 1.0);
   CHECK(set.C_N_s2_per_m2 == 0.4);
 }

@@ -1,5 +1,6 @@
 #include "tests/support/drum_fixture.h"
 
+#include "build_paths.h"
 #include "rigs/standstill_grid.h"
 #include "rigs/trace_effects.h"
 #include "sim/core/assets.h"
@@ -8,6 +9,13 @@ namespace rollrig::tests {
 
 models::TireFile read_asset_tire(const std::string& name) {
   return models::read_tire(read_config(find_asset("tires", name)));
+}
+
+std::string combined_tire_path(const std::string& name) {
+  return ROLLRIG_SOURCE_DIR "/tests/published/combined_law/" + name + ".toml";
+}
+models::TireFile read_combined_tire(const std::string& name) {
+  return models::read_tire(read_config(combined_tire_path(name)));
 }
 
 models::OwnParameters<double> make_own(const std::string& model) {

@@ -15,8 +15,12 @@
 
 namespace rollrig::tests {
 
-/// Tire a50 and rig drum_2m of the assets.
-models::TireFile read_asset_tire(const std::string& name = "a50");
+/// A tire of the assets.
+models::TireFile read_asset_tire(const std::string& name);
+/// A tire of tests/published/combined_law: the source's own law, with conductances for drum_2m and dyno_1m2.
+std::string combined_tire_path(const std::string& name = "a50");
+models::TireFile read_combined_tire(const std::string& name = "a50");
+/// Rig drum_2m of the assets.
 rigs::RigFile read_asset_rig();
 
 /// A tire model with usual numbers of its own.
@@ -24,7 +28,7 @@ models::OwnParameters<double> make_own(const std::string& model);
 
 /// A drum test that a test may change before it runs.
 struct DrumFixture {
-  models::TireFile tire = read_asset_tire();
+  models::TireFile tire = read_combined_tire();
   rigs::RigFile rig = make_uneven_drum();
   models::Baseline baseline = models::Baseline::kCombined;
   std::vector<models::ActiveEffect> effects;

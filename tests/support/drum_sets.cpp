@@ -61,7 +61,7 @@ measurements::MeasurementSet simulate_campaign(const Campaign& campaign, std::ui
   measurements::MeasurementSet set;
   set.path = "simulated/set.toml";
   set.name = "simulated";
-  set.tire = read_asset_tire(campaign.tire);
+  set.tire = models::read_tire(read_config(campaign.tire));
   set.rig = make_uneven_drum();
   set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset("source");

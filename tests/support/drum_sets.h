@@ -6,6 +6,7 @@
 
 #include "measurements/measurement_set.h"
 #include "models/effect.h"
+#include "tests/support/drum_fixture.h"
 
 namespace rollrig::tests {
 
@@ -16,7 +17,7 @@ struct CampaignPart {
 };
 
 struct Campaign {
-  std::string tire = "a50";
+  std::string tire = combined_tire_path();  // a file
   std::vector<CampaignPart> parts;
   std::vector<models::ActiveEffect> effects;
 };

@@ -11,7 +11,7 @@ namespace {
 measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity,
                                    const rigs::RigFile& rig) {
   scenarios::RunSpec spec = make_spec(
-      "warm_up", tire, {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
+      "warm_up", combined_tire_path(tire), {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
   spec.rig = rig;
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const scenarios::SetRun& cut = outcome.set_runs.front();
@@ -39,7 +39,7 @@ measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std
   measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
-  set.tire = read_asset_tire(tire);
+  set.tire = read_combined_tire(tire);
   set.rig = rig;
   set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset(sensors);

@@ -19,7 +19,7 @@ struct VehicleFixture {
   /// `rig_name` is dyno_1m2 or flat; a quarter stands on the axle named.
   explicit VehicleFixture(const std::string& rig_name, bool is_whole = false, std::size_t quarter_wheel = kRear);
 
-  models::TireFile tire = read_asset_tire();
+  models::TireFile tire = read_combined_tire();
   rigs::RigFile rig;
   rigs::VehicleFile vehicle = make_uneven_vehicle();
   models::RoadLoad<double> set_load;  // of the rollers
