@@ -47,4 +47,7 @@ std::string make_epa_fleet_page();
 /// docs/source_gap.md: which effect could make the gap of Table 4.3.
 std::string make_source_gap_page();
 
+/// docs/independent_validation.md: virtual tires beside sources to which no tire was fitted.
+std::string make_independent_page();
+
 }  // namespace rollrig::tools
