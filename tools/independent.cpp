@@ -34,8 +34,9 @@ double find_bend(double low, double high, const std::function<double(double)>& m
   return largest;
 }
 
-SteadyLoss measure_in_air(const StudyTire& tire, double air_degC) {
+SteadyLoss measure_in_air(const StudyTire& tire, double air_degC, double speed_m_s = 80.0 / 3.6) {
   TestConditions conditions = make_iso_conditions(tire);
+  conditions.speed_m_s = speed_m_s;
   conditions.ambient_K = kZeroCelsius_K + air_degC;
   return measure_steady(tire, conditions);
 }
@@ -92,6 +93,11 @@ double find_air_slope_per_K(const StudyTire& tire, double SteadyLoss::*loss) {
 
 double find_air_excess(const StudyTire& tire, double air_degC) {
   return measure_in_air(tire, air_degC).reported_N / measure_in_air(tire, 25.0).reported_N - 1.0;
+}
+
+double find_cold_ratio(const StudyTire& tire, double speed_km_h) {
+  const double speed_m_s = to_m_s(speed_km_h);
+  return measure_in_air(tire, -20.0, speed_m_s).reported_N / measure_in_air(tire, 25.0, speed_m_s).reported_N;
 }
 
 std::vector<SpeedStep> step_truck_tire(double cooling_factor) {

@@ -33,6 +33,8 @@ double find_bend_over_inverse_pressure(const StudyTire& tire);
 double find_air_slope_per_K(const StudyTire& tire, double SteadyLoss::*loss);
 /// The reported loss in steady state at a temperature of the air over that at 25 degC, less 1.
 double find_air_excess(const StudyTire& tire, double air_degC);
+/// The reported loss in steady state at -20 degC over that at 25 degC, at a speed.
+double find_cold_ratio(const StudyTire& tire, double speed_km_h);
 
 /// R = P^alpha Z^beta (a + b V + c V^2), fitted to a virtual stepwise coastdown: true losses, P cold.
 struct J2452Fit {

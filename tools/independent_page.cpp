@@ -130,6 +130,17 @@ std::string list_air() {
   return rows.join_rows();
 }
 
+std::string list_cold() {
+  StatementRows rows;
+  for (const double speed_km_h : {20.0, 50.0, 80.0, 120.0}) {
+    rows.add(
+        fmt::format("{:.0f} km/h", speed_km_h), "more than 1, at most 1.45; ratio", Tires::kAll, {1.0, 2},
+        [=](const StudyTire& tire) { return find_cold_ratio(tire, speed_km_h); },
+        [](double ratio) { return ratio > 1.0 && ratio <= 1.45; });
+  }
+  return rows.join_rows();
+}
+
 std::string list_cooling() {
   const std::vector<SpeedStep> insulated = step_truck_tire(kInsulated), sprayed = step_truck_tire(kSprayed);
   Rows rows;
@@ -179,7 +190,7 @@ std::string make_independent_page() {
   const Correlation correlation = correlate_truck_tire();
   using fmt::literals::operator""_a;
   return fill_page("independent_validation", "pressure"_a = list_pressure(), "load"_a = list_load_and_speed(),
-                   "air"_a = list_air(), "cooling"_a = list_cooling(), "j2452"_a = list_j2452(),
+                   "air"_a = list_air(), "cold"_a = list_cold(), "cooling"_a = list_cooling(), "j2452"_a = list_j2452(),
                    "with_tread"_a = fmt::format("{:.2f}", correlation.with_tread),
                    "with_air"_a = fmt::format("{:.2f}", correlation.with_air),
                    "insulated"_a = fmt::format("{:.1f}", kInsulated), "sprayed"_a = fmt::format("{:.0f}", kSprayed),

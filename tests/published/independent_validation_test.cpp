@@ -92,6 +92,24 @@ TEST_CASE("Ejsmont 2024: more loss at 15 and -5 degC than at 25 degC, and not eq
   CHECK(most - least > 0.10);
 }
 
+TEST_CASE("in the cold, at all speeds, a50, a60, C1 and C3 meet what is demanded of shipped tires", "[published]") {
+  for (const char* name : {"a50", "a60", kCarTire, kTruckTire}) {
+    for (const double speed_km_h : {20.0, 50.0, 80.0, 120.0}) {
+      INFO(name << " " << speed_km_h << " km/h");
+      const double ratio = find_cold_ratio(read_study_tire(name), speed_km_h);
+      CHECK(ratio > 1.0);
+      CHECK(ratio <= 1.45);
+    }
+  }
+}
+
+TEST_CASE("does not hold: a40 loses more in the cold, and at most 1.45 times as much", "[published]") {
+  const StudyTire a40 = read_study_tire("a40");
+  CHECK(find_cold_ratio(a40, 20.0) == Approx(0.97).margin(0.01));
+  CHECK(find_cold_ratio(a40, 80.0) == Approx(1.47).margin(0.01));
+  CHECK(find_cold_ratio(a40, 120.0) == Approx(1.72).margin(0.01));
+}
+
 TEST_CASE("Hyttinen 2022: a truck tire loses more the colder the air, from 25 to -30 degC", "[published]") {
   const StudyTire tire = read_study_tire(kTruckTire);
   double before = -1.0;
