@@ -1,11 +1,11 @@
 /// Calibrates the source's three tires together, on the bounded law (models/tire/bounded.cpp), with one heat transfer
 /// for each rig.
 ///
-/// usage: calibrate_jointly <tests/published>
+/// usage: calibrate_jointly <tests/published> [<page>]
 /// Free: at most six numbers of each tire and one of each rig (joint_calibration.h). Residuals and their weights:
 /// joint_calibration.cpp. The files of <tests/published>/joint_calibration are rewritten in place, number by number.
-/// Written out: free numbers with standard errors and correlations, every observation, and a study that leaves out the
-/// observations of one table at a time.
+/// Written out: free numbers with standard errors and correlations, and every observation. With a page, no file is
+/// calibrated: the page is written, a study that leaves out the observations of one table at a time (left_out.h).
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 
 #include "sim/core/file_io.h"
 #include "tools/joint_calibration.h"
+#include "tools/left_out.h"
 #include "tools/number_in_file.h"
 
 namespace {
@@ -102,16 +103,6 @@ void print_numbers(const Fit& fit) {
   }
 }
 
-/// Each table from the others.
-void print_left_out(JointCalibration& tests) {
-  for (const std::string& table : tools::joint::kTables) {
-    tests.leave_out(table);
-    const Unknowns at = fit(tests).at;
-    tests.leave_out("");
-    fmt::print("  Table {} from the others: rms {:.2f}\n", table, tools::joint::find_rms(tests.observe(at), {table}));
-  }
-}
-
 /// Rewrites the files in place: the free numbers, and the standard uncertainties of those of the tires.
 void write_files(const tools::joint::CalibratedFiles& files, const Eigen::VectorXd& sd) {
   for (std::size_t tire = 0; tire < tools::kTires.size(); ++tire) {
@@ -140,18 +131,21 @@ void write_files(const tools::joint::CalibratedFiles& files, const Eigen::Vector
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: calibrate_jointly <tests/published>\n";
+  if (argc != 2 && argc != 3) {
+    std::cerr << "usage: calibrate_jointly <tests/published> [<page>]\n";
     return 2;
   }
   try {
     const std::string published = argv[1];
     JointCalibration tests(tools::joint::read_files(), published);
+    if (argc == 3) {
+      write_file_atomically(argv[2], tools::joint::make_left_out_page(tests, [&] { return fit(tests).at; }));
+      return 0;
+    }
     const Fit best = fit(tests);
     print_numbers(best);
     print_observations(tests.observe(best.at));
     write_files(tests.put(best.at), best.covariance.diagonal().cwiseSqrt());
-    print_left_out(tests);
   } catch (const InputError& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 2;

@@ -223,7 +223,7 @@ std::vector<Observation> JointCalibration::observe(const Unknowns& at) const {
   all.push_back(deviate("4.2", "a40 - a50", 112.9, setting(0) - setting(1), kSettingSd_Wh));
   all.push_back(deviate("4.2", "a60 - a50", 64.0, setting(2) - setting(1), kSettingSd_Wh));
   for (Observation& one : all) {
-    if (one.table == left_out_) one.residual = 0.0;
+    if (left_out_.count(one.table) > 0) one.residual = 0.0;
   }
   return all;
 }

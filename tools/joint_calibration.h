@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -61,9 +62,6 @@ struct Observation {
 /// What one tire does in the virtual tests, by name.
 using TireResults = std::map<std::string, double>;
 
-/// Tables of the source that can be left out of the fit.
-inline const std::array<std::string, 5> kTables{"4.2", "4.4", "4.5", "5.1", "4.1.6"};
-
 class JointCalibration {
  public:
   JointCalibration(CalibratedFiles files, const std::string& published_folder);
@@ -73,8 +71,8 @@ class JointCalibration {
   CalibratedFiles put(const Unknowns& at) const;
   /// All residuals, in an order that never changes.
   std::vector<Observation> observe(const Unknowns& at) const;
-  /// Residuals of this table are 0 from now on; of none: "".
-  void leave_out(const std::string& table) { left_out_ = table; }
+  /// Residuals of these tables, and of no others, are 0 from now on.
+  void leave_out(const std::set<std::string>& tables) { left_out_ = tables; }
 
  private:
   /// Simulates a tire only where its numbers or those of the rigs are new.
@@ -82,7 +80,7 @@ class JointCalibration {
 
   CalibratedFiles files_;
   std::array<PublishedTire, 3> published_;
-  std::string left_out_;
+  std::set<std::string> left_out_;
   mutable std::array<std::map<std::vector<double>, TireResults>, 3> simulated_;
 };
 

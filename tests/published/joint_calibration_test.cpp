@@ -4,7 +4,10 @@
 #include <map>
 
 #include "build_paths.h"
+#include "sim/core/file_io.h"
+#include "tests/support/page_numbers.h"
 #include "tools/joint_calibration.h"
+#include "tools/left_out.h"
 
 using namespace rollrig;
 
@@ -90,5 +93,18 @@ TEST_CASE("jointly calibrated: in the cold the loss stays below 1.45 times that 
     INFO(one.name);
     CHECK(one.fitted > 1.0);
     CHECK(one.fitted <= 1.45);
+  }
+}
+
+TEST_CASE("docs/calibration_left_out.md has the errors of the calibrated files", "[published]") {
+  // Out of date? cmake --build build/release --target left_out_page
+  const std::string page = read_text_file(ROLLRIG_SOURCE_DIR "/docs/calibration_left_out.md");
+  for (const tools::joint::LeftOut& kind : tools::joint::list_left_out()) {
+    const std::string now = tools::joint::begin_row(kind, tools::joint::find_errors(observe(), kind));
+    const std::size_t at = page.find("| " + kind.title + " |");
+    REQUIRE(at != std::string::npos);
+    std::size_t end = at;
+    for (int bars = 0; bars < 4; ++bars) end = page.find(" | ", end) + 3;
+    tests::check_page(page.substr(at, end - at), now);
   }
 }
