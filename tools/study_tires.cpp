@@ -15,15 +15,6 @@ namespace {
 constexpr double kSteady_min = 180.0;  // leaves less than 0.01 % of the loss of a car's tire
 constexpr double kSteadyTruck_min = 480.0;
 
-/// The only place that says where the files of the source's tires are.
-std::string find_study_file(const std::string& name) {
-  const bool is_jointly_calibrated = std::find(kTires.begin(), kTires.end(), name) != kTires.end();
-  return is_jointly_calibrated ? fmt::format("{}/joint_calibration/{}.toml", kPublishedFolder, name)
-                               : find_asset("tires", name);
-}
-
-std::string find_study_rig() { return fmt::format("{}/joint_calibration/drum_2m.toml", kPublishedFolder); }
-
 sim::Phase make_phase(const Step& step, double load_N) {
   sim::Segment segment{step.duration_s, std::vector<sim::Ramp>(rigs::kDrumInputCount)};
   segment.inputs[rigs::index_of(rigs::DrumInput::kSpeed)] = {step.speed_m_s, 0.0};
@@ -52,7 +43,7 @@ void StudyTire::scale_cooling(double factor) {
 }
 
 StudyTire read_study_tire(const std::string& name) {
-  return {models::read_tire(read_config(find_study_file(name))), rigs::read_rig(read_config(find_study_rig()))};
+  return {models::read_tire(read_config(find_asset("tires", name))), rigs::read_rig(read_config(find_asset("rigs", "drum_2m")))};
 }
 
 TestConditions make_iso_conditions(const StudyTire& tire) {
