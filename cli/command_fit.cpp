@@ -56,12 +56,14 @@ void add_fit_command(CLI::App& app, Action& action) {
   command->require_subcommand(1);
   add_fit_road_load(*command, action);
   const auto [tire, options] = add_command<FitTireOptions>(
-      *command, action, "tire", "A0, A1, B0, B1, z, f (and H) from warm-ups at two or more speeds", &fit_tire_command);
+      *command, action, "tire", "The law of a tire's loss, z, f (and H) from warm-ups, best at two or more speeds",
+      &fit_tire_command);
   add_fit_drum_coastdown(*command, action);
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();
   tire->add_option("--name", options->fit.name, "Name of the fitted tire [<tire>_fit]");
   options->output.add_to(*tire, "File for fit.json, - for standard output", "Folder for the tire file and fit.json");
-  tire->add_flag("--load-map", options->fit.load_map, "Fit A0, A1, B0, B1 at each load of the set");
+  tire->add_flag("--load-map", options->fit.load_map,
+                 "Fit A0, A1, B0, B1 at each load of the set (tires whose law has them)");
   tire->add_flag("--free-h", options->fit.free_H, "Fit H even where the gas temperature was not measured");
   add_threads(*tire, options->fit.threads);
 }

@@ -17,6 +17,7 @@ struct FreeParameter {
   double start_SI = 0.0;
   double prior_sd_SI = 0.0;  // 0: no prior; else normal around start_SI
   double lower_SI = -std::numeric_limits<double>::infinity();
+  double upper_SI = std::numeric_limits<double>::infinity();
 };
 
 /// Calls visit(table, field, member) for every number of a context that a fit may move; of the tire's tables the name

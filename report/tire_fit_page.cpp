@@ -42,8 +42,11 @@ Table make_channels(const TireFit& fit) {
 }
 
 Table make_two_step(const TireFit& fit) {
+  if (!fit.two_step.has_value()) {
+    return {"", {}, {{"two-step regression", "left out: it is of A0 to B1, which this tire's law does not have"}}};
+  }
   std::vector<std::string> numbers;
-  const Json two_step = estimation::make_two_step_json(fit.two_step);
+  const Json two_step = estimation::make_two_step_json(*fit.two_step);
   for (const auto& [key, value] : two_step.items()) {
     numbers.push_back(
         fmt::format("{} {:.5g} {}", name_without_unit(key), value.get<double>(), unit_of_key(key).symbol));
@@ -66,9 +69,11 @@ Block make_intervals(const TireFit& fit, const Json& two_steps) {
     low.push_back(rounded(-half_percent));
     high.push_back(rounded(half_percent));
   }
-  return make_bars(
-      {"95 % interval of each parameter (whiskers) and two-step regression less fit (bars)", "% of the value"}, names,
-      Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}}));
+  const char* caption = two_steps.is_null()
+                            ? "95 % interval of each parameter (whiskers)"
+                            : "95 % interval of each parameter (whiskers) and two-step regression less fit (bars)";
+  return make_bars({caption, "% of the value"}, names,
+                   Json::array({{{"name", "two-step"}, {"values", two_step}, {"low", low}, {"high", high}}}));
 }
 
 Block make_correlations(const TireFit& fit) {
@@ -95,7 +100,7 @@ models::Context<double> make_fitted_context(measurements::MeasurementSet set, co
   set.tire = fit.tire;
   models::Context<double> context = measurements::make_context(set);
   for (const Estimate& at : fit.estimates) {
-    estimation::find_parameter(context, at.key) = at.value * unit_of_key(last_part(at.key)).factor;
+    estimation::find_parameter(context, at.key) = unit_of_key(last_part(at.key)).to_si(at.value);
   }
   return context;
 }

@@ -53,19 +53,44 @@ class FollowIterations : public ceres::IterationCallback {
   Progress progress_;
 };
 
+/// Puts the fitted numbers and their uncertainties into the set's tire.
+void put_tire(const measurements::MeasurementSet& set, const models::TireParameters<double>& best,
+              const models::TireParameters<double>& uncertainty, TireFit& fit) {
+  fit.tire = set.tire;
+  models::TireParameters<double>& values = fit.tire.values;
+  values.rolling_resistance = best.rolling_resistance;
+  values.load_map = best.load_map;
+  values.own = best.own;
+  values.thermal = best.thermal;
+  fit.tire.standard_uncertainties = uncertainty;
+  // z and f belong to the rig on which they were found (§4.2.3); a conductance that was held has no uncertainty.
+  const auto if_fitted = [](double sd) { return sd > 0.0 ? std::optional(sd) : std::nullopt; };
+  fit.tire.rig_thermal[set.rig->thermal_name()] = {
+      best.thermal.rest_conductance_W_per_K, if_fitted(uncertainty.thermal.rest_conductance_W_per_K),
+      best.thermal.speed_conductance_W_s_per_m_K, if_fitted(uncertainty.thermal.speed_conductance_W_s_per_m_K)};
+  const auto keep_elsewhere = [](const auto& of_set, auto& fitted) {
+    fitted.rest_conductance_W_per_K = of_set.rest_conductance_W_per_K;
+    fitted.speed_conductance_W_s_per_m_K = of_set.speed_conductance_W_s_per_m_K;
+  };
+  keep_elsewhere(set.tire.values.thermal, values.thermal);
+  keep_elsewhere(set.tire.standard_uncertainties.thermal, fit.tire.standard_uncertainties.thermal);
+}
+
 void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& unknowns,
                    const std::vector<double>& found, const Eigen::MatrixXd& covariance, TireFit& fit) {
   models::Context<double> best = unknowns.start;
   models::Context<double> uncertainty;
-  uncertainty.tire.load_map.resize(best.tire.load_map.size());
-  uncertainty.tire.own = best.tire.own;
+  uncertainty.tire = set.tire.standard_uncertainties;
+  uncertainty.tire.load_map.assign(best.tire.load_map.size(), {});
+  uncertainty.tire.own = {best.tire.own.model, std::vector<double>(best.tire.own.values.size())};
+  uncertainty.tire.thermal.rest_conductance_W_per_K = uncertainty.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
   for (std::size_t i = 0; i < unknowns.parameters.size(); ++i) {
     const std::string& key = unknowns.parameters[i].key;
     const Unit unit = unit_of_key(last_part(key));
     const double sd = std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
     find_parameter(best, key) = found[i];
     find_parameter(uncertainty, key) = sd;
-    fit.estimates.push_back({key, found[i] / unit.factor, sd / unit.factor, i >= unknowns.asked_for});
+    fit.estimates.push_back({key, unit.from_si(found[i]), sd / unit.factor, i >= unknowns.asked_for});
   }
   const auto n = static_cast<Eigen::Index>(unknowns.parameters.size());
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -74,31 +99,17 @@ void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& u
       fit.correlation.back().push_back(covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j)));
     }
   }
-  fit.tire = set.tire;
-  fit.tire.values.rolling_resistance = best.tire.rolling_resistance;
-  fit.tire.values.load_map = best.tire.load_map;
-  auto& sd = fit.tire.standard_uncertainties;
-  sd.load_map = uncertainty.tire.load_map;
-  if (best.tire.load_map.empty()) static_cast<Lines&>(sd.rolling_resistance) = uncertainty.tire.rolling_resistance;
-  if (uncertainty.tire.thermal.H_gas_W_per_K > 0.0) {
-    fit.tire.values.thermal.H_gas_W_per_K = best.tire.thermal.H_gas_W_per_K;
-    sd.thermal.H_gas_W_per_K = uncertainty.tire.thermal.H_gas_W_per_K;
-  }
-  // z and f belong to the rig on which they were found (§4.2.3).
-  fit.tire.rig_thermal[set.rig->thermal_name()] = {
-      best.tire.thermal.rest_conductance_W_per_K, uncertainty.tire.thermal.rest_conductance_W_per_K,
-      best.tire.thermal.speed_conductance_W_s_per_m_K, uncertainty.tire.thermal.speed_conductance_W_s_per_m_K};
+  put_tire(set, best.tire, uncertainty.tire, fit);
 }
 
 void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
   const std::string from = fmt::format("fitted to set '{}'", set.name);
   for (const Estimate& estimate : fit.estimates) {
-    if (estimate.nuisance) continue;
     const std::string key = find_file_key(estimate.key);  // "load_map.0.A0_N", "thermal.H_gas_W_per_K"
     std::string table = key.substr(0, key.find('.') + 1);
     if (table == "load_map.") table = "rolling_resistance.load_map.";
     if (last_part(key).rfind("conductance_", 0) == 0) table += "rig." + set.rig->thermal_name() + ".";
-    fit.notes[table + last_part(key)] = from;
+    fit.notes[table + last_part(key)] = from + (estimate.nuisance ? " within its uncertainty" : "");
   }
 }
 
@@ -149,54 +160,79 @@ Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vecto
   return scaled * scaled.transpose();
 }
 
-void require_fittable_set(const measurements::MeasurementSet& set) {
+bool has_free_numbers(const models::TireModelInfo& model) {
+  return std::any_of(model.parameters.begin(), model.parameters.end(),
+                     [](const models::TireModelParameter& own) { return own.role != models::FitRole::kHeld; });
+}
+
+void require_fittable_set(const measurements::MeasurementSet& set, bool load_map) {
   if (is_of_vehicle(set.kind->traits)) {
     throw InputError({"a tire is fitted to a set of a drum or belt", set.path, 0, "rig", "",
                       "a rig whose carriage presses the tire", ""});
   }
   const models::TireModelInfo& model = set.tire.values.model().info;
-  if (!model.uses("rolling_resistance") || !model.has_speed_lines) {
-    throw InputError({"the loss of this tire's model has no A0 to B1, which are what is fitted", set.tire.path, 0,
-                      "model", model.id, "a model with A0 to B1 in [rolling_resistance]", ""});
+  if (!model.follows_speed_lines() && !has_free_numbers(model)) {
+    throw InputError({"the loss of this tire's model has no numbers that are fitted", set.tire.path, 0, "model",
+                      model.id, "a model with A0 to B1 in [rolling_resistance], or bounded", ""});
+  }
+  if (load_map && !model.follows_speed_lines()) {
+    throw InputError({"a map over load (--load-map) is of A0 to B1, which the loss of this tire's model does not have",
+                      set.tire.path, 0, "model", model.id,
+                      "a model with A0 to B1 in [rolling_resistance]; or fit without the map", ""});
   }
 }
 
-}  // namespace
-
-TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options) {
-  require_fittable_set(set);
-  TireFit fit;
-  fit.two_step = estimate_in_two_steps(set);
-  const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {
-    return run.has(models::quantities::kGasTemperature);
-  });
-  const bool free_H = options.free_H || gas_measured;
-  const FitUnknowns unknowns = choose_unknowns(set, fit.two_step, options.load_map, free_H);
-  const DrumResiduals residuals(set, unknowns.start, unknowns.parameters, options.threads);
+/// The unknowns at the optimum.
+std::vector<double> minimize(const DrumResiduals& residuals, const Progress& progress) {
   std::vector<double> found = residuals.start();
-
   ceres::Problem problem;
   problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, found.data());
-  for (std::size_t i = 0; i < unknowns.parameters.size(); ++i) {
-    if (std::isfinite(unknowns.parameters[i].lower_SI)) {
-      problem.SetParameterLowerBound(found.data(), static_cast<int>(i), unknowns.parameters[i].lower_SI);
-    }
+  for (std::size_t i = 0; i < residuals.parameters().size(); ++i) {
+    const FreeParameter& parameter = residuals.parameters()[i];
+    const int at = static_cast<int>(i);
+    if (std::isfinite(parameter.lower_SI)) problem.SetParameterLowerBound(found.data(), at, parameter.lower_SI);
+    if (std::isfinite(parameter.upper_SI)) problem.SetParameterUpperBound(found.data(), at, parameter.upper_SI);
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.max_num_iterations = 100;
   solver.function_tolerance = 1e-10;
   solver.logging_type = ceres::SILENT;
-  FollowIterations follow(options.progress);
+  FollowIterations follow(progress);
   solver.callbacks.push_back(&follow);
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   if (summary.termination_type != ceres::CONVERGENCE) throw RunFailure("the fit does not converge: " + summary.message);
+  return found;
+}
 
-  std::vector<double> at_best(residuals.residual_count());
-  residuals.evaluate(found.data(), at_best.data(), nullptr);
-  measure_channels(set, residuals, at_best, fit);
-  put_estimates(set, unknowns, found, find_covariance(residuals, found), fit);
+}  // namespace
+
+TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options) {
+  require_fittable_set(set, options.load_map);
+  TireFit fit;
+  if (set.tire.values.model().info.follows_speed_lines()) fit.two_step = estimate_in_two_steps(set);
+  const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {
+    return run.has(models::quantities::kGasTemperature);
+  });
+  const bool free_H = options.free_H || gas_measured;
+  FitUnknowns unknowns = choose_unknowns(set, fit.two_step, options.load_map, free_H);
+  std::optional<DrumResiduals> residuals;
+  std::vector<double> found;
+  const auto solve = [&] {
+    residuals.emplace(set, unknowns.start, unknowns.parameters, options.threads);
+    found = minimize(*residuals, options.progress);
+  };
+  solve();
+  while (const auto mistake = find_law_mistake(unknowns, found)) {
+    fit.warnings.push_back(go_back_within_law(unknowns, *mistake));
+    solve();
+  }
+
+  std::vector<double> at_best(residuals->residual_count());
+  residuals->evaluate(found.data(), at_best.data(), nullptr);
+  measure_channels(set, *residuals, at_best, fit);
+  put_estimates(set, unknowns, found, find_covariance(*residuals, found), fit);
   write_notes(set, fit);
   constexpr double kMostChi2 = 2.0;  // Assumed: per sample
   if (fit.chi2_per_sample > kMostChi2) {
@@ -244,7 +280,7 @@ Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) 
     json["channels"].push_back(
         {{"channel", channel.channel.header()}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
   }
-  json["two_step"] = make_two_step_json(fit.two_step);
+  json["two_step"] = fit.two_step.has_value() ? make_two_step_json(*fit.two_step) : Json(nullptr);
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;
 }

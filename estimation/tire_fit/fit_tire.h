@@ -2,6 +2,7 @@
 /// A tire from a user's own warm-up data (`rollrig fit tire`).
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,18 +37,23 @@ struct TireFit {
   std::vector<std::vector<double>> correlation;  // of the estimates
   std::vector<ChannelFit> channels;
   double chi2_per_sample = 0.0;
-  TwoStepEstimate two_step;
+  std::optional<TwoStepEstimate> two_step;   // of a law that has A0 to B1
   models::TireFile tire;                     // with the estimates and their uncertainties put in
   std::map<std::string, std::string> notes;  // for write_tire
   std::vector<std::string> warnings;
 };
 
-/// Maximum likelihood over all runs at once, by simulation: A0, A1, B0, B1, z, f (and H) free; heat
-/// capacities, parasitic loss and whatever else the files give with an uncertainty move within it.
-/// Standard deviations from the curvature at the optimum.
-/// Errors  InputError: not a drum set, fewer than two speeds; RunFailure: no convergence, or data that leave a
-///         parameter undecided
-/// Checked tests/estimation/fit_tire_test.cpp, tests/estimation/fit_coverage_test.cpp
+/// Maximum likelihood over all runs at once, by simulation: the numbers of the law (A0, A1, B0, B1, or those of another
+/// law by their models::FitRole), z, f (and H) free; heat capacities, parasitic loss and whatever else the files give
+/// with an uncertainty move within it. Standard deviations from the curvature at the optimum.
+/// Bounds  ranges of the keys. Iterations may pass numbers that TireModelInfo::find_mistake refuses, since the optimum
+///         may lie beyond them; the result is none of those: where the optimum is, a number is held and the fit is done
+///         again, with a warning
+/// Errors  InputError: not a drum set, a law without numbers to fit, a load map or fewer than two speeds where they do
+///         not go with the law; RunFailure: no convergence, data that leave a parameter undecided, or an optimum where
+///         the law refuses the numbers
+/// Checked tests/estimation/fit_tire_test.cpp, tests/estimation/fit_own_law_test.cpp,
+///         tests/estimation/fit_coverage_test.cpp
 TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options);
 
 /// The fitted numbers by key of the tire file.

@@ -162,11 +162,22 @@ struct ConstantLossParameters {
 
 struct TireModel;  // models/tire/tire_model.h
 
+/// When a fit of a tire asks for a number. One for which it does not ask stays that of the file, or moves within the
+/// standard uncertainty that the file gives.
+enum class FitRole {
+  kHeld,
+  kFree,
+  kFreeOverSpeeds,           // with several speeds
+  kFreeOverSpeedsWithinLaw,  // the same; held at `usual` where the data put it where find_mistake refuses the numbers
+  kFreeOverLoads             // with several loads
+};
+
 /// A number that only one tire model has.
 struct TireModelParameter {
   Field field;
   double usual = 0.0;     // of a passenger car's tire, in the unit of the key; tests take it
   double usual_sd = 0.0;  // its standard uncertainty where a file gives none, as a share of the value
+  FitRole role = FitRole::kHeld;
 };
 
 constexpr const char* kConstantModel = "constant_rrc";

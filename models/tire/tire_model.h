@@ -36,6 +36,8 @@ struct TireModelInfo {
 
   /// Whether numbers of a table of the tire file enter: its own, one of `tables`, or "load_map.0" and so on.
   bool uses(const std::string& table) const;
+  /// Whether the loss goes by A0 to B1 of [rolling_resistance].
+  bool follows_speed_lines() const { return has_speed_lines && uses("rolling_resistance"); }
 };
 
 /// A model's functions for one scalar.

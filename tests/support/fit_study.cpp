@@ -64,7 +64,7 @@ measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, 
 double find_truth(const measurements::MeasurementSet& set, const std::string& key) {
   models::Context<double> context = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
   const std::string name = key.substr(key.rfind('.') + 1);
-  return estimation::find_parameter(context, key) / unit_of_key(name).factor;
+  return unit_of_key(name).from_si(estimation::find_parameter(context, key));
 }
 
 bool is_rejected(int successes, int trials, double p, double level) {
