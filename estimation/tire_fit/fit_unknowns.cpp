@@ -31,12 +31,11 @@ std::map<double, double> collect_loaded_seconds(const measurements::MeasurementS
   return seconds;
 }
 
-/// Whether the loaded tire is at values of a channel, from a least one up, that differ by a tenth (Assumed: then the
-/// loss differs by more than sensors err). The least and the most for 5 % of the time, and a minute, do not count
-/// (Assumed), so that ramps and noise are no values of their own.
+/// Whether the loaded tire is at values of a channel, from a least one up, that differ by a tenth. The lowest and the
+/// highest for a short time do not count, so that ramps and noise are no values of their own.
 bool is_varied(const measurements::MeasurementSet& set, const Quantity& channel, double least = 0.0) {
-  constexpr double kDiffers = 1.1;
-  constexpr double kLeftOut = 0.05;
+  constexpr double kDiffers = 1.1;   // Assumed: then the loss differs by more than sensors err
+  constexpr double kLeftOut = 0.05;  // Assumed: of the time; a minute at least
   std::map<double, double> seconds = collect_loaded_seconds(set, channel);
   seconds.erase(seconds.begin(), seconds.lower_bound(least));
   double total_s = 0.0;
@@ -106,9 +105,9 @@ void add_speed_lines(FitUnknowns& unknowns) {
   }
 }
 
-/// Adds a number within the range of its field. A bound that is not allowed itself is kept off by a little (Assumed).
+/// Adds a number within the range of its field. A bound that is not allowed itself is kept off by a little.
 void add_in_range(FitUnknowns& unknowns, const std::string& key, const Field& field, double sd_SI) {
-  constexpr double kOff = 1e-6;  // of the way from the bound to the start
+  constexpr double kOff = 1e-6;  // Assumed: of the way from the bound to the start
   const Unit unit = unit_of_key(field.key);
   const double start_SI = find_parameter(unknowns.start, key);
   const auto find_bound = [&](double bound, bool open) {
@@ -242,11 +241,11 @@ std::optional<models::TireModelMistake> find_law_mistake(const FitUnknowns& unkn
 }
 
 std::string go_back_within_law(FitUnknowns& unknowns, const models::TireModelMistake& mistake) {
-  const std::string what = fmt::format("the best numbers are none of the tire's law: {} ({} {})", mistake.what,
+  const std::string what = fmt::format("the data ask for numbers that the tire's law refuses: {} ({} {})", mistake.what,
                                        mistake.key, mistake.allowed);
   const std::vector<std::string> held = hold_at_usual(unknowns);
   if (held.empty()) throw RunFailure(what);
-  return fmt::format("{}; {} was held", what, fmt::join(held, ", "));
+  return fmt::format("{}. The fit was done again with {}", what, fmt::join(held, ", "));
 }
 
 }  // namespace rollrig::estimation

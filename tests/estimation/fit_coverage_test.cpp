@@ -64,3 +64,14 @@ TEST_CASE("95 % intervals cover where the files' own numbers are off by their un
     return measured;
   });
 }
+
+TEST_CASE("95 % intervals cover for each number of a bounded law", "[slow]") {
+  models::TireFile tire = tests::read_asset_tire("c1_205_55r16");
+  auto& sd = tire.standard_uncertainties;
+  sd.own.values.assign(sd.own.values.size(), 0.0);
+  sd.rolling_resistance = {};
+  const auto set = tests::make_warm_up_set(
+      tire, {{60.0, 4100.0, 230.0, "slow"}, {100.0, 4100.0, 230.0, "fast"}, {100.0, 5600.0, 230.0, "loaded"}},
+      "source_with_gas", "quasi_static");
+  check_fit_coverage(set, [&](std::uint64_t seed) { return tests::add_noise(set, seed); });
+}

@@ -8,10 +8,14 @@
 namespace rollrig::tests {
 namespace {
 
-measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, const std::string& fidelity,
+measurements::MeasuredRun make_run(const models::TireFile& tire, const WarmUp& how, const std::string& fidelity,
                                    const rigs::RigFile& rig) {
-  scenarios::RunSpec spec = make_spec(
-      "warm_up", combined_tire_path(tire), {"load_N=5400", "pressure_kPa=280", "speed_km_h=" + std::to_string(speed_km_h)}, fidelity);
+  scenarios::RunSpec spec =
+      make_spec("warm_up", "a50",
+                {"load_N=" + std::to_string(how.load_N), "pressure_kPa=" + std::to_string(how.pressure_kPa),
+                 "speed_km_h=" + std::to_string(how.speed_km_h)},
+                fidelity);
+  spec.tire = tire;
   spec.rig = rig;
   const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
   const scenarios::SetRun& cut = outcome.set_runs.front();
@@ -34,21 +38,28 @@ measurements::MeasuredRun make_run(const std::string& tire, double speed_km_h, c
 
 }  // namespace
 
-measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
-                                              const std::string& fidelity, const rigs::RigFile& rig) {
+measurements::MeasurementSet make_warm_up_set(const models::TireFile& tire, const std::vector<WarmUp>& warm_ups,
+                                              const std::string& sensors, const std::string& fidelity,
+                                              const rigs::RigFile& rig) {
   measurements::MeasurementSet set;
   set.path = "simulated";
   set.name = "simulated";
-  set.tire = read_combined_tire(tire);
+  set.tire = tire;
   set.rig = rig;
   set.kind = set.rig->kind;
   set.sensors = measurements::read_sensor_asset(sensors);
-  for (const double speed_km_h : {80.0, 120.0}) {
-    set.runs.push_back(make_run(tire, speed_km_h, fidelity, rig));
+  for (const WarmUp& how : warm_ups) {
+    set.runs.push_back(make_run(tire, how, fidelity, rig));
+    if (how.id != nullptr) set.runs.back().id = how.id;
     if (set.sensors.count("gas_temperature_degC") == 0)
       set.runs.back().columns.erase(models::quantities::kGasTemperature);
   }
   return set;
+}
+
+measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
+                                              const std::string& fidelity, const rigs::RigFile& rig) {
+  return make_warm_up_set(read_asset_tire(tire), {{80.0}, {120.0}}, sensors, fidelity, rig);
 }
 
 measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, std::uint64_t seed) {

@@ -8,6 +8,19 @@
 
 namespace rollrig::tests {
 
+/// How a tire warms up.
+struct WarmUp {
+  double speed_km_h;
+  double load_N = 5400.0;
+  double pressure_kPa = 280.0;
+  const char* id = nullptr;  // of the run, by which its noise differs; that of the scenario unless said
+};
+
+/// Warm-ups of a tire in one session, free of noise, as a measurement set; sensors by name of an asset.
+measurements::MeasurementSet make_warm_up_set(const models::TireFile& tire, const std::vector<WarmUp>& warm_ups,
+                                              const std::string& sensors, const std::string& fidelity,
+                                              const rigs::RigFile& rig = read_asset_rig());
+
 /// Warm-ups of a tire at 80 and 120 km/h in one session, free of noise, as a measurement set; sensors by
 /// name of an asset. On the rig drum_2m of the assets unless said.
 measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
