@@ -70,6 +70,7 @@ TEST_CASE("95 % intervals cover for each number of a bounded law", "[slow]") {
   auto& sd = tire.standard_uncertainties;
   sd.own.values.assign(sd.own.values.size(), 0.0);
   sd.rolling_resistance = {};
+  tests::put_own(tire, "speed_rise_of_fall", 0.3);
   const auto set = tests::make_warm_up_set(
       tire, {{60.0, 4100.0, 230.0, "slow"}, {100.0, 4100.0, 230.0, "fast"}, {100.0, 5600.0, 230.0, "loaded"}},
       "source_with_gas", "quasi_static");

@@ -17,23 +17,11 @@ using estimation::Estimate;
 using estimation::fit_tire;
 using estimation::TireFit;
 using measurements::MeasurementSet;
+using tests::find_own;
 using tests::find_truth;
+using tests::put_own;
 
 namespace {
-
-/// A number of a tire's own law, in SI units.
-double& find_own(models::OwnParameters<double>& own, const std::string& key) {
-  double* found = nullptr;
-  models::OwnParameters<double>::visit(own, [&](const Field& field, double& value) {
-    if (key == field.key) found = &value;
-  });
-  if (found == nullptr) throw std::invalid_argument(key);
-  return *found;
-}
-
-void put_own(models::TireFile& tire, const std::string& key, double value) {
-  find_own(tire.values.own, key) = unit_of_key(key).to_si(value);
-}
 
 /// A tire whose law has no usual number, and no number with an uncertainty.
 models::TireFile make_true_tire() {

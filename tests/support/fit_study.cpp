@@ -78,6 +78,19 @@ double find_truth(const measurements::MeasurementSet& set, const std::string& ke
   return unit_of_key(name).from_si(estimation::find_parameter(context, key));
 }
 
+double& find_own(models::OwnParameters<double>& own, const std::string& key) {
+  double* found = nullptr;
+  models::OwnParameters<double>::visit(own, [&](const Field& field, double& value) {
+    if (key == field.key) found = &value;
+  });
+  if (found == nullptr) throw std::invalid_argument(key);
+  return *found;
+}
+
+void put_own(models::TireFile& tire, const std::string& key, double value) {
+  find_own(tire.values.own, key) = unit_of_key(key).to_si(value);
+}
+
 bool is_rejected(int successes, int trials, double p, double level) {
   const boost::math::binomial_distribution<double> distribution(trials, p);
   const double at_most = boost::math::cdf(distribution, successes);

@@ -33,6 +33,12 @@ measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, 
 /// The true value of an estimate's key, in the unit of the key.
 double find_truth(const measurements::MeasurementSet& set, const std::string& key);
 
+/// A number of a tire's own law, in SI units.
+double& find_own(models::OwnParameters<double>& own, const std::string& key);
+
+/// Puts a number of the tire's own law, in the unit of the key.
+void put_own(models::TireFile& tire, const std::string& key, double value);
+
 /// Whether `successes` of `trials` is rejected by a two-sided binomial test of probability `p` at `level`.
 bool is_rejected(int successes, int trials, double p, double level);
 
