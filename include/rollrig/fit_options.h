@@ -13,7 +13,7 @@ namespace rollrig {
 
 struct TireFitOptions {
   std::string name;       // of the fitted tire; empty: that of the set's tire with _fit
-  bool load_map = false;  // A0, A1, B0, B1 at each load of the set
+  bool load_map = false;  // A0, A1, B0, B1 at each load of the set; of laws that have them
   bool free_H = false;    // H also where the gas temperature was not measured
   int threads = 0;        // 0: as many as the machine has
   Progress progress = {};

@@ -36,6 +36,25 @@ TEST_CASE("a set is written, validated and fitted", "[fast]") {
   CHECK(run_program("run iso_28580 --tire fitted/mine.toml", folder.path()).status == 0);
 }
 
+TEST_CASE("a tire with a bounded law is fitted, without what belongs to lines over speed", "[fast]") {
+  const TemporaryFolder folder;
+  REQUIRE(run_program("run speed_sweep --tire c1_205_55r16 --sensors source --set 'speeds_km_h=[60, 110]' "
+                      "--set measurement_cycles=1 --set settle_min=0 --write-set set --quiet",
+                      folder.path())
+              .status == 0);
+  const auto fit = run_program("fit tire set --out fitted --name mine --html page.html", folder.path());
+  INFO(fit.err);
+  REQUIRE(fit.status == 0);
+  CHECK_THAT(flatten(fit.out), Contains("two-step regression left out"));
+  CHECK(longest_line(fit.out) <= 80);
+  CHECK(run_program("validate fitted/mine.toml", folder.path()).status == 0);
+  CHECK(json::parse(read_file(folder.file("fitted/fit.json")))["two_step"].is_null());
+  CHECK(run_program("run iso_28580 --tire fitted/mine.toml --fidelity quasi_static", folder.path()).status == 0);
+  const auto map = run_program("fit tire set --load-map", folder.path());
+  CHECK(map.status == 2);
+  CHECK_THAT(flatten(map.err), Contains("--load-map") && Contains("bounded"));
+}
+
 TEST_CASE("a set that is written without sensors is said to hold no measurement", "[fast]") {
   const TemporaryFolder folder;
   const auto plain = run_program("run skim --tire a50 --write-set plain", folder.path());

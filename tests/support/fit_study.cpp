@@ -59,7 +59,7 @@ measurements::MeasurementSet make_warm_up_set(const models::TireFile& tire, cons
 
 measurements::MeasurementSet make_warm_up_set(const std::string& tire, const std::string& sensors,
                                               const std::string& fidelity, const rigs::RigFile& rig) {
-  return make_warm_up_set(read_asset_tire(tire), {{80.0}, {120.0}}, sensors, fidelity, rig);
+  return make_warm_up_set(read_combined_tire(tire), {{80.0}, {120.0}}, sensors, fidelity, rig);
 }
 
 measurements::MeasurementSet add_noise(const measurements::MeasurementSet& set, std::uint64_t seed) {
