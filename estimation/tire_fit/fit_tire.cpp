@@ -108,7 +108,7 @@ void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
     const std::string key = find_file_key(estimate.key);  // "load_map.0.A0_N", "thermal.H_gas_W_per_K"
     std::string table = key.substr(0, key.find('.') + 1);
     if (table == "load_map.") table = "rolling_resistance.load_map.";
-    if (last_part(key).rfind("conductance_", 0) == 0) table += "rig." + set.rig->thermal_name() + ".";
+    if (key.rfind("thermal.conductance_", 0) == 0) table += "rig." + set.rig->thermal_name() + ".";
     fit.notes[table + last_part(key)] = from + (estimate.nuisance ? " within its uncertainty" : "");
   }
 }
