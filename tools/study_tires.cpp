@@ -43,7 +43,8 @@ void StudyTire::scale_cooling(double factor) {
 }
 
 StudyTire read_study_tire(const std::string& name) {
-  return {models::read_tire(read_config(find_asset("tires", name))), rigs::read_rig(read_config(find_asset("rigs", "drum_2m")))};
+  return {models::read_tire(read_config(find_asset("tires", name))),
+          rigs::read_rig(read_config(find_asset("rigs", "drum_2m")))};
 }
 
 TestConditions make_iso_conditions(const StudyTire& tire) {

@@ -21,7 +21,8 @@ using rollrig::tests::write_file;
 
 TEST_CASE("a set is written, validated and fitted", "[fast]") {
   const TemporaryFolder folder;
-  REQUIRE(run_program("run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80, 120]' "
+  REQUIRE(run_program("run speed_sweep --tire '" ROLLRIG_SOURCE_DIR
+                      "/tests/published/combined_law/a50.toml' --sensors source --set 'speeds_km_h=[80, 120]' "
                       "--set measurement_cycles=1 --set settle_min=0 --write-set set --quiet",
                       folder.path())
               .status == 0);

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "diagnosis/checks/sample_checks.h"
-#include "tests/diagnosis/checked_sets.h"
 #include "sim/core/assets.h"
+#include "tests/diagnosis/checked_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/machines.h"
 

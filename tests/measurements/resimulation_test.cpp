@@ -138,7 +138,8 @@ TEST_CASE("rows far apart are simulated in parts, so that a steady run does not 
 }
 
 TEST_CASE("on a drum, steps are short enough for what sensors show, with each effect as well", "[fast]") {
-  const MeasurementSet set = tests::simulate_campaign({tests::combined_tire_path(), {{"transient_skim", {"repeats=1"}}}, {}});
+  const MeasurementSet set =
+      tests::simulate_campaign({tests::combined_tire_path(), {{"transient_skim", {"repeats=1"}}}, {}});
   const MeasuredRun& smooth = set.runs.front();
   MeasuredRun kinked = smooth;  // rows not in a straight line are segments of their own: no step is longer than a row
   std::vector<double>& ambient_degC = kinked.columns.at("ambient_degC");

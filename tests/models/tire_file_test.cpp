@@ -165,8 +165,7 @@ TEST_CASE("a tire with the bounded law has no lines over speed in its file, and 
   CHECK_THROWS_WITH(models::read_tire(parse_config(with_line, "bounded.toml")), Catch::Contains("A0_N"));
 }
 
-TEST_CASE("a file of the bounded law is refused if its limits are in the wrong order or its loss would fall with speed",
-          "[fast]") {
+TEST_CASE("a file of the bounded law is refused if its loss would rise with heat or fall with speed", "[fast]") {
   models::TireFile tire = tests::read_combined_tire();
   tire.values.own = tests::make_own("bounded");
   tire.standard_uncertainties.own = {tire.values.own.model, std::vector<double>(tire.values.own.values.size())};
@@ -185,7 +184,11 @@ TEST_CASE("a file of the bounded law is refused if its limits are in the wrong o
   CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "0.6"),
                     Catch::Contains("[bounded] speed_rise\n") && Catch::Contains("fall with speed"));
   CHECK_NOTHROW(read_with("speed_rise_of_fall", "-2.5"));
-  CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "-5.0"), Catch::Contains("fall with speed"));
+  CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "-3.5"), Catch::Contains("fall with speed"));
+  // S at 80 km/h is 0.735 here: at standstill a c above 1/0.735 would have the loss rise with heat.
+  for (const char* too_far : {"1.37", "-3.8"}) {
+    CHECK_THROWS_WITH(read_with("speed_rise_of_fall", too_far), Catch::Contains("rise with temperature"));
+  }
 }
 
 TEST_CASE("tables that a use does not need may be absent, and what it needs is named", "[fast]") {

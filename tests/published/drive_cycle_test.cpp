@@ -7,9 +7,9 @@
 #include "build_paths.h"
 #include "sim/core/schema.h"
 #include "tests/support/drum_fixture.h"
-#include "tools/tire_drive.h"
 #include "tools/figure_3_13.h"
 #include "tools/published_numbers.h"
+#include "tools/tire_drive.h"
 
 using namespace rollrig;
 

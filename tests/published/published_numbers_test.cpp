@@ -60,8 +60,9 @@ TEST_CASE("RRc is constant over the load sweep as measured (§4.1.3), by the tir
   };
   for (const char* tire : {"a40", "a50", "a60"}) {
     INFO(tire);
-    CHECK(span(tire, {"settle_min=0"}) < 0.21);                            // 0.17 is published; a60 is above it
-    CHECK(span(tire, {"settle_min=0", "tire.bounded.load_exponent=1.0"}) > 0.17);  // in proportion to the load, as (3.5)
+    CHECK(span(tire, {"settle_min=0"}) < 0.21);  // 0.17 is published; a60 is above it
+    CHECK(span(tire, {"settle_min=0", "tire.bounded.load_exponent=1.0"}) >
+          0.17);  // in proportion to the load, as (3.5)
   }
 }
 

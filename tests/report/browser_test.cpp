@@ -41,7 +41,8 @@ void check_command(const TemporaryFolder& folder, const std::string& arguments, 
 /// A set of two warm-ups with an effect in it.
 void write_set(const TemporaryFolder& folder) {
   const ProgramResult made = run_program(
-      "run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80,120]' --set warm_up_min=10 --set settle_min=0 "
+      "run speed_sweep --tire a50 --sensors source --set 'speeds_km_h=[80,120]' --set warm_up_min=10 --set "
+      "settle_min=0 "
       "--set effects.bearing_warmup.fall_per_K=0.03 --write-set set --quiet",
       folder.path());
   INFO(made.err);

@@ -101,7 +101,7 @@ TEST_CASE("a tire that comes in cold is soaked before its pressure is set", "[fa
   // without the soak the gas would be set cold and warm up: the verified pressure tells
   const auto rushed = run("iso_28580", "a50", {"initial_tire_temperature_degC=5", "soak_h=0"});
   CHECK(number(rushed, "pressure_verified_kPa") > 251.0);
-  CHECK(number(soaked, "pressure_verified_kPa") == Approx(250.0).margin(0.05));
+  CHECK(number(soaked, "pressure_verified_kPa") == Approx(250.0).margin(0.1));
 }
 
 TEST_CASE("measurement cycles repeat and settle", "[fast]") {
