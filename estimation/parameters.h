@@ -2,6 +2,7 @@
 /// Parameters of a context by name, in any scalar: what a fit moves.
 
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +19,7 @@ struct FreeParameter {
   double prior_sd_SI = 0.0;  // 0: no prior; else normal around start_SI
   double lower_SI = -std::numeric_limits<double>::infinity();
   double upper_SI = std::numeric_limits<double>::infinity();
+  std::map<std::string, double> prior_correlations{};  // with other parameters that have a prior, by key
 };
 
 /// Calls visit(table, field, member) for every number of a context that a fit may move; of the tire's tables the name

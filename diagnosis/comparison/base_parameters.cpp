@@ -72,6 +72,7 @@ void add_tire(const models::TireFile& tire, const std::string& rig, const models
         if (enters(table) && !has_map_instead)
           put_given("tire." + table + "." + field.output_key(), sd_SI, uncertainties);
       });
+  uncertainties.correlated = models::list_correlated_pairs(tire, rig);
   const auto on_rig = tire.rig_thermal.find(rig);
   if (on_rig == tire.rig_thermal.end() || !enters("thermal")) return;
   put_given("tire.thermal.z_W_per_K", on_rig->second.rest_conductance_sd_W_per_K.value_or(0.0), uncertainties);
@@ -107,6 +108,7 @@ std::vector<FreeParameter> find_base_parameters(const measurements::MeasurementS
     const double start = estimation::find_parameter(at, key);
     if (value > 0.0) parameters.push_back({key, start, value});
   }
+  estimation::put_correlations(uncertainties.correlated, parameters);
   return parameters;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/parameters.h"
+#include "estimation/normal_prior.h"
 #include "measurements/measurement_set.h"
 
 namespace rollrig::diagnosis {
@@ -14,6 +14,7 @@ namespace rollrig::diagnosis {
 struct Uncertainties {
   std::map<std::string, double> given;
   std::map<std::string, double> usual;
+  std::vector<models::CorrelatedPair> correlated{};  // among those given
 };
 
 /// Groups of numbers that a kind of set moves (kinds/measurement_kind.h).
@@ -29,7 +30,7 @@ void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties)
 void add_vehicle(const rigs::VehicleFile& file, Uncertainties& uncertainties);
 
 /// What the set's kind moves, each normal around the file's value with the file's standard uncertainty or, where the
-/// file gives none, the default.
+/// file gives none, the default; jointly normal where the tire's file gives correlations.
 /// Source  Assumed: the defaults, from the spread between calibrations of one tire (docs/published.md)
 /// Checked tests/diagnosis/base_parameters_test.cpp
 std::vector<estimation::FreeParameter> find_base_parameters(const measurements::MeasurementSet& set,

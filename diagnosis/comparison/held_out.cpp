@@ -1,6 +1,7 @@
 #include "diagnosis/comparison/held_out.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +16,7 @@ struct Bounds {
 };
 
 /// Of all unknowns: own parameters in their ranges, and base parameters less than their own size away, since one step
-/// from a set that is not of this tire may lead out of physics.
+/// from a set that is not of this tire may lead out of physics. Parameters that share unknowns share the room as well.
 Bounds find_bounds(const Model& model) {
   constexpr double kMostRelative = 0.9;
   const Eigen::Index n = to_index(model.unknown_count());
@@ -29,9 +30,11 @@ Bounds find_bounds(const Model& model) {
   const std::vector<estimation::FreeParameter>& base = model.base();
   for (std::size_t i = 0; i < base.size(); ++i) {
     const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
-    if (most > 0.0) {
-      bounds.lower[to_index(model.own_count() + i)] = -most;
-      bounds.upper[to_index(model.own_count() + i)] = most;
+    const Eigen::RowVectorXd row = model.prior_factor().row(to_index(i));
+    for (Eigen::Index j = 0; j <= to_index(i) && most > 0.0; ++j) {
+      double& upper = bounds.upper[to_index(model.own_count()) + j];
+      if (row[j] != 0.0) upper = std::min(upper, most / row.lpNorm<1>());
+      bounds.lower[to_index(model.own_count()) + j] = -upper;
     }
   }
   return bounds;

@@ -9,6 +9,11 @@
 namespace rollrig::diagnosis {
 namespace {
 
+void put_derivative(double&, double, std::size_t) {}
+void put_derivative(Jet& jet, double derivative, std::size_t column) {
+  if (column < static_cast<std::size_t>(kJetWidth)) jet.v[to_index(column)] = derivative;
+}
+
 template <class S>
 S make_scalar(double value, double derivative, std::size_t column);
 template <>
@@ -18,7 +23,7 @@ double make_scalar<double>(double value, double, std::size_t) {
 template <>
 Jet make_scalar<Jet>(double value, double derivative, std::size_t column) {
   Jet jet(value);
-  if (column < static_cast<std::size_t>(kJetWidth)) jet.v[to_index(column)] = derivative;
+  put_derivative(jet, derivative, column);
   return jet;
 }
 
@@ -38,7 +43,10 @@ double find_most_SI(const Quantity& channel) {
 }  // namespace
 
 Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis)
-    : set_(set), base_(std::move(base)), hypothesis_(std::move(hypothesis)) {
+    : set_(set),
+      base_(std::move(base)),
+      prior_factor_(estimation::calc_prior_factor(base_)),
+      hypothesis_(std::move(hypothesis)) {
   for (std::size_t t = 0; t < hypothesis_.terms.size(); ++t) {
     const auto& [term, sign] = hypothesis_.terms[t];
     for (std::size_t i = 0; i < term->parameters().size(); ++i) {
@@ -53,11 +61,23 @@ bool Model::find_parameters(const Eigen::VectorXd& unknowns, std::vector<Paramet
     if (!value.allowed) return false;
     parameters.push_back({value.value_SI, value.derivative_SI});
   }
+  const Eigen::VectorXd moved = prior_factor_ * unknowns.segment(to_index(own_.size()), to_index(base_.size()));
   for (std::size_t i = 0; i < base_.size(); ++i) {
     const double sd = base_[i].prior_sd_SI;
-    parameters.push_back({base_[i].start_SI + sd * unknowns[to_index(own_.size() + i)], sd});
+    parameters.push_back({base_[i].start_SI + sd * moved[to_index(i)], sd * prior_factor_(to_index(i), to_index(i))});
   }
   return true;
+}
+
+/// A base parameter with its derivatives by the unknowns of one pass.
+template <class S>
+S Model::make_base(std::size_t i, const std::vector<Parameter>& parameters, std::size_t first_column) const {
+  const std::size_t own = own_.size();
+  S base = make_scalar<S>(parameters[own + i].value_SI, parameters[own + i].derivative_SI, own + i - first_column);
+  for (std::size_t j = 0; j < i; ++j) {
+    put_derivative(base, base_[i].prior_sd_SI * prior_factor_(to_index(i), to_index(j)), own + j - first_column);
+  }
+  return base;
 }
 
 template <class S>
@@ -68,7 +88,7 @@ bool Model::simulate_run(std::size_t r, const std::vector<Parameter>& parameters
   };
   models::Context<S> context = models::convert_context<S>(set_.context());
   for (std::size_t i = 0; i < base_.size(); ++i) {
-    estimation::find_parameter(context, base_[i].key) = scalar(own_.size() + i);
+    estimation::find_parameter(context, base_[i].key) = make_base<S>(i, parameters, first_column);
   }
   const PreparedRun& run = set_.runs()[r];
   std::vector<models::ActiveEffect> active;

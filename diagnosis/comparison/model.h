@@ -7,14 +7,15 @@
 #include "diagnosis/comparison/eigen_index.h"
 #include "diagnosis/comparison/prepared_set.h"
 #include "diagnosis/terms/hypothesis.h"
-#include "estimation/parameters.h"
+#include "estimation/normal_prior.h"
 
 namespace rollrig::diagnosis {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Unknowns, each standard normal before the measurement: the terms' own parameters, then the base parameters, then
-/// the sensors' offsets (one a session and channel).
+/// the sensors' offsets (one a session and channel). Base parameters that are correlated share unknowns
+/// (estimation::calc_prior_factor).
 class Model {
  public:
   Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base, Hypothesis hypothesis);
@@ -22,6 +23,9 @@ class Model {
   const PreparedSet& set() const { return set_; }
   const Hypothesis& hypothesis() const { return hypothesis_; }
   const std::vector<estimation::FreeParameter>& base() const { return base_; }
+
+  /// A base parameter moves by its standard deviation times its row of this times the unknowns of the base.
+  const Eigen::MatrixXd& prior_factor() const { return prior_factor_; }
 
   std::size_t own_count() const { return own_.size(); }
   std::size_t parameter_count() const { return own_.size() + base_.size(); }
@@ -58,15 +62,18 @@ class Model {
  private:
   struct Parameter {
     double value_SI = 0.0;
-    double derivative_SI = 0.0;
+    double derivative_SI = 0.0;  // by its own unknown
   };
   template <class S>
   bool simulate_run(std::size_t run, const std::vector<Parameter>& parameters, std::size_t first_column,
                     Eigen::VectorXd& values, RowMatrix* derivatives) const;
+  template <class S>
+  S make_base(std::size_t i, const std::vector<Parameter>& parameters, std::size_t first_column) const;
   bool find_parameters(const Eigen::VectorXd& unknowns, std::vector<Parameter>& parameters) const;
 
   const PreparedSet& set_;
   std::vector<estimation::FreeParameter> base_;
+  Eigen::MatrixXd prior_factor_;
   Hypothesis hypothesis_;
   std::vector<OwnParameter> own_;
 };

@@ -12,9 +12,10 @@ DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Co
     : set_(set), context_(std::move(context)), parameters_(std::move(parameters)), threads_(threads) {
   for (const measurements::MeasuredRun& run : set_.runs) runs_.emplace_back(run, *set_.kind);
   collect_series();
-  std::size_t priors = 0;
-  for (const FreeParameter& parameter : parameters_) priors += parameter.prior_sd_SI > 0.0 ? 1 : 0;
-  residual_count_ = sample_count_ + priors + offset_sd_.size();
+  const Eigen::MatrixXd factor = calc_prior_factor(parameters_);
+  prior_whitener_ =
+      factor.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(factor.rows(), factor.cols()));
+  residual_count_ = sample_count_ + static_cast<std::size_t>(factor.rows()) + offset_sd_.size();
 }
 
 void DrumResiduals::collect_series() {
@@ -91,17 +92,29 @@ void DrumResiduals::add_offsets_and_priors(const double* unknowns, double* resid
       }
     }
   }
-  std::size_t row = sample_count_;
-  const auto add = [&](std::size_t column, double residual, double derivative) {
-    residuals[row] = residual;
-    if (jacobian != nullptr) jacobian[row * width + column] = derivative;
-    ++row;
-  };
+  add_priors(unknowns, residuals, jacobian);
+  const std::size_t first = residual_count_ - offset_sd_.size();
+  for (std::size_t i = 0; i < offset_sd_.size(); ++i) {
+    residuals[first + i] = offsets[i];
+    if (jacobian != nullptr) jacobian[(first + i) * width + parameters_.size() + i] = 1.0;
+  }
+}
+
+void DrumResiduals::add_priors(const double* unknowns, double* residuals, double* jacobian) const {
+  const Eigen::Index count = prior_whitener_.rows();
+  Eigen::Map<Eigen::VectorXd> whitened(residuals + sample_count_, count);
+  whitened.setZero();
+  Eigen::Index prior = 0;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     const double sd = parameters_[i].prior_sd_SI;
-    if (sd > 0.0) add(i, (unknowns[i] - parameters_[i].start_SI) / sd, 1.0 / sd);
+    if (!(sd > 0.0)) continue;
+    whitened += prior_whitener_.col(prior) * ((unknowns[i] - parameters_[i].start_SI) / sd);
+    for (Eigen::Index row = 0; row < count && jacobian != nullptr; ++row) {
+      jacobian[(sample_count_ + static_cast<std::size_t>(row)) * unknown_count() + i] =
+          prior_whitener_(row, prior) / sd;
+    }
+    ++prior;
   }
-  for (std::size_t i = 0; i < offset_sd_.size(); ++i) add(parameters_.size() + i, offsets[i], 1.0);
 }
 
 void DrumResiduals::evaluate(const double* unknowns, double* residuals, double* jacobian) const {

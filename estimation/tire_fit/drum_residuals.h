@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "estimation/parameters.h"
+#include "estimation/normal_prior.h"
 #include "measurements/resimulation.h"
 #include "measurements/whitener.h"
 
@@ -21,7 +21,7 @@ struct ComparedSeries {
 
 /// Residuals in units of one standard deviation, as a function of free parameters and sensor offsets:
 /// all samples, whitened, then one residual for each prior and each offset.
-/// Equation  r = W (y - h(parameters) - offset)
+/// Equation  r = W (y - h(parameters) - offset); of the priors L^-1 (x - x0)/s (calc_prior_factor)
 /// Noise     one model: session offset, autoregressive drift, white noise, resolution (formats.md)
 class DrumResiduals {
  public:
@@ -48,11 +48,13 @@ class DrumResiduals {
   template <class S>
   void evaluate_run(std::size_t run, const std::vector<S>& values, const Columns& columns, double* residuals) const;
   void add_offsets_and_priors(const double* unknowns, double* residuals, double* jacobian) const;
+  void add_priors(const double* unknowns, double* residuals, double* jacobian) const;
   void collect_series();
 
   const measurements::MeasurementSet& set_;
   models::Context<double> context_;
   std::vector<FreeParameter> parameters_;
+  Eigen::MatrixXd prior_whitener_;  // L^-1
   std::vector<measurements::Resimulation> runs_;
   std::vector<ComparedSeries> series_;
   std::vector<double> offset_sd_;

@@ -100,6 +100,7 @@ void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& u
     }
   }
   put_tire(set, best.tire, uncertainty.tire, fit);
+  fit.tire.correlation = models::keep_correlation(set.tire, fit.tire);  // what the old ones were is no more
 }
 
 void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {

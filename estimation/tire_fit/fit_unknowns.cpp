@@ -226,6 +226,7 @@ FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::
   if (free_H) add_free(unknowns, "tire.thermal.H_gas_W_per_K", 1e-3, 0.0);
   unknowns.asked_for = unknowns.parameters.size();
   add_nuisances(set, unknowns);
+  put_correlations(models::list_correlated_pairs(set.tire, set.rig->thermal_name()), unknowns.parameters);
   return unknowns;
 }
 

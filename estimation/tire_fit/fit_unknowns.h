@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "estimation/parameters.h"
+#include "estimation/normal_prior.h"
 #include "estimation/tire_fit/two_step.h"
 #include "measurements/measurement_set.h"
 #include "models/tire/tire_model.h"
@@ -22,7 +22,7 @@ struct FitUnknowns {
 /// The numbers of the tire's law: A0, A1, B0 and B1, at each load of the set with `load_map`, or those of another law
 /// by their role (models::FitRole); the conductances of the set's rig, of another law at several speeds only (else that
 /// at rest alone); the conductance to the gas with `free_H`; and, as nuisances, whatever else the files give with an
-/// uncertainty. What is asked for has no prior.
+/// uncertainty, correlated as the tire's file says. What is asked for has no prior.
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::optional<TwoStepEstimate>& start,
                             bool load_map, bool free_H);
 

@@ -167,6 +167,7 @@ TireFile read_tire(const ConfigTable& config) {
   Iso28580Reference iso_28580;
   if (read_group(file, "iso_28580", iso_28580)) tire.iso_28580 = iso_28580;
   read_sweep_loads(file, tire);
+  tire.correlation = read_correlation(file, tire);
   file.finish();
   return tire;
 }

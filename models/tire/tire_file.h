@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "models/tire/correlation.h"
 #include "models/tire/tire.h"
 
 namespace rollrig::models {
@@ -86,6 +87,7 @@ struct TireFile {
   std::string designation;
   TireParameters<double> values;
   TireParameters<double> standard_uncertainties;  // 0 where none was given
+  TireCorrelation correlation;                    // of numbers with one; may be empty
   bool has_stiffness = false;
   bool has_rolling_resistance = false;
   bool has_thermal = false;

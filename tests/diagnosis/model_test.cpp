@@ -191,3 +191,20 @@ TEST_CASE("without base parameters, only own parameters and offsets are unknown"
   const Model model(two_runs(), {}, with({"bearing_warmup"}));
   CHECK(model.unknown_count() == model.own_count() + two_runs().offset_count());
 }
+
+TEST_CASE("correlated base parameters move together, and the derivatives follow them", "[fast]") {
+  std::vector<estimation::FreeParameter> correlated = base();
+  REQUIRE(correlated.size() > 2);
+  estimation::put_correlations({{correlated[0].key, correlated[2].key, -0.7}}, correlated);
+  const Model together(two_runs(), correlated, {});
+  const Model apart(two_runs(), base(), {});
+  const Eigen::VectorXd unknowns = make_unknowns(together);
+  Eigen::VectorXd same_numbers = unknowns;  // by hand: the third is rho times the first, and what is its own
+  same_numbers[2] = -0.7 * unknowns[0] + std::sqrt(1.0 - 0.7 * 0.7) * unknowns[2];
+  Eigen::VectorXd residuals;
+  Eigen::VectorXd expected;
+  REQUIRE(together.evaluate(unknowns, 0, residuals, nullptr));
+  REQUIRE(apart.evaluate(same_numbers, 0, expected, nullptr));
+  CHECK((residuals - expected).norm() < 1e-6 * expected.norm());  // rounding of the numbers alone
+  check_derivatives(two_runs(), correlated, with({"bearing_warmup"}));
+}
