@@ -1,7 +1,6 @@
 #include "diagnosis/comparison/held_out.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -15,8 +14,8 @@ struct Bounds {
   Eigen::VectorXd upper;
 };
 
-/// Of all unknowns: own parameters in their ranges, and base parameters less than their own size away, since one step
-/// from a set that is not of this tire may lead out of physics. Parameters that share unknowns share the room as well.
+/// Of the moves (Model::moves_by_unknowns): own parameters in their ranges, and base parameters less than their own
+/// size away, since one step from a set that is not of this tire may lead out of physics.
 Bounds find_bounds(const Model& model) {
   constexpr double kMostRelative = 0.9;
   const Eigen::Index n = to_index(model.unknown_count());
@@ -30,14 +29,23 @@ Bounds find_bounds(const Model& model) {
   const std::vector<estimation::FreeParameter>& base = model.base();
   for (std::size_t i = 0; i < base.size(); ++i) {
     const double most = std::abs(kMostRelative * base[i].start_SI / base[i].prior_sd_SI);
-    const Eigen::RowVectorXd row = model.prior_factor().row(to_index(i));
-    for (Eigen::Index j = 0; j <= to_index(i) && most > 0.0; ++j) {
-      double& upper = bounds.upper[to_index(model.own_count()) + j];
-      if (row[j] != 0.0) upper = std::min(upper, most / row.lpNorm<1>());
-      bounds.lower[to_index(model.own_count()) + j] = -upper;
+    if (most > 0.0) {
+      bounds.lower[to_index(model.own_count() + i)] = -most;
+      bounds.upper[to_index(model.own_count() + i)] = most;
     }
   }
   return bounds;
+}
+
+/// The unknowns at the minimum of x^T M x / 2 - b^T x within the bounds of the moves m = T x.
+Eigen::VectorXd solve_within_bounds(const Model& model, const Eigen::MatrixXd& curvature,
+                                    const Eigen::VectorXd& gradient) {
+  const Bounds bounds = find_bounds(model);
+  const Eigen::MatrixXd moves = model.moves_by_unknowns();
+  const auto by_unknowns = moves.triangularView<Eigen::Lower>();
+  const Eigen::MatrixXd half = by_unknowns.transpose().solve(curvature);
+  const Eigen::MatrixXd by_moves = by_unknowns.transpose().solve(half.transpose()).transpose();  // T^-T M T^-1
+  return by_unknowns.solve(solve_within(by_moves, by_unknowns.transpose().solve(gradient), bounds.lower, bounds.upper));
 }
 
 }  // namespace
@@ -59,10 +67,8 @@ Prediction predict_without(const Study& study, const Candidate& candidate, std::
   const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
   const Model model = study.make_model(candidate.fit.hypothesis);
   const Eigen::VectorXd& from = candidate.fit.unknowns;
-  const Bounds bounds = find_bounds(model);
   const Eigen::VectorXd unknowns =
-      solve_within(curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals), bounds.lower,
-                   bounds.upper);
+      solve_within_bounds(model, curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals));
   Prediction prediction;
   const auto parameters = to_index(model.parameter_count());  // offsets are taken off anew
   left_out.rightCols(n - parameters).setZero();

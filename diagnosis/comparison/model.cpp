@@ -55,6 +55,13 @@ Model::Model(const PreparedSet& set, std::vector<estimation::FreeParameter> base
   }
 }
 
+Eigen::MatrixXd Model::moves_by_unknowns() const {
+  Eigen::MatrixXd moves = Eigen::MatrixXd::Identity(to_index(unknown_count()), to_index(unknown_count()));
+  const Eigen::Index count = to_index(base_.size());
+  moves.block(to_index(own_.size()), to_index(own_.size()), count, count) = prior_factor_;
+  return moves;
+}
+
 bool Model::find_parameters(const Eigen::VectorXd& unknowns, std::vector<Parameter>& parameters) const {
   for (std::size_t i = 0; i < own_.size(); ++i) {
     const PriorUnits value = own_[i].value_at(unknowns[to_index(i)]);

@@ -24,8 +24,8 @@ class Model {
   const Hypothesis& hypothesis() const { return hypothesis_; }
   const std::vector<estimation::FreeParameter>& base() const { return base_; }
 
-  /// A base parameter moves by its standard deviation times its row of this times the unknowns of the base.
-  const Eigen::MatrixXd& prior_factor() const { return prior_factor_; }
+  /// Lower triangular: what unknowns move, each base parameter in its own standard deviations, all else in prior units.
+  Eigen::MatrixXd moves_by_unknowns() const;
 
   std::size_t own_count() const { return own_.size(); }
   std::size_t parameter_count() const { return own_.size() + base_.size(); }

@@ -76,6 +76,31 @@ void put_tire(const measurements::MeasurementSet& set, const models::TireParamet
   keep_elsewhere(set.tire.standard_uncertainties.thermal, fit.tire.standard_uncertainties.thermal);
 }
 
+/// The key of a fitted number in the tire's file: "load_map.0.A0_N", "thermal.rig.drum_2m.<conductance>".
+std::string find_written_key(const measurements::MeasurementSet& set, const std::string& key) {
+  std::string written = find_file_key(key);
+  const std::string table = "thermal.";
+  if (written.rfind(table + "conductance_", 0) == 0) {
+    written.insert(table.size(), "rig." + set.rig->thermal_name() + ".");
+  }
+  return written;
+}
+
+/// Of all fitted numbers of the tire, nuisances among them: the file has what the fit made of both.
+void put_correlation(const measurements::MeasurementSet& set, TireFit& fit) {
+  std::vector<std::size_t> of_tire;
+  for (std::size_t i = 0; i < fit.estimates.size(); ++i) {
+    if (fit.estimates[i].key.rfind("tire.", 0) == 0) of_tire.push_back(i);
+  }
+  models::TireCorrelation fitted;
+  for (const std::size_t i : of_tire) {
+    fitted.numbers.push_back(find_written_key(set, fit.estimates[i].key));
+    fitted.matrix.emplace_back();
+    for (const std::size_t j : of_tire) fitted.matrix.back().push_back(i == j ? 1.0 : fit.correlation[i][j]);
+  }
+  fit.tire.correlation = models::replace_correlation(fit.tire, std::move(fitted));
+}
+
 void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& unknowns,
                    const std::vector<double>& found, const Eigen::MatrixXd& covariance, TireFit& fit) {
   models::Context<double> best = unknowns.start;
@@ -100,17 +125,15 @@ void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& u
     }
   }
   put_tire(set, best.tire, uncertainty.tire, fit);
-  fit.tire.correlation = models::keep_correlation(set.tire, fit.tire);  // what the old ones were is no more
+  put_correlation(set, fit);
 }
 
 void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
   const std::string from = fmt::format("fitted to set '{}'", set.name);
   for (const Estimate& estimate : fit.estimates) {
-    const std::string key = find_file_key(estimate.key);  // "load_map.0.A0_N", "thermal.H_gas_W_per_K"
-    std::string table = key.substr(0, key.find('.') + 1);
-    if (table == "load_map.") table = "rolling_resistance.load_map.";
-    if (key.rfind("thermal.conductance_", 0) == 0) table += "rig." + set.rig->thermal_name() + ".";
-    fit.notes[table + last_part(key)] = from + (estimate.nuisance ? " within its uncertainty" : "");
+    std::string key = find_written_key(set, estimate.key);
+    if (key.rfind("load_map.", 0) == 0) key = "rolling_resistance.load_map." + last_part(key);
+    fit.notes[key] = from + (estimate.nuisance ? " within its uncertainty" : "");
   }
 }
 

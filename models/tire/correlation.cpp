@@ -201,24 +201,25 @@ std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const st
   return pairs;
 }
 
-TireCorrelation keep_correlation(const TireFile& before, const TireFile& after) {
-  const std::vector<UncertainNumber> old_numbers = list_numbers(before);
-  const std::vector<UncertainNumber> numbers = list_numbers(after);
+TireCorrelation replace_correlation(const TireFile& tire, TireCorrelation fitted) {
+  const std::vector<UncertainNumber> numbers = list_numbers(tire);
+  const std::vector<std::string> fitted_numbers = fitted.numbers;
+  const auto is_kept = [&](const std::string& name) {
+    const auto number = find_number(numbers, name);
+    const bool is_fitted = std::count(fitted_numbers.begin(), fitted_numbers.end(), name) > 0;
+    return number != numbers.end() && number->sd_SI > 0.0 && !is_fitted;
+  };
   std::vector<std::size_t> kept;
-  TireCorrelation correlation;
-  for (std::size_t i = 0; i < before.correlation.numbers.size(); ++i) {
-    const std::string& name = before.correlation.numbers[i];
-    const auto was = find_number(old_numbers, name);
-    const auto is = find_number(numbers, name);
-    if (was == old_numbers.end() || is == numbers.end() || is->sd_SI != was->sd_SI) continue;
-    kept.push_back(i);
-    correlation.numbers.push_back(name);
+  for (std::size_t i = 0; i < tire.correlation.numbers.size(); ++i) {
+    if (is_kept(tire.correlation.numbers[i])) kept.push_back(i);
   }
+  for (std::vector<double>& row : fitted.matrix) row.resize(fitted_numbers.size() + kept.size());
   for (const std::size_t i : kept) {
-    std::vector<double>& row = correlation.matrix.emplace_back();
-    for (const std::size_t j : kept) row.push_back(before.correlation.matrix[i][j]);
+    fitted.numbers.push_back(tire.correlation.numbers[i]);
+    std::vector<double>& row = fitted.matrix.emplace_back(fitted_numbers.size());
+    for (const std::size_t j : kept) row.push_back(tire.correlation.matrix[i][j]);
   }
-  return correlation;
+  return fitted;
 }
 
 }  // namespace rollrig::models

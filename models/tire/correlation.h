@@ -35,7 +35,8 @@ TireCorrelation read_correlation(TableReader& file, const TireFile& tire);
 /// What holds on a rig: a conductance of [thermal.rig.<name>] stands there for that of [thermal].
 std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const std::string& rig);
 
-/// The correlation of `before` without the numbers whose standard uncertainty in `after` is another one or none.
-TireCorrelation keep_correlation(const TireFile& before, const TireFile& after);
+/// The correlation of a tire after some of its numbers were identified anew: among these it is `fitted`, between them
+/// and others 0, and others keep theirs as far as they still have a standard uncertainty.
+TireCorrelation replace_correlation(const TireFile& tire, TireCorrelation fitted);
 
 }  // namespace rollrig::models

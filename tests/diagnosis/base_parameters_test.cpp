@@ -1,9 +1,11 @@
 #include "diagnosis/comparison/base_parameters.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 #include <set>
 
+#include "diagnosis/comparison/evidence.h"
 #include "measurements/resimulation.h"
 #include "models/tire/rolling_resistance.h"
 #include "tests/diagnosis/gap_sets.h"
@@ -43,6 +45,43 @@ double find_change_of_loss(const measurements::MeasurementSet& set, const std::s
 }
 
 }  // namespace
+
+TEST_CASE("data that move one number move those that the tire's file correlates with it", "[fast]") {
+  // The data see the tire's heat capacity, but hardly the gas's.
+  auto set = tests::make_gap_set({}, 2);
+  auto& sd = set.tire.standard_uncertainties.thermal;
+  sd.heat_capacity_J_per_K = 1000.0;
+  sd.gas_heat_capacity_J_per_K = 10.0;
+  set.tire.values.thermal.heat_capacity_J_per_K -= 1500.0;  // the file's is too low
+  const auto fit = [&set](double correlation) {
+    set.tire.correlation = {{"thermal.heat_capacity_J_per_K", "thermal.gas_heat_capacity_J_per_K"},
+                            {{1.0, correlation}, {correlation, 1.0}}};
+    const tests::FittedBaseline fitted(set);
+    const diagnosis::Model model = fitted.make_model({});
+    const Eigen::MatrixXd moves = model.moves_by_unknowns();
+    const Eigen::VectorXd moved = moves * fitted.null.fit.unknowns;
+    const diagnosis::Evidence evidence(fitted.discrepancy, fitted.null.fit);
+    const Eigen::MatrixXd covariance =
+        moves * evidence.solve(fitted.null.amplitudes, true).covariance * moves.transpose();
+    std::map<std::string, std::pair<double, double>> found;  // in prior standard deviations: the move, its sd
+    for (std::size_t i = 0; i < model.base().size(); ++i) {
+      const Eigen::Index k = diagnosis::to_index(i);
+      found[model.base()[i].key] = {moved[k], std::sqrt(covariance(k, k))};
+    }
+    return std::pair{found.at("tire.thermal.heat_capacity_J_per_K"),
+                     found.at("tire.thermal.gas_heat_capacity_J_per_K")};
+  };
+  const auto [tire_alone, gas_alone] = fit(0.0);
+  const auto [tire, gas] = fit(0.9);
+  const auto [tire_against, gas_against] = fit(-0.9);
+  CHECK(tire_alone.first > 0.7);
+  CHECK(std::abs(gas_alone.first) < 0.2);
+  CHECK(gas_alone.second > 0.9);
+  CHECK(gas.first == Approx(0.9 * tire.first).margin(0.2));
+  CHECK(gas_against.first == Approx(-0.9 * tire_against.first).margin(0.2));
+  CHECK(gas.second < 0.8 * gas_alone.second);
+  CHECK(gas_against.second < 0.8 * gas_alone.second);
+}
 
 TEST_CASE("the identified numbers of tire and rig move, and no others", "[fast]") {
   std::set<std::string> keys;

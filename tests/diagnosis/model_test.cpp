@@ -106,7 +106,8 @@ TEST_CASE("a tire model may have more numbers than derivatives are taken by at o
   set.tire.standard_uncertainties.own = {&many, std::vector<double>(ManyNumbers::kCount)};
   set.tire.standard_uncertainties.own.values[7] = 0.004;
   const PreparedSet prepared(set);
-  const auto parameters = diagnosis::find_base_parameters(set, prepared.context());
+  auto parameters = diagnosis::find_base_parameters(set, prepared.context());
+  estimation::put_correlations({{"tire.many_numbers.d4", parameters.front().key, 0.8}}, parameters);  // far apart
   REQUIRE(parameters.size() == base().size() + ManyNumbers::kCount);
   for (const estimation::FreeParameter& parameter : parameters) {
     if (parameter.key == "tire.many_numbers.b2") CHECK(parameter.prior_sd_SI == 0.004);
@@ -206,5 +207,6 @@ TEST_CASE("correlated base parameters move together, and the derivatives follow 
   REQUIRE(together.evaluate(unknowns, 0, residuals, nullptr));
   REQUIRE(apart.evaluate(same_numbers, 0, expected, nullptr));
   CHECK((residuals - expected).norm() < 1e-6 * expected.norm());  // rounding of the numbers alone
+  CHECK((together.moves_by_unknowns() * unknowns - same_numbers).norm() < 1e-12);
   check_derivatives(two_runs(), correlated, with({"bearing_warmup"}));
 }

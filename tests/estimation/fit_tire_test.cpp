@@ -50,6 +50,24 @@ TEST_CASE("the fitted tire file holds the estimates with their uncertainties, z 
         set.tire.values.thermal.rest_conductance_W_per_K);  // other rigs keep theirs
 }
 
+TEST_CASE("the fitted tire file holds the correlations of the estimates", "[fast]") {
+  const auto set = tests::add_noise(tests::make_warm_up_set("a50", "source"), 11);
+  const TireFit fit = fit_tire(set, {});
+  const auto back = models::read_tire(parse_config(models::write_tire(fit.tire, fit.notes), "fitted"));
+  const models::TireCorrelation& written = back.correlation;
+  REQUIRE(written.numbers.size() == 6);
+  CHECK(written.numbers[0] == "rolling_resistance.A0_N");
+  CHECK(written.numbers[5] == "thermal.rig.drum_2m.conductance_per_speed_W_s_per_m_K");
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = 0; j < 6; ++j) CHECK(written.matrix[i][j] == Approx(fit.correlation[i][j]));
+  }
+  CHECK(written.matrix[0][1] < -0.5);  // A0 + A1 v is known better than either
+  // A fit that starts from this file does not take its own result for prior knowledge of what it asks for.
+  auto again = set;
+  again.tire = back;
+  CHECK(fit_tire(again, {}).estimates[0].sd == Approx(fit.estimates[0].sd).epsilon(1e-3));
+}
+
 TEST_CASE("what the files give with an uncertainty moves within it and widens the intervals", "[fast]") {
   auto set = tests::add_noise(tests::make_warm_up_set("a50", "source"), 11);
   const TireFit exact = fit_tire(set, {});
@@ -87,12 +105,14 @@ void add_other_uncertainties(measurements::MeasurementSet& set) {
   set.rig->parasitic_uncertainties.c2_N_s2_per_m2 = 0.0003;
 }
 
-double find_sd(const TireFit& fit, const std::string& key) {
+const estimation::Estimate& find_estimate(const TireFit& fit, const std::string& key) {
   for (const auto& estimate : fit.estimates) {
-    if (estimate.key == key) return estimate.sd;
+    if (estimate.key == key) return estimate;
   }
   throw std::invalid_argument(key);
 }
+
+double find_sd(const TireFit& fit, const std::string& key) { return find_estimate(fit, key).sd; }
 
 const char* const kHeatCapacity = "tire.thermal.heat_capacity_J_per_K";
 const char* const kGasHeatCapacity = "tire.thermal.gas_heat_capacity_J_per_K";
@@ -123,6 +143,30 @@ TEST_CASE("what the file and what the data say of a heat capacity add up", "[fas
   const double of_data = say(100.0);
   CHECK(of_data > 0.0);
   CHECK(say(400.0) == Approx(of_data).epsilon(0.02));
+}
+
+TEST_CASE("data that move one number move those that the tire's file correlates with it", "[fast]") {
+  // The data see the tire's heat capacity, and hardly the gas's.
+  constexpr double kSd = 1250.0, kGasSd = 9.5;
+  auto set = make_uncertain_set(1.0, kSd, kGasSd);
+  add_other_uncertainties(set);
+  const double truth = set.tire.values.thermal.heat_capacity_J_per_K;
+  const double gas_of_file = set.tire.values.thermal.gas_heat_capacity_J_per_K;
+  set.tire.values.thermal.heat_capacity_J_per_K = truth - 2.0 * kSd;
+  const auto fit = [&](double correlation) {
+    set.tire.correlation = {{"thermal.heat_capacity_J_per_K", "thermal.gas_heat_capacity_J_per_K"},
+                            {{1.0, correlation}, {correlation, 1.0}}};
+    return fit_tire(set, {});
+  };
+  const TireFit apart = fit(0.0);
+  const TireFit together = fit(0.9);
+  const double moved = find_estimate(together, kHeatCapacity).value - (truth - 2.0 * kSd);
+  CHECK(moved > 1.5 * kSd);
+  CHECK(std::abs(find_estimate(apart, kGasHeatCapacity).value - gas_of_file) < 0.4 * kGasSd);
+  CHECK(find_estimate(together, kGasHeatCapacity).value - gas_of_file ==
+        Approx(0.9 * moved * kGasSd / kSd).margin(0.4 * kGasSd));
+  CHECK(find_sd(together, kGasHeatCapacity) < 0.8 * find_sd(apart, kGasHeatCapacity));
+  CHECK(together.tire.correlation.numbers.back() == "thermal.gas_heat_capacity_J_per_K");  // stays in the file
 }
 
 TEST_CASE("the more is uncertain, the less is known of everything", "[fast]") {

@@ -62,16 +62,21 @@ TEST_CASE("a conductance of the rig's own stands there for the general one, with
   CHECK(there.front().correlation == 0.2);
 }
 
-TEST_CASE("a number with a new uncertainty loses its correlations, the others keep theirs", "[fast]") {
+TEST_CASE("a number with a new uncertainty loses its old correlations, the others keep theirs", "[fast]") {
   models::TireFile tire = make_tire();
   tire.correlation = {
       {"rolling_resistance.A0_N", "thermal.heat_capacity_J_per_K", "thermal.conductance_at_rest_W_per_K"},
       {{1.0, 0.2, -0.1}, {0.2, 1.0, 0.3}, {-0.1, 0.3, 1.0}}};
-  models::TireFile fitted = tire;
-  fitted.standard_uncertainties.rolling_resistance.A0_N = 0.1;
-  const models::TireCorrelation kept = models::keep_correlation(tire, fitted);
-  CHECK(kept.numbers.size() == 2);
-  CHECK(kept.matrix == std::vector<std::vector<double>>{{1.0, 0.3}, {0.3, 1.0}});
+  const models::TireCorrelation fitted{{"rolling_resistance.A0_N", "rolling_resistance.A1_N_s_per_m"},
+                                       {{1.0, -0.9}, {-0.9, 1.0}}};
+  const models::TireCorrelation now = models::replace_correlation(tire, fitted);
+  CHECK(now.numbers == std::vector<std::string>{"rolling_resistance.A0_N", "rolling_resistance.A1_N_s_per_m",
+                                                "thermal.heat_capacity_J_per_K",
+                                                "thermal.conductance_at_rest_W_per_K"});
+  CHECK(now.matrix == std::vector<std::vector<double>>{
+                          {1.0, -0.9, 0.0, 0.0}, {-0.9, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.3}, {0.0, 0.0, 0.3, 1.0}});
+  tire.standard_uncertainties.thermal.heat_capacity_J_per_K = 0.0;
+  CHECK(models::replace_correlation(tire, fitted).numbers.size() == 3);
 }
 
 TEST_CASE("a matrix that is none of correlations is refused, also where a program rounds", "[fast]") {
