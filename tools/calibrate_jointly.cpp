@@ -3,7 +3,8 @@
 ///
 /// usage: calibrate_jointly <tests/published> [<page>]
 /// Free: at most six numbers of each tire and one of each rig (joint_calibration.h). Residuals and their weights:
-/// joint_calibration.cpp. The files of <tests/published>/joint_calibration are rewritten in place, number by number.
+/// joint_calibration.cpp. a40, a50, a60 of assets/tires and the files of assets/rigs are rewritten, number by number.
+/// Those of the tires get [correlation] as their last table.
 /// Written out: free numbers with standard errors and correlations, and every observation. With a page, no file is
 /// calibrated: the page is written, a study that leaves out the observations of one table at a time (left_out.h).
 #include <ceres/ceres.h>
@@ -20,6 +21,7 @@
 namespace {
 
 using namespace rollrig;
+using tools::joint::FreeNumber;
 using tools::joint::JointCalibration;
 using tools::joint::Observation;
 using tools::joint::Unknowns;
@@ -49,6 +51,18 @@ struct Fit {
   Eigen::MatrixXd covariance;
 };
 
+/// Birge's ratio squared: mean square of the residuals that bear on the fit, over the degrees of freedom. The law misses
+/// more than the weights say, so that the uncertainties grow by its root; they never shrink.
+double find_scatter(const std::vector<double>& residuals, std::size_t unknowns) {
+  double squares = 0.0;
+  std::size_t bearing = 0;
+  for (const double one : residuals) {
+    squares += one * one;
+    bearing += one != 0.0 ? 1U : 0U;
+  }
+  return std::max(1.0, squares / static_cast<double>(bearing - unknowns));
+}
+
 Fit fit(const JointCalibration& tests) {
   Unknowns shifted = tests.read_unknowns();
   for (double& one : shifted) one += kShift;
@@ -76,7 +90,7 @@ Fit fit(const JointCalibration& tests) {
   if (!cost->Evaluate(&at, residuals.data(), &jacobian)) throw RunFailure("no derivatives where the fit ends");
   Fit result;
   for (const double one : shifted) result.at.push_back(one - kShift);
-  result.covariance = (rows.transpose() * rows).inverse();
+  result.covariance = find_scatter(residuals, result.at.size()) * (rows.transpose() * rows).inverse();
   return result;
 }
 
@@ -103,28 +117,63 @@ void print_numbers(const Fit& fit) {
   }
 }
 
-/// Rewrites the files in place: the free numbers, and the standard uncertainties of those of the tires.
-void write_files(const tools::joint::CalibratedFiles& files, const Eigen::VectorXd& sd) {
-  for (std::size_t tire = 0; tire < tools::kTires.size(); ++tire) {
-    std::string text = read_text_file(files.tires[tire].path);
-    Eigen::Index i = 0;
-    for (const tools::joint::FreeNumber& one : tools::joint::list_free_numbers()) {
-      const double own_sd = sd[i++];
-      if (one.tire != tire) continue;
-      const double value = *tools::joint::find_number(files.tires[tire].values, one.key);
-      const char* table = one.key == std::string(tools::joint::kCapacity) ? "thermal" : "bounded";
-      text = tools::replace_number(text, table, one.key, value);
-      text =
-          tools::replace_number(text, table, std::string(one.key) + "_sd", one.is_positive ? value * own_sd : own_sd);
+const char* find_table(const FreeNumber& one) {
+  return one.key == std::string(tools::joint::kCapacity) ? "thermal" : "bounded";
+}
+
+/// Of a tire's own numbers, to three decimals, whatever the rigs and the other tires are. A number and its logarithm
+/// have the same correlations to first order.
+models::TireCorrelation find_correlation(std::size_t tire, const Eigen::MatrixXd& covariance) {
+  const std::vector<FreeNumber>& free = tools::joint::list_free_numbers();
+  std::vector<Eigen::Index> own;
+  models::TireCorrelation correlation;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free[i].tire != tire) continue;
+    own.push_back(static_cast<Eigen::Index>(i));
+    correlation.numbers.push_back(fmt::format("{}.{}", find_table(free[i]), free[i].key));
+  }
+  for (const Eigen::Index i : own) {
+    std::vector<double>& row = correlation.matrix.emplace_back();
+    for (const Eigen::Index k : own) {
+      const double exact = covariance(i, k) / std::sqrt(covariance(i, i) * covariance(k, k));
+      row.push_back(std::round(1e3 * exact) / 1e3 + 0.0);  // no -0
     }
-    write_file_atomically(files.tires[tire].path, text);
+  }
+  return correlation;
+}
+
+/// The file of a tire with its free numbers, their standard uncertainties and correlations.
+std::string rewrite_tire(const models::TireFile& file, std::size_t tire, const Eigen::MatrixXd& covariance) {
+  std::string text = read_text_file(file.path);
+  Eigen::Index i = 0;
+  for (const FreeNumber& one : tools::joint::list_free_numbers()) {
+    const double own_sd = std::sqrt(covariance(i, i));
+    ++i;
+    if (one.tire != tire) continue;
+    const double value = *tools::joint::find_number(file.values, one.key);
+    const double sd = one.is_positive ? value * own_sd : own_sd;
+    text = tools::replace_number(text, find_table(one), one.key, value);
+    text = tools::replace_number(text, find_table(one), std::string(one.key) + "_sd", sd);
+  }
+  text = text.substr(0, text.find("\n[correlation]")) + models::write_correlation(find_correlation(tire, covariance));
+  models::read_tire(parse_config(text, file.path));  // throws where rounding leaves no correlation matrix
+  return text;
+}
+
+/// Rewrites the files in place: the free numbers, and of those of the tires what the covariance says.
+void write_files(const tools::joint::CalibratedFiles& files, const Eigen::MatrixXd& covariance) {
+  for (std::size_t tire = 0; tire < tools::kTires.size(); ++tire) {
+    write_file_atomically(files.tires[tire].path, rewrite_tire(files.tires[tire], tire, covariance));
   }
   for (const rigs::RigFile& rig : files.rigs) {
     const models::TireCooling& cooling = rig.tire_cooling;
-    std::string text = read_text_file(rig.path);
-    text = tools::replace_number(text, "tire_cooling", "at_rest_W_per_m2_K", cooling.at_rest_W_per_m2_K);
-    text = tools::replace_number(text, "tire_cooling", "per_speed_W_s_per_m3_K", cooling.per_speed_W_s_per_m3_K);
-    write_file_atomically(rig.path, text);
+    for (const std::string& alike : tools::joint::kRigsAlike.at(rig.name)) {
+      const std::string path = find_asset("rigs", alike);
+      std::string text = read_text_file(path);
+      text = tools::replace_number(text, "tire_cooling", "at_rest_W_per_m2_K", cooling.at_rest_W_per_m2_K);
+      text = tools::replace_number(text, "tire_cooling", "per_speed_W_s_per_m3_K", cooling.per_speed_W_s_per_m3_K);
+      write_file_atomically(path, text);
+    }
   }
 }
 
@@ -145,7 +194,7 @@ int main(int argc, char** argv) {
     const Fit best = fit(tests);
     print_numbers(best);
     print_observations(tests.observe(best.at));
-    write_files(tests.put(best.at), best.covariance.diagonal().cwiseSqrt());
+    write_files(tests.put(best.at), best.covariance);
   } catch (const InputError& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 2;

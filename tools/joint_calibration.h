@@ -28,6 +28,10 @@ auto find_number(Values& tire, const std::string& key) {
 /// The rigs whose heat transfer is calibrated: at_rest_W_per_m2_K of [tire_cooling], its rise with speed in proportion.
 inline const std::array<std::string, 2> kRigs{"drum_2m", "dyno_1m2"};
 
+/// Rigs of the assets that cool tires like these (Assumed), themselves among them.
+inline const std::map<std::string, std::vector<std::string>> kRigsAlike{
+    {"drum_2m", {"drum_2m", "drum_1m7", "flat_belt"}}, {"dyno_1m2", {"dyno_1m2", "dyno_48in", "dyno_48in_2wd", "road"}}};
+
 /// A free number of a tire: a key of [bounded], or heat_capacity_J_per_K.
 struct FreeNumber {
   std::size_t tire;  // of kTires

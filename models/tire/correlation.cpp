@@ -181,6 +181,14 @@ TireCorrelation read_correlation(TableReader& file, const TireFile& tire) {
   return correlation;
 }
 
+std::string write_correlation(const TireCorrelation& correlation) {
+  if (correlation.numbers.empty()) return "";
+  std::vector<std::string> rows;
+  for (const std::vector<double>& row : correlation.matrix) rows.push_back(fmt::format("  [{}]", fmt::join(row, ", ")));
+  return fmt::format("\n[correlation]\nnumbers = [\"{}\"]\nmatrix = [\n{}\n]\n",
+                     fmt::join(correlation.numbers, "\", \""), fmt::join(rows, ",\n"));
+}
+
 std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const std::string& rig) {
   const std::vector<UncertainNumber> numbers = list_numbers(tire);
   std::vector<std::string> parameters;  // empty: does not hold on the rig

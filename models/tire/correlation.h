@@ -32,6 +32,9 @@ struct CorrelatedPair {
 /// Checked tests/models/tire_correlation_test.cpp
 TireCorrelation read_correlation(TableReader& file, const TireFile& tire);
 
+/// The table as TOML, empty without numbers. All digits are written, so that the matrix stays positive definite.
+std::string write_correlation(const TireCorrelation& correlation);
+
 /// What holds on a rig: a conductance of [thermal.rig.<name>] stands there for that of [thermal].
 std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const std::string& rig);
 

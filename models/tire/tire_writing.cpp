@@ -49,16 +49,6 @@ class TomlText {
   std::string table_;
 };
 
-/// A row of the matrix stands on a line of its own, with all digits, so that the matrix stays positive definite.
-void write_correlation(const TireCorrelation& correlation, TomlText& out) {
-  if (correlation.numbers.empty()) return;
-  out.header("[correlation]");
-  out.line("numbers", fmt::format("[\"{}\"]", fmt::join(correlation.numbers, "\", \"")));
-  std::vector<std::string> rows;
-  for (const std::vector<double>& row : correlation.matrix) rows.push_back(fmt::format("  [{}]", fmt::join(row, ", ")));
-  out.line("matrix", fmt::format("[\n{}\n]", fmt::join(rows, ",\n")));
-}
-
 }  // namespace
 
 std::string write_tire(const TireFile& tire, const std::map<std::string, std::string>& notes) {
@@ -96,8 +86,7 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
     out.header("[load_sweep]");
     out.line("loads_N", fmt::format("[{:.10g}]", fmt::join(tire.sweep_loads_N, ", ")));
   }
-  write_correlation(tire.correlation, out);
-  return out.take();
+  return out.take() + write_correlation(tire.correlation);
 }
 
 }  // namespace rollrig::models

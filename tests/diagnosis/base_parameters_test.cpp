@@ -51,7 +51,7 @@ TEST_CASE("data that move one number move those that the tire's file correlates 
   auto set = tests::make_gap_set({}, 2);
   auto& sd = set.tire.standard_uncertainties.thermal;
   sd.heat_capacity_J_per_K = 1000.0;
-  sd.gas_heat_capacity_J_per_K = 10.0;
+  sd.gas_heat_capacity_J_per_K = 5.0;
   set.tire.values.thermal.heat_capacity_J_per_K -= 1500.0;  // the file's is too low
   const auto fit = [&set](double correlation) {
     set.tire.correlation = {{"thermal.heat_capacity_J_per_K", "thermal.gas_heat_capacity_J_per_K"},
