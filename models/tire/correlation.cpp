@@ -11,7 +11,7 @@
 namespace rollrig::models {
 namespace {
 
-constexpr double kRounding = 1e-9;  // Assumed: of what a program writes
+constexpr double kRounding = 1e-9;  // Assumed: error of correlations that a program has written
 
 /// A number of a tire that may be uncertain.
 struct UncertainNumber {
@@ -63,7 +63,7 @@ InputError mistake(const ConfigValue& at, const std::string& key, const std::str
 }
 
 const ConfigArray& require_array(const ConfigValue& value, const std::string& key, const std::string& allowed) {
-  if (value.as_array() == nullptr) throw mistake(value, key, fmt::format("'{}' is no list", key), allowed);
+  if (value.as_array() == nullptr) throw mistake(value, key, fmt::format("'{}' is not a list", key), allowed);
   return *value.as_array();
 }
 
@@ -79,7 +79,7 @@ std::string require_number(const std::vector<UncertainNumber>& numbers, const Co
                                   ? "numbers with their '_sd'; this tire has none"
                                   : fmt::format("numbers with their '_sd': {}", fmt::join(uncertain, ", "));
   const auto* name = std::get_if<std::string>(&value.data);
-  if (name == nullptr) throw mistake(value, "numbers", "the name of a number is no text", allowed);
+  if (name == nullptr) throw mistake(value, "numbers", "the name of a number is not text", allowed);
   const auto found = find_number(numbers, *name);
   if (found == numbers.end()) {
     throw mistake(value, "numbers", fmt::format("the tire has no number '{}'", *name), allowed,
@@ -111,7 +111,7 @@ std::vector<double> read_row(const ConfigValue& value, std::size_t count) {
   std::vector<double> row;
   for (const ConfigValue& entry : entries) {
     const auto* number = std::get_if<double>(&entry.data);
-    if (number == nullptr) throw mistake(entry, "matrix", "a correlation is no number", "numbers from -1 to 1");
+    if (number == nullptr) throw mistake(entry, "matrix", "a correlation is not a number", "numbers from -1 to 1");
     if (!(std::abs(*number) <= 1.0)) {
       throw mistake(entry, "matrix", "a correlation is out of range", "numbers from -1 to 1");
     }

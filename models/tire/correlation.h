@@ -14,6 +14,7 @@ struct TireFile;
 /// Equation  cov(x_i, x_j) = R_ij s_i s_j
 /// Symbols   x numbers as the file has them, not their logarithms; s their standard uncertainties (`<key>_sd`);
 ///           R the matrix
+/// Source    the definition of a correlation
 struct TireCorrelation {
   std::vector<std::string> numbers;  // dotted keys of the file: "thermal.heat_capacity_J_per_K", "load_map.0.A0_N"
   std::vector<std::vector<double>> matrix;

@@ -79,13 +79,13 @@ TEST_CASE("a number with a new uncertainty loses its old correlations, the other
   CHECK(models::replace_correlation(tire, fitted).numbers.size() == 3);
 }
 
-TEST_CASE("a matrix that is none of correlations is refused, also where a program rounds", "[fast]") {
+TEST_CASE("a matrix that cannot be one of correlations is refused, and one with rounding errors is not", "[fast]") {
   const std::string two = R"(["rolling_resistance.A0_N", "thermal.heat_capacity_J_per_K"])";
   CHECK_NOTHROW(read_with(two, "[[1, -0.9], [-0.9, 1]]"));
   CHECK_NOTHROW(read_with(two, "[[0.99999999999, 0.3], [0.30000000000000004, 1]]"));
   CHECK_THROWS_WITH(read_with(two, "[[1, 1], [1, 1]]"), Catch::Contains("positive definite"));
   CHECK_THROWS_WITH(read_with(two, "[[1, nan], [nan, 1]]"), Catch::Contains("out of range"));
-  CHECK_THROWS_WITH(read_with(two, "0.3"), Catch::Contains("no list"));
+  CHECK_THROWS_WITH(read_with(two, "0.3"), Catch::Contains("not a list"));
   CHECK_THROWS_WITH(read_with(two, "[[1, 0.3], [0.3]]"), Catch::Contains("a row of the matrix has 1 numbers"));
   CHECK_THROWS_WITH(read_with(R"(["rolling_resistance.A0_N", "rolling_resistance.A0_N"])", "[[1, 0], [0, 1]]"),
                     Catch::Contains("stands twice"));
