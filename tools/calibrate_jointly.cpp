@@ -13,6 +13,7 @@
 #include <Eigen/Dense>
 #include <iostream>
 
+#include "sim/core/assets.h"
 #include "sim/core/file_io.h"
 #include "tools/joint_calibration.h"
 #include "tools/left_out.h"
@@ -51,8 +52,8 @@ struct Fit {
   Eigen::MatrixXd covariance;
 };
 
-/// Birge's ratio squared: mean square of the residuals that bear on the fit, over the degrees of freedom. The law misses
-/// more than the weights say, so that the uncertainties grow by its root; they never shrink.
+/// Birge's ratio squared: mean square of the residuals that bear on the fit, over the degrees of freedom. The law
+/// misses more than the weights say, so that the uncertainties grow by its root; they never shrink.
 double find_scatter(const std::vector<double>& residuals, std::size_t unknowns) {
   double squares = 0.0;
   std::size_t bearing = 0;
@@ -151,7 +152,8 @@ std::string rewrite_tire(const models::TireFile& file, std::size_t tire, const E
     ++i;
     if (one.tire != tire) continue;
     const double value = *tools::joint::find_number(file.values, one.key);
-    const double sd = one.is_positive ? value * own_sd : own_sd;
+    // Of a number that is hardly determined, half of it: it stays positive within two of them.
+    const double sd = one.is_positive ? value * std::min(own_sd, 0.5) : own_sd;
     text = tools::replace_number(text, find_table(one), one.key, value);
     text = tools::replace_number(text, find_table(one), std::string(one.key) + "_sd", sd);
   }

@@ -97,7 +97,7 @@ std::string list_load_and_speed() {
   StatementRows rows;
   rows.add("TST 6 (1978) 163", "linear in the load (within 1 % of the loss); largest difference, %", Tires::kAll,
            {100.0, 2}, find_bend_over_load, is_near(0.0, 0.01));
-  rows.add("VECTO", "in proportion to load^0.9 at equal pressure (±0.05); exponent", Tires::kTruck, {1.0, 3},
+  rows.add("VECTO", "in proportion to load^0.9 at equal pressure (±0.05; fitted); exponent", Tires::kTruck, {1.0, 3},
            find_load_exponent, is_near(0.9, 0.05));
   rows.add("Engineering ToolBox", "by its formula 27 to 29 % more at 120 than at 80 km/h (±5 points); rise, %",
            Tires::kCars, kPercent, find_speed_rise, is_near(0.28, 0.05));

@@ -96,7 +96,9 @@ const NotRun* find_not_run(const std::string& command) {
 void lay_out_clone(const TemporaryFolder& folder) {
   fs::create_symlink(ROLLRIG_PROGRAM, folder.file("rollrig"));
   fs::create_symlink(ROLLRIG_VALIDATION_PROGRAM, folder.file("rollrig_validation"));
-  fs::create_directory_symlink(ROLLRIG_SOURCE_DIR "/assets", folder.file("assets"));
+  for (const char* source : {"assets", "tests"}) {
+    fs::create_directory_symlink(fs::path(ROLLRIG_SOURCE_DIR) / source, folder.file(source));
+  }
   fs::create_directory(folder.file("build"));
   fs::create_directory_symlink(ROLLRIG_BINARY_DIR, folder.file("build/release"));
 }

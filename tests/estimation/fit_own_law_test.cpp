@@ -62,7 +62,7 @@ MeasurementSet make_one_speed_set() {
   return tests::make_warm_up_set(make_true_tire(), {{95.0, 4100.0, 230.0}}, "source", "quasi_static");
 }
 
-const Estimate& find_estimate(const TireFit& fit, const std::string& key) {
+const Estimate& estimate_of(const TireFit& fit, const std::string& key) {
   for (const Estimate& estimate : fit.estimates) {
     if (estimate.key == key) return estimate;
   }
@@ -148,7 +148,7 @@ TEST_CASE("the file of a fitted bounded tire is read and gives the measurements 
   const TireFit fit = fit_tire(set, {});
   const models::TireFile back = read_back(fit);
   CHECK(calc_rms(set, back) < 0.05);
-  const Estimate& capacity = find_estimate(fit, "tire.thermal.heat_capacity_J_per_K");
+  const Estimate& capacity = estimate_of(fit, "tire.thermal.heat_capacity_J_per_K");
   CHECK(capacity.nuisance);
   CHECK(back.values.thermal.heat_capacity_J_per_K == Approx(capacity.value));
   CHECK(back.values.thermal.heat_capacity_J_per_K ==
@@ -156,7 +156,7 @@ TEST_CASE("the file of a fitted bounded tire is read and gives the measurements 
   CHECK(back.standard_uncertainties.thermal.heat_capacity_J_per_K == Approx(capacity.sd));
   models::OwnParameters<double> own_sd = back.standard_uncertainties.own;
   for (const char* key : {"loss_N", "speed_rise", "fall_per_degC", "speed_rise_of_fall", "load_exponent"}) {
-    CHECK(find_own(own_sd, key) == Approx(find_estimate(fit, std::string("tire.bounded.") + key).sd));
+    CHECK(find_own(own_sd, key) == Approx(estimate_of(fit, std::string("tire.bounded.") + key).sd));
   }
   CHECK(back.values.thermal.rest_conductance_W_per_K ==
         Approx(set.tire.values.thermal.rest_conductance_W_per_K));  // other rigs keep theirs
@@ -172,7 +172,7 @@ TEST_CASE("one speed and load give loss, its fall and one conductance; the rest 
   REQUIRE(fit.estimates.size() == 3);
   for (const char* key : {"tire.bounded.loss_N", "tire.bounded.fall_per_degC", "tire.thermal.z_W_per_K"}) {
     INFO(key);
-    CHECK(std::abs(find_estimate(fit, key).value - find_truth(truth, key)) < 0.02 * find_estimate(fit, key).sd);
+    CHECK(std::abs(estimate_of(fit, key).value - find_truth(truth, key)) < 0.02 * estimate_of(fit, key).sd);
   }
   const models::TireFile back = read_back(fit);
   const models::RigThermal& on_rig = back.rig_thermal.at("drum_2m");
@@ -189,11 +189,11 @@ TEST_CASE("what one speed does not decide moves within the uncertainty that the 
   const TireFit fit = fit_tire(set, {});
   for (const auto& [key, sd] : {std::pair("tire.bounded.speed_rise", 0.08), {"tire.thermal.f_W_s_per_m_K", 0.2}}) {
     INFO(key);
-    CHECK(find_estimate(fit, key).nuisance);
-    CHECK(find_estimate(fit, key).sd == Approx(sd).epsilon(0.05));
+    CHECK(estimate_of(fit, key).nuisance);
+    CHECK(estimate_of(fit, key).sd == Approx(sd).epsilon(0.05));
   }
   const TireFit exact = fit_tire(make_one_speed_set(), {});
-  for (const Estimate& estimate : exact.estimates) CHECK(find_estimate(fit, estimate.key).sd > 0.999 * estimate.sd);
+  for (const Estimate& estimate : exact.estimates) CHECK(estimate_of(fit, estimate.key).sd > 0.999 * estimate.sd);
 }
 
 TEST_CASE("noise of the recorded speed and the ramp to it are no further speed", "[fast]") {
@@ -212,7 +212,7 @@ TEST_CASE("a temperature in degC keeps its zero in the estimate and in the file"
   put_own(set.tire, "cold_limit_degC", 5.0);  // true: 3
   find_own(set.tire.standard_uncertainties.own, "cold_limit_degC") = 2.0;
   const TireFit fit = fit_tire(set, {});
-  const Estimate& limit = find_estimate(fit, "tire.bounded.cold_limit_degC");
+  const Estimate& limit = estimate_of(fit, "tire.bounded.cold_limit_degC");
   CHECK(limit.nuisance);
   CHECK(limit.value > -3.0);
   CHECK(limit.value < 9.0);

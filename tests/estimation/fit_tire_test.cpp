@@ -166,7 +166,8 @@ TEST_CASE("data that move one number move those that the tire's file correlates 
   CHECK(find_estimate(together, kGasHeatCapacity).value - gas_of_file ==
         Approx(0.9 * moved * kGasSd / kSd).margin(0.4 * kGasSd));
   CHECK(find_sd(together, kGasHeatCapacity) < 0.8 * find_sd(apart, kGasHeatCapacity));
-  CHECK(together.tire.correlation.numbers.back() == "thermal.gas_heat_capacity_J_per_K");  // stays in the file
+  const std::vector<std::string>& numbers = together.tire.correlation.numbers;
+  CHECK(std::count(numbers.begin(), numbers.end(), "thermal.gas_heat_capacity_J_per_K") == 1);
 }
 
 TEST_CASE("the more is uncertain, the less is known of everything", "[fast]") {

@@ -10,7 +10,7 @@ using namespace rollrig;
 namespace {
 
 models::TireFile make_tire() {
-  models::TireFile tire = tests::read_asset_tire();
+  models::TireFile tire = tests::read_combined_tire();
   tire.rig_thermal.clear();
   tire.standard_uncertainties.rolling_resistance.A0_N = 0.5;
   tire.standard_uncertainties.thermal.heat_capacity_J_per_K = 700.0;

@@ -48,14 +48,14 @@ TEST_CASE("Schuring in TRB 286: a psi counts more below 24 psi than above", "[pu
 }
 
 TEST_CASE("does not hold: 10 % less from 24 to 29 psi, 1.4 % for each psi, p^-0.4 (TRB 286)", "[published]") {
-  hold({-0.047, -0.048, -0.049, -0.052}, 1e-3, [](const StudyTire& t) { return find_pressure_change(t, 24.0, 29.0); });
-  hold({0.0088, 0.0090, 0.0092, 0.0098}, 2e-4, [](const StudyTire& t) { return find_rise_per_psi(t, 36.0, 24.0); });
-  hold({-0.265, -0.269, -0.276, -0.286, -0.145}, 5e-3, &find_pressure_exponent);
+  hold({-0.048, -0.048, -0.049, -0.047}, 1e-3, [](const StudyTire& t) { return find_pressure_change(t, 24.0, 29.0); });
+  hold({0.0089, 0.0089, 0.0091, 0.0088}, 2e-4, [](const StudyTire& t) { return find_rise_per_psi(t, 36.0, 24.0); });
+  hold({-0.267, -0.268, -0.274, -0.258, -0.131}, 5e-3, &find_pressure_exponent);
 }
 
 TEST_CASE("does not hold: 3 % of fuel economy from 20 to 28 psi (EPA-AA-SDSB-80-9)", "[published]") {
   // Would be 15 to 30 % of the resistance.
-  hold({-0.082, -0.083, -0.085, -0.090}, 1e-3, [](const StudyTire& t) { return find_pressure_change(t, 20.0, 28.0); });
+  hold({-0.082, -0.082, -0.084, -0.081}, 1e-3, [](const StudyTire& t) { return find_pressure_change(t, 20.0, 28.0); });
 }
 
 TEST_CASE("TST 6 (1978) 163: in equilibrium linear in the load and in the reciprocal of pressure", "[published]") {
@@ -65,19 +65,19 @@ TEST_CASE("TST 6 (1978) 163: in equilibrium linear in the load and in the recipr
   });
 }
 
-TEST_CASE("VECTO: the loss of a truck tire in proportion to load^0.9", "[published]") {
+TEST_CASE("VECTO: the loss of a truck tire in proportion to load^0.9 (fitted)", "[published]") {
   CHECK(find_load_exponent(read_study_tire(kTruckTire)) == Approx(0.9).margin(0.05));
 }
 
 TEST_CASE("does not hold: the rise with speed of the Engineering ToolBox, 27 to 29 %", "[published]") {
-  hold({0.050, 0.038, -0.037, 0.019}, 2e-3, &find_speed_rise);
+  hold({0.049, 0.028, -0.036, 0.015}, 2e-3, &find_speed_rise);
 }
 
 TEST_CASE("UN R117: K_t of C1 and C3 (fitted), and does not hold for a40, a50, a60", "[published]") {
   const auto slope = [](const StudyTire& t) { return find_air_slope_per_K(t, &SteadyLoss::reported_N); };
   CHECK(slope(read_study_tire(kCarTire)) == Approx(0.008).margin(0.0004));
   CHECK(slope(read_study_tire(kTruckTire)) == Approx(0.006).margin(0.0003));
-  hold({0.0126, 0.0124, 0.0109}, 2e-4, slope);
+  hold({0.0117, 0.0120, 0.0107}, 2e-4, slope);
 }
 
 TEST_CASE("Ejsmont 2024: more loss at 15 and -5 degC than at 25 degC, and not equally for all tires", "[published]") {
@@ -103,11 +103,14 @@ TEST_CASE("in the cold, at all speeds, a50, a60, C1 and C3 meet what is demanded
   }
 }
 
-TEST_CASE("does not hold: a40 loses more in the cold, and at most 1.45 times as much", "[published]") {
+TEST_CASE("in the cold a40 meets it up to 80 km/h; does not hold: at 120 km/h", "[published]") {
   const StudyTire a40 = read_study_tire("a40");
-  CHECK(find_cold_ratio(a40, 20.0) == Approx(0.97).margin(0.01));
-  CHECK(find_cold_ratio(a40, 80.0) == Approx(1.47).margin(0.01));
-  CHECK(find_cold_ratio(a40, 120.0) == Approx(1.72).margin(0.01));
+  for (const double speed_km_h : {20.0, 50.0, 80.0}) {
+    INFO(speed_km_h << " km/h");
+    CHECK(find_cold_ratio(a40, speed_km_h) > 1.0);
+    CHECK(find_cold_ratio(a40, speed_km_h) <= 1.45);
+  }
+  CHECK(find_cold_ratio(a40, 120.0) == Approx(1.64).margin(0.01));
 }
 
 TEST_CASE("Hyttinen 2022: a truck tire loses more the colder the air, from 25 to -30 degC", "[published]") {
@@ -151,7 +154,7 @@ TEST_CASE("SAE J2452: its form describes the coastdowns of a60, C1 and C3", "[pu
 }
 
 TEST_CASE("SAE J2452 does not hold: a parabola over speed does not describe a40 and a50", "[published]") {
-  hold({0.069, 0.033}, 2e-3, [](const StudyTire& tire) { return fit_j2452(tire).rms; });
+  hold({0.069, 0.037}, 2e-3, [](const StudyTire& tire) { return fit_j2452(tire).rms; });
 }
 
 TEST_CASE("docs/independent_validation.md says what the program gives", "[published]") {

@@ -35,9 +35,9 @@ TEST_CASE("missed: the loss at the start of a warm-up is 25 to 40 % above its en
   const auto excess = [](const char* tire, const std::vector<std::string>& settings = {}) {
     return number("warm_up", tire, "start_excess_percent", settings, "quasi_static");
   };
-  CHECK(excess("a40") == Approx(47.0).margin(0.5));
-  CHECK(excess("a50") == Approx(46.5).margin(0.5));
-  CHECK(excess("a60") == Approx(41.5).margin(0.5));
+  CHECK(excess("a40") == Approx(47.7).margin(0.5));
+  CHECK(excess("a50") == Approx(47.7).margin(0.5));
+  CHECK(excess("a60") == Approx(42.4).margin(0.5));
   for (const char* tire : {"a50", "a60"}) {
     CHECK(excess(tire, kVehicle) >= 25.0);
     CHECK(excess(tire, kVehicle) <= 40.0);
@@ -51,7 +51,7 @@ TEST_CASE("RRc at vehicle load is near RRc at ISO load (§4.1.2; missed by a50)"
   };
   CHECK(std::abs(difference("a40")) < 0.9 / 5.4);
   CHECK(std::abs(difference("a60")) < 0.9 / 5.4);
-  CHECK(difference("a50") == Approx(0.20).margin(0.02));
+  CHECK(difference("a50") == Approx(-0.246).margin(0.02));
 }
 
 TEST_CASE("RRc is constant over the load sweep as measured (§4.1.3), by the tires' own load exponents", "[published]") {
@@ -72,7 +72,7 @@ TEST_CASE("RRc rises with speed (§4.1.5; missed by a60, against Table 4.5)", "[
   };
   CHECK(rise("a40") > 0.0);
   CHECK(rise("a50") > 0.0);
-  CHECK(rise("a60") == Approx(-8.8).margin(0.5));
+  CHECK(rise("a60") == Approx(-8.2).margin(0.5));
 }
 
 TEST_CASE("the tire warms with the air and with the road, more by the road (§2.2.2.4; the split is chosen by it)",
