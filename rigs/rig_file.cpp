@@ -15,7 +15,8 @@ const char* const kDrivenWheels = "driven_wheels";
 
 using Presence = RigFile::Presence;
 
-/// Reads table [name] into a visited group; a parasitic loss may have standard uncertainties beside it.
+/// Reads table [name] into a visited group; parasitic loss and cooling of tires may have standard uncertainties
+/// beside them.
 template <class Group>
 void read_table(TableReader& file, const std::string& name, Presence presence, Group& group, RigFile& rig) {
   const ConfigTable* table = file.table(name);
@@ -28,6 +29,9 @@ void read_table(TableReader& file, const std::string& name, Presence presence, G
   read_fields(reader, group);
   if constexpr (std::is_same_v<Group, models::ParasiticParameters<double>>) {
     read_standard_uncertainties(reader, rig.parasitic_uncertainties);
+  }
+  if constexpr (std::is_same_v<Group, models::TireCooling>) {
+    read_standard_uncertainties(reader, rig.tire_cooling_uncertainties);
   }
   reader.finish();
 }
@@ -79,6 +83,8 @@ std::string write_rig(const RigFile& rig) {
     if (presence == Presence::kOptional && !has_numbers(table)) return;
     if constexpr (std::is_same_v<decltype(table), const models::ParasiticParameters<double>&>) {
       text += write_group(name, table, &rig.parasitic_uncertainties);
+    } else if constexpr (std::is_same_v<decltype(table), const models::TireCooling&>) {
+      text += write_group(name, table, &rig.tire_cooling_uncertainties);
     } else {
       text += write_group(name, table);
     }

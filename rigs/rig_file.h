@@ -118,12 +118,13 @@ struct RigFile {
   CarriageParameters carriage;
   DriveParameters drive;
   TieDownParameters tie_down;
-  models::TireCooling tire_cooling;  // none given: tires must have their conductances
+  models::TireCooling tire_cooling;                // none given: tires must have their conductances
+  models::TireCooling tire_cooling_uncertainties;  // 0 where none was given
 
   /// The rig by whose name a tire file has its conductances.
   const std::string& thermal_name() const { return conductances_of.empty() ? name : conductances_of; }
   /// What a tire takes its conductances from.
-  models::CoolingRig cooling_rig() const { return {thermal_name(), tire_cooling}; }
+  models::CoolingRig cooling_rig() const { return {thermal_name(), tire_cooling, tire_cooling_uncertainties}; }
   bool is_curved() const { return drum.diameter_m > 0.0; }
   double curvature_per_m() const { return is_curved() ? 2.0 / drum.diameter_m : 0.0; }
   /// Torque at the axis of drum or roller over force at its surface; 1 of a belt, whose motor is taken as a force.

@@ -162,19 +162,28 @@ std::string rewrite_tire(const models::TireFile& file, std::size_t tire, const E
   return text;
 }
 
+/// The rise with speed, which is in proportion, has the same relative standard uncertainty.
+void rewrite_rig(const std::string& path, const models::TireCooling& cooling, double relative_sd) {
+  std::string text = read_text_file(path);
+  models::TireCooling::visit(cooling, [&](const Field& field, const double& value) {
+    text = tools::replace_number(text, "tire_cooling", field.key, value);
+    text = tools::replace_number(text, "tire_cooling", std::string(field.key) + "_sd", relative_sd * value);
+  });
+  write_file_atomically(path, text);
+}
+
 /// Rewrites the files in place: the free numbers, and of those of the tires what the covariance says.
 void write_files(const tools::joint::CalibratedFiles& files, const Eigen::MatrixXd& covariance) {
   for (std::size_t tire = 0; tire < tools::kTires.size(); ++tire) {
     write_file_atomically(files.tires[tire].path, rewrite_tire(files.tires[tire], tire, covariance));
   }
-  for (const rigs::RigFile& rig : files.rigs) {
-    const models::TireCooling& cooling = rig.tire_cooling;
-    for (const std::string& alike : tools::joint::kRigsAlike.at(rig.name)) {
-      const std::string path = find_asset("rigs", alike);
-      std::string text = read_text_file(path);
-      text = tools::replace_number(text, "tire_cooling", "at_rest_W_per_m2_K", cooling.at_rest_W_per_m2_K);
-      text = tools::replace_number(text, "tire_cooling", "per_speed_W_s_per_m3_K", cooling.per_speed_W_s_per_m3_K);
-      write_file_atomically(path, text);
+  for (std::size_t i = 0; i < files.rigs.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(tools::joint::list_free_numbers().size() + i);
+    for (const std::string& alike : tools::joint::kRigsAlike.at(files.rigs[i].name)) {
+      constexpr double kAlikeSd = 0.15;  // Assumed
+      const bool is_calibrated = alike == files.rigs[i].name;
+      rewrite_rig(find_asset("rigs", alike), files.rigs[i].tire_cooling,
+                  is_calibrated ? std::sqrt(covariance(row, row)) : kAlikeSd);
     }
   }
 }

@@ -46,7 +46,7 @@ void add_given(const std::string& table, const Group& sd, Uncertainties& uncerta
 
 }  // namespace
 
-void add_tire(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
+void add_tire(const models::TireFile& tire, const models::CoolingRig& rig, const models::Context<double>& context,
               bool heat_is_seen, Uncertainties& uncertainties) {
   const models::TireModelInfo& model = context.tire.model().info;
   const auto enters = [&](const std::string& table) {
@@ -72,11 +72,11 @@ void add_tire(const models::TireFile& tire, const std::string& rig, const models
         if (enters(table) && !has_map_instead)
           put_given("tire." + table + "." + field.output_key(), sd_SI, uncertainties);
       });
-  uncertainties.correlated = models::list_correlated_pairs(tire, rig);
-  const auto on_rig = tire.rig_thermal.find(rig);
-  if (on_rig == tire.rig_thermal.end() || !enters("thermal")) return;
-  put_given("tire.thermal.z_W_per_K", on_rig->second.rest_conductance_sd_W_per_K.value_or(0.0), uncertainties);
-  put_given("tire.thermal.f_W_s_per_m_K", on_rig->second.speed_conductance_sd_W_s_per_m_K.value_or(0.0), uncertainties);
+  uncertainties.correlated = models::list_correlated_pairs(tire, rig.name);
+  if (!enters("thermal")) return;
+  const models::RigThermal on_rig = tire.find_uncertainties_on(rig);
+  put_given("tire.thermal.z_W_per_K", on_rig.rest_conductance_sd_W_per_K.value_or(0.0), uncertainties);
+  put_given("tire.thermal.f_W_s_per_m_K", on_rig.speed_conductance_sd_W_s_per_m_K.value_or(0.0), uncertainties);
 }
 
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties) {

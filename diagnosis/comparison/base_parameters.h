@@ -22,7 +22,7 @@ struct Uncertainties {
 /// the tire's heat shows in what is measured, heat capacities: 5 % (rubber) and 10 % (gas); H: 15 %; conductances to
 /// air and road: 8 %. The model's own numbers: the share that it declares. Further numbers where the file gives an
 /// uncertainty.
-void add_tire(const models::TireFile& tire, const std::string& rig, const models::Context<double>& context,
+void add_tire(const models::TireFile& tire, const models::CoolingRig& rig, const models::Context<double>& context,
               bool heat_is_seen, Uncertainties& uncertainties);
 /// c0, c1, c2: 5 % of their value and 1 % of the parasitic force at 80 km/h.
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties);

@@ -12,7 +12,7 @@ class KindWithRig : public MeasurementKind {
   Uncertainties find_uncertainties(const measurements::MeasurementSet& set,
                                    const models::Context<double>& context) const override {
     Uncertainties uncertainties;
-    add_tire(set.tire, set.rig->thermal_name(), context, true, uncertainties);
+    add_tire(set.tire, set.rig->cooling_rig(), context, true, uncertainties);
     add_parasitic_loss(*set.rig, uncertainties);
     return uncertainties;
   }

@@ -100,9 +100,9 @@ struct Bounded : TreadAndCarcass {
     return power / (S(1.0) + power);
   }
 
-  /// Refuses limits in the wrong order, and numbers with which heat would raise the loss at some speed, or speed lower it
-  /// at some temperature.
-  /// Equation  T_m < T_h;  1 + c (S - S_80) >= 0 from S = 0 to 1;  s >= B c (theta(T) - theta(30 degC)) between both
+  /// Refuses limits in the wrong order, and numbers with which heat would raise the loss at some speed, or speed lower
+  /// it at some temperature. Equation  T_m < T_h;  1 + c (S - S_80) >= 0 from S = 0 to 1;  s >= B c (theta(T) -
+  /// theta(30 degC)) between both
   ///           levels of theta
   static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {
     const double cold_K = own[kColdLimit];

@@ -56,8 +56,9 @@ double calc_outer_area_m2(const TireGeometry<double>& geometry);
 
 /// The rig on which a tire runs, as far as its heat is concerned.
 struct CoolingRig {
-  std::string name;       // by which a tire may have conductances of its own there
-  TireCooling cooling{};  // of tires that have none
+  std::string name;          // by which a tire may have conductances of its own there
+  TireCooling cooling{};     // of tires that have none
+  TireCooling cooling_sd{};  // standard uncertainties, 0 where the rig's file gives none
 };
 
 /// [iso_28580]: what the tire's label or a test says, for comparison and as default test conditions.
@@ -103,6 +104,9 @@ struct TireFile {
   /// [thermal], or, where there are none, by the rig's cooling. Throws InputError when a table is absent that the model
   /// needs, or there are no conductances.
   TireParameters<double> parameters_on(const CoolingRig& rig, Baseline baseline) const;
+  /// Standard uncertainties of the conductances that are this tire's on a rig alone: of [thermal.rig.<name>], or of the
+  /// rig's cooling where the tire takes that. 0 where no file gives one, as those of [thermal].
+  RigThermal find_uncertainties_on(const CoolingRig& rig) const;
   /// A sentence where this tire names the rigs on which its conductances hold, and this rig is none of them.
   std::optional<std::string> find_foreign_rig(const CoolingRig& rig) const;
 

@@ -8,19 +8,15 @@ const MachineKind& machine_road();
 
 namespace {
 
-/// Of the road of the assets.
-models::TireCooling read_tire_cooling() {
-  static const models::TireCooling cooling = read_rig(read_config(find_asset("rigs", "road"))).tire_cooling;
-  return cooling;
-}
-
-/// Standard air over a level road.
+/// Standard air over a level road, which cools tires as that of the assets.
 RigFile make_road() {
+  static const RigFile of_assets = read_rig(read_config(find_asset("rigs", "road")));
   RigFile road;
   road.name = "road";
   road.kind = &machine_road();
   road.environment.ambient_pressure_Pa = kStandardAtmosphere_Pa;
-  road.tire_cooling = read_tire_cooling();
+  road.tire_cooling = of_assets.tire_cooling;
+  road.tire_cooling_uncertainties = of_assets.tire_cooling_uncertainties;
   return road;
 }
 

@@ -146,6 +146,22 @@ TEST_CASE("an uncertainty of the file wins over the default", "[fast]") {
         find(make_set()).at("tire.rolling_resistance.A1_N_s_per_m").prior_sd_SI);
 }
 
+TEST_CASE("a tire without conductances is as uncertain in them as the rig's cooling, in proportion to its area",
+          "[fast]") {
+  auto set = make_set();
+  set.rig->tire_cooling = {10.0, 1.2};
+  set.rig->tire_cooling_uncertainties = {0.5, 0.09};
+  const double own_sd = find(set).at("tire.thermal.z_W_per_K").prior_sd_SI;  // of the tire: the rig's does not count
+  set.tire.rig_thermal.clear();
+  set.tire.values.thermal.rest_conductance_W_per_K = set.tire.values.thermal.speed_conductance_W_s_per_m_K = 0.0;
+  const auto base = find(set);
+  const double area_m2 = models::calc_outer_area_m2(set.tire.values.geometry);
+  CHECK(base.at("tire.thermal.z_W_per_K").start_SI == Approx(10.0 * area_m2));
+  CHECK(base.at("tire.thermal.z_W_per_K").prior_sd_SI == Approx(0.5 * area_m2));
+  CHECK(base.at("tire.thermal.f_W_s_per_m_K").prior_sd_SI == Approx(0.09 * area_m2));
+  CHECK(own_sd != Approx(0.5 * area_m2));
+}
+
 TEST_CASE("priors stand around the values of the files", "[fast]") {
   const auto set = make_set();
   models::Context<double> context = measurements::make_context(set);

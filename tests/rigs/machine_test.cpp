@@ -26,11 +26,14 @@ TEST_CASE("how a rig cools tires is written and read, in the new format alone", 
   rig.tire_cooling = {};
   CHECK_THAT(rigs::write_rig(rig), Catch::StartsWith("format = \"rollrig-rig/1\"") && !Catch::Contains("tire_cooling"));
   rig.tire_cooling = {11.0, 1.5};
+  rig.tire_cooling_uncertainties = {0.7, 0.0};
   const std::string text = rigs::write_rig(rig);
   CHECK_THAT(text, Catch::StartsWith("format = \"rollrig-rig/2\""));
   const rigs::RigFile again = rigs::read_rig(parse_config(text, "rig.toml"));
   CHECK(again.tire_cooling.at_rest_W_per_m2_K == 11.0);
   CHECK(again.tire_cooling.per_speed_W_s_per_m3_K == 1.5);
+  CHECK(again.tire_cooling_uncertainties.at_rest_W_per_m2_K == 0.7);
+  CHECK(again.tire_cooling_uncertainties.per_speed_W_s_per_m3_K == 0.0);
 }
 
 TEST_CASE("a road by its former word is still read, and its asset still found", "[fast]") {
