@@ -9,8 +9,7 @@
 
 namespace rollrig::estimation {
 
-/// Tells each parameter of a pair with what it is correlated; a pair of which one is not among the parameters, or has
-/// no prior, is left out.
+/// Enters each correlation into both parameters. A pair without two parameters that have a prior is ignored.
 void put_correlations(const std::vector<models::CorrelatedPair>& pairs, std::vector<FreeParameter>& parameters);
 
 /// Lower triangular factor of the correlation matrix of the parameters that have a prior, in their order; exactly the
@@ -19,6 +18,7 @@ void put_correlations(const std::vector<models::CorrelatedPair>& pairs, std::vec
 /// Symbols   x numbers in SI units, x0 their start, s their standard deviations (diagonal); u independent, standard
 ///           normal; R correlation matrix of x
 /// Source    the Cholesky factor of a multivariate normal distribution
+/// Errors    std::invalid_argument: the correlations are not positive definite
 /// Checked   tests/estimation/normal_prior_test.cpp
 Eigen::MatrixXd calc_prior_factor(const std::vector<FreeParameter>& parameters);
 

@@ -81,8 +81,7 @@ struct Results {
           highway_J);
     visit(Result{"highway_rr_energy_iso_Wh", "  by the ISO coefficient alone", ".0f",
                  "the same by the tires' ISO coefficients, with the loss that their skim tests subtracted; null where "
-                 "one has "
-                 "none"},
+                 "one has none"},
           highway_iso_J);
   }
 };

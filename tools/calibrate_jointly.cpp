@@ -6,7 +6,7 @@
 /// joint_calibration.cpp. a40, a50, a60 of assets/tires and the files of assets/rigs are rewritten, number by number.
 /// Those of the tires get [correlation] as their last table.
 /// Written out: free numbers with standard errors and correlations, and every observation. With a page, no file is
-/// calibrated: the page is written, a study that leaves out the observations of one table at a time (left_out.h).
+/// calibrated: the page is written, a study that leaves out one table or a group of tables at a time (left_out.h).
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
@@ -152,8 +152,8 @@ std::string rewrite_tire(const models::TireFile& file, std::size_t tire, const E
     ++i;
     if (one.tire != tire) continue;
     const double value = *tools::joint::find_number(file.values, one.key);
-    // Of a number that is hardly determined, half of it: it stays positive within two of them.
-    const double sd = one.is_positive ? value * std::min(own_sd, 0.5) : own_sd;
+    constexpr double kMostRelativeSd = 0.5;  // Assumed: a number that is hardly determined stays positive within two
+    const double sd = one.is_positive ? value * std::min(own_sd, kMostRelativeSd) : own_sd;
     text = tools::replace_number(text, find_table(one), one.key, value);
     text = tools::replace_number(text, find_table(one), std::string(one.key) + "_sd", sd);
   }
@@ -180,7 +180,7 @@ void write_files(const tools::joint::CalibratedFiles& files, const Eigen::Matrix
   for (std::size_t i = 0; i < files.rigs.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(tools::joint::list_free_numbers().size() + i);
     for (const std::string& alike : tools::joint::kRigsAlike.at(files.rigs[i].name)) {
-      constexpr double kAlikeSd = 0.15;  // Assumed
+      constexpr double kAlikeSd = 0.15;  // Assumed: two thirds of how much the two calibrated rigs differ, by logarithm
       const bool is_calibrated = alike == files.rigs[i].name;
       rewrite_rig(find_asset("rigs", alike), files.rigs[i].tire_cooling,
                   is_calibrated ? std::sqrt(covariance(row, row)) : kAlikeSd);

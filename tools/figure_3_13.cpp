@@ -1,4 +1,3 @@
-// Tire a50 with the coefficients of the source's own example.
 #include <ceres/ceres.h>
 
 #include <cmath>
@@ -9,7 +8,7 @@
 namespace rollrig::tools {
 namespace {
 
-scenarios::RunSpec make_spec(double heat_capacity_J_per_K) {
+scenarios::RunSpec make_figure_spec(double heat_capacity_J_per_K) {
   scenarios::RunSpec spec = make_source_drive("a50");
   spec.tire.values.own = {&models::default_tire_model(), {}};  // (3.5)
   auto& rr = spec.tire.values.rolling_resistance;
@@ -47,7 +46,7 @@ struct Sections {
 
 CoolingFit fit_cooling_to_figure_3_13(const std::vector<double>& published, double heat_capacity_J_per_K) {
   constexpr int kSections = 8;
-  Sections sections{make_spec(heat_capacity_J_per_K), published};
+  Sections sections{make_figure_spec(heat_capacity_J_per_K), published};
   double x[2] = {std::log(15.0), std::log(1.5)};
   ceres::NumericDiffOptions steps;
   steps.relative_step_size = 1e-4;

@@ -44,7 +44,7 @@ SteadyLoss measure_in_air(const StudyTire& tire, double air_degC, double speed_m
 constexpr double to_m_s(double speed_km_h) { return speed_km_h / 3.6; }
 
 constexpr double kMinute_s = 60.0;
-constexpr double kSteadyTruck_s = 240.0 * kMinute_s;  // a truck tire is in steady state after it
+constexpr double kTruckStep_s = 240.0 * kMinute_s;  // Assumed: four hours at each speed
 constexpr double kCold_K = kZeroCelsius_K + 5.0;
 
 }  // namespace
@@ -106,7 +106,7 @@ std::vector<SpeedStep> step_truck_tire(double cooling_factor) {
   changed.scale_cooling(cooling_factor);
   const std::vector<double> speeds_km_h{30.0, 50.0, 70.0, 90.0};
   std::vector<Step> steps;
-  for (const double speed_km_h : speeds_km_h) steps.push_back({kSteadyTruck_s, to_m_s(speed_km_h), kCold_K});
+  for (const double speed_km_h : speeds_km_h) steps.push_back({kTruckStep_s, to_m_s(speed_km_h), kCold_K});
   const auto before = roll_steps(usual, usual.load_N(), usual.pressure_Pa(), steps);
   const auto after = roll_steps(changed, usual.load_N(), usual.pressure_Pa(), steps);
   std::vector<SpeedStep> all;

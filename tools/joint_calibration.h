@@ -30,7 +30,8 @@ inline const std::array<std::string, 2> kRigs{"drum_2m", "dyno_1m2"};
 
 /// Rigs of the assets that cool tires like these (Assumed), themselves among them.
 inline const std::map<std::string, std::vector<std::string>> kRigsAlike{
-    {"drum_2m", {"drum_2m", "drum_1m7", "flat_belt"}}, {"dyno_1m2", {"dyno_1m2", "dyno_48in", "dyno_48in_2wd", "road"}}};
+    {"drum_2m", {"drum_2m", "drum_1m7", "flat_belt"}},
+    {"dyno_1m2", {"dyno_1m2", "dyno_48in", "dyno_48in_2wd", "road"}}};
 
 /// A free number of a tire: a key of [bounded], or heat_capacity_J_per_K.
 struct FreeNumber {
@@ -55,7 +56,7 @@ struct CalibratedFiles {
 
 /// One residual: (virtual - published) / sd, or how far the virtual number is outside a range.
 struct Observation {
-  std::string table;  // of the source, or "prior"
+  std::string table;  // or section of the thesis; "order", "cold", "prior"
   std::string name;
   double published = 0.0;
   double fitted = 0.0;
@@ -88,7 +89,7 @@ class JointCalibration {
   mutable std::array<std::map<std::vector<double>, TireResults>, 3> simulated_;
 };
 
-/// "a40 ln F_0" and so on.
+/// "a40 ln loss_N" and so on.
 std::string name_of_unknown(std::size_t i);
 /// Root mean square of virtual less published over the observations of some tables.
 double find_rms(const std::vector<Observation>& observations, const std::vector<std::string>& tables);
@@ -100,8 +101,6 @@ CalibratedFiles read_files();
 struct IsoTest {
   double rrc_N_per_kN = 0.0;
   double reported_share = 0.0;
-
-  double true_rrc_N_per_kN() const { return rrc_N_per_kN / reported_share; }
 };
 IsoTest run_iso_test(const scenarios::RunSpec& spec);
 

@@ -17,7 +17,7 @@ void read_published_table(const std::string& path, const std::string& name,
 
 /// What the source says of one tire; fractions, not percent.
 struct PublishedTire {
-  double rrc_iso = 0.0;  // N/N
+  double rrc_iso = 0.0;                     // N/N
   std::optional<double> band_drop_percent;  // §4.1.6, over 30 to 35 degC
   std::optional<double> band_drop_N;
   double city_3_fall_K = 0.0;

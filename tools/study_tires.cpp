@@ -1,12 +1,9 @@
 #include "tools/study_tires.h"
 
-#include <algorithm>
-
 #include "rigs/quasi_static_drum.h"
 #include "sim/core/assets.h"
 #include "sim/fixed_grid_integrator.h"
 #include "sim/simulate.h"
-#include "tools/pages.h"
 #include "tools/virtual_run.h"
 
 namespace rollrig::tools {

@@ -14,7 +14,7 @@ inline constexpr const char* kTruckTire = "c3_315_80r22_5";
 inline const std::array<std::string, 5> kStudyTires{"a40", "a50", "a60", kCarTire, kTruckTire};
 inline const std::array<std::string, 4> kStudyCarTires{"a40", "a50", "a60", kCarTire};
 
-/// A shipped tire with a bounded loss, or one of the source's tires as calibrated jointly, and the drum.
+/// A tire of the assets, and the drum of 2 m.
 struct StudyTire {
   models::TireFile tire;
   rigs::RigFile rig;

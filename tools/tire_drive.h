@@ -13,7 +13,7 @@ struct DriveSection {
   std::string name;
   double distance_km = 0.0;
   double rr_Wh = 0.0;          // by the model
-  double iso_Wh = 0.0;         // by the constant ISO coefficient
+  double iso_Wh = 0.0;         // by the constant ISO coefficient as the tire file reports it
   double counted_km = 0.0;     // of the distance
   std::vector<double> time_s;  // from the section's start
   std::vector<double> temperature_degC;

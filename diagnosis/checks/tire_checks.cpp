@@ -121,7 +121,7 @@ void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, 
 std::vector<std::string> check_tire(const MeasurementSet& set, const BaselineRuns& baseline, int threads) {
   std::vector<std::string> warnings;
   if (set.rig.has_value() && set.baseline == models::Baseline::kCombined) {
-    const auto warning = set.tire.find_foreign_rig(set.rig->cooling_rig());
+    const auto warning = set.tire.warn_of_conductances(set.rig->cooling_rig());
     if (warning.has_value()) warnings.push_back(*warning);
   }
   check_conditions(set, warnings);

@@ -66,17 +66,13 @@ void add_tire(const models::TireFile& tire, const models::CoolingRig& rig, const
     usual["tire." + model.id + "." + own.field.output_key()] = own.usual_sd * std::abs(context.tire.own[i]);
   }
   models::TireParameters<double>::visit_all(
-      tire.standard_uncertainties, [&](const std::string& table, const Field& field, double sd_SI) {
+      tire.standard_uncertainties_on(rig), [&](const std::string& table, const Field& field, double sd_SI) {
         const bool has_map_instead =
             table == "rolling_resistance" && usual.count(std::string("tire.load_map.0.") + field.key) == 1;
         if (enters(table) && !has_map_instead)
           put_given("tire." + table + "." + field.output_key(), sd_SI, uncertainties);
       });
   uncertainties.correlated = models::list_correlated_pairs(tire, rig.name);
-  if (!enters("thermal")) return;
-  const models::RigThermal on_rig = tire.find_uncertainties_on(rig);
-  put_given("tire.thermal.z_W_per_K", on_rig.rest_conductance_sd_W_per_K.value_or(0.0), uncertainties);
-  put_given("tire.thermal.f_W_s_per_m_K", on_rig.speed_conductance_sd_W_s_per_m_K.value_or(0.0), uncertainties);
 }
 
 void add_parasitic_loss(const rigs::RigFile& file, Uncertainties& uncertainties) {

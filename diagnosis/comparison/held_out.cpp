@@ -14,10 +14,10 @@ struct Bounds {
   Eigen::VectorXd upper;
 };
 
-/// Of the moves (Model::moves_by_unknowns): own parameters in their ranges, and base parameters less than their own
-/// size away, since one step from a set that is not of this tire may lead out of physics.
+/// Of the moves (Model::moves_by_unknowns): own parameters stay in their ranges. A base parameter stays within 0.9 of
+/// its value: the step is linear, and a larger one could give a negative number.
 Bounds find_bounds(const Model& model) {
-  constexpr double kMostRelative = 0.9;
+  constexpr double kMostRelative = 0.9;  // Assumed
   const Eigen::Index n = to_index(model.unknown_count());
   const double infinity = std::numeric_limits<double>::infinity();
   Bounds bounds{Eigen::VectorXd::Constant(n, -infinity), Eigen::VectorXd::Constant(n, infinity)};

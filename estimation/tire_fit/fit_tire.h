@@ -46,9 +46,8 @@ struct TireFit {
 /// Maximum likelihood over all runs at once, by simulation: the numbers of the law (A0, A1, B0, B1, or those of another
 /// law by their models::FitRole), z, f (and H) free; heat capacities, parasitic loss and whatever else the files give
 /// with an uncertainty move within it. Standard deviations from the curvature at the optimum.
-/// Bounds  ranges of the keys. Iterations may pass numbers that TireModelInfo::find_mistake refuses, since the optimum
-///         may lie beyond them; the result is none of those: where the optimum is, a number is held and the fit is done
-///         again, with a warning
+/// Bounds  ranges of the keys. An optimum that TireModelInfo::find_mistake refuses is not returned: the numbers of role
+///         kFreeOverSpeedsWithinLaw are fixed, the fit is repeated, and a warning is added
 /// Errors  InputError: not a drum set, a law without numbers to fit, a load map or fewer than two speeds where they do
 ///         not go with the law; RunFailure: no convergence, data that leave a parameter undecided, or an optimum where
 ///         the law refuses the numbers

@@ -150,21 +150,6 @@ void add_own_numbers(FitUnknowns& unknowns, const Variety& variety) {
   }
 }
 
-/// Uncertainties of the tire's numbers on the set's rig.
-models::TireParameters<double> find_uncertainties(const measurements::MeasurementSet& set) {
-  models::TireParameters<double> sd = set.tire.standard_uncertainties;
-  const auto on_rig = set.tire.rig_thermal.find(set.rig->thermal_name());
-  if (on_rig == set.tire.rig_thermal.end()) return sd;
-  const models::RigThermal& own = on_rig->second;
-  if (own.rest_conductance_W_per_K.has_value()) {
-    sd.thermal.rest_conductance_W_per_K = own.rest_conductance_sd_W_per_K.value_or(0.0);
-  }
-  if (own.speed_conductance_W_s_per_m_K.has_value()) {
-    sd.thermal.speed_conductance_W_s_per_m_K = own.speed_conductance_sd_W_s_per_m_K.value_or(0.0);
-  }
-  return sd;
-}
-
 /// Nuisances: what the files give with an uncertainty and the fit does not ask for.
 void add_nuisances(const measurements::MeasurementSet& set, FitUnknowns& unknowns) {
   std::set<std::string> asked_for;
@@ -175,7 +160,7 @@ void add_nuisances(const measurements::MeasurementSet& set, FitUnknowns& unknown
       add_in_range(unknowns, table + "." + field.output_key(), field, sd);
     }
   };
-  const models::TireParameters<double> uncertainties = find_uncertainties(set);
+  const models::TireParameters<double> uncertainties = set.tire.standard_uncertainties_on(set.rig->cooling_rig());
   for (const std::string& table :
        {std::string("thermal"), std::string("rolling_resistance"), unknowns.start.tire.model().info.id}) {
     models::TireParameters<double>::visit_all(uncertainties,

@@ -19,10 +19,9 @@ struct FitUnknowns {
   std::size_t asked_for = 0;              // the first so many; the others are nuisances
 };
 
-/// The numbers of the tire's law: A0, A1, B0 and B1, at each load of the set with `load_map`, or those of another law
-/// by their role (models::FitRole); the conductances of the set's rig, of another law at several speeds only (else that
-/// at rest alone); the conductance to the gas with `free_H`; and, as nuisances, whatever else the files give with an
-/// uncertainty, correlated as the tire's file says. What is asked for has no prior.
+/// Asked for, without a prior: the numbers of the law (by models::FitRole, or A0, A1, B0 and B1, at each load with
+/// `load_map`); z; f, of another law than the source's with several speeds only; H with `free_H`. Nuisances: all other
+/// numbers to which the files give an uncertainty, with the correlations of the tire file.
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::optional<TwoStepEstimate>& start,
                             bool load_map, bool free_H);
 

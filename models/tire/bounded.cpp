@@ -100,10 +100,11 @@ struct Bounded : TreadAndCarcass {
     return power / (S(1.0) + power);
   }
 
-  /// Refuses limits in the wrong order, and numbers with which heat would raise the loss at some speed, or speed lower
-  /// it at some temperature. Equation  T_m < T_h;  1 + c (S - S_80) >= 0 from S = 0 to 1;  s >= B c (theta(T) -
-  /// theta(30 degC)) between both
-  ///           levels of theta
+  /// Refuses limits in the wrong order, a loss that rises with temperature at some speed, and one that falls with speed
+  /// at some temperature.
+  /// Equation  T_m < T_h
+  ///           1 + c (S - S_80) >= 0  at S = 0 and S = 1
+  ///           s >= B c (theta - theta(30 degC))  at theta = 0 and theta = T_h - T_m
   static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {
     const double cold_K = own[kColdLimit];
     const double hot_K = own[kHotLimit];

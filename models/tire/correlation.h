@@ -1,5 +1,5 @@
 #pragma once
-/// [correlation] of a tire file: how the errors of its calibrated numbers go together.
+/// [correlation] of a tire file: how the errors of its calibrated numbers are correlated.
 
 #include <string>
 #include <vector>
@@ -14,13 +14,14 @@ struct TireFile;
 /// Equation  cov(x_i, x_j) = R_ij s_i s_j
 /// Symbols   x numbers as the file has them, not their logarithms; s their standard uncertainties (`<key>_sd`);
 ///           R the matrix
+/// Validity  errors that are jointly normal
 /// Source    the definition of a correlation
 struct TireCorrelation {
   std::vector<std::string> numbers;  // dotted keys of the file: "thermal.heat_capacity_J_per_K", "load_map.0.A0_N"
   std::vector<std::vector<double>> matrix;
 };
 
-/// Two numbers of a tire whose errors go together, each by the key of estimation::FreeParameter.
+/// Two numbers of a tire whose errors are correlated, each by the key of a run: "tire.<table>.<key>".
 struct CorrelatedPair {
   std::string first;
   std::string second;
@@ -36,7 +37,8 @@ TireCorrelation read_correlation(TableReader& file, const TireFile& tire);
 /// The table as TOML, empty without numbers. All digits are written, so that the matrix stays positive definite.
 std::string write_correlation(const TireCorrelation& correlation);
 
-/// What holds on a rig: a conductance of [thermal.rig.<name>] stands there for that of [thermal].
+/// Correlations as pairs, of the numbers that hold on a rig. A conductance of [thermal.rig.<name>] replaces that of
+/// [thermal]; the numbers of other rigs are left out.
 std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const std::string& rig);
 
 /// The correlation of a tire after some of its numbers were identified anew: among these it is `fitted`, between them

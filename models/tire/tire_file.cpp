@@ -207,24 +207,27 @@ TireParameters<double> TireFile::parameters_on(const CoolingRig& rig, Baseline b
   return on_rig;
 }
 
-RigThermal TireFile::find_uncertainties_on(const CoolingRig& rig) const {
-  RigThermal on_rig;
+TireParameters<double> TireFile::standard_uncertainties_on(const CoolingRig& rig) const {
+  TireParameters<double> sd = standard_uncertainties;
   if (!gives_conductances(values.thermal)) {
     const double area_m2 = calc_outer_area_m2(values.geometry);
-    on_rig.rest_conductance_sd_W_per_K = area_m2 * rig.cooling_sd.at_rest_W_per_m2_K;
-    on_rig.speed_conductance_sd_W_s_per_m_K = area_m2 * rig.cooling_sd.per_speed_W_s_per_m3_K;
+    sd.thermal.rest_conductance_W_per_K = area_m2 * rig.cooling_sd.at_rest_W_per_m2_K;
+    sd.thermal.speed_conductance_W_s_per_m_K = area_m2 * rig.cooling_sd.per_speed_W_s_per_m3_K;
   }
   const auto found = rig_thermal.find(rig.name);
-  if (found == rig_thermal.end()) return on_rig;
+  if (found == rig_thermal.end()) return sd;
   const RigThermal& own = found->second;
-  if (own.rest_conductance_W_per_K.has_value()) on_rig.rest_conductance_sd_W_per_K = own.rest_conductance_sd_W_per_K;
-  if (own.speed_conductance_W_s_per_m_K.has_value()) {
-    on_rig.speed_conductance_sd_W_s_per_m_K = own.speed_conductance_sd_W_s_per_m_K;
+  if (own.rest_conductance_W_per_K.has_value()) {
+    sd.thermal.rest_conductance_W_per_K = own.rest_conductance_sd_W_per_K.value_or(sd.thermal.rest_conductance_W_per_K);
   }
-  return on_rig;
+  if (own.speed_conductance_W_s_per_m_K.has_value()) {
+    sd.thermal.speed_conductance_W_s_per_m_K =
+        own.speed_conductance_sd_W_s_per_m_K.value_or(sd.thermal.speed_conductance_W_s_per_m_K);
+  }
+  return sd;
 }
 
-std::optional<std::string> TireFile::find_foreign_rig(const CoolingRig& rig) const {
+std::optional<std::string> TireFile::warn_of_conductances(const CoolingRig& rig) const {
   if (rig_thermal.empty() || rig_thermal.count(rig.name) > 0 || !gives_conductances(values.thermal))
     return std::nullopt;
   std::vector<std::string> named;

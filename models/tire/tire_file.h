@@ -104,11 +104,12 @@ struct TireFile {
   /// [thermal], or, where there are none, by the rig's cooling. Throws InputError when a table is absent that the model
   /// needs, or there are no conductances.
   TireParameters<double> parameters_on(const CoolingRig& rig, Baseline baseline) const;
-  /// Standard uncertainties of the conductances that are this tire's on a rig alone: of [thermal.rig.<name>], or of the
-  /// rig's cooling where the tire takes that. 0 where no file gives one, as those of [thermal].
-  RigThermal find_uncertainties_on(const CoolingRig& rig) const;
-  /// A sentence where this tire names the rigs on which its conductances hold, and this rig is none of them.
-  std::optional<std::string> find_foreign_rig(const CoolingRig& rig) const;
+  /// Standard uncertainties of the numbers that hold on a rig; 0 where no file gives one. A conductance of
+  /// [thermal.rig.<name>] has its own, or without one that of [thermal]; one by the rig's cooling has that of the
+  /// cooling, times the outer area.
+  TireParameters<double> standard_uncertainties_on(const CoolingRig& rig) const;
+  /// A warning where this tire names the rigs on which its conductances hold, and this rig is none of them.
+  std::optional<std::string> warn_of_conductances(const CoolingRig& rig) const;
 
   /// The parameters against a constant coefficient, which needs [constant] alone. Tables that are absent take values of
   /// passenger-car tires, for effects that want them: heat capacity 1640 J/(kg K) of the tire's mass, gas 95 J/K,

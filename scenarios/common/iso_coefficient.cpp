@@ -11,7 +11,7 @@ std::optional<double> calc_true_iso_rrc(const models::TireFile& tire, models::Ba
   }
   constexpr double kSkimLoad_N = 200.0;
   constexpr double kSpeed_m_s = 80.0 / 3.6;
-  constexpr double kWarm_K = kZeroCelsius_K + 40.0;  // the ratio of the two losses hardly depends on it
+  constexpr double kWarm_K = kZeroCelsius_K + 40.0;  // Assumed; the ratio of the two losses hardly depends on it
   models::Context<double> context;
   context.tire = tire.values;
   if (baseline == models::Baseline::kConstantRrc) context.tire.own = {&tire.model(baseline), {}};

@@ -7,13 +7,14 @@
 
 namespace rollrig::scenarios {
 
-/// What the tire lost in its ISO test over its load, of the coefficient in its [iso_28580]; nothing without that table.
-/// The skim test, whose force the ISO test subtracts, has the tire's own loss at skim load in it. The reported
-/// coefficient lacks this share; an energy that is compared with a tire's loss must have it.
-/// Equation  c_true = c / (1 - F(F_skim) / F(F_z))
-/// Symbols   c reported coefficient [N/N]; F loss of the tire by its law [N]; F_skim 200 N; F_z load of the ISO test
-/// Validity  the tire has the same temperature in both; it cools in the skim test, which raises its share a little
+/// True rolling-resistance coefficient [N/N] of the tire's ISO test: the coefficient of [iso_28580], with the loss
+/// added again that the skim test subtracted. Empty without [iso_28580], or where the tire lacks [rolling_resistance]
+/// and its law needs it. Equation  c_true = c / (1 - F(F_skim) / F(F_z)) Symbols   c reported coefficient [N/N]; F loss
+/// of the tire by its law [N]; F_skim 200 N; F_z load of the ISO test [N] Validity  tire and gas have the same
+/// temperature and pressure in both; the tire cools in the skim test, which raises
+///           its share a little
 /// Source    ISO 28580, skim test reading; F_skim: Kolekar and Narasimhan (2024) §3.2.1 item 6
+/// Checked   tests/scenarios/iso_28580_test.cpp
 std::optional<double> calc_true_iso_rrc(const models::TireFile& tire, models::Baseline baseline);
 
 }  // namespace rollrig::scenarios

@@ -16,10 +16,10 @@ namespace rollrig::scenarios {
 
 namespace {
 
-void warn_of_foreign_rig(const RunSpec& spec, Outcome& outcome) {
+void warn_of_conductances(const RunSpec& spec, Outcome& outcome) {
   if (spec.baseline == models::Baseline::kConstantRrc) return;
   const auto warn = [&](const models::TireFile& tire) {
-    const auto warning = tire.find_foreign_rig(spec.rig.cooling_rig());
+    const auto warning = tire.warn_of_conductances(spec.rig.cooling_rig());
     if (warning.has_value()) outcome.warnings.push_back(*warning);
   };
   if (!spec.vehicle.has_value()) return warn(spec.tire);
@@ -36,7 +36,7 @@ PreparedRun prepare_run(const RunSpec& spec) {
   return [&spec, run = spec.scenario->prepare(spec)](const sim::Progress& progress) {
     try {
       Outcome outcome = run(progress);
-      warn_of_foreign_rig(spec, outcome);
+      warn_of_conductances(spec, outcome);
       return outcome;
     } catch (const RunFailure& failure) {
       if (spec.effects.empty()) throw;

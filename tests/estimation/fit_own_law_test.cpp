@@ -45,8 +45,9 @@ void guess_wrong(models::TireFile& tire) {
   put_own(tire, "fall_per_degC", 0.0085);
   put_own(tire, "speed_rise_of_fall", 0.1);
   put_own(tire, "load_exponent", 0.95);
-  tire.values.thermal.rest_conductance_W_per_K *= 1.5;
-  tire.values.thermal.speed_conductance_W_s_per_m_K *= 0.7;
+  const auto cooling = tire.parameters_on(tests::read_asset_rig().cooling_rig(), models::Baseline::kCombined).thermal;
+  tire.values.thermal.rest_conductance_W_per_K = 1.5 * cooling.rest_conductance_W_per_K;
+  tire.values.thermal.speed_conductance_W_s_per_m_K = 0.7 * cooling.speed_conductance_W_s_per_m_K;
 }
 
 /// Speeds and loads off those to which the law refers, 80 km/h and 4825 N; simulated as the fit does.
