@@ -65,13 +65,12 @@ void add_tire(const models::TireFile& tire, const models::CoolingRig& rig, const
     const models::TireModelParameter& own = model.parameters[i];
     usual["tire." + model.id + "." + own.field.output_key()] = own.usual_sd * std::abs(context.tire.own[i]);
   }
-  models::TireParameters<double>::visit_all(
-      tire.standard_uncertainties_on(rig), [&](const std::string& table, const Field& field, double sd_SI) {
-        const bool has_map_instead =
-            table == "rolling_resistance" && usual.count(std::string("tire.load_map.0.") + field.key) == 1;
-        if (enters(table) && !has_map_instead)
-          put_given("tire." + table + "." + field.output_key(), sd_SI, uncertainties);
-      });
+  const models::TireParameters<double> given = tire.standard_uncertainties_on(rig);
+  models::TireParameters<double>::visit_all(given, [&](const std::string& table, const Field& field, double sd_SI) {
+    const bool has_map_instead =
+        table == "rolling_resistance" && usual.count(std::string("tire.load_map.0.") + field.key) == 1;
+    if (enters(table) && !has_map_instead) put_given("tire." + table + "." + field.output_key(), sd_SI, uncertainties);
+  });
   uncertainties.correlated = models::list_correlated_pairs(tire, rig.name);
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <boost/algorithm/string/trim.hpp>
+#include <set>
 
 #include "models/tire/tire_file.h"
 #include "models/tire/tire_model.h"
@@ -28,14 +29,15 @@ class TomlText {
     line(key, fmt::format("{:.10g}", unit_of_key(key).from_si(si_value)));
   }
   template <class Group>
-  void group(const std::string& name, const Group& values, const Group* uncertainties = nullptr) {
+  void group(const std::string& name, const Group& values, const Group* uncertainties = nullptr,
+             const std::set<std::string>& absent = {}) {
     header(name);
     std::vector<double> sd;
     if (uncertainties != nullptr)
       Group::visit(*uncertainties, [&sd](const Field&, const double& x) { sd.push_back(x); });
     std::size_t i = 0;
     Group::visit(values, [&](const Field& field, const double& value) {
-      number(field.key, value);
+      if (absent.count(field.key) == 0) number(field.key, value);
       const std::string sd_key = std::string(field.key) + "_sd";
       if (i < sd.size() && sd[i] > 0.0) number(sd_key, sd[i]);
       ++i;
@@ -71,7 +73,10 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
     }
   }
   if (tire.has_thermal) {
-    out.group("[thermal]", tire.values.thermal, &sd.thermal);
+    const TireThermalParameters<double>& thermal = tire.values.thermal;
+    const bool cools_by_rig = thermal.rest_conductance_W_per_K == 0.0 && thermal.speed_conductance_W_s_per_m_K == 0.0;
+    const std::set<std::string> conductances{"conductance_at_rest_W_per_K", "conductance_per_speed_W_s_per_m_K"};
+    out.group("[thermal]", thermal, &sd.thermal, cools_by_rig ? conductances : std::set<std::string>{});
     for (const auto& [rig, at] : tire.rig_thermal) {
       out.header(fmt::format("[thermal.rig.{}]", rig));
       RigThermal::visit(at, [&out](const Field& field, const std::optional<double>& value) {

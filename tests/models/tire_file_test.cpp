@@ -130,6 +130,9 @@ TEST_CASE("a tire without conductances is cooled by the rig, in proportion to it
   CHECK(on_rig.speed_conductance_W_s_per_m_K == Approx(1.3823).epsilon(1e-4));
   CHECK_THROWS_WITH(tire.parameters_on({"somewhere"}, combined),
                     Catch::Contains("rig 'somewhere' has no [tire_cooling]"));
+  const std::string text = models::write_tire(tire);  // says nothing of conductances, and is read
+  CHECK_THAT(text, !Catch::Contains("\nconductance_"));
+  CHECK(models::read_tire(parse_config(text, "cooled.toml")).values.thermal.rest_conductance_W_per_K == 0.0);
   tire.rig_thermal["somewhere"].rest_conductance_W_per_K = 15.0;  // its own come first
   const auto own_at_rest = tire.parameters_on({"somewhere", {10.0, 2.0}}, combined).thermal;
   CHECK(own_at_rest.rest_conductance_W_per_K == 15.0);
