@@ -98,6 +98,19 @@ void read_model(TableReader& file, TireFile& tire) {
   }
 }
 
+void read_validity(TableReader& file, TireFile& tire) {
+  TireValidity validity;
+  if (!read_group(file, "validity", validity)) return;
+  const auto check = [&](const char* highest_key, double lowest, double highest, const char* lowest_key) {
+    if (highest > lowest) return;
+    throw TableReader(*file.table("validity"), "[validity]")
+        .problem(highest_key, "the range is empty", fmt::format("more than {}", lowest_key));
+  };
+  check("highest_load_N", validity.lowest_load_N, validity.highest_load_N, "lowest_load_N");
+  check("highest_temperature_degC", validity.lowest_K, validity.highest_K, "lowest_temperature_degC");
+  tire.validity = validity;
+}
+
 void read_sweep_loads(TableReader& file, TireFile& tire) {
   const ConfigTable* table = file.table("load_sweep");
   if (table == nullptr) return;
@@ -166,6 +179,7 @@ TireFile read_tire(const ConfigTable& config) {
   tire.has_constant = read_group(file, "constant", tire.values.constant, &sd.constant);
   Iso28580Reference iso_28580;
   if (read_group(file, "iso_28580", iso_28580)) tire.iso_28580 = iso_28580;
+  read_validity(file, tire);
   read_sweep_loads(file, tire);
   tire.correlation = read_correlation(file, tire);
   file.finish();

@@ -75,6 +75,24 @@ struct Iso28580Reference {
   }
 };
 
+/// [validity]: the range in which the tire's numbers were measured or fitted. A run beyond it is warned of.
+struct TireValidity {
+  double highest_speed_m_s = 0.0;
+  double lowest_load_N = 0.0;
+  double highest_load_N = 0.0;
+  double lowest_K = 0.0;  // of the liner
+  double highest_K = 0.0;
+
+  template <class Self, class Visit>
+  static void visit(Self& p, Visit&& visit) {
+    visit(Field{"highest_speed_km_h", positive(), ""}, p.highest_speed_m_s);
+    visit(Field{"lowest_load_N", non_negative(), ""}, p.lowest_load_N);
+    visit(Field{"highest_load_N", positive(), ""}, p.highest_load_N);
+    visit(Field{"lowest_temperature_degC", any_number(), ""}, p.lowest_K);
+    visit(Field{"highest_temperature_degC", any_number(), ""}, p.highest_K);
+  }
+};
+
 /// Which law gives the loss before any effect acts (`baseline` of runs and sets).
 enum class Baseline {
   kCombined,    // that of the tire file's model
@@ -95,6 +113,7 @@ struct TireFile {
   bool has_constant = false;
   std::map<std::string, RigThermal> rig_thermal;
   std::optional<Iso28580Reference> iso_28580;
+  std::optional<TireValidity> validity;
   std::vector<double> sweep_loads_N;  // [load_sweep] loads_N: the loads of its load sweep; may be empty
 
   /// The model of the tire against a baseline.

@@ -87,6 +87,7 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
   if (!tire.values.own.values.empty()) out.group("[" + model + "]", tire.values.own, &sd.own);
   if (tire.has_constant) out.group("[constant]", tire.values.constant, &sd.constant);
   if (tire.iso_28580.has_value()) out.group("[iso_28580]", *tire.iso_28580);
+  if (tire.validity.has_value()) out.group("[validity]", *tire.validity);
   if (!tire.sweep_loads_N.empty()) {
     out.header("[load_sweep]");
     out.line("loads_N", fmt::format("[{:.10g}]", fmt::join(tire.sweep_loads_N, ", ")));

@@ -2,6 +2,7 @@
 
 #include "scenarios/run/run_spec.h"
 #include "scenarios/run/scenario.h"
+#include "scenarios/run/tire_validity.h"
 #include "sim/core/error.h"
 
 namespace rollrig::scenarios {
@@ -16,18 +17,27 @@ namespace rollrig::scenarios {
 
 namespace {
 
-void warn_of_conductances(const RunSpec& spec, Outcome& outcome) {
-  if (spec.baseline == models::Baseline::kConstantRrc) return;
-  const auto warn = [&](const models::TireFile& tire) {
-    const auto warning = tire.warn_of_conductances(spec.rig.cooling_rig());
-    if (warning.has_value()) outcome.warnings.push_back(*warning);
-  };
-  if (!spec.vehicle.has_value()) return warn(spec.tire);
+/// The tires of a run, each once: that of the run, where an axle of the vehicle takes it, and those of axles.
+std::vector<const models::TireFile*> list_tires(const RunSpec& spec) {
+  if (!spec.vehicle.has_value()) return {&spec.tire};
+  std::vector<const models::TireFile*> tires;
   for (const rigs::VehicleAxle& axle : spec.vehicle->axles) {
-    if (axle.tire.has_value()) warn(*axle.tire);
+    const models::TireFile* tire = &rigs::tire_of(axle, spec.tire);
+    if (std::find(tires.begin(), tires.end(), tire) == tires.end()) tires.push_back(tire);
   }
-  const auto has_own = [](const rigs::VehicleAxle& axle) { return axle.tire.has_value(); };
-  if (!std::all_of(spec.vehicle->axles.begin(), spec.vehicle->axles.end(), has_own)) warn(spec.tire);
+  return tires;
+}
+
+void warn_of_tires(const RunSpec& spec, Outcome& outcome) {
+  if (spec.baseline == models::Baseline::kConstantRrc) return;
+  std::vector<std::string>& warnings = outcome.warnings;
+  for (const models::TireFile* tire : list_tires(spec)) {
+    const auto warning = tire->warn_of_conductances(spec.rig.cooling_rig());
+    if (warning.has_value()) warnings.push_back(*warning);
+    if (!tire->validity.has_value()) continue;
+    const std::vector<std::string> beyond = list_validity_warnings(tire->name, *tire->validity, outcome.recording);
+    warnings.insert(warnings.end(), beyond.begin(), beyond.end());
+  }
 }
 
 }  // namespace
@@ -36,7 +46,7 @@ PreparedRun prepare_run(const RunSpec& spec) {
   return [&spec, run = spec.scenario->prepare(spec)](const sim::Progress& progress) {
     try {
       Outcome outcome = run(progress);
-      warn_of_conductances(spec, outcome);
+      warn_of_tires(spec, outcome);
       return outcome;
     } catch (const RunFailure& failure) {
       if (spec.effects.empty()) throw;

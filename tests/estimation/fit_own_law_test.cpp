@@ -186,14 +186,18 @@ TEST_CASE("one speed and load give loss, its fall and one conductance; the rest 
 TEST_CASE("what one speed does not decide moves within the uncertainty that the file gives", "[fast]") {
   MeasurementSet set = make_one_speed_set();
   find_own(set.tire.standard_uncertainties.own, "speed_rise") = 0.08;
-  set.tire.standard_uncertainties.thermal.speed_conductance_W_s_per_m_K = 0.2;
+  // f is that of the rig's cooling, and so is its uncertainty.
+  const double area_m2 = models::calc_outer_area_m2(set.tire.values.geometry);
+  set.rig->tire_cooling_uncertainties = {0.0, 0.2 / area_m2};
   const TireFit fit = fit_tire(set, {});
   for (const auto& [key, sd] : {std::pair("tire.bounded.speed_rise", 0.08), {"tire.thermal.f_W_s_per_m_K", 0.2}}) {
     INFO(key);
     CHECK(estimate_of(fit, key).nuisance);
     CHECK(estimate_of(fit, key).sd == Approx(sd).epsilon(0.05));
   }
-  const TireFit exact = fit_tire(make_one_speed_set(), {});
+  MeasurementSet known = make_one_speed_set();
+  known.rig->tire_cooling_uncertainties = {};
+  const TireFit exact = fit_tire(known, {});
   for (const Estimate& estimate : exact.estimates) CHECK(estimate_of(fit, estimate.key).sd > 0.999 * estimate.sd);
 }
 

@@ -1,0 +1,60 @@
+#include "scenarios/run/tire_validity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "models/quantities.h"
+
+namespace rollrig::scenarios {
+namespace {
+
+struct Extremes {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+};
+
+/// Over the channel of a quantity, and over those of each wheel: "load_N", "load_front_left_N".
+Extremes find_extremes(const sim::Recording<double>& recording, const Quantity& quantity) {
+  Extremes found;
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    const Quantity& channel = recording.channels[i].quantity;
+    if (channel.name().rfind(quantity.name(), 0) != 0 || channel.unit_suffix() != quantity.unit_suffix()) continue;
+    for (const double value : recording.values[i]) {
+      if (std::isnan(value)) continue;
+      found.lowest = std::min(found.lowest, value);
+      found.highest = std::max(found.highest, value);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> list_validity_warnings(const std::string& tire, const models::TireValidity& range,
+                                                const sim::Recording<double>& recording) {
+  namespace quantities = models::quantities;
+  std::vector<std::string> warnings;
+  const auto compare = [&](const Quantity& quantity, const char* what, double lowest, double highest, bool of_highest) {
+    const Extremes found = find_extremes(recording, quantity);
+    if (found.highest < found.lowest) return;  // it is not recorded
+    const double low = of_highest ? found.highest : found.lowest;
+    constexpr double kRounding = 1e-6;
+    const double slack = kRounding * std::abs(highest);
+    if (low >= lowest - slack && found.highest <= highest + slack) return;
+    const Unit unit = quantity.file_unit();
+    warnings.push_back(
+        fmt::format("{} from {:.4g} to {:.4g} {}, and the file of tire '{}' is valid from {:.4g} to {:.4g}: its loss "
+                    "is extrapolated",
+                    what, unit.from_si(low), unit.from_si(found.highest), quantity.unit_suffix(), tire,
+                    unit.from_si(lowest), unit.from_si(highest)));
+  };
+  compare(quantities::kSpeed, "speed", 0.0, range.highest_speed_m_s, false);
+  compare(quantities::kLoad, "highest load", range.lowest_load_N, range.highest_load_N, true);
+  compare(quantities::kLinerTemperature, "liner temperature", range.lowest_K, range.highest_K, false);
+  return warnings;
+}
+
+}  // namespace rollrig::scenarios
