@@ -37,23 +37,30 @@ std::vector<std::string> list_validity_warnings(const std::string& tire, const m
                                                 const sim::Recording<double>& recording) {
   namespace quantities = models::quantities;
   std::vector<std::string> warnings;
-  const auto compare = [&](const Quantity& quantity, const char* what, double lowest, double highest, bool of_highest) {
-    const Extremes found = find_extremes(recording, quantity);
-    if (found.highest < found.lowest) return;  // it is not recorded
-    const double low = of_highest ? found.highest : found.lowest;
-    constexpr double kRounding = 1e-6;
-    const double slack = kRounding * std::abs(highest);
-    if (low >= lowest - slack && found.highest <= highest + slack) return;
+  const auto warn = [&](const Quantity& quantity, const std::string& found, double lowest, double highest) {
     const Unit unit = quantity.file_unit();
     warnings.push_back(
-        fmt::format("{} from {:.4g} to {:.4g} {}, and the file of tire '{}' is valid from {:.4g} to {:.4g}: its loss "
-                    "is extrapolated",
-                    what, unit.from_si(low), unit.from_si(found.highest), quantity.unit_suffix(), tire,
-                    unit.from_si(lowest), unit.from_si(highest)));
+        fmt::format("{} {}, and the file of tire '{}' is valid from {:.4g} to {:.4g}: its loss is extrapolated", found,
+                    unit.symbol, tire, unit.from_si(lowest), unit.from_si(highest)));
   };
-  compare(quantities::kSpeed, "speed", 0.0, range.highest_speed_m_s, false);
-  compare(quantities::kLoad, "highest load", range.lowest_load_N, range.highest_load_N, true);
-  compare(quantities::kLinerTemperature, "liner temperature", range.lowest_K, range.highest_K, false);
+  const auto compare_range = [&](const Quantity& quantity, const char* what, double lowest, double highest) {
+    const Extremes found = find_extremes(recording, quantity);
+    if (found.highest < found.lowest) return;  // it is not recorded
+    constexpr double kRounding = 1e-6;
+    if (found.lowest >= lowest - kRounding && found.highest <= highest * (1.0 + kRounding)) return;
+    const Unit unit = quantity.file_unit();
+    warn(quantity,
+         fmt::format("{} from {:.4g} to {:.4g}", what, unit.from_si(found.lowest), unit.from_si(found.highest)), lowest,
+         highest);
+  };
+  compare_range(quantities::kSpeed, "speed", 0.0, range.highest_speed_m_s);
+  compare_range(quantities::kLinerTemperature, "liner temperature", range.lowest_K, range.highest_K);
+  const double load_N = find_extremes(recording, quantities::kLoad).highest;
+  constexpr double kDynamic = 0.05;  // Assumed: by which the load of a wheel that is driven exceeds that at rest
+  if (load_N > 0.0 &&
+      (load_N < range.lowest_load_N * (1.0 - kDynamic) || load_N > range.highest_load_N * (1.0 + kDynamic))) {
+    warn(quantities::kLoad, fmt::format("load up to {:.4g}", load_N), range.lowest_load_N, range.highest_load_N);
+  }
   return warnings;
 }
 

@@ -70,14 +70,14 @@ TEST_CASE("VECTO: the loss of a truck tire in proportion to load^0.9 (fitted)", 
 }
 
 TEST_CASE("does not hold: the rise with speed of the Engineering ToolBox, 27 to 29 %", "[published]") {
-  hold({0.049, 0.028, -0.036, 0.015}, 2e-3, &find_speed_rise);
+  hold({0.049, 0.031, -0.036, 0.015}, 2e-3, &find_speed_rise);
 }
 
 TEST_CASE("UN R117: K_t of C1 and C3 (fitted), and does not hold for a40, a50, a60", "[published]") {
   const auto slope = [](const StudyTire& t) { return find_air_slope_per_K(t, &SteadyLoss::reported_N); };
   CHECK(slope(read_study_tire(kCarTire)) == Approx(0.008).margin(0.0004));
   CHECK(slope(read_study_tire(kTruckTire)) == Approx(0.006).margin(0.0003));
-  hold({0.0117, 0.0120, 0.0107}, 2e-4, slope);
+  hold({0.0122, 0.0124, 0.0107}, 2e-4, slope);
 }
 
 TEST_CASE("Ejsmont 2024: more loss at 15 and -5 degC than at 25 degC, and not equally for all tires", "[published]") {
@@ -154,7 +154,7 @@ TEST_CASE("SAE J2452: its form describes the coastdowns of a60, C1 and C3", "[pu
 }
 
 TEST_CASE("SAE J2452 does not hold: a parabola over speed does not describe a40 and a50", "[published]") {
-  hold({0.069, 0.037}, 2e-3, [](const StudyTire& tire) { return fit_j2452(tire).rms; });
+  hold({0.069, 0.039}, 2e-3, [](const StudyTire& tire) { return fit_j2452(tire).rms; });
 }
 
 TEST_CASE("docs/independent_validation.md says what the program gives", "[published]") {
