@@ -16,7 +16,7 @@ namespace {
 // docs/published.md says how they were changed.
 constexpr double kSectionSd_points = 0.25;  // points of Tables 4.4 and 4.5: what the law is expected to miss
 constexpr double kEnergySd_Wh_km = 0.25;    // Table 5.1, whose numbers differ from 4.4 and 4.5 by up to 0.3
-constexpr double kRrcRelativeSd = 0.0019;    // relative; the test allows 0.5 %
+constexpr double kRrcRelativeSd = 0.0019;   // relative; the test allows 0.5 %
 constexpr double kSettingSd_Wh = 1.9;       // Table 4.2
 constexpr double kDropSd_percent = 0.1;     // §4.1.6
 constexpr double kDropSd_N = 0.02;

@@ -13,8 +13,8 @@ struct Prediction {
 
 /// One step of Gauss and Newton within bounds from the fit to all runs, whose derivatives are known; the prediction is
 /// simulated.
-/// Equation  minimum of |r + J (u - u_0)|^2 + |u|^2 over the rows of all other runs, own parameters within their ranges,
-///           base parameters within 0.9 of their value (Assumed)
+/// Equation  minimum of |r + J (u - u_0)|^2 + |u|^2 over the rows of all other runs
+/// Bounds    own parameters within their ranges, base parameters within 0.9 of their value (Assumed)
 /// Symbols   r whitened residuals of the fit to all runs at its unknowns u_0, J their derivatives, u in prior units
 /// Checked   tests/diagnosis/gap_test.cpp
 Prediction predict_without(const Study& study, const Candidate& candidate, std::size_t held_out);

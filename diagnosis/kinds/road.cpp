@@ -41,7 +41,8 @@ class RoadKind : public MeasurementKind {
   /// Against the constant coefficient nothing of the tire's heat is seen.
   Uncertainties find_uncertainties(const MeasurementSet& set, const models::Context<double>& context) const override {
     Uncertainties uncertainties;
-    add_tire(set.tire, set.kind->make_rig().cooling_rig(), context, context.tire.model().info.loss_follows_heat, uncertainties);
+    add_tire(set.tire, set.kind->make_rig().cooling_rig(), context, context.tire.model().info.loss_follows_heat,
+             uncertainties);
     add_vehicle(*set.vehicle, uncertainties);
     return uncertainties;
   }

@@ -132,8 +132,7 @@ TEST_CASE("a set of a belt is written, read, resimulated, fitted and diagnosed",
   CHECK(fit.tire.rig_thermal.count("flat_belt") == 1);
   for (const char* key : {"loss_N", "fall_per_degC"}) {
     INFO(key);
-    CHECK(tests::find_own(fit.tire.values.own, key) ==
-          Approx(tests::find_own(truth.values.own, key)).epsilon(0.1));
+    CHECK(tests::find_own(fit.tire.values.own, key) == Approx(tests::find_own(truth.values.own, key)).epsilon(0.1));
   }
   const diagnosis::Diagnosis diagnosis = diagnosis::diagnose(set, {});
   CHECK(diagnosis.verdict == diagnosis::Verdict::kNoGap);

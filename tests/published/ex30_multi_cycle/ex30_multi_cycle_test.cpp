@@ -48,7 +48,8 @@ TEST_CASE("EX30: at constant speed the wheels need the road load over the distan
     CHECK((simulated[i].drive_J - simulated[i].recuperated_J) / simulated[i].distance_m ==
           Approx(force_N).epsilon(0.01));
   }
-  for (const std::size_t i : {0U, 2U, 4U, 6U}) CHECK(simulated[i].distance_m == Approx(11990.4).epsilon(1e-3));  // 7.45 mi
+  for (const std::size_t i : {0U, 2U, 4U, 6U})
+    CHECK(simulated[i].distance_m == Approx(11990.4).epsilon(1e-3));  // 7.45 mi
 }
 
 TEST_CASE("EX30: warm-up of the tires explains part of the cold first section, more for tires that lose more",
