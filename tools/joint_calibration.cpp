@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/tire/bounded.h"
 #include "sim/core/assets.h"
 #include "sim/core/config.h"
 #include "tools/tire_drive.h"
@@ -31,16 +32,6 @@ constexpr double kLeastMargin = 0.003;    // of the speed rise above that with w
 constexpr double kMarginSd = 0.0005;
 constexpr double kHighestColdRatio = 1.447;  // 1.45 less a margin for the fit
 constexpr double kSofter_Pa = 20e3;          // A50's run of Table 4.2; see tests/published/table_4_2
-
-/// The speed rise with which the loss falls with speed at no temperature; see models/tire/bounded.cpp.
-double find_least_speed_rise(const models::TireParameters<double>& tire) {
-  const auto value = [&tire](const char* key) { return *find_number(tire, key); };
-  const double cold_K = value("cold_limit_degC"), hot_K = value("hot_limit_degC"), width_K = value("limit_width_K");
-  const auto above = [&](double from_K) { return std::log1p(std::exp((kZeroCelsius_K + 30.0 - from_K) / width_K)); };
-  const double at_30_dK = width_K * (above(cold_K) - above(hot_K));
-  const double fall_rise_per_K = value("fall_per_degC") * value("speed_rise_of_fall");
-  return std::max(fall_rise_per_K * (hot_K - cold_K - at_30_dK), -fall_rise_per_K * at_30_dK);
-}
 
 Observation deviate(std::string table, std::string name, double published, double fitted, double sd) {
   return {std::move(table), std::move(name), published, fitted, sd, (fitted - published) / sd};
@@ -206,13 +197,10 @@ std::vector<Observation> JointCalibration::observe(const Unknowns& at) const {
     all.push_back(deviate("prior", tire + " ln C", std::log(capacity), std::log(value(kCapacity)), 0.2));
     all.push_back(deviate("prior", tire + " b", 1.1, value("load_exponent"), 0.15));
     all.push_back(deviate("prior", tire + " c", 0.0, value("speed_rise_of_fall"), 1.0));
-    const double power = std::pow((80.0 / 3.6) / value("step_speed_km_h"), value("step_power"));
-    const double at_rest = 1.0 - value("speed_rise_of_fall") * power / (1.0 + power);
-    all.push_back(hold_within("prior", tire + " fall at rest", 0.02, kAny, at_rest, 0.002));
-    const double speed_rise = value("speed_rise");
-    const double least_rise = find_least_speed_rise(files.tires[i].values);
-    all.push_back(hold_within("prior", tire + " s", least_rise > 0.0 ? kLeastMargin : 0.0, kAny,
-                              speed_rise - least_rise, kMarginSd));
+    const models::BoundedMargins margins = models::calc_bounded_margins(files.tires[i].values.own);
+    all.push_back(hold_within("prior", tire + " fall at rest", 0.02, kAny, margins.fall_at_rest, 0.002));
+    const double least_margin = margins.least_speed_rise > 0.0 ? kLeastMargin : 0.0;
+    all.push_back(hold_within("prior", tire + " s", least_margin, kAny, margins.speed_rise, kMarginSd));
   }
   all.push_back(deviate("4.1.4", "a40 pressure ratio", 1.0453, r[0]["pressure ratio"], kRatioSd));
   all.push_back(hold_within("4.4.3", "a40 by speed", 3.0, 5.0, r[0]["by speed"], 0.2));

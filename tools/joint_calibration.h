@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "models/tire/own_number.h"
 #include "tools/published_numbers.h"
 #include "tools/virtual_run.h"
 
@@ -17,12 +18,7 @@ inline constexpr const char* kCapacity = "heat_capacity_J_per_K";
 /// A number of the tire's own model, or its heat capacity.
 template <class Values>
 auto find_number(Values& tire, const std::string& key) {
-  decltype(tire.own.values.data()) found = nullptr;
-  models::OwnParameters<double>::visit(tire.own, [&](const Field& field, auto& value) {
-    if (field.key == key) found = &value;
-  });
-  if (key == kCapacity) found = &tire.thermal.heat_capacity_J_per_K;
-  return found;
+  return key == kCapacity ? &tire.thermal.heat_capacity_J_per_K : models::find_own_number(tire.own, key);
 }
 
 /// The rigs whose heat transfer is calibrated: at_rest_W_per_m2_K of [tire_cooling], its rise with speed in proportion.

@@ -4,6 +4,8 @@
 
 #include <boost/math/tools/roots.hpp>
 
+#include "models/tire/own_number.h"
+
 namespace rollrig::tools {
 
 scenarios::RunSpec make_spec(const std::string& scenario, const std::string& tire,
@@ -38,9 +40,7 @@ double find_loss_factor(double rrc_N_per_kN) {
 void scale_loss(models::TireFile& tire, double factor) {
   tire.values.rolling_resistance.A0_N *= factor;
   tire.values.rolling_resistance.A1_N_s_per_m *= factor;
-  models::OwnParameters<double>::visit(tire.values.own, [factor](const Field& field, double& value) {
-    if (field.key == std::string("loss_N")) value *= factor;
-  });
+  if (double* loss_N = models::find_own_number(tire.values.own, "loss_N")) *loss_N *= factor;
 }
 
 double find_root(const std::function<double(double)>& f, double low, double high) {

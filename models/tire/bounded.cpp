@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "models/reference_conditions.h"
+#include "models/tire/bounded.h"
 #include "models/tire/model_parts.h"
 
 namespace rollrig::models {
@@ -91,6 +92,19 @@ struct Bounded : TreadAndCarcass {
     return load_factor * pressure_factor * own[kLoss] * exp(own[kSpeedRise] * above_80 - fall_per_K * warmer_dK);
   }
 
+  static BoundedMargins calc_margins(const OwnParameters<double>& own) {
+    const double at_80 = calc_step_at_80(own);
+    const double at_30_dK = calc_bounded_dK(kReference_K, own);
+    const double fall_rise_per_K = own[kFall] * own[kFallRise];
+    BoundedMargins margins;
+    margins.fall_at_rest = 1.0 - own[kFallRise] * at_80;
+    margins.fall_at_high_speed = 1.0 + own[kFallRise] * (1.0 - at_80);
+    margins.least_speed_rise =
+        std::max(fall_rise_per_K * (own[kHotLimit] - own[kColdLimit] - at_30_dK), -fall_rise_per_K * at_30_dK);
+    margins.speed_rise = own[kSpeedRise] - margins.least_speed_rise;
+    return margins;
+  }
+
  private:
   /// S of the equation, 0 at standstill, 1 at high speed.
   template <class S>
@@ -98,6 +112,10 @@ struct Bounded : TreadAndCarcass {
     using std::pow;
     const S power = pow(speed_m_s / own[kStepSpeed], own[kStepPower]);
     return power / (S(1.0) + power);
+  }
+
+  static double calc_step_at_80(const OwnParameters<double>& own) {
+    return calc_speed_step(get_reference_speed_m_s<double>(), own);
   }
 
   /// Refuses limits in the wrong order, a loss that rises with temperature at some speed, and one that falls with speed
@@ -112,18 +130,15 @@ struct Bounded : TreadAndCarcass {
       return TireModelMistake{"hot_limit_degC", "the limits of the law are in the wrong order",
                               fmt::format("more than cold_limit_degC = {:.5g}", cold_K - kZeroCelsius_K)};
     }
-    const double at_80 = calc_speed_step(get_reference_speed_m_s<double>(), own);
-    const double lowest_rise = -1.0 / (1.0 - at_80), highest_rise = 1.0 / at_80;
-    if (own[kFallRise] < lowest_rise || own[kFallRise] > highest_rise) {
+    const BoundedMargins margins = calc_margins(own);
+    if (margins.fall_at_rest < 0.0 || margins.fall_at_high_speed < 0.0) {
+      const double at_80 = calc_step_at_80(own);
       return TireModelMistake{"speed_rise_of_fall", "the loss would rise with temperature at some speed",
-                              fmt::format("{:.4g} to {:.4g}", lowest_rise, highest_rise)};
+                              fmt::format("{:.4g} to {:.4g}", -1.0 / (1.0 - at_80), 1.0 / at_80)};
     }
-    const double at_30_dK = calc_bounded_dK(kReference_K, own);
-    const double fall_rise_per_K = own[kFall] * own[kFallRise];
-    const double least = std::max(fall_rise_per_K * (hot_K - cold_K - at_30_dK), -fall_rise_per_K * at_30_dK);
-    if (own[kSpeedRise] >= least) return std::nullopt;
+    if (margins.speed_rise >= 0.0) return std::nullopt;
     return TireModelMistake{"speed_rise", "the loss would fall with speed at some temperature",
-                            fmt::format(">= {:.4g}, or speed_rise_of_fall nearer to 0", least)};
+                            fmt::format(">= {:.4g}, or speed_rise_of_fall nearer to 0", margins.least_speed_rise)};
   }
 
   /// theta of the equation: T - T_m between T_m and T_h, 0 below and T_h - T_m above, smooth between.
@@ -137,6 +152,8 @@ struct Bounded : TreadAndCarcass {
 };
 
 }  // namespace
+
+BoundedMargins calc_bounded_margins(const OwnParameters<double>& own) { return Bounded::calc_margins(own); }
 
 const TireModel& tire_model_bounded() { return make_tire_model<Bounded>(); }
 

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "models/tire/own_number.h"
 #include "scenarios/common/iso_coefficient.h"
 #include "scenarios/common/readings.h"
 #include "sim/core/parallel.h"
@@ -10,19 +11,6 @@ using namespace rollrig;
 using tests::make_spec;
 using tests::number;
 using tests::run;
-
-namespace {
-
-/// b of a tire's law; that of the source is proportional to load.
-double find_load_exponent(const models::TireFile& tire) {
-  double exponent = 1.0;
-  models::OwnParameters<double>::visit(tire.values.own, [&exponent](const Field& field, const double& value) {
-    if (field.key == std::string("load_exponent")) exponent = value;
-  });
-  return exponent;
-}
-
-}  // namespace
 
 TEST_CASE("torque method and force method of the standard agree to the last digit", "[fast]") {
   for (const char* fidelity : {"multibody", "quasi_static"}) {
@@ -48,8 +36,9 @@ TEST_CASE("the reported loss lacks the tire's share at skim load", "[fast]") {
     const double lacking_N = tire_loss_N(1738.0, 1798.0) - number(outcome, "rolling_resistance_N");
     CHECK(lacking_N == Approx(tire_loss_N(1918.0, 1978.0)).epsilon(1e-6));
     const double share = lacking_N / tire_loss_N(1738.0, 1798.0);
-    const double exponent = find_load_exponent(spec.tire);
-    const double at_equal_temperature = std::pow(200.0 / number(outcome, "load_N"), exponent);
+    const double* exponent = models::find_own_number(spec.tire.values.own, "load_exponent");  // (3.5): proportional
+    const double at_equal_temperature =
+        std::pow(200.0 / number(outcome, "load_N"), exponent != nullptr ? *exponent : 1.0);
     CHECK(share > at_equal_temperature);
     CHECK(share < 1.15 * at_equal_temperature);
     // The coefficient of a file as a true loss has this share again, but for what the tire cools.

@@ -4,6 +4,7 @@
 
 #include "estimation/parameters.h"
 #include "measurements/sensor_file.h"
+#include "models/tire/own_number.h"
 
 namespace rollrig::tests {
 namespace {
@@ -79,10 +80,7 @@ double find_truth(const measurements::MeasurementSet& set, const std::string& ke
 }
 
 double& find_own(models::OwnParameters<double>& own, const std::string& key) {
-  double* found = nullptr;
-  models::OwnParameters<double>::visit(own, [&](const Field& field, double& value) {
-    if (key == field.key) found = &value;
-  });
+  double* found = models::find_own_number(own, key);
   if (found == nullptr) throw std::invalid_argument(key);
   return *found;
 }
