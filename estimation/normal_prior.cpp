@@ -40,7 +40,8 @@ Eigen::MatrixXd calc_prior_factor(const std::vector<FreeParameter>& parameters) 
     }
   }
   const Eigen::LLT<Eigen::MatrixXd> factor(correlation);
-  if (factor.info() != Eigen::Success) throw std::invalid_argument("the correlations of a prior are impossible");
+  if (factor.info() != Eigen::Success)
+    throw std::invalid_argument("the correlation matrix of the priors is not positive definite");
   return factor.matrixL();
 }
 

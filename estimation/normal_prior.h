@@ -15,7 +15,8 @@ void put_correlations(const std::vector<models::CorrelatedPair>& pairs, std::vec
 /// Lower triangular factor of the correlation matrix of the parameters that have a prior, in their order; exactly the
 /// identity where all are independent.
 /// Equation  x = x0 + s L u, R = L L^T
-/// Symbols   x numbers in SI units, x0 their start, s their standard deviations (diagonal); u independent, standard
+/// Symbols   x numbers in SI units, x0 their prior means (the values of the files), s their standard deviations
+/// (diagonal); u independent, standard
 ///           normal; R correlation matrix of x
 /// Source    the Cholesky factor of a multivariate normal distribution
 /// Errors    std::invalid_argument: the correlations are not positive definite

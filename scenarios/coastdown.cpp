@@ -77,6 +77,15 @@ Results evaluate(const Settings& settings, const RunSpec& spec, Outcome& outcome
   }
   results.on_road = is_on_road(spec.rig.kind->traits);
   outcome.warnings.insert(outcome.warnings.end(), fit.warnings.begin(), fit.warnings.end());
+  constexpr double kLowest_K = kZeroCelsius_K + 5.0;  // SAE J2263: air temperature during a test
+  constexpr double kHighest_K = kZeroCelsius_K + 35.0;
+  const double ambient_K = *settings.conditions.ambient_K;
+  if (ambient_K < kLowest_K || ambient_K > kHighest_K) {
+    outcome.warnings.push_back(fmt::format(
+        "A and B are corrected from air of {:.4g} degC to 20 degC: SAE J2263 tests at 5 to 35 degC only, and the loss "
+        "of a tire in colder or warmer air does not follow its correction",
+        ambient_K - kZeroCelsius_K));
+  }
   return results;
 }
 

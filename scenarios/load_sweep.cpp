@@ -21,9 +21,9 @@ struct Settings : SteadyCycleSettings {
           p.measurement_s);
   }
 
-  Settings() {
-    conditions.pressure_Pa = kVehiclePressure_Pa;
-    conditions.load_N = kVehicleLoad_N;
+  void complete(const RunSpec& spec) {
+    complete_as_on_vehicle(conditions, spec);
+    SteadyCycleSettings::complete(spec);
   }
 };
 
@@ -49,7 +49,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   program.begin_test("load-sweep");
   for (const double load_N : loads_of(settings, spec)) {
     check_test_load(spec, "loads_N", load_N);
-    program.roll(fmt::format("warm-up {:.0f} N", load_N), settings.warm_up_s, load_N);
+    program.roll(fmt::format("warm-up {:.0f} N", load_N), *settings.warm_up_s, load_N);
     program.skim(fmt::format("warm-up skim {:.0f} N", load_N), settings.skim_s);
     program.roll(fmt::format("measurement {:.0f} N", load_N), settings.settle_s + settings.measurement_s, load_N);
     program.skim(fmt::format("skim {:.0f} N", load_N), settings.skim_s);

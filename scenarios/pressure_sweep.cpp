@@ -46,7 +46,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   for (const double pressure_Pa : settings.pressures_Pa) {
     const std::string at = fmt::format("{:.6g} kPa", pressure_Pa / 1e3);
     program.begin_test(fmt::format("pressure-{:.6g}", pressure_Pa / 1e3), {pressure_Pa, {}, {}});
-    program.roll("warm-up " + at, settings.warm_up_s + settings.settle_s);
+    program.roll("warm-up " + at, *settings.warm_up_s + settings.settle_s);
     program.skim("skim " + at, settings.skim_s);
     program.end_test();
   }

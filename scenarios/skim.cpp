@@ -30,7 +30,7 @@ struct Results {
 DrumProgram plan(const CycleSettings& settings, const RunSpec& spec) {
   DrumProgram program(settings.conditions, spec);
   program.begin_test("skim");
-  program.roll("warm-up", settings.warm_up_s);
+  program.roll("warm-up", *settings.warm_up_s);
   program.skim("skim", settings.skim_s);
   return program;
 }

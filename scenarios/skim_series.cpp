@@ -73,7 +73,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   }
   DrumProgram program(settings.conditions, spec);
   program.begin_test("skim-series");
-  program.roll("warm-up", settings.warm_up_s);
+  program.roll("warm-up", *settings.warm_up_s);
   for (const double load_N : settings.skim_loads_N) {
     program.roll(fmt::format("skim {:.6g} N", load_N), settings.skim_s, load_N);
   }

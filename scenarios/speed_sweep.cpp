@@ -20,9 +20,9 @@ struct Settings : SteadyCycleSettings {
           p.measurement_cycles);
   }
 
-  Settings() {
-    conditions.pressure_Pa = kVehiclePressure_Pa;
-    conditions.load_N = kVehicleLoad_N;
+  void complete(const RunSpec& spec) {
+    complete_as_on_vehicle(conditions, spec);
+    SteadyCycleSettings::complete(spec);
   }
 };
 
@@ -46,7 +46,7 @@ DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   for (const double speed_m_s : settings.speeds_m_s) {
     const std::string at = fmt::format("{:.6g} km/h", 3.6 * speed_m_s);
     program.begin_test(fmt::format("speed-{:.6g}", 3.6 * speed_m_s), {{}, speed_m_s, {}});
-    program.roll("warm-up " + at, settings.warm_up_s);
+    program.roll("warm-up " + at, *settings.warm_up_s);
     program.skim("skim " + at, settings.skim_s);
     for (int i = 1; i <= settings.measurement_cycles; ++i) {
       program.roll(fmt::format("measurement {} {}", i, at), settings.settle_s + settings.measurement_s);

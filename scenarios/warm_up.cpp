@@ -34,7 +34,7 @@ struct Settings : CycleSettings {
 DrumProgram plan(const Settings& settings, const RunSpec& spec) {
   DrumProgram program(settings.conditions, spec);
   program.begin_test(fmt::format("warm-up-{:.0f}", 3.6 * settings.conditions.speed_m_s));
-  program.roll("warm-up", settings.warm_up_s);
+  program.roll("warm-up", *settings.warm_up_s);
   if (settings.until_tire_K.has_value()) program.end_at_tire_temperature(*settings.until_tire_K);
   program.skim("skim", settings.skim_s);
   return program;

@@ -69,8 +69,9 @@ Measure change_pressure(double from_psi, double to_psi, double drum_m = 2.0) {
 std::string list_pressure() {
   StatementRows rows;
   const std::string schuring = "Schuring (1980) in TRB 286";
-  rows.add("LDTP 78-11", "26 psi has more resistance than 45 psi, on a roll of 48 inches; change, %", Tires::kCars,
-           kPercent, change_pressure(45.0, 26.0, kEpaRoll_m), &is_positive);
+  rows.add("LDTP 78-11",
+           "conditions only: from 45 to 26 psi on a roll of 48 inches (less pressure, more resistance); change, %",
+           Tires::kCars, kPercent, change_pressure(45.0, 26.0, kEpaRoll_m), &is_positive);
   rows.add("Mullins (2010)", "less pressure, more resistance: from 50 to 20 psi; change, %", Tires::kCars, kPercent,
            change_pressure(50.0, 20.0), &is_positive);
   rows.add(schuring, "24 to 29 psi: -10 % (±2.5 points); change, %", Tires::kCars, kPercent,
@@ -134,7 +135,7 @@ std::string list_cold() {
   StatementRows rows;
   for (const double speed_km_h : {20.0, 50.0, 80.0, 120.0}) {
     rows.add(
-        fmt::format("{:.0f} km/h", speed_km_h), "more than 1, at most 1.45; ratio", Tires::kAll, {1.0, 2},
+        fmt::format("{:.0f} km/h", speed_km_h), "more than 1, at most 1.45; ratio", Tires::kAll, {1.0, 3},
         [=](const StudyTire& tire) { return find_cold_ratio(tire, speed_km_h); },
         [](double ratio) { return ratio > 1.0 && ratio <= 1.45; });
   }

@@ -51,7 +51,7 @@ const std::vector<LeftOut>& list_left_out() {
       {"§4.1.3, RRc spans at most 0.17 N/kN over the load", {"4.1.3"}, "4.1.3", "", "N/kN"},
       {"(4.1), loss of a40 at 250 over that at 280 kPa", {"4.1.4"}, "4.1.4", "", "1"},
       {"§4.1.5, RRc does not fall with speed", {"4.1.5"}, "4.1.5", "", "points"},
-      {"bar: cold loss at most 1.45 times that at 25 degC", {"cold"}, "cold", "", "1"}};
+      {"limit of this project: cold loss at most 1.45 times that at 25 degC", {"cold"}, "cold", "", "1"}};
   return kAll;
 }
 

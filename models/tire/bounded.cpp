@@ -47,11 +47,11 @@ struct Bounded : TreadAndCarcass {
     info.parameters = parameters();
     // Assumed: usual values of passenger-car tires; a diagnosis does not move numbers without an uncertainty.
     const std::vector<TireModelParameter> law{
-        {{"loss_N", positive(), "F_0, at 80 km/h, 30 degC and the references of [rolling_resistance]"},
+        {{"loss_N", between(1e-3, 1e5), "F_0, at 80 km/h, 30 degC and the references of [rolling_resistance]"},
          38.0,
          0.03,
          FitRole::kFree},
-        {{"speed_rise", non_negative(), "s, logarithm of the loss at high over that at low speed, at 30 degC"},
+        {{"speed_rise", between(0.0, 5.0), "s, logarithm of the loss at high over that at low speed, at 30 degC"},
          0.3,
          0.1,
          FitRole::kFreeOverSpeeds},
@@ -118,9 +118,8 @@ struct Bounded : TreadAndCarcass {
     return calc_speed_step(get_reference_speed_m_s<double>(), own);
   }
 
-  /// Refuses limits in the wrong order, a loss that rises with temperature at some speed, and one that falls with speed
-  /// at some temperature.
-  /// Equation  T_m < T_h
+  /// Refuses limits in the wrong order or too near for the width of their transitions, a loss that rises with
+  /// temperature at some speed, and one that falls with speed at some temperature. Equation  T_m < T_h
   ///           1 + c (S - S_80) >= 0  at S = 0 and S = 1
   ///           s >= B c (theta - theta(30 degC))  at theta = 0 and theta = T_h - T_m
   static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {
@@ -129,6 +128,11 @@ struct Bounded : TreadAndCarcass {
     if (cold_K >= hot_K) {
       return TireModelMistake{"hot_limit_degC", "the limits of the law are in the wrong order",
                               fmt::format("more than cold_limit_degC = {:.5g}", cold_K - kZeroCelsius_K)};
+    }
+    const double widest_K = 0.25 * (hot_K - cold_K);
+    if (own[kLimitWidth] > widest_K) {
+      return TireModelMistake{"limit_width_K", "the transitions to a constant loss leave no range between them",
+                              fmt::format("at most {:.4g}, a quarter of the range between the limits", widest_K)};
     }
     const BoundedMargins margins = calc_margins(own);
     if (margins.fall_at_rest < 0.0 || margins.fall_at_high_speed < 0.0) {

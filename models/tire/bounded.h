@@ -5,7 +5,8 @@
 
 namespace rollrig::models {
 
-/// How far numbers of the law are within its limits; below 0 the file is refused.
+/// Margins of the numbers to the limits of the law. A file is refused where fall_at_rest, fall_at_high_speed or
+/// speed_rise is below 0; least_speed_rise is the limit of the speed rise itself.
 struct BoundedMargins {
   double fall_at_rest = 0.0;        // the fall with temperature at standstill, relative to that at 80 km/h
   double fall_at_high_speed = 0.0;  // the same at high speed

@@ -11,7 +11,10 @@
 namespace rollrig::models {
 namespace {
 
-constexpr double kRounding = 1e-9;  // Assumed: error of correlations that a program has written
+/// Correlation of the two conductances that follow from [tire_cooling] of a rig. The calibration has one number of the
+/// rig, with a fixed ratio of the two.
+constexpr double kOneFactor = 0.99;  // Assumed: less than 1, so that data may still change the ratio
+constexpr double kRounding = 1e-9;   // Assumed: error of correlations that a program has written
 
 /// A number of a tire that may be uncertain.
 struct UncertainNumber {
@@ -161,7 +164,7 @@ void read_matrix(const ConfigValue& list, TireCorrelation& correlation) {
   check_symmetry(rows, correlation);
   if (is_positive_definite(correlation.matrix)) return;
   throw mistake(list, "matrix", "the matrix is not positive definite: no numbers can be correlated like that",
-                "a matrix of correlations that are possible together; one of a calibration with all its digits");
+                "a positive definite correlation matrix; copy that of a fit without rounding");
 }
 
 }  // namespace
@@ -189,6 +192,16 @@ std::string write_correlation(const TireCorrelation& correlation) {
                      fmt::join(correlation.numbers, "\", \""), fmt::join(rows, ",\n"));
 }
 
+namespace {
+
+bool takes_cooling_of_rig(const TireFile& tire, const std::string& rig) {
+  const TireThermalParameters<double>& thermal = tire.values.thermal;
+  const bool has_own = thermal.rest_conductance_W_per_K > 0.0 || thermal.speed_conductance_W_s_per_m_K > 0.0;
+  return tire.has_thermal && !has_own && tire.rig_thermal.count(rig) == 0;
+}
+
+}  // namespace
+
 std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const std::string& rig) {
   const std::vector<UncertainNumber> numbers = list_numbers(tire);
   std::vector<std::string> parameters;  // empty: does not hold on the rig
@@ -200,6 +213,8 @@ std::vector<CorrelatedPair> list_correlated_pairs(const TireFile& tire, const st
     parameters.push_back(holds ? number->parameter() : "");
   }
   std::vector<CorrelatedPair> pairs;
+  if (takes_cooling_of_rig(tire, rig))
+    pairs.push_back({"tire.thermal.z_W_per_K", "tire.thermal.f_W_s_per_m_K", kOneFactor});
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (parameters[i].empty() || parameters[j].empty()) continue;

@@ -34,7 +34,7 @@ struct CorrelatedPair {
 /// Checked tests/models/tire_correlation_test.cpp
 TireCorrelation read_correlation(TableReader& file, const TireFile& tire);
 
-/// The table as TOML, empty without numbers. All digits are written, so that the matrix stays positive definite.
+/// The table as TOML, empty without numbers. The matrix is written with all digits that it has.
 std::string write_correlation(const TireCorrelation& correlation);
 
 /// Correlations as pairs, of the numbers that hold on a rig. A conductance of [thermal.rig.<name>] replaces that of

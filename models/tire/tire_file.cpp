@@ -137,9 +137,10 @@ bool gives_conductances(const TireThermalParameters<double>& thermal) {
 
 InputError no_conductances(const TireFile& tire, const std::string& rig) {
   const std::string where = rig.empty() ? "the road" : fmt::format("rig '{}'", rig);
-  return InputError({fmt::format("tire '{}' has no conductances, and {} has no [tire_cooling]", tire.name, where),
-                     tire.path, 0, "[thermal] conductance_at_rest_W_per_K", "",
-                     "conductances of the tire, or a table [tire_cooling] of the rig", ""});
+  return InputError(
+      {fmt::format("tire '{}' has no conductance above 0, and {} has no [tire_cooling] that is used", tire.name, where),
+       tire.path, 0, "[thermal] conductance_at_rest_W_per_K", "",
+       "a conductance above 0, or none in the tire file and a table [tire_cooling] in the rig file", ""});
 }
 
 }  // namespace
@@ -242,10 +243,16 @@ TireParameters<double> TireFile::standard_uncertainties_on(const CoolingRig& rig
 }
 
 std::optional<std::string> TireFile::warn_of_conductances(const CoolingRig& rig) const {
+  const auto own = rig_thermal.find(rig.name);
+  if (own != rig_thermal.end() &&
+      own->second.rest_conductance_W_per_K.has_value() != own->second.speed_conductance_W_s_per_m_K.has_value()) {
+    return fmt::format("[thermal.rig.{}] of tire '{}' gives one conductance; the other one is that of {}", rig.name,
+                       name, gives_conductances(values.thermal) ? "[thermal]" : "[tire_cooling] of the rig");
+  }
   if (rig_thermal.empty() || rig_thermal.count(rig.name) > 0 || !gives_conductances(values.thermal))
     return std::nullopt;
   std::vector<std::string> named;
-  for (const auto& [own, conductances] : rig_thermal) named.push_back(own);
+  for (const auto& [named_rig, conductances] : rig_thermal) named.push_back(named_rig);
   return fmt::format(
       "tire '{}' has conductances for {}, and none for rig '{}': those of its [thermal] are used, and its "
       "temperature may be several degC off",

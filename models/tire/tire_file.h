@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "models/tire/conversion_laws.h"
 #include "models/tire/correlation.h"
 #include "models/tire/tire.h"
 
@@ -66,16 +67,21 @@ struct Iso28580Reference {
   double rrc = 0.0;  // N/N
   double load_N = 0.0;
   double pressure_Pa = 0.0;
+  double warm_up_s = 0.0;                  // of the class
+  double ambient_coefficient_per_K = 0.0;  // K_t of the class
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"rrc_N_per_kN", positive(), ""}, p.rrc);
     visit(Field{"load_N", positive(), ""}, p.load_N);
     visit(Field{"pressure_kPa", positive(), ""}, p.pressure_Pa);
+    visit(Field{"warm_up_min", between(1.0, 600.0), "", 30.0}, p.warm_up_s);
+    visit(Field{"ambient_coefficient_per_degC", between(0.0, 0.05), "", kAmbientCoefficient_per_K},
+          p.ambient_coefficient_per_K);
   }
 };
 
-/// [validity]: the range in which the tire's numbers were measured or fitted. A run beyond it is warned of.
+/// [validity]: the range for which a tire file may be used, measured or assumed. A run beyond it is warned of.
 struct TireValidity {
   double highest_speed_m_s = 0.0;
   double lowest_load_N = 0.0;

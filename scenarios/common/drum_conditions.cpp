@@ -57,4 +57,20 @@ void DrumConditions::complete(const RunSpec& spec) {
   if (!initial_tire_K.has_value()) initial_tire_K = ambient_K;
 }
 
+void CycleSettings::complete(const RunSpec& spec) {
+  constexpr double kClassC1_s = 1800.0;  // §3.2.1 item 7
+  const auto& iso = spec.tire.iso_28580;
+  if (!warm_up_s.has_value() && iso.has_value()) warm_up_s = iso->warm_up_s;
+  if (!warm_up_s.has_value()) warm_up_s = kClassC1_s;
+  conditions.complete(spec);
+}
+
+void complete_as_on_vehicle(DrumConditions& conditions, const RunSpec& spec) {
+  const auto& validity = spec.tire.validity;
+  const bool is_of_car = !validity.has_value() || validity->lowest_load_N <= kVehicleLoad_N * (1.0 + 1e-9);
+  if (!is_of_car) return;
+  if (!conditions.load_N.has_value()) conditions.load_N = kVehicleLoad_N;
+  if (!conditions.pressure_Pa.has_value()) conditions.pressure_Pa = kVehiclePressure_Pa;
+}
+
 }  // namespace rollrig::scenarios

@@ -77,16 +77,27 @@ double find_default_pressure_Pa(const RunSpec& spec);
 /// Settings of procedures that are made of cycles: conditions, load and skim times (§3.2.1 items 7 and 8).
 struct CycleSettings {
   DrumConditions conditions;
-  double warm_up_s = 0.0;
+  std::optional<double> warm_up_s;
   double skim_s = 0.0;
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     DrumConditions::visit(p.conditions, visit);
-    visit(Field{"warm_up_min", between(1.0, 600.0), "Load of the warm-up cycle", 30.0}, p.warm_up_s);
+    visit(Field{"warm_up_min", between(1.0, 600.0),
+                "Load of the warm-up cycle; default: warm_up_min of the tire's [iso_28580], else 30"},
+          p.warm_up_s);
     visit(Field{"skim_min", between(0.5, 600.0), "Skim test after it", 3.0}, p.skim_s);
   }
+
+  /// Fills what the tire and the rig decide, as DrumConditions does.
+  void complete(const RunSpec& spec);
 };
+
+constexpr double kVehicleLoad_N = 5400.0;      // §3.2.1 item 2
+constexpr double kVehiclePressure_Pa = 280e3;  // §3.2.3.4
+
+/// Fills in the load and pressure of the source's vehicle, unless the tire's [validity] begins at a higher load.
+void complete_as_on_vehicle(DrumConditions& conditions, const RunSpec& spec);
 
 constexpr double kDefaultSettle_min = 60.0;  // Assumed: leaves less than 0.2 % of RRc of a passenger car's tire
 

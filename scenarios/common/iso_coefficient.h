@@ -11,7 +11,7 @@ namespace rollrig::scenarios {
 /// added again that the skim test subtracted. Empty without [iso_28580], or where the tire lacks [rolling_resistance]
 /// and its law needs it.
 /// Equation  c_true = c / (1 - F(F_skim) / F(F_z))
-/// Symbols   c reported coefficient [N/N]; F loss of the tire by its law [N]; F_skim 200 N; F_z load of the ISO test [N]
+/// Symbols   c reported coefficient [N/N]; F loss of the tire by its law [N]; F_skim 200 N; F_z load of the test [N]
 /// Validity  the tire has the same temperature and pressure in both. It cools in the skim test, which raises its share
 ///           of the loss a little
 /// Source    ISO 28580, skim test reading; F_skim: Kolekar and Narasimhan (2024) §3.2.1 item 6

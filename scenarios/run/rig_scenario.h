@@ -18,6 +18,16 @@ struct OnlyConditions {
   }
 };
 
+/// Fills what the tire and the rig decide: by the settings' own `complete`, else by that of their conditions.
+template <class Settings>
+auto complete_settings(Settings& settings, const RunSpec& spec) -> decltype(settings.complete(spec)) {
+  settings.complete(spec);
+}
+template <class Settings, class... None>
+void complete_settings(Settings& settings, const RunSpec& spec, None...) {
+  settings.conditions.complete(spec);
+}
+
 /// Settings (with a member `conditions`) are read and completed, `plan(settings, spec)` makes the program and throws
 /// InputError where it cannot, `carry_out(spec, settings, program, progress, outcome)` runs it and returns the results.
 template <class Settings, class Results, class Plan, class CarryOut>
@@ -28,7 +38,7 @@ Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
   scenario.results = ResultSheet::of(Results{}).infos;
   scenario.prepare = [plan, carry_out](const RunSpec& spec) -> PreparedRun {
     const auto settings = std::make_shared<Settings>(read_settings<Settings>(spec));
-    settings->conditions.complete(spec);
+    complete_settings(*settings, spec);
     using Program = decltype(plan(*settings, spec));
     const auto program = std::make_shared<const Program>(plan(*settings, spec));
     return [&spec, carry_out, settings, program](const sim::Progress& progress) {

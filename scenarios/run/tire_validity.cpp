@@ -40,8 +40,9 @@ std::vector<std::string> list_validity_warnings(const std::string& tire, const m
   const auto warn = [&](const Quantity& quantity, const std::string& found, double lowest, double highest) {
     const Unit unit = quantity.file_unit();
     warnings.push_back(
-        fmt::format("{} {}, and the file of tire '{}' is valid from {:.4g} to {:.4g}: its loss is extrapolated", found,
-                    unit.symbol, tire, unit.from_si(lowest), unit.from_si(highest)));
+        fmt::format("{} {} is beyond the range of tire '{}', whose file is valid from {:.4g} to {:.4g} {}: its loss is "
+                    "extrapolated",
+                    found, unit.symbol, tire, unit.from_si(lowest), unit.from_si(highest), unit.symbol));
   };
   const auto compare_range = [&](const Quantity& quantity, const char* what, double lowest, double highest) {
     const Extremes found = find_extremes(recording, quantity);

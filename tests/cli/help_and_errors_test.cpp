@@ -86,8 +86,8 @@ TEST_CASE("errors stay within 80 columns, with all that is allowed and paths who
 }
 
 TEST_CASE("a run that fails exits with 3 and says why", "[fast]") {
-  // a drum that cannot turn the tire
-  const auto run = run_program("run iso_28580 --tire a50 --set tire.bounded.loss_N=1e300");
+  // a heat balance that no step can follow
+  const auto run = run_program("run iso_28580 --tire a50 --set tire.bounded.conductance_W_per_K=1e300");
   CHECK(run.status == 3);
   CHECK_THAT(run.err, Contains("run failed"));
 }

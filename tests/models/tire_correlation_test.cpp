@@ -62,6 +62,28 @@ TEST_CASE("a conductance of the rig's own stands there for the general one, with
   CHECK(there.front().correlation == 0.2);
 }
 
+TEST_CASE("the two conductances that a rig gives go together, those of a tire do not", "[fast]") {
+  models::TireFile tire = make_tire();
+  tire.correlation = {};
+  CHECK(models::list_correlated_pairs(tire, "here").empty());
+  tire.values.thermal.rest_conductance_W_per_K = 0.0;
+  tire.values.thermal.speed_conductance_W_s_per_m_K = 0.0;
+  const auto pairs = models::list_correlated_pairs(tire, "of_no_tire");
+  REQUIRE(pairs.size() == 1);
+  CHECK(pairs.front().correlation > 0.9);
+}
+
+TEST_CASE("one conductance for a rig without the other is warned of", "[fast]") {
+  models::TireFile tire = make_tire();
+  models::CoolingRig rig;
+  rig.name = "here";
+  REQUIRE(tire.warn_of_conductances(rig).has_value());
+  CHECK_THAT(*tire.warn_of_conductances(rig),
+             Catch::Contains("[thermal.rig.here]") && Catch::Contains("one conductance"));
+  tire.rig_thermal["here"].speed_conductance_W_s_per_m_K = 1.0;
+  CHECK_FALSE(tire.warn_of_conductances(rig).has_value());
+}
+
 TEST_CASE("a number with a new uncertainty loses its old correlations, the others keep theirs", "[fast]") {
   models::TireFile tire = make_tire();
   tire.correlation = {

@@ -182,6 +182,7 @@ TEST_CASE("a file of the bounded law is refused if its loss would rise with heat
   CHECK_NOTHROW(read_with("speed_rise", "0.3"));
   CHECK_THROWS_WITH(read_with("hot_limit_degC", "20.0"),
                     Catch::Contains("hot_limit_degC") && Catch::Contains("more than cold_limit_degC = 25"));
+  CHECK_THROWS_WITH(read_with("limit_width_K", "12.0"), Catch::Contains("limit_width_K") && Catch::Contains("11.25"));
   // theta less that at 30 degC goes from -6 K to 39 K: s = 0.3 is enough up to 0.016/K x 39 K x c.
   CHECK_NOTHROW(read_with("speed_rise_of_fall", "0.4"));
   CHECK_THROWS_WITH(read_with("speed_rise_of_fall", "0.6"),

@@ -155,3 +155,21 @@ TEST_CASE("effects act in a scenario through the run document", "[fast]") {
   // the bearings' warm-up leaves the tire's temperature alone
   CHECK(warm_bearings.recording.channel("liner_temperature_degC") == none.recording.channel("liner_temperature_degC"));
 }
+
+TEST_CASE("a tire file states the warm-up and the correction of its class", "[fast]") {
+  const std::string truck = "c3_315_80r22_5";
+  const auto usual = run("iso_28580", truck);
+  CHECK(number(usual, "rrc_N_per_kN") == number(run("iso_28580", truck, {"warm_up_min=180"}), "rrc_N_per_kN"));
+  CHECK(usual.warnings.empty());
+  // Its slope is that of its class, so that air of 22 and 28 degC give the same corrected coefficient.
+  const double cool = number(run("iso_28580", truck, {"ambient_degC=22"}), "rrc_25degC_2m_N_per_kN");
+  const double warm = number(run("iso_28580", truck, {"ambient_degC=28"}), "rrc_25degC_2m_N_per_kN");
+  CHECK(cool == Approx(warm).epsilon(0.002));
+}
+
+TEST_CASE("a warm-up that is too short for the tire is warned of", "[fast]") {
+  const auto rushed = run("iso_28580", "c3_315_80r22_5", {"warm_up_min=30"});
+  REQUIRE(rushed.warnings.size() == 1);
+  CHECK_THAT(rushed.warnings.front(), Catch::Contains("warm_up_min is too short"));
+  CHECK(run("iso_28580", "c1_205_55r16").warnings.empty());
+}

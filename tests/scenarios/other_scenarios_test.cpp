@@ -210,3 +210,12 @@ TEST_CASE("a wheel that bounces on a weak load cylinder is integrated through it
                       "multibody"));
   }
 }
+
+TEST_CASE("sweeps run a truck tire at its own load and pressure, a car tire at those of the vehicle", "[fast]") {
+  const auto find_load_N = [](const char* tire) {
+    const auto outcome = run("speed_sweep", tire, {"speeds_km_h=[80]", "settle_min=0"});
+    return outcome.result["cycles"][0]["load_N"].get<double>();
+  };
+  CHECK(find_load_N("c3_315_80r22_5") == Approx(33350.0).epsilon(1e-4));
+  CHECK(find_load_N("a50") == Approx(5400.0).epsilon(1e-4));
+}

@@ -1,4 +1,5 @@
 // Scenarios with a vehicle: weather, odd vehicles, coasts that do not end, the state in which tires start.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "rigs/vehicle_channels.h"
@@ -39,6 +40,18 @@ TEST_CASE("the air of the road has the temperature of the run, said by rig or by
   const double drag_N_per_km_h2 = 0.5 * 98.21e3 / (287.05 * 293.15) * 0.72 / (3.6 * 3.6);
   CHECK(tests::number(by_setting, "C_N_per_km_h2") == Approx(drag_N_per_km_h2).epsilon(0.06));
   CHECK(first_time_s(by_setting) < 0.95 * first_time_s(run_on("road", "coastdown", {"warm_up_min=10"})));
+}
+
+TEST_CASE("a coastdown in air that the standard does not test in is warned of", "[fast]") {
+  const auto count_warnings = [](const std::string& ambient) {
+    const auto outcome = run_on("road", "coastdown", {"ambient_degC=" + ambient, "warm_up_min=10"});
+    return std::count_if(outcome.warnings.begin(), outcome.warnings.end(),
+                         [](const std::string& warning) { return warning.find("SAE J2263") != std::string::npos; });
+  };
+  CHECK(count_warnings("4") == 1);
+  CHECK(count_warnings("6") == 0);
+  CHECK(count_warnings("34") == 0);
+  CHECK(count_warnings("36") == 1);
 }
 
 TEST_CASE("a coast that does not end is a failed run that says why", "[fast]") {
