@@ -8,6 +8,7 @@
 #include "measurements/sensor_file.h"
 #include "rollrig/measurement_set.h"
 #include "scenarios/run/run_spec.h"
+#include "scenarios/scaffold/iso_test.h"
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
 
@@ -38,6 +39,18 @@ FileCheck validate_set(const std::string& path) {
           checks.warnings, !checks.is_implausible()};
 }
 
+/// A tire is held against its own RRc as well, as far as its file has what the test needs.
+FileCheck validate_tire(const models::TireFile& tire) {
+  FileCheck check{fmt::format("tire '{}'", tire.name)};
+  try {
+    if (const auto warning = scenarios::check_iso_rrc(tire)) check.warnings.push_back(*warning);
+  } catch (const InputError&) {  // a tire for other tests
+  } catch (const RunFailure& failure) {
+    check.warnings.push_back(fmt::format("the simulated test of ISO 28580 fails: {}", failure.what()));
+  }
+  return check;
+}
+
 FileCheck validate_cycle(const std::string& path) {
   const CsvTable csv = CsvTable::read(path);
   try {
@@ -58,7 +71,7 @@ FileCheck validate_toml(const std::string& path) {
   TableReader reader(config, "");
   const std::string format = reader.text("format");
   const std::string kind = format.substr(0, format.find('/'));
-  if (kind == "rollrig-tire") return {fmt::format("tire '{}'", models::read_tire(config).name)};
+  if (kind == "rollrig-tire") return validate_tire(models::read_tire(config));
   if (kind == "rollrig-rig") return {fmt::format("rig '{}'", rigs::read_rig(config).name)};
   if (kind == "rollrig-sensors")
     return {"sensors: " + format_count(measurements::read_sensor_file(config).size(), "channel")};

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "measurements/logs/mapping.h"
 #include "measurements/measurement_set.h"
 #include "rollrig/measurement_set.h"
 #include "rollrig/run.h"
@@ -21,6 +22,9 @@ Channel make_channel(const Quantity& quantity, std::vector<double> values_SI);
 
 /// Files by their names as the API has them.
 inline FolderFiles to_folder(const std::map<std::string, std::string>& files) { return {files.begin(), files.end()}; }
+
+/// What import_logs() does with a mapping that has been read.
+Report import_by_mapping(const measurements::Mapping& mapping);
 
 /// Reads what `input` names. Throws InputError.
 scenarios::RunSpec read_run(const RunInput& input);

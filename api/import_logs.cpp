@@ -57,7 +57,10 @@ std::string format_import(const measurements::Mapping& mapping, const measuremen
 }  // namespace
 
 Report import_logs(const std::string& mapping_file, const std::string& data) {
-  const measurements::Mapping mapping = measurements::read_mapping(mapping_file, data);
+  return import_by_mapping(measurements::read_mapping(mapping_file, data));
+}
+
+Report import_by_mapping(const measurements::Mapping& mapping) {
   const auto imported = std::make_shared<const measurements::Import>(measurements::import_logs(mapping));
   Report report;
   report.text = format_import(mapping, *imported);

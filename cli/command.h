@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "rollrig/run.h"
+#include "rollrig/scaffold_options.h"
 #include "sim/core/error.h"
 
 namespace rollrig::cli {
@@ -86,6 +87,10 @@ void add_run_options(CLI::App& command, RunInput& input);
 void add_fit_road_load(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
+void add_new_command(CLI::App& app, Action& action);
+/// What a user says of logs beside the files; the second also what a set of them needs.
+void add_guess_options(CLI::App& command, GuessOptions& options);
+void add_guess_set_options(CLI::App& command, GuessOptions& options);
 void add_export_command(CLI::App& app, Action& action);
 void add_completion_command(CLI::App& app, Action& action);
 void add_man_command(CLI::App& app, Action& action);

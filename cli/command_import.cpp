@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/measurement_set.h"
+#include "rollrig/scaffold.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 struct ImportOptions {
   std::string mapping;
+  GuessOptions guess;
   std::string data;
   OutputOptions output;
 };
@@ -30,9 +32,19 @@ std::string format_checks(const std::string& folder) {
   }
 }
 
+/// By the mapping, or by what is guessed of a folder.
+Report read_and_import(const ImportOptions& options) {
+  const bool is_guess = !options.guess.folder.empty();
+  if (is_guess == !options.mapping.empty()) {
+    throw usage_error(is_guess ? "a mapping and --guess do not go together" : "no mapping is given", "mapping",
+                      options.mapping, "a mapping file (.toml), or --guess FOLDER");
+  }
+  return is_guess ? import_guessed(options.guess, options.output.folder) : import_logs(options.mapping, options.data);
+}
+
 int import_command(const ImportOptions& options) {
   Output output(options.output);
-  const Report imported = import_logs(options.mapping, options.data);
+  const Report imported = read_and_import(options);
   output.write(imported);
   if (options.output.is_silent()) return kDone;
   std::cout << imported.text << format_checks(options.output.folder)
@@ -47,13 +59,15 @@ void add_import_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<ImportOptions>(
       app, action, "import", "Join a torque log and a tire log, each on its own clock, into a measurement set",
       &import_command);
-  command->add_option("mapping", options->mapping, "Mapping file (.toml): columns, units, time stamps, runs")
-      ->required();
+  command->add_option("mapping", options->mapping, "Mapping file (.toml): columns, units, time stamps, runs");
+  command->add_option("--guess", options->guess.folder,
+                      "Guess the mapping from this folder of logs; further options help");
   command->add_option("--data", options->data, "Folder of the logs [that of the mapping]");
   command->add_option("--out", options->output.folder, "Folder for the set")->required();
   command->add_option("--json", options->output.json, "File for the report, - for standard output");
   command->add_flag("--force", options->output.force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->output.quiet, "Print nothing but errors");
+  add_guess_set_options(*command, options->guess);
 }
 
 }  // namespace rollrig::cli

@@ -44,7 +44,14 @@ void add_examples(const CLI::App& app) {
        "  rollrig diagnose campaign --json why.json --html why.html\n"
        "  rollrig diagnose campaign --plan next\n"
        "  rollrig diagnose --explain bearing_warmup\n"},
-      {"import", "  rollrig import logs/import.toml --out campaign\n"},
+      {"import",
+       "  rollrig import logs/import.toml --out campaign\n"
+       "  rollrig import --guess logs --tire a50 --rig drum_2m --out campaign\n"},
+      {"new",
+       "  rollrig new tire --size 205/55R16 --load-index 91 --rrc 8.2\n"
+       "  rollrig new rig --diameter 1.7 --inertia 280\n"
+       "  rollrig new vehicle --mass 1900 --abc 147.7 -0.237 0.0345\n"
+       "  rollrig new set logs --tire a50 --rig drum_2m\n"},
       {"export", "  rollrig export warm --mat warm.mat\n"}};
   for (const auto& [name, examples] : kExamples) app.get_subcommand(name)->footer("\nExamples:\n" + examples);
 }
@@ -100,6 +107,7 @@ int make_and_run(int argc, char** argv) {
   add_fit_command(app, action);
   add_diagnose_command(app, action);
   add_import_command(app, action);
+  add_new_command(app, action);
   add_export_command(app, action);
   add_help_command(app, action);
   add_moved_command(app, action);

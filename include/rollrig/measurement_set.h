@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "result.h"
@@ -44,7 +45,8 @@ class MeasurementSet {
   std::vector<MeasuredRun> list_runs() const;
 
   struct Data;
-  const Data& data() const { return *data_; }  // for the library itself
+  const Data& data() const { return *data_; }  // for the library itself, as the next one
+  explicit MeasurementSet(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
  private:
   std::shared_ptr<const Data> data_;

@@ -12,5 +12,6 @@
 #include "regress.h"
 #include "result.h"
 #include "run.h"
+#include "scaffold.h"
 #include "sweep.h"
 #include "version.h"

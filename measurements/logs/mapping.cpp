@@ -242,7 +242,10 @@ void check_columns(const TableReader& reader, const Mapping& mapping) {
 }  // namespace
 
 Mapping read_mapping(const std::string& path, const std::string& data_folder) {
-  const ConfigTable config = read_config(path);
+  return read_mapping(read_config(path), path, data_folder);
+}
+
+Mapping read_mapping(const ConfigTable& config, const std::string& path, const std::string& data_folder) {
   const std::string base = fs::path(path).parent_path().string();
   TableReader reader(config, "");
   check_format(reader, "rollrig-import", 1);

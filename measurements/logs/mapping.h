@@ -77,5 +77,7 @@ struct Mapping {
 
 /// Reads a mapping; logs lie beside it or in `data_folder` where that is given. Throws InputError.
 Mapping read_mapping(const std::string& path, const std::string& data_folder = "");
+/// The same for a mapping that is not written yet; `path` is where it would stand.
+Mapping read_mapping(const ConfigTable& config, const std::string& path, const std::string& data_folder = "");
 
 }  // namespace rollrig::measurements
