@@ -13,6 +13,12 @@ find_package(Boost 1.74 REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(edlib REQUIRED IMPORTED_TARGET edlib-1)
 pkg_check_modules(libmd REQUIRED IMPORTED_TARGET libmd)
+# UDUNITS: by hand, since its pkg-config file is not in every version of the package where it is looked for.
+find_path(UDUNITS_INCLUDE_DIR udunits2.h REQUIRED)
+find_library(UDUNITS_LIBRARY udunits2 REQUIRED)
+add_library(rollrig_udunits INTERFACE)
+target_include_directories(rollrig_udunits SYSTEM INTERFACE "${UDUNITS_INCLUDE_DIR}")
+target_link_libraries(rollrig_udunits INTERFACE "${UDUNITS_LIBRARY}")
 
 # HDF5 without MPI, the one that Debian's matio brings along: two of them in one program would meet.
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)

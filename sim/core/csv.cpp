@@ -3,85 +3,21 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include "sim/core/csv_scanner.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
 namespace rollrig {
 namespace {
-
-/// Splits RFC 4180 text into records; `line` is where a record starts.
-class CsvScanner {
- public:
-  CsvScanner(const std::string& text, const std::string& path, char separator)
-      : text_(text), path_(path), ends_{separator, '\n'} {
-    constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // as spreadsheets write it
-    if (text_.rfind(kByteOrderMark, 0) == 0) position_ = 3;
-  }
-
-  bool at_end() const { return position_ >= text_.size(); }
-  int line() const { return line_; }
-
-  /// Passes over whole lines, whatever they hold, up to `line`.
-  void go_to_line(int line) {
-    for (; line_ < line && !at_end(); ++line_) position_ = std::min(text_.find('\n', position_), text_.size()) + 1;
-  }
-
-  std::vector<std::string> next_record() {
-    std::vector<std::string> cells;
-    bool more = true;
-    while (more) cells.push_back(next_cell(more));
-    return cells;
-  }
-
- private:
-  std::string next_cell(bool& more) {
-    const bool quoted = !at_end() && text_[position_] == '"';
-    std::string cell = quoted ? quoted_content() : std::string();
-    const std::size_t end = std::min(text_.find_first_of(ends_, position_), text_.size());
-    cell.append(text_, position_, end - position_);
-    more = end < text_.size() && text_[end] != '\n';
-    if (!more) {
-      if (!cell.empty() && cell.back() == '\r') cell.pop_back();
-      ++line_;
-    }
-    position_ = end + 1;
-    return cell;
-  }
-
-  std::string quoted_content() {
-    const int start_line = line_;
-    std::string content;
-    for (++position_; !at_end(); ++position_) {
-      const char c = text_[position_];
-      if (c == '\n') ++line_;
-      if (c != '"') {
-        content += c;
-      } else if (position_ + 1 < text_.size() && text_[position_ + 1] == '"') {
-        content += '"';
-        ++position_;
-      } else {
-        ++position_;
-        return content;
-      }
-    }
-    throw InputError({"a quoted field never ends", path_, start_line, "", "", "a closing \"", ""});
-  }
-
-  const std::string& text_;
-  const std::string& path_;
-  const std::string ends_;  // of a cell
-  std::size_t position_ = 0;
-  int line_ = 1;
-};
 
 /// What is allowed, and what to do instead.
 std::string allow(const std::string& allowed, const CsvForm& form) {
@@ -112,41 +48,51 @@ void require_separated(const std::vector<std::string>& header, const std::string
 
 }  // namespace
 
-CsvTable CsvTable::read(const std::string& path, const CsvForm& form) {
-  const std::string text = read_text_file(path);
+void CsvTable::read_header(const std::vector<std::string>& names) {
+  require_separated(names, path_, form_);
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    if (name->empty()) {
+      throw InputError(
+          {"a column has no name", path_, form_.header_line, "", "", "a header line with a name a column", ""});
+    }
+    if (std::find(names.begin(), name, *name) != name) {
+      throw InputError({fmt::format("column '{}' stands twice", *name), path_, form_.header_line, *name, "",
+                        "each column once", ""});
+    }
+  }
+  columns_ = names;
+}
+
+void CsvTable::add_row(int line, std::vector<std::string> cells) {
+  if (cells.size() == 1 && cells[0].empty()) return;  // a blank line, as at the end of a file
+  if (cells.size() != columns_.size()) {
+    require_no_comment(columns_.front(), path_, form_.header_line, form_);
+    require_no_comment(cells.front(), path_, line, form_);
+    throw InputError({"ragged row", path_, line, "", fmt::format("{} fields", cells.size()),
+                      fmt::format("{} fields, as in the header", columns_.size()), ""});
+  }
+  rows_.push_back({line, std::move(cells)});
+}
+
+CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblems* problems) {
+  const std::string text = read_text_file(path, form.encoding, form.encoding_hint);
   CsvTable table;
   table.path_ = path;
   table.form_ = form;
   CsvScanner scanner(text, path, form.separator);
   scanner.go_to_line(form.header_line);
-  table.columns_ = scanner.next_record();
-  require_separated(table.columns_, path, form);
-  for (std::size_t i = 0; i < table.columns_.size(); ++i) {
-    const std::string& name = table.columns_[i];
-    const auto end = table.columns_.begin() + static_cast<std::ptrdiff_t>(i);
-    if (name.empty())
-      throw InputError(
-          {"a column has no name", path, form.header_line, "", "", "a header line with a name a column", ""});
-    if (std::find(table.columns_.begin(), end, name) != end) {
-      throw InputError(
-          {fmt::format("column '{}' stands twice", name), path, form.header_line, name, "", "each column once", ""});
-    }
-  }
+  table.read_header(scanner.next_record());
   scanner.go_to_line(form.first_row_line);
   while (!scanner.at_end()) {
-    Row row;
-    row.line = scanner.line();
-    row.cells = scanner.next_record();
-    if (row.cells.size() == 1 && row.cells[0].empty()) continue;  // a blank line, as at the end of a file
-    if (row.cells.size() != table.columns_.size()) {
-      require_no_comment(table.columns_.front(), path, form.header_line, form);
-      require_no_comment(row.cells.front(), path, row.line, form);
-      throw InputError({"ragged row", path, row.line, "", fmt::format("{} fields", row.cells.size()),
-                        fmt::format("{} fields, as in the header", table.columns_.size()), ""});
+    const int line = scanner.line();
+    try {
+      table.add_row(line, problems != nullptr ? scanner.next_line() : scanner.next_record());
+    } catch (const InputError& error) {
+      if (problems == nullptr) throw;
+      problems->push_back(error.problem());
     }
-    table.rows_.push_back(std::move(row));
   }
-  if (table.rows_.empty())
+  if (table.rows_.empty() && (problems == nullptr || problems->empty()))
     throw InputError({"a header but no rows", path, form.header_line, "", "", "at least one row", ""});
   return table;
 }
@@ -213,26 +159,36 @@ double CsvTable::parse_cell(std::size_t row, const Field& field, const std::stri
   return value;
 }
 
-std::vector<double> CsvTable::numbers(const Field& column, bool may_be_empty) const {
+template <class Parse>
+double CsvTable::parse_or_note(RowProblems* problems, const Parse& parse) {
+  if (problems == nullptr) return parse();
+  try {
+    return parse();
+  } catch (const InputError& error) {
+    problems->push_back(error.problem());
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+std::vector<double> CsvTable::numbers(const Field& column, bool may_be_empty, RowProblems* problems) const {
   const std::size_t index = find_column(column.key);
   const Unit unit = unit_of_key(column.key);
   std::vector<double> values;
   values.reserve(rows_.size());
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const std::string& cell = rows_[row].cells[index];
-    if (!cell.empty()) {
-      values.push_back(unit.to_si(parse_cell(row, column, cell)));
-    } else if (may_be_empty) {
-      values.push_back(std::numeric_limits<double>::quiet_NaN());
-    } else {
+    values.push_back(parse_or_note(problems, [&] {
+      if (!cell.empty()) return unit.to_si(parse_cell(row, column, cell));
+      if (may_be_empty) return std::numeric_limits<double>::quiet_NaN();
       throw cell_error(row, column.key, fmt::format("'{}' has an empty field", column.key),
                        "a number in every row: this column is an input");
-    }
+    }));
   }
   return values;
 }
 
-std::vector<double> CsvTable::plain_numbers(const std::string& column, const std::vector<std::string>& missing) const {
+std::vector<double> CsvTable::plain_numbers(const std::string& column, const std::vector<std::string>& missing,
+                                            RowProblems* problems) const {
   const std::size_t index = find_column(column);
   const Field field{column.c_str(), any_number(), ""};
   std::vector<double> values;
@@ -240,36 +196,39 @@ std::vector<double> CsvTable::plain_numbers(const std::string& column, const std
   for (std::size_t row = 0; row < rows_.size(); ++row) {
     const std::string cell = boost::algorithm::trim_copy(rows_[row].cells[index]);
     const bool is_missing = cell.empty() || std::find(missing.begin(), missing.end(), cell) != missing.end();
-    values.push_back(is_missing ? std::numeric_limits<double>::quiet_NaN() : parse_cell(row, field, cell));
+    values.push_back(is_missing ? std::numeric_limits<double>::quiet_NaN()
+                                : parse_or_note(problems, [&] { return parse_cell(row, field, cell); }));
   }
   return values;
 }
 
-std::vector<double> CsvTable::increasing_times(const std::string& column) const {
-  const std::vector<double> times = numbers({column.c_str(), any_number(), "time"});
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    if (times[i] > times[i - 1]) continue;
-    throw cell_error(i, column, fmt::format("time does not increase: {} after {}", times[i], times[i - 1]),
-                     fmt::format("more than {}", times[i - 1]));
+RowProblems CsvTable::find_wrong_times(const std::string& column, const std::vector<double>& times) const {
+  const std::vector<bool> increases = find_increasing(times);
+  std::vector<std::size_t> next(times.size() + 1, times.size());  // row that increases, this one or a later one
+  for (std::size_t row = times.size(); row-- > 0;) next[row] = increases[row] ? row : next[row + 1];
+  RowProblems problems;
+  std::size_t before = times.size();
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    if (increases[row]) before = row;
+    if (increases[row] || std::isnan(times[row])) continue;
+    const bool falls = before < times.size() && times[row] <= times[before];
+    const auto cell = [&](std::size_t at) { return rows_[at].cells[find_column(column)]; };
+    const std::string other = cell(falls ? before : next[row]);
+    problems.push_back(
+        cell_error(row, column,
+                   fmt::format("time does not increase: {} {} {}", cell(row), falls ? "after" : "before", other),
+                   fmt::format("{} than {}", falls ? "more" : "less", other))
+            .problem());
   }
+  return problems;
+}
+
+std::vector<double> CsvTable::increasing_times(const std::string& column, RowProblems* problems) const {
+  std::vector<double> times = numbers({column.c_str(), any_number(), "time"}, false, problems);
+  const RowProblems wrong = find_wrong_times(column, times);
+  if (!wrong.empty() && problems == nullptr) throw InputError(wrong.front());
+  if (problems != nullptr) problems->insert(problems->end(), wrong.begin(), wrong.end());
   return times;
-}
-
-CsvWriter::CsvWriter(const std::vector<std::string>& columns) {
-  for (const std::string& column : columns) add(column);
-  end_row();
-}
-
-void CsvWriter::add(const Rounded& number) {
-  const double written = number.value == 0.0 ? 0.0 : number.value;  // no "-0"
-  if (!std::isnan(written)) fmt::format_to(std::back_inserter(text_), "{:.{}g}", written, number.digits);
-  text_ += ',';
-}
-
-void CsvWriter::add(const std::string& text) {
-  const bool is_plain = text.find_first_of(",\"\r\n") == std::string::npos;
-  text_ += is_plain ? text : '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
-  text_ += ',';
 }
 
 }  // namespace rollrig

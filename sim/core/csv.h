@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/core/rows.h"
 #include "sim/core/schema.h"
 
 namespace rollrig {
@@ -15,17 +16,20 @@ namespace rollrig {
 struct CsvForm {
   char separator = ',';
   char decimal = '.';
-  int header_line = 1;     // lines before it are not read
-  int first_row_line = 2;  // lines between header and this one (units, say) are not read
-  std::string hint{};      // for errors: what to do where a file is of another form
+  int header_line = 1;             // lines before it are not read
+  int first_row_line = 2;          // lines between header and this one (units, say) are not read
+  std::string hint{};              // for errors: what to do where a file is of another form
+  std::string encoding = "utf-8";  // one of encoding_names(); a byte order mark of UTF-16 decides by itself
+  std::string encoding_hint{};     // for errors: where to say the encoding
 };
 
-/// A CSV file as text cells.
+/// A CSV file as text cells. With `problems`, what is wrong with single rows is added there and not thrown.
 class CsvTable {
  public:
   /// Reads a file. Throws InputError: see read_text_file, and no header, a header without rows, ragged
-  /// rows, a quote that never ends, a column named twice.
-  static CsvTable read(const std::string& path, const CsvForm& form = {});
+  /// rows, a quote that never ends, a column named twice. With `problems`, each row is one line, and rows that are
+  /// ragged or have a quote that does not end are left out.
+  static CsvTable read(const std::string& path, const CsvForm& form = {}, RowProblems* problems = nullptr);
 
   const std::string& path() const { return path_; }
   const std::vector<std::string>& columns() const { return columns_; }
@@ -41,13 +45,18 @@ class CsvTable {
 
   /// The cells of a column as text. Throws InputError when the column is absent.
   std::vector<std::string> text(const std::string& column) const;
-  /// A column in SI units by the unit in its name. An empty cell is an error, or NaN with `may_be_empty`.
-  std::vector<double> numbers(const Field& column, bool may_be_empty = false) const;
-  /// A column as it is written, in no unit: NaN where the cell is empty or among `missing`. Blanks around a number are
-  /// passed over.
-  std::vector<double> plain_numbers(const std::string& column, const std::vector<std::string>& missing) const;
-  /// The time column: numbers that increase from row to row.
-  std::vector<double> increasing_times(const std::string& column) const;
+  /// A column in SI units by the unit in its name. An empty cell is an error, or NaN with `may_be_empty`. With
+  /// `problems`, a wrong cell is NaN.
+  std::vector<double> numbers(const Field& column, bool may_be_empty = false, RowProblems* problems = nullptr) const;
+  /// A column as it is written, in no unit: NaN where the cell is empty or among `missing`, and with `problems` where
+  /// it is wrong. Blanks around a number are passed over.
+  std::vector<double> plain_numbers(const std::string& column, const std::vector<std::string>& missing,
+                                    RowProblems* problems = nullptr) const;
+  /// The time column: numbers that increase from row to row. Rows that do not are those outside the longest sequence
+  /// that does; with `problems`, they keep their times.
+  std::vector<double> increasing_times(const std::string& column, RowProblems* problems = nullptr) const;
+  /// What is wrong with times of a column that do not increase; none where they do. NaN is passed over.
+  RowProblems find_wrong_times(const std::string& column, const std::vector<double>& times) const;
 
  private:
   struct Row {
@@ -55,7 +64,13 @@ class CsvTable {
     std::vector<std::string> cells;
   };
 
+  void read_header(const std::vector<std::string>& names);
+  /// The row, if it is no blank line. Throws InputError.
+  void add_row(int line, std::vector<std::string> cells);
   std::size_t find_column(const std::string& column) const;
+  /// Calls `parse`; what it throws is added to `problems` where they are asked for, and NaN returned.
+  template <class Parse>
+  static double parse_or_note(RowProblems* problems, const Parse& parse);
   double parse_cell(std::size_t row, const Field& field, const std::string& cell) const;
 
   std::string path_;

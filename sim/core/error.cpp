@@ -76,8 +76,10 @@ InputProblem unknown_name(const std::string& kind, const std::string& name, cons
 }
 
 std::string format_error(const std::string& start, const InputProblem& problem) {
-  constexpr std::size_t kLabelColumns = 11;  // two spaces, the label, a space
-  std::string text = wrap(start + problem.what, 2).substr(2);
+  constexpr std::size_t kLabelColumns = 11;                                        // two spaces, the label, a space
+  const std::size_t end = std::min(problem.what.find('\n'), problem.what.size());  // below it, lines as they are to be
+  std::string text = wrap(start + problem.what.substr(0, end), 2).substr(2);
+  if (end < problem.what.size()) text += problem.what.substr(end + 1) + "\n";
   for (const ProblemPart& part : list_parts(problem)) {
     text += fmt::format("  {:<8} ", part.label);
     text += part.is_copied ? part.content + "\n" : wrap(part.content, kLabelColumns).substr(kLabelColumns);

@@ -24,7 +24,8 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 /// An InputProblem for a name that is not among the known ones.
 InputProblem unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known);
 
-/// The message within 80 columns, `start` before it. Places and values stay whole, to be copied.
+/// The message within 80 columns, `start` before it. Places and values stay whole, to be copied; so do lines below the
+/// first one of what is wrong, such as a table.
 std::string format_error(const std::string& start, const InputProblem& problem);
 
 }  // namespace rollrig

@@ -18,11 +18,10 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <boost/locale/encoding_utf.hpp>
-#include <boost/locale/utf.hpp>
 #include <boost/scope_exit.hpp>
 
 #include "sim/core/error.h"
+#include "sim/core/text_encoding.h"
 
 namespace fs = std::filesystem;
 
@@ -36,15 +35,6 @@ InputError file_problem(const std::string& what, const std::string& path, const 
 InputError write_problem(const std::string& path, int error_number) {
   return file_problem(fmt::format("cannot write '{}': {}", path, std::strerror(error_number)), path,
                       "a place with room where this user may write");
-}
-
-bool is_utf8(const std::string& text) {
-  auto it = text.begin();
-  while (it != text.end()) {
-    const auto code = boost::locale::utf::utf_traits<char>::decode(it, text.end());
-    if (code == boost::locale::utf::illegal || code == boost::locale::utf::incomplete) return false;
-  }
-  return true;
 }
 
 void write_all(int descriptor, const std::string& path, const std::string& content) {
@@ -118,7 +108,10 @@ std::string nearest_file(const std::string& path) {
   return nearest.empty() ? "" : (folder / nearest).string();
 }
 
-std::string read_text_file(const std::string& path) {
+namespace {
+
+/// What is in a file that is there and not empty.
+std::string read_bytes(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found) {
@@ -138,11 +131,28 @@ std::string read_text_file(const std::string& path) {
   content << in.rdbuf();
   std::string text = content.str();
   if (text.empty()) throw file_problem(fmt::format("'{}' is empty", path), path);
-  if (text.find('\0') != std::string::npos || !is_utf8(text)) {
-    throw file_problem(fmt::format("'{}' is not a text file", path), path,
-                       "UTF-8 text; iconv -f latin1 -t utf-8 (or -f utf-16) makes it of a text of another encoding");
+  return text;
+}
+
+constexpr const char* kUtf8 =
+    "UTF-8 text; iconv -f latin1 -t utf-8 (or -f utf-16) makes it of a text of another encoding";
+
+}  // namespace
+
+std::string read_text_file(const std::string& path) {
+  std::string text = read_bytes(path);
+  const DecodedText decoded = decode_text(text, "utf-8");
+  if (!decoded.is_valid || decoded.text != text) {
+    throw file_problem(fmt::format("'{}' is not a text file", path), path, kUtf8);
   }
   return text;
+}
+
+std::string read_text_file(const std::string& path, const std::string& encoding, const std::string& hint) {
+  DecodedText decoded = decode_text(read_bytes(path), encoding);
+  if (decoded.is_valid) return std::move(decoded.text);
+  throw InputError({fmt::format("'{}' is not a text file in {}", path, encoding), path,
+                    static_cast<int>(decoded.valid_lines) + 1, "", "", hint.empty() ? kUtf8 : hint, ""});
 }
 
 bool was_read(const std::string& path) {

@@ -13,6 +13,10 @@ namespace rollrig {
 /// not UTF-8 text.
 std::string read_text_file(const std::string& path);
 
+/// The same of a text in one of the encodings of text_encoding.h, as UTF-8. `hint` is for errors: where to say the
+/// encoding.
+std::string read_text_file(const std::string& path, const std::string& encoding, const std::string& hint);
+
 /// Whether read_text_file() has read this very file, by whatever name, since the program started.
 bool was_read(const std::string& path);
 

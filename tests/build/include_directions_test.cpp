@@ -67,6 +67,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"nlohmann/", {"sim/core/json.h"}},
     {"ceres/", {"sim/core/scalar.h", "estimation/tire_fit/fit_tire.cpp", "diagnosis/comparison/refit.cpp"}},
     {"edlib.h", {"sim/core/error.cpp"}},
+    {"udunits2.h", {"sim/core/unit_names.cpp"}},
     {"tbb/", {"sim/core/parallel.cpp"}},
     {"sha256.h", {"sim/core/file_io.cpp"}},
     {"boost/numeric/odeint", {"validation/generator/recorder.cpp"}},

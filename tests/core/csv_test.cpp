@@ -39,6 +39,24 @@ TEST_CASE("what is written is read back", "[fast]") {
   CHECK(csv.text("text")[0] == "with \"quotes\", and comma");
 }
 
+TEST_CASE("with a list of problems, what is wrong with single rows is noted and the others are read", "[fast]") {
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("run.csv"), "time_s,a_kN\n0,1\n1\n\"2,1\n3,x\n4,\n2.5,1\n# a remark\n6,1,2\n7,1\n");
+  RowProblems problems;
+  const CsvTable csv = CsvTable::read(folder.file("run.csv"), {}, &problems);
+  CHECK(csv.row_count() == 5);
+  const std::vector<double> times = csv.increasing_times("time_s", &problems);
+  const std::vector<double> values = csv.numbers({"a_kN", any_number(), ""}, false, &problems);
+  CHECK(times.back() == 7.0);
+  CHECK(values.front() == 1000.0);
+  CHECK(std::isnan(values[1]));
+  CHECK(std::isnan(values[2]));
+  std::vector<int> lines;
+  for (const InputProblem& problem : problems) lines.push_back(problem.line);
+  CHECK(lines == std::vector<int>{3, 4, 8, 9, 7, 5, 6});
+  CHECK_THROWS_WITH(CsvTable::read(folder.file("run.csv")), Catch::Contains("ragged") && Catch::Contains("line 3"));
+}
+
 TEST_CASE("wrong files are refused with line and column", "[fast]") {
   CHECK_THROWS_WITH(parse("a,b\n1\n"), Catch::Contains("ragged") && Catch::Contains("line 2"));
   CHECK_THROWS_WITH(parse("a,a\n1,2\n"), Catch::Contains("stands twice"));
