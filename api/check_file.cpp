@@ -24,8 +24,8 @@ bool has_measured(const measurements::MeasurementSet& set, const measurements::M
 }
 
 /// A set is held against the simulation as well: exchanged columns and wrong units are in no single number.
-FileCheck validate_set(const std::string& path) {
-  const measurements::MeasurementSet set = measurements::read_measurement_set(path);
+FileCheck validate_set(const std::string& path, BadRows bad_rows) {
+  const measurements::MeasurementSet set = measurements::read_measurement_set(path, bad_rows);
   std::size_t rows = 0;
   std::size_t without = 0;
   for (const measurements::MeasuredRun& run : set.runs) {
@@ -66,7 +66,7 @@ FileCheck validate_cycle(const std::string& path) {
   return {"cycle: " + format_count(csv.row_count(), "row")};
 }
 
-FileCheck validate_toml(const std::string& path) {
+FileCheck validate_toml(const std::string& path, BadRows bad_rows) {
   const ConfigTable config = read_config(path);
   TableReader reader(config, "");
   const std::string format = reader.text("format");
@@ -75,7 +75,7 @@ FileCheck validate_toml(const std::string& path) {
   if (kind == "rollrig-rig") return {fmt::format("rig '{}'", rigs::read_rig(config).name)};
   if (kind == "rollrig-sensors")
     return {"sensors: " + format_count(measurements::read_sensor_file(config).size(), "channel")};
-  if (kind == "rollrig-measurements") return validate_set(path);
+  if (kind == "rollrig-measurements") return validate_set(path, bad_rows);
   if (kind == "rollrig-vehicle") return {fmt::format("vehicle '{}'", rigs::read_vehicle(config).name)};
   if (kind == "rollrig-drum-coastdown") {
     const estimation::CoastSet set = estimation::read_coast_set(path);
@@ -96,9 +96,9 @@ FileCheck validate_toml(const std::string& path) {
 
 }  // namespace
 
-FileCheck check_file(const std::string& path) {
-  if (fs::is_directory(path)) return validate_set(path);
-  return fs::path(path).extension() == ".csv" ? validate_cycle(path) : validate_toml(path);
+FileCheck check_file(const std::string& path, BadRows bad_rows) {
+  if (fs::is_directory(path)) return validate_set(path, bad_rows);
+  return fs::path(path).extension() == ".csv" ? validate_cycle(path) : validate_toml(path, bad_rows);
 }
 
 }  // namespace rollrig

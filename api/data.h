@@ -24,7 +24,7 @@ Channel make_channel(const Quantity& quantity, std::vector<double> values_SI);
 inline FolderFiles to_folder(const std::map<std::string, std::string>& files) { return {files.begin(), files.end()}; }
 
 /// What import_logs() does with a mapping that has been read.
-Report import_by_mapping(const measurements::Mapping& mapping);
+Report import_by_mapping(const measurements::Mapping& mapping, BadRows bad_rows);
 
 /// Reads what `input` names. Throws InputError.
 scenarios::RunSpec read_run(const RunInput& input);

@@ -7,6 +7,7 @@
 #include "diagnosis/output/fleet.h"
 #include "diagnosis/output/summary.h"
 #include "diagnosis/terms/term.h"
+#include "measurements/run_rows.h"
 #include "report/diagnosis_page.h"
 
 namespace rollrig {
@@ -16,14 +17,17 @@ Diagnosis diagnose(const MeasurementSet& set, const DiagnosisOptions& options) {
   Diagnosis result;
   static_cast<Findings&>(result) = *found;
   result.text = diagnosis::format_summary(*found);
-  result.json = to_text(diagnosis::make_diagnosis_json(*found));
+  Json json = diagnosis::make_diagnosis_json(*found);
+  json["bad_rows"] = measurements::make_bad_rows_json(set.data().set);
+  result.json = to_text(json);
   result.make_page = [set, found] { return report::make_html(report::make_diagnosis_page(set.data().set, *found)); };
   result.make_plan = [set, found] { return to_folder(diagnosis::write_plan(set.data().set, *found)); };
   return result;
 }
 
-FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
-  const auto fleet = std::make_shared<const diagnosis::Fleet>(diagnosis::diagnose_fleet(folders, options));
+FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options,
+                              BadRows bad_rows) {
+  const auto fleet = std::make_shared<const diagnosis::Fleet>(diagnosis::diagnose_fleet(folders, options, bad_rows));
   FleetDiagnosis result;
   result.members = fleet->members;
   result.text = diagnosis::format_fleet(*fleet);

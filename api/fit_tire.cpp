@@ -2,6 +2,7 @@
 
 #include "api/data.h"
 #include "diagnosis/checks/set_checks.h"
+#include "measurements/run_rows.h"
 #include "report/fit_pages.h"
 #include "rollrig/fit.h"
 
@@ -37,6 +38,8 @@ TireFit fit_tire(const MeasurementSet& measured, const TireFitOptions& options) 
     fit->warnings.emplace_back(
         "samples of stuck sensors or that stand alone were left out: rollrig validate tells which");
   }
+  const std::vector<std::string> bad_rows = measurements::describe_bad_rows(*set);
+  fit->warnings.insert(fit->warnings.end(), bad_rows.begin(), bad_rows.end());
   fit->tire.name = options.name.empty() ? set->tire.name + "_fit" : options.name;
   TireFit result;
   result.parameters = estimation::list_parameters(*fit);
@@ -44,7 +47,9 @@ TireFit fit_tire(const MeasurementSet& measured, const TireFitOptions& options) 
   result.suspicion = checks.suspicion;
   result.text = fmt::format("fit tire   set {}   tire {}   rig {}\n", set->name, set->tire.name, set->rig->name) +
                 format_tables(report::make_tire_fit_tables(*fit)) + format_warnings(fit->warnings);
-  result.json = to_text(estimation::make_fit_json(*set, *fit));
+  Json json = estimation::make_fit_json(*set, *fit);
+  json["bad_rows"] = measurements::make_bad_rows_json(*set);
+  result.json = to_text(json);
   result.make_files = [fit, json = result.json] {
     return FolderFiles{{fit->tire.name + ".toml", models::write_tire(fit->tire, fit->notes)}, {"fit.json", json}};
   };

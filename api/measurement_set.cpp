@@ -9,8 +9,8 @@ namespace fs = std::filesystem;
 
 namespace rollrig {
 
-MeasurementSet::MeasurementSet(const std::string& folder)
-    : data_(std::make_shared<const Data>(Data{measurements::read_measurement_set(folder)})) {}
+MeasurementSet::MeasurementSet(const std::string& folder, BadRows bad_rows)
+    : data_(std::make_shared<const Data>(Data{measurements::read_measurement_set(folder, bad_rows)})) {}
 
 const std::string& MeasurementSet::name() const { return data_->set.name; }
 std::string MeasurementSet::kind() const { return data_->set.kind->set_word; }

@@ -165,9 +165,9 @@ NewFiles guess_set(const GuessOptions& options, const std::string& folder) {
                            make_guess_json(guess), files);
 }
 
-NewFiles import_guessed(const GuessOptions& options, const std::string& folder) {
+NewFiles import_guessed(const GuessOptions& options, const std::string& folder, BadRows bad_rows) {
   const measurements::Guess guess = measurements::guess_logs(options);
-  const Report imported = import_by_mapping(read_guessed_mapping(guess));
+  const Report imported = import_by_mapping(read_guessed_mapping(guess), bad_rows);
   FolderFiles files = imported.make_files();
   files.emplace_back(kMappingName, measurements::write_guessed_mapping(guess, folder));
   Json json = Json::parse(imported.json);

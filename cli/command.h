@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "rollrig/bad_rows.h"
 #include "rollrig/run.h"
 #include "rollrig/scaffold_options.h"
 #include "sim/core/error.h"
@@ -58,6 +59,13 @@ std::vector<std::string> list_subcommands(const CLI::App& app);
 inline void add_threads(CLI::App& command, int& threads,
                         const std::string& doc = "Threads [as many as the machine has]") {
   command.add_option("--threads", threads, doc)->check(CLI::Range(1, 1024));
+}
+
+/// --skip-bad-rows.
+inline void add_skip_bad_rows(CLI::App& command, BadRows& bad_rows) {
+  command.add_flag_callback(
+      "--skip-bad-rows", [&bad_rows] { bad_rows = BadRows::kLeaveOut; },
+      "Leave out rows that cannot be used, at most 5 % of a file, and tell which");
 }
 
 /// --only and --without: which effects are in the comparison, shared by diagnose and validation.

@@ -18,6 +18,7 @@ struct DiagnoseOptions {
   std::string plan;
   bool force = false;
   ComparisonOptions comparison;
+  BadRows bad_rows = BadRows::kRefuse;
   int threads = 0;
 };
 
@@ -44,7 +45,7 @@ int diagnose_all(const DiagnoseOptions& options, const std::vector<std::string>&
   Output output(options.output);
   const FleetDiagnosis fleet = [&] {
     ProgressLine progress("diagnose", options.output.quiet);
-    return diagnose_fleet(sets, make_options(options, progress));
+    return diagnose_fleet(sets, make_options(options, progress), options.bad_rows);
   }();
   output.show(fleet);
   int status = kDone;
@@ -79,7 +80,7 @@ int diagnose_command(const DiagnoseOptions& options) {
     if (!options.output.quiet) warn_of_undescribed(options.set);
     return diagnose_all(options, sets);
   }
-  const MeasurementSet set(options.set);
+  const MeasurementSet set(options.set, options.bad_rows);
   Output output(options.output);
   std::optional<OutputFolder> plan;
   if (!options.plan.empty()) plan.emplace(options.plan, options.force);
@@ -109,6 +110,7 @@ void add_diagnose_command(CLI::App& app, Action& action) {
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
   options->comparison.add_to(*command);
+  add_skip_bad_rows(*command, options->bad_rows);
   add_threads(*command, options->threads);
 }
 

@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "rollrig/export.h"
+#include "sim/core/columns.h"
 
 namespace rollrig::cli {
 namespace {
@@ -13,6 +14,7 @@ struct ExportOptions {
   std::string source;
   std::string mat;
   std::string hdf5;
+  BadRows bad_rows = BadRows::kRefuse;
   bool quiet = false;
 };
 
@@ -21,7 +23,7 @@ int export_command(const ExportOptions& options) {
     throw usage_error("no file to write is given", "", "", "--mat FILE, --hdf5 FILE, or both");
   }
   const OutputFiles files({{"--mat", options.mat}, {"--hdf5", options.hdf5}});
-  const Export made = read_export(options.source);
+  const Export made = read_export(options.source, options.bad_rows);
   // Both are made before one is written.
   const std::string mat = options.mat.empty() ? "" : made.make_mat();
   const std::string hdf5 = options.hdf5.empty() ? "" : made.make_hdf5();
@@ -29,6 +31,7 @@ int export_command(const ExportOptions& options) {
   if (!mat.empty()) write_output(options.mat, mat);
   if (!hdf5.empty()) write_output(options.hdf5, hdf5);
   if (options.quiet || options.mat == "-" || options.hdf5 == "-") return kDone;
+  std::cout << format_warnings(made.warnings);
   for (const std::string& file : {options.mat, options.hdf5}) {
     if (!file.empty()) std::cout << fmt::format("written to {}\n", file);
   }
@@ -47,6 +50,7 @@ void add_export_command(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--mat", options->mat, "File for MATLAB, version 5; - for standard output");
   command->add_option("--hdf5", options->hdf5, "File in HDF5; - for standard output");
+  add_skip_bad_rows(*command, options->bad_rows);
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 

@@ -10,6 +10,7 @@ struct FitTireOptions {
   std::string set;
   OutputOptions output;
   TireFitOptions fit;
+  BadRows bad_rows = BadRows::kRefuse;
 };
 
 struct FitDrumCoastdownOptions {
@@ -19,7 +20,7 @@ struct FitDrumCoastdownOptions {
 };
 
 int fit_tire_command(const FitTireOptions& options) {
-  const MeasurementSet set(options.set);
+  const MeasurementSet set(options.set, options.bad_rows);
   Output output(options.output);
   TireFit fit;
   {  // its line is gone before the results are printed
@@ -65,6 +66,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   tire->add_flag("--load-map", options->fit.load_map,
                  "Fit A0, A1, B0, B1 at each load of the set (tires whose law has them)");
   tire->add_flag("--free-h", options->fit.free_H, "Fit H even where the gas temperature was not measured");
+  add_skip_bad_rows(*tire, options->bad_rows);
   add_threads(*tire, options->fit.threads);
 }
 

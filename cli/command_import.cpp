@@ -16,6 +16,7 @@ struct ImportOptions {
   std::string mapping;
   GuessOptions guess;
   std::string data;
+  BadRows bad_rows = BadRows::kRefuse;
   OutputOptions output;
 };
 
@@ -39,7 +40,8 @@ Report read_and_import(const ImportOptions& options) {
     throw usage_error(is_guess ? "a mapping and --guess do not go together" : "no mapping is given", "mapping",
                       options.mapping, "a mapping file (.toml), or --guess FOLDER");
   }
-  return is_guess ? import_guessed(options.guess, options.output.folder) : import_logs(options.mapping, options.data);
+  return is_guess ? import_guessed(options.guess, options.output.folder, options.bad_rows)
+                  : import_logs(options.mapping, options.data, options.bad_rows);
 }
 
 int import_command(const ImportOptions& options) {
@@ -64,6 +66,7 @@ void add_import_command(CLI::App& app, Action& action) {
                       "Guess the mapping from this folder of logs; further options help");
   command->add_option("--data", options->data, "Folder of the logs [that of the mapping]");
   command->add_option("--out", options->output.folder, "Folder for the set")->required();
+  add_skip_bad_rows(*command, options->bad_rows);
   command->add_option("--json", options->output.json, "File for the report, - for standard output");
   command->add_flag("--force", options->output.force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->output.quiet, "Print nothing but errors");

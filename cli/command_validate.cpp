@@ -12,6 +12,11 @@
 namespace rollrig::cli {
 namespace {
 
+struct ValidateOptions {
+  std::vector<std::string> paths;
+  BadRows bad_rows = BadRows::kRefuse;
+};
+
 /// A folder of sets stands for these.
 std::vector<std::string> list_files(const std::vector<std::string>& paths) {
   std::vector<std::string> files;
@@ -26,11 +31,11 @@ std::vector<std::string> list_files(const std::vector<std::string>& paths) {
 
 /// What a CI job asks: 2 where a file is wrong, 1 where a set cannot be what it is said to be, as of a regression that
 /// differs. A set that is merely warned of is good.
-int validate_command(const std::vector<std::string>& paths) {
+int validate_command(const ValidateOptions& options) {
   int status = kDone;
-  for (const std::string& path : list_files(paths)) {
+  for (const std::string& path : list_files(options.paths)) {
     try {
-      const FileCheck found = check_file(path);
+      const FileCheck found = check_file(path, options.bad_rows);
       std::cout << wrap(fmt::format("{}: {} {}", path, found.is_good ? "good" : "doubtful", found.what), 2).substr(2);
       for (const std::string& warning : found.warnings) std::cout << wrap(warning, 2);
       if (!found.is_good) status = std::max<int>(status, kDiffers);
@@ -46,15 +51,16 @@ int validate_command(const std::vector<std::string>& paths) {
 }  // namespace
 
 void add_validate_command(CLI::App& app, Action& action) {
-  const auto [command, paths] = add_command<std::vector<std::string>>(
+  const auto [command, options] = add_command<ValidateOptions>(
       app, action, "validate",
       "Check files; of a measurement set also whether columns and units can be right: exit status 1 where they cannot",
       &validate_command);
   command
-      ->add_option("file", *paths,
+      ->add_option("file", options->paths,
                    "Tire, rig, run, sensors, vehicle or set.toml, a set's folder or one with such folders, or a "
                    "cycle's CSV")
       ->required();
+  add_skip_bad_rows(*command, options->bad_rows);
 }
 
 }  // namespace rollrig::cli

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "exports/tree.h"
-#include "measurements/measurement_set.h"
+#include "measurements/run_rows.h"
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -67,14 +67,34 @@ Group read_result_folder(const fs::path& folder) {
   return tree;
 }
 
-Group make_run(const ConfigTable& table, const std::string& csv_file) {
+/// The columns of a run whose file has rows that were left out, in the order of the file.
+Group make_recording(const measurements::MeasuredRun& run) {
+  RowProblems left_out;
+  const CsvTable csv = CsvTable::read(run.file, {}, &left_out);
+  Group recording;
+  recording.is_table = true;
+  for (const std::string& column : csv.columns()) {
+    if (column == "time_s") {
+      recording.add(column, {run.time_s});
+      continue;
+    }
+    const Quantity quantity = intern_quantity(column);
+    std::vector<double> values = run.column(quantity);
+    for (double& value : values) value = quantity.file_unit().from_si(value);
+    recording.add(column, {values});
+  }
+  return recording;
+}
+
+Group make_run(const ConfigTable& table, const measurements::MeasuredRun& measured) {
   Group run = std::get<Group>(make_node(table).value);
-  run.add("recording", {read_recording(csv_file)});
+  const bool is_whole = measured.left_out.problems.empty();
+  run.add("recording", {is_whole ? read_recording(measured.file) : make_recording(measured)});
   return run;
 }
 
-Group read_set(const std::string& path) {
-  const measurements::MeasurementSet set = measurements::read_measurement_set(path);  // checks all of it
+Group read_set(const std::string& path, BadRows bad_rows, std::vector<std::string>* warnings) {
+  const measurements::MeasurementSet set = measurements::read_measurement_set(path, bad_rows);  // checks all of it
   ConfigTable config = read_config(set.path);
   const ConfigArray tables = *config.find("run")->as_array();
   config.entries.erase("run");
@@ -85,15 +105,18 @@ Group read_set(const std::string& path) {
   if (set.vehicle.has_value()) tree.add("vehicle", make_node(parse_config(set.vehicle->content, set.vehicle->path)));
   Group runs;
   for (std::size_t i = 0; i < set.runs.size(); ++i) {
-    runs.add(set.runs[i].id, {make_run(*tables[i].as_table(), set.runs[i].file)});
+    runs.add(set.runs[i].id, {make_run(*tables[i].as_table(), set.runs[i])});
   }
   tree.add("runs", {runs});
+  const Json left_out = measurements::make_bad_rows_json(set);
+  if (!left_out.empty()) tree.add("bad_rows", make_node(left_out));
+  if (warnings != nullptr) *warnings = measurements::describe_bad_rows(set);
   return tree;
 }
 
-Group read_folder(const fs::path& folder) {
+Group read_folder(const fs::path& folder, BadRows bad_rows, std::vector<std::string>* warnings) {
   if (fs::exists(folder / "result.json")) return read_result_folder(folder);
-  if (fs::exists(folder / "set.toml")) return read_set(folder.string());
+  if (fs::exists(folder / "set.toml")) return read_set(folder.string(), bad_rows, warnings);
   throw InputError({fmt::format("'{}' holds neither a result nor a measurement set", folder.string()), folder.string(),
                     0, "", "", kExportable, ""});
 }
@@ -111,14 +134,14 @@ std::vector<std::string> list_neighbors(const fs::path& path) {
 
 }  // namespace
 
-Group read_source(const std::string& path) {
-  if (fs::is_directory(path)) return read_folder(path);
+Group read_source(const std::string& path, BadRows bad_rows, std::vector<std::string>* warnings) {
+  if (fs::is_directory(path)) return read_folder(path, bad_rows, warnings);
   const fs::path file(path);
   if (!fs::exists(file)) {
     throw InputError({fmt::format("no such file or folder '{}'", path), path, 0, "", "", kExportable,
                       nearest_name(file.filename().string(), list_neighbors(file))});
   }
-  if (file.filename() == "set.toml") return read_set(path);
+  if (file.filename() == "set.toml") return read_set(path, bad_rows, warnings);
   if (file.extension() != ".csv") {
     throw InputError({fmt::format("'{}' is not what can be exported", path), path, 0, "", "", kExportable,
                       nearest_name(file.filename().string(), {"recording.csv", "set.toml"})});

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "include/rollrig/bad_rows.h"
 #include "sim/core/config.h"
 #include "sim/core/json.h"
 
@@ -50,13 +51,16 @@ std::string take_name(const std::string& name, std::set<std::string>& taken);
 
 /// The tree of a result folder (of `rollrig run --out`), of a measurement set, or of a recording.csv alone; numbers are
 /// those of the files, in the files' units. A folder that is both is taken as a result, its set.toml as the set.
+/// `warnings` gets what was left out of a set.
 /// Members   format, source ("result", "measurements" or "recording"), and
 ///           of a result: recording, result, manifest (text);
-///           of a set: set, tire, rig or vehicle, runs (a group a run, with its keys and a recording);
+///           of a set: set, tire, rig or vehicle, runs (a group a run, with its keys and a recording); bad_rows where
+///           rows were left out;
 ///           of a recording: recording
 /// Errors    InputError when it is none of these, or when a file of it is missing or wrong
 /// Checked   tests/exports/source_test.cpp
-Group read_source(const std::string& path);
+Group read_source(const std::string& path, BadRows bad_rows = BadRows::kRefuse,
+                  std::vector<std::string>* warnings = nullptr);
 
 /// The bytes of an HDF5 file (readable since library 1.8). A Group is a group, its members in order; a Column a data
 /// set of doubles, long ones deflated; Texts a data set of strings in UTF-8; a flag h5py's enumeration of FALSE and

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "measurements/run_rows.h"
 #include "sim/core/assets.h"
-#include "sim/core/csv.h"
 #include "sim/core/file_io.h"
-#include "sim/core/json.h"
+#include "sim/core/text.h"
 
 namespace fs = std::filesystem;
 
@@ -46,35 +46,6 @@ MeasuredRun read_run(const ConfigTable& table, const std::string& folder, const 
   }
   reader.finish();
   return run;
-}
-
-void read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) {
-  CsvForm form;
-  form.hint = "rollrig import reads logs of other forms, names and units, and writes such files";
-  const CsvTable csv = CsvTable::read(run.file, form);
-  std::vector<std::string> known{"time_s"};
-  for (const rigs::Column& column : columns.all()) known.push_back(column.quantity.header());
-  csv.require_known(known);
-  run.time_s = csv.increasing_times("time_s");
-  if (run.time_s.size() < 2) {
-    throw InputError({"a run needs two rows at least", run.file, 2, "", "", "two or more rows", ""});
-  }
-  constexpr double kLongest_s = 3.0 * 86400.0;  // Assumed: five minutes in milliseconds are longer
-  if (run.time_s.back() - run.time_s.front() > kLongest_s) {
-    throw InputError({"a run of more than three days", run.file, csv.line_of(csv.row_count() - 1), "time_s",
-                      fmt::format("{:.10g}", run.time_s.back()),
-                      "seconds, not milliseconds; of a longer test, several runs", ""});
-  }
-  const auto read = [&](const std::vector<rigs::Column>& some, bool may_lack_column, bool may_lack_sample) {
-    for (const rigs::Column& column : some) {
-      const std::string heading = column.quantity.header();
-      if (may_lack_column && !csv.has(heading)) continue;
-      run.columns[column.quantity] = csv.numbers({heading.c_str(), column.range, column.doc}, may_lack_sample);
-    }
-  };
-  read(columns.given, false, false);
-  read(columns.optional_given, true, false);
-  read(columns.measured, true, true);
 }
 
 void check_runs(const MeasurementSet& set) {
@@ -130,7 +101,10 @@ MeasuredRun read_run_inputs(const std::string& file, const MachineKind& kind) {
   MeasuredRun run;
   run.id = fs::path(file).stem().string();
   run.file = file;
-  read_run_columns(kind.columns, run);
+  const RunFileRows rows = read_run_columns(kind.columns, run);
+  if (!rows.problems.empty()) {
+    throw make_rows_error(format_count(count_rows(rows.problems), "bad row"), rows.problems, "", "");
+  }
   for (const Quantity& channel : measured_channels(kind)) run.columns.erase(channel);
   return run;
 }
@@ -181,7 +155,7 @@ std::string write_set_format(const MachineKind& kind) {
   return fmt::format("format = \"rollrig-measurements/{}\"\n", *kind.former_word == '\0' ? 2 : 1);
 }
 
-MeasurementSet read_measurement_set(const std::string& folder) {
+MeasurementSet read_measurement_set(const std::string& folder, BadRows bad_rows) {
   MeasurementSet set;
   set.path = set_file_of(folder);
   if (fs::is_directory(folder) && !fs::exists(set.path)) {
@@ -209,7 +183,9 @@ MeasurementSet read_measurement_set(const std::string& folder) {
   for (const ConfigTable* run : reader.tables("run")) set.runs.push_back(read_run(*run, base, *set.kind));
   reader.finish();
   if (set.runs.empty()) throw reader.problem("run", "the set has no runs", "one [[run]] table at least");
-  for (MeasuredRun& run : set.runs) read_run_columns(set.kind->columns, run);
+  std::vector<RunFileRows> rows;
+  for (MeasuredRun& run : set.runs) rows.push_back(read_run_columns(set.kind->columns, run));
+  settle_bad_rows(set.kind->columns, bad_rows, rows, set.runs);
   assume_sensors(set);
   check_runs(set);
   return set;

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/bad_rows.h"
 #include "models/quantities.h"
 #include "models/sensor.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
+#include "sim/core/rows.h"
 
 namespace rollrig::measurements {
 
@@ -27,11 +29,20 @@ struct RunTable {
   bool force_at_standstill = false;
 };
 
+/// What was left out of a run's file, since it could not be used.
+struct LeftOutRows {
+  RowProblems problems;       // by line; empty where no row was bad
+  std::size_t file_rows = 0;  // of the file
+  std::size_t rows = 0;       // left out
+  std::size_t fields = 0;     // measured fields of other rows, left empty
+};
+
 struct MeasuredRun : RunTable {
   std::string file;       // path
   bool reversed = false;  // a drum, turned the other way round
   std::vector<double> time_s;
   QuantityMap<std::vector<double>> columns;  // SI; NaN where there is no sample
+  LeftOutRows left_out;
 
   bool has(const Quantity& quantity) const { return columns.count(quantity) > 0; }
   /// Throws std::out_of_range for a column that the run does not have.
@@ -57,8 +68,9 @@ struct MeasurementSet {
 /// The first line of set.toml: form /2 of a kind that /1 does not have.
 std::string write_set_format(const MachineKind& kind);
 
-/// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError.
-MeasurementSet read_measurement_set(const std::string& folder);
+/// Reads the set in `folder` (or the path of its set.toml) with everything that it names. Throws InputError; bad rows
+/// of all files are in one error (run_rows.h), or left out.
+MeasurementSet read_measurement_set(const std::string& folder, BadRows bad_rows = BadRows::kRefuse);
 
 /// The inputs of a run from a run file of a set, or from one with the given columns alone; measured columns are not
 /// kept. Throws InputError.

@@ -10,6 +10,7 @@
 #include "diagnosis/checks/sample_checks.h"
 #include "diagnosis/checks/tire_checks.h"
 #include "diagnosis/kinds/measurement_kind.h"
+#include "measurements/run_rows.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -139,6 +140,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   measurements::make_context(set);  // throws where the files lack what the kind needs
   for (const auto& [channel, sensor] : set.sensors) require_noise(set, channel);
   SetChecks checks;
+  checks.warnings = measurements::describe_bad_rows(set);
   check_assumed(set, checks);
   check_samples(set, checks);
   BaselineRuns baseline = resimulate_baseline(set, threads);

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The set of a member; what is wrong with it goes into the member.
-std::optional<measurements::MeasurementSet> read_member(FleetMember& member) {
+std::optional<measurements::MeasurementSet> read_member(FleetMember& member, BadRows bad_rows) {
   try {
-    measurements::MeasurementSet set = measurements::read_measurement_set(member.folder);
+    measurements::MeasurementSet set = measurements::read_measurement_set(member.folder, bad_rows);
     member.machine = set.rig ? set.rig->name : set.vehicle->name;
     member.tire = set.tire.name;
     return set;
@@ -81,16 +81,16 @@ std::string describe_recurrence(const Recurrence& one) {
 
 }  // namespace
 
-Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options) {
+Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options, BadRows bad_rows) {
   require_known_effects(options);
   Fleet fleet;
   std::vector<std::optional<measurements::MeasurementSet>> sets;
   for (const std::string& folder : folders) {
     fleet.members.push_back({folder, "", "", std::nullopt, "", std::nullopt});
-    sets.push_back(read_member(fleet.members.back()));
+    sets.push_back(read_member(fleet.members.back(), bad_rows));
   }
   if (std::none_of(sets.begin(), sets.end(), [](const auto& set) { return set.has_value(); })) {
-    measurements::read_measurement_set(folders.front());  // says what is wrong with it
+    measurements::read_measurement_set(folders.front(), bad_rows);  // says what is wrong with it
   }
   std::mutex mutex;
   std::vector<double> done(folders.size());

@@ -51,7 +51,8 @@ struct Fleet {
 /// Diagnoses every set of a folder, several at a time. A set that cannot be read and a diagnosis that fails are noted,
 /// and the others go on.
 /// Errors  InputError: no set can be read; an unknown effect in `options`
-Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options);
+Fleet diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options,
+                     BadRows bad_rows = BadRows::kRefuse);
 
 /// A row a set: verdict, cause, gap before and after.
 Table make_fleet_table(const Fleet& fleet);

@@ -32,14 +32,20 @@ const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "r
                                            "use",      "heading",  "session", "start_time"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
 
-/// "13:29:42.5" or seconds.
-std::optional<double> parse_clock_s(const std::string& text) {
+/// "13:29:42.5" or seconds; none where the cell is empty.
+std::optional<double> read_start_s(const CsvTable& table, std::size_t row, const std::string& cell) {
+  const std::string text = boost::algorithm::trim_copy(cell);
+  if (text.empty()) return std::nullopt;
   std::vector<std::string> parts;
   boost::algorithm::split(parts, text, [](char c) { return c == ':'; });
   double seconds = 0.0;
   for (const std::string& part : parts) {
     const std::optional<double> number = parse_number(part);
-    if (!number.has_value()) return std::nullopt;
+    const bool is_first = &part == &parts.front();
+    if (parts.size() > 3 || !number.has_value() || *number < 0.0 || (!is_first && *number >= 60.0)) {
+      throw table.cell_error(row, "start_time", fmt::format("'{}' is not a time of day", text),
+                             "hours:minutes:seconds such as 13:29:42.5, or seconds; or an empty field");
+    }
     seconds = 60.0 * seconds + *number;
   }
   return seconds;
@@ -202,7 +208,8 @@ void read_bins(const CsvTable& table, CoastdownFile& file) {
     }
     CoastdownRun& run = sorter.run_of(row, begins);
     require_order(table, row, run, highs[row], lows[row]);
-    if (!run.start_s.has_value()) run.start_s = parse_clock_s(starts[row]);
+    const std::optional<double> start_s = read_start_s(table, row, starts[row]);
+    if (!run.start_s.has_value()) run.start_s = start_s;
     run.bins.push_back({highs[row] * kPerKmh, lows[row] * kPerKmh, durations[row]});
     add_conditions(conditions, row, run.conditions);
   }

@@ -31,7 +31,8 @@ struct FleetDiagnosis : Report {
 
 /// Diagnoses several sets. One that cannot be read or diagnosed is noted, and the others go on.
 /// Errors  InputError: no set can be read; an unknown effect
-FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options = {});
+FleetDiagnosis diagnose_fleet(const std::vector<std::string>& folders, const DiagnosisOptions& options = {},
+                              BadRows bad_rows = BadRows::kRefuse);
 
 /// What an effect is, how it is found, with what it is confused; also of "none" and "unknown". Text as wide as the
 /// terminal.

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "bad_rows.h"
 #include "fit_options.h"
 #include "result.h"
 #include "scaffold_options.h"
@@ -38,7 +39,7 @@ NewFiles guess_set(const GuessOptions& options, const std::string& folder);
 
 /// The set that import_logs() makes by such a mapping, and the mapping as import.toml beside it. `folder` is that of
 /// the set.
-NewFiles import_guessed(const GuessOptions& options, const std::string& folder);
+NewFiles import_guessed(const GuessOptions& options, const std::string& folder, BadRows bad_rows = BadRows::kRefuse);
 
 }  // namespace rollrig
 #pragma GCC visibility pop

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "measurements/spikes.h"
 #include "measurements/whitener.h"
+#include "sim/core/text.h"
 
 namespace rollrig::measurements {
 namespace {
@@ -33,14 +35,45 @@ void take_out_spikes(Log& log, const models::SensorSet& sensors, double threshol
   }
 }
 
-std::size_t find_or_read(const LogForm& form, const std::string& path, const Mapping& mapping, Import& imported) {
-  for (std::size_t i = 0; i < imported.logs.size(); ++i) {
-    if (imported.logs[i].file == path && imported.logs[i].form == form.name) return i;
+std::size_t find_log(const LogForm& form, const std::string& path, const Import& imported) {
+  const auto is_it = [&](const Log& log) { return log.file == path && log.form == form.name; };
+  return static_cast<std::size_t>(std::find_if(imported.logs.begin(), imported.logs.end(), is_it) -
+                                  imported.logs.begin());
+}
+
+void read_once(const LogForm& form, const std::string& path, Import& imported, RowProblems& problems) {
+  if (find_log(form, path, imported) == imported.logs.size()) imported.logs.push_back(read_log(form, path, &problems));
+}
+
+/// Refuses bad rows of logs, or too many of them.
+void settle_log_rows(const Import& imported, const RowProblems& problems, BadRows bad_rows, const std::string& hint) {
+  if (problems.empty()) return;
+  if (bad_rows == BadRows::kRefuse) {
+    throw make_rows_error(format_count(count_rows(problems), "bad row") + " in the logs", problems,
+                          "with --skip-bad-rows, bad rows are left out", hint);
   }
-  Log log = read_log(form, path);
-  take_out_spikes(log, mapping.set.sensors, mapping.spike_threshold);
-  imported.logs.push_back(std::move(log));
-  return imported.logs.size() - 1;
+  constexpr double kMostBad = 0.05;  // Assumed: as in a set
+  for (const Log& log : imported.logs) {
+    RowProblems of_log;
+    std::copy_if(problems.begin(), problems.end(), std::back_inserter(of_log),
+                 [&log](const InputProblem& problem) { return problem.file == log.file; });
+    const double share = static_cast<double>(count_rows(of_log)) / static_cast<double>(log.time_s.size());
+    if (count_rows(of_log) <= 1 || share <= kMostBad) continue;
+    throw make_rows_error(fmt::format("{} of {} rows of {} are bad: too many to leave them out", count_rows(of_log),
+                                      log.time_s.size(), log.file),
+                          of_log, fmt::format("bad rows: at most {:.0f} % of a log", 100.0 * kMostBad), hint);
+  }
+}
+
+/// Reads each log once.
+void read_logs(const Mapping& mapping, BadRows bad_rows, Import& imported) {
+  RowProblems problems;
+  for (const RunPlan& plan : mapping.runs) {
+    read_once(mapping.torque_log, plan.torque_log, imported, problems);
+    if (!plan.tire_log.empty()) read_once(*mapping.tire_log, plan.tire_log, imported, problems);
+  }
+  settle_log_rows(imported, problems, bad_rows, mapping.torque_log.csv.hint);
+  for (Log& log : imported.logs) take_out_spikes(log, mapping.set.sensors, mapping.spike_threshold);
 }
 
 std::size_t find_or_estimate(const Log& torque_log, const Log& tire_log, const Mapping& mapping, Import& imported) {
@@ -65,10 +98,10 @@ Log put_on_clock(Log log, const Clock& clock) {
 
 void import_run(const RunPlan& plan, const Mapping& mapping, Import& imported) {
   ImportedRun run{plan, {}, std::nullopt};
-  const std::size_t torque_at = find_or_read(mapping.torque_log, plan.torque_log, mapping, imported);
+  const std::size_t torque_at = find_log(mapping.torque_log, plan.torque_log, imported);
   std::optional<Log> on_clock;
   if (!plan.tire_log.empty()) {
-    const std::size_t tire_at = find_or_read(*mapping.tire_log, plan.tire_log, mapping, imported);
+    const std::size_t tire_at = find_log(*mapping.tire_log, plan.tire_log, imported);
     run.clock = find_or_estimate(imported.logs[torque_at], imported.logs[tire_at], mapping, imported);
     on_clock = put_on_clock(imported.logs[tire_at], imported.clocks[*run.clock].clock);
   }
@@ -128,8 +161,9 @@ void add_warnings(Import& imported) {
 
 }  // namespace
 
-Import import_logs(const Mapping& mapping) {
+Import import_logs(const Mapping& mapping, BadRows bad_rows) {
   Import imported;
+  read_logs(mapping, bad_rows, imported);
   for (const RunPlan& plan : mapping.runs) import_run(plan, mapping, imported);
   average_sensors(mapping, imported);
   add_warnings(imported);

@@ -17,7 +17,7 @@ struct Mark {
   double from_s = 0.0;          // on the log's clock
   double to_s = 0.0;            // of a gap; else as from_s
   std::optional<double> value;  // as read, in the unit of the set's column
-  std::string reason;           // "no value", "out of range", "spike", "no rows"
+  std::string reason;           // "no value", "out of range", "spike", "no rows", "bad field", "bad row"
 };
 
 struct Log {
@@ -38,9 +38,10 @@ struct Log {
 
 /// Reads a file as the mapping says; what is out of range is marked and left out, as are empty cells and gaps.
 /// Errors   InputError: a column that is not there, a cell that is no number, a stamp that is none, times that do not
-///          increase, a column of which more than 1 % is out of range
+///          increase, a column of which more than 1 % is out of range. With `problems`, rows and fields that are wrong
+///          are noted there, and marked and left out
 /// Checked  tests/measurements/logs/log_test.cpp
-Log read_log(const LogForm& form, const std::string& path);
+Log read_log(const LogForm& form, const std::string& path, RowProblems* problems = nullptr);
 
 /// A time of the log's clock as a mapping writes it (`from`, `to`). Throws InputError at `origin`.
 double parse_log_time(const LogForm& form, const Log& log, const std::string& text, const std::string& key,

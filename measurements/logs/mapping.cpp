@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -10,13 +11,15 @@
 #include "measurements/sensor_file.h"
 #include "sim/core/assets.h"
 #include "sim/core/file_io.h"
+#include "sim/core/text_encoding.h"
+#include "sim/core/unit_names.h"
 
 namespace fs = std::filesystem;
 
 namespace rollrig::measurements {
 namespace {
 
-/// The unit that a text such as "km_h" or "bar" names; it must be one of the target's dimension.
+/// The unit of a column: one of the dimension that the column of the set has.
 Unit read_unit(TableReader& reader, const Quantity& target) {
   const Unit wanted = target.file_unit();
   if (!reader.has("unit")) {
@@ -24,14 +27,19 @@ Unit read_unit(TableReader& reader, const Quantity& target) {
     return wanted;
   }
   const std::string text = reader.text("unit");
-  const Unit unit = unit_of_key("value_" + text);
-  if (unit.symbol.empty() || !(unit.dimension == wanted.dimension)) {
-    throw reader.problem("unit", fmt::format("'{}' is no unit of {} that rollrig knows", text, target.header()),
-                         fmt::format("a unit as in the suffix of a key, of the kind of {}; others by factor and "
-                                     "offset (docs/import.md)",
-                                     wanted.symbol));
+  try {
+    return parse_unit(text, wanted);
+  } catch (const std::invalid_argument& error) {
+    const std::vector<std::string> names = list_unit_names(wanted.dimension);
+    InputProblem problem =
+        reader
+            .problem("unit", fmt::format("'{}' is no unit of {}: {}", text, target.header(), error.what()),
+                     fmt::format("{}, or another unit of {} that UDUNITS knows", fmt::join(names, ", "),
+                                 describe_dimension(wanted.dimension)))
+            .problem();
+    problem.nearest = nearest_name(text, names);
+    throw InputError(problem);
   }
-  return unit;
 }
 
 LogColumn read_mapped_column(const ConfigTable& columns, const rigs::Column& of_set, const std::string& table_name) {
@@ -80,6 +88,18 @@ void read_columns(TableReader& log, const MachineKind& kind, LogForm& form) {
   }
 }
 
+/// A date of a mapping is wrong where it stands, not where the first row is read.
+void require_date(const TableReader& reader, const TimeColumn& time) {
+  if (!time.date_column.empty()) {
+    throw reader.problem("date", "the date is given twice: date and date_column", "one of them");
+  }
+  try {
+    parse_date_days(time.date, time.date_order);
+  } catch (const std::invalid_argument& error) {
+    throw reader.problem("date", error.what(), "a date such as 2024-03-05, in the order of date_order (ymd)");
+  }
+}
+
 void read_time(TableReader& log, LogForm& form) {
   const ConfigTable* table = log.table("time");
   const std::string name = fmt::format("[{}.time]", form.name);
@@ -90,20 +110,29 @@ void read_time(TableReader& log, LogForm& form) {
   const std::vector<std::string>& names = time_form_names();
   const auto at = std::find(names.begin(), names.end(), reader.text("form", names)) - names.begin();
   time.form = static_cast<TimeForm>(at);
-  const std::string unit = reader.text_or("unit", "s", {"s", "ms", "min", "h"});
-  if (unit != "s" && time.form != TimeForm::kSeconds) {
-    throw reader.problem("unit", "only times that are numbers have a unit", "form = \"seconds\"");
+  const std::string unit = reader.text_or("unit", "s", {"s", "ms", "us", "min", "h"});
+  if (unit != "s" && time.form != TimeForm::kSeconds && time.form != TimeForm::kEpochSeconds) {
+    throw reader.problem("unit", "only times that are numbers have a unit", "form = \"seconds\" or \"epoch_seconds\"");
   }
-  time.unit_s = unit_of_key("time_" + unit).factor;
+  time.unit_s = unit == "us" ? 1e-6 : unit_of_key("time_" + unit).factor;
   time.date_column = reader.text_or("date_column", "");
   time.date = reader.text_or("date", "");
   time.date_order = reader.text_or("date_order", "ymd", date_orders());
   const bool is_clock = time.form == TimeForm::kClock;
+  if (reader.has("date_order") && !is_clock && time.form != TimeForm::kDateTime) {
+    throw reader.problem("date_order", "times of this form have no date to be read",
+                         "form = \"clock\" or \"date_time\"");
+  }
   if (is_clock == (time.date.empty() && time.date_column.empty())) {
     throw reader.problem("form", is_clock ? "a time of day has no date" : "only times of day need a date",
                          "date = \"2024-03-05\" or date_column with form = \"clock\", neither with another");
   }
+  if (!time.date.empty()) require_date(reader, time);
   time.utc_offset_s = reader.number_or_none({"utc_offset_h", between(-14.0, 14.0), ""});
+  if (time.utc_offset_s.has_value() && time.form == TimeForm::kSeconds) {
+    throw reader.problem("utc_offset_h", "seconds from a start of their own have no offset to UTC",
+                         "no such key with form = \"seconds\"; form = \"epoch_seconds\" counts from 1970");
+  }
   reader.finish();
 }
 
@@ -117,6 +146,10 @@ LogForm read_log_form(const ConfigTable& table, const std::string& name, const M
   if (form.csv.decimal == form.csv.separator) {
     throw reader.problem("decimal", "separator and decimal are both a comma", "separator = \"semicolon\" or \"tab\"");
   }
+  form.csv.encoding = reader.text_or("encoding", "utf-8", encoding_names());
+  form.csv.encoding_hint = fmt::format(
+      "text as encoding of [{}] says: \"utf-8\" (default), \"windows-1252\" or, with a byte order mark, \"utf-16\"",
+      name);
   form.csv.hint = "separator, decimal, header_line and first_row_line of the mapping say how a log is written";
   form.csv.header_line = reader.count({"header_line", between(1, 1000), "", 1.0});
   form.csv.first_row_line =

@@ -15,7 +15,7 @@ namespace rollrig::measurements {
 struct TimeColumn {
   std::string column;
   TimeForm form = TimeForm::kSeconds;
-  double unit_s = 1.0;      // seconds: of one unit of the column
+  double unit_s = 1.0;      // seconds and epoch_seconds: of one unit of the column
   std::string date_column;  // clock: the column with the date, or
   std::string date;         // the date of the first row
   std::string date_order = "ymd";

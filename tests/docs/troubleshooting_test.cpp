@@ -66,6 +66,10 @@ const std::vector<Mistake> kMistakes{
      "./rollrig validate campaign", kWrongInput},
     {"Empty field in an input column", edit_rows("1-warm-up-120.csv", "if (NR == 22) $2 = \"\""),
      "./rollrig validate campaign", kWrongInput},
+    {"Bad rows",
+     edit_rows("1-warm-up-120.csv", "if (NR == 22) $2 = 2257.2; if (NR == 31) NF = 3") + "\n" +
+         edit_rows("3-warm-up-40.csv", "if (NR == 9) $3 = \"OVER\""),
+     "./rollrig validate campaign", kWrongInput},
     {"A sensor is not described", "sed -i '/^.sensors.cavity/,/^$/d' campaign/set.toml", "./rollrig validate campaign",
      kWrongInput},
     {"A sensor without noise",

@@ -61,6 +61,71 @@ TEST_CASE("one moment in four forms of time stamps", "[fast]") {
   CHECK(read(seconds, "t,p\n500,2.5\n1500,2.5\n2500,2.5\n").interval_s == Approx(1.0));
 }
 
+TEST_CASE("date and time in one column are read in the usual forms, and seconds since 1970", "[fast]") {
+  const double in_utc = 1709645382.0;  // 2024-03-05T13:29:42Z
+  const auto read_as = [](const std::string& stamp, const std::string& order) {
+    LogForm form = make_form(TimeForm::kDateTime);
+    form.time.date_order = order;
+    form.csv.separator = ';';
+    return read(form, "t;p\n" + stamp + ";2\n2024-03-06 01:00;2\n2024-03-07 01:00;2\n");
+  };
+  for (const auto& [stamp, order] :
+       {std::pair{"2024-03-05 13:29:42", "ymd"}, std::pair{"2024/3/5 13:29:42", "ymd"},
+        std::pair{"2024-03-05T13:29:42", "ymd"}, std::pair{"2024-03-05 1:29:42 PM", "ymd"},
+        std::pair{"05-Mar-2024 13:29:42", "ymd"}, std::pair{"5 March 2024 13:29:42", "ymd"}}) {
+    INFO(stamp);
+    CHECK(read_as(stamp, order).time_s[0] == Approx(in_utc).margin(1e-6));
+  }
+  using measurements::parse_date_time_s;
+  CHECK(parse_date_time_s("05.03.2024 13:29:42,5", "dmy") == Approx(in_utc + 0.5).margin(1e-6));
+  CHECK(parse_date_time_s("5/3/24 13:29:42", "dmy") == Approx(in_utc));
+  CHECK(parse_date_time_s("3/5/2024 1:29:42 PM", "mdy") == Approx(in_utc));
+  CHECK(parse_date_time_s("3/5/2024, 1:29:42 pm", "mdy") == Approx(in_utc));
+  CHECK(parse_date_time_s("3/5/2024 12:00:00 AM", "mdy") == Approx(in_utc - 13 * 3600 - 29 * 60 - 42));
+  CHECK(parse_date_time_s("3/5/2024 12:30 PM", "mdy") == Approx(in_utc - 59 * 60 - 42));
+  for (const char* wrong : {"13/5/2024 1:29:42 PM", "3/5/2024 13:29:42 PM", "3/5/2024 0:29:42 AM", "3/5/2024",
+                            "1:29:42 PM", "3/5 1:29:42", "05-Mrz-2024 13:29:42", "3/5/124 1:29:42"}) {
+    INFO(wrong);
+    CHECK_THROWS_AS(parse_date_time_s(wrong, "mdy"), std::invalid_argument);
+  }
+  LogForm epoch = make_form(TimeForm::kEpochSeconds);
+  const Log in_seconds = read(epoch, "t,p\n1709645382,2\n1709645383,2\n1709645384,2\n");
+  CHECK(in_seconds.time_s[0] == Approx(in_utc).margin(1e-6));
+  CHECK((in_seconds.is_utc && in_seconds.is_absolute));
+  epoch.time.unit_s = 1e-3;
+  const Log in_ms = read(epoch, "t,p\n1709645382000,2\n1709645383000,2\n1709645384500,2\n");
+  CHECK(in_ms.time_s[2] == Approx(in_utc + 2.5).margin(1e-6));
+}
+
+TEST_CASE("bad rows of a log are in one error, or are marked and left out", "[fast]") {
+  std::string content = "t,p\n";
+  for (int i = 0; i < 200; ++i) {
+    content += i == 20   ? "20,2.5,7\n"
+               : i == 60 ? "60,two\n"
+               : i == 90 ? "9,2.5\n"
+               : i == 95 ? "soon,2.5\n"
+                         : std::to_string(i) + ",2.5\n";
+  }
+  const LogForm form = make_form(TimeForm::kSeconds);
+  CHECK_THROWS_WITH(read(form, content), Catch::Contains("4 bad rows") && Catch::Contains("22  (row)") &&
+                                             Catch::Contains("62  p") && Catch::Contains("92  t") &&
+                                             Catch::Contains("97  t"));
+  const tests::TemporaryFolder folder;
+  tests::write_file(folder.file("log.csv"), content);
+  RowProblems problems;
+  const Log log = measurements::read_log(form, folder.file("log.csv"), &problems);
+  CHECK(count_rows(problems) == 4);
+  CHECK(log.time_s.size() == 197);  // the row with a wrong pressure stays
+  int bad_rows = 0, bad_fields = 0;
+  for (const measurements::Mark& mark : log.marks) {
+    bad_rows += mark.reason == "bad row" ? 1 : 0;
+    bad_fields += mark.reason == "bad field" ? 1 : 0;
+  }
+  CHECK(bad_rows == 3);
+  CHECK(bad_fields == 1);
+  CHECK(std::isnan(log.columns.at("cavity_pressure_kPa")[59]));
+}
+
 TEST_CASE("a log over midnight goes on into the next day", "[fast]") {
   LogForm clock = make_form(TimeForm::kClock);
   clock.time.date = "2024-12-31";
