@@ -52,7 +52,9 @@ void find_far_times(const CsvTable& csv, const std::vector<double>& times, RowPr
   for (const std::size_t row : good) {
     if (std::abs(times[row] - middle) > kLongestRun_s) far.push_back(row);
   }
-  if (far.empty() || !are_few(far.size(), times.size())) throw too_long(csv, good.back(), good_times.back());
+  const bool are_stray =
+      !far.empty() && static_cast<double>(far.size()) <= kMostBad * static_cast<double>(times.size());
+  if (!are_stray) throw too_long(csv, good.back(), good_times.back());
   for (const std::size_t row : far) {
     problems.push_back(csv.cell_error(row, "time_s", "a time more than three days away from those of the other rows",
                                       fmt::format("less than three days from {:.10g}", middle))

@@ -68,7 +68,7 @@ void CsvTable::add_row(int line, std::vector<std::string> cells) {
   if (cells.size() != columns_.size()) {
     require_no_comment(columns_.front(), path_, form_.header_line, form_);
     require_no_comment(cells.front(), path_, line, form_);
-    throw InputError({"ragged row", path_, line, "", fmt::format("{} fields", cells.size()),
+    throw InputError({"ragged row", path_, line, "", format_count(cells.size(), "field"),
                       fmt::format("{} fields, as in the header", columns_.size()), ""});
   }
   rows_.push_back({line, std::move(cells)});

@@ -121,7 +121,7 @@ void refuse_pressure_with_zero(const std::string& text) {
   if (base == nullptr || pressure == nullptr || ut_are_convertible(base.get(), pressure.get()) == 0) return;
   throw std::invalid_argument(
       fmt::format("'{}' says of a pressure whether it is gauge or absolute, which a unit does not: unit = \"{}\", and "
-                  "for absolute pressure offset = less the pressure of the air, in that unit",
+                  "for absolute pressure offset = minus the pressure of the air in that unit",
                   text, match[1].str()));
 }
 
