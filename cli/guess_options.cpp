@@ -23,7 +23,7 @@ void add_texts(CLI::App& command, const std::string& option, std::map<std::strin
     for (const std::string& one : all)
       texts.insert_or_assign(split_assignment(option, one, form).first, split_assignment(option, one, form).second);
   };
-  command.add_option_function<std::vector<std::string>>(option, put, doc)->type_name(form);
+  command.add_option_function<std::vector<std::string>>(option, put, doc)->expected(1)->take_all()->type_name(form);
 }
 
 void add_numbers(CLI::App& command, const std::string& option, std::map<std::string, double>& numbers, const char* form,
@@ -36,7 +36,7 @@ void add_numbers(CLI::App& command, const std::string& option, std::map<std::str
       numbers[key] = *number;
     }
   };
-  command.add_option_function<std::vector<std::string>>(option, put, doc)->type_name(form);
+  command.add_option_function<std::vector<std::string>>(option, put, doc)->expected(1)->take_all()->type_name(form);
 }
 
 }  // namespace
