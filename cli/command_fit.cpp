@@ -57,7 +57,7 @@ void add_fit_command(CLI::App& app, Action& action) {
   command->require_subcommand(1);
   add_fit_road_load(*command, action);
   const auto [tire, options] = add_command<FitTireOptions>(
-      *command, action, "tire", "The law of a tire's loss, z, f (and H) from warm-ups, best at two or more speeds",
+      *command, action, "tire", "The law of a tire's loss, z, f (and H) from one warm-up or several",
       &fit_tire_command);
   add_fit_drum_coastdown(*command, action);
   tire->add_option("set", options->set, "Folder of a measurement set, or its set.toml")->required();

@@ -23,14 +23,46 @@ std::optional<double> find_two_step(const Json& two_step, const std::string& key
   return two_step[last].get<double>();
 }
 
+/// The key of a number without its table, where that goes without saying, and without its unit.
+std::string shorten_key(std::string key) {
+  for (const char* table : {"rolling_resistance.", "thermal."}) boost::algorithm::erase_first(key, table);
+  return name_without_unit(key);
+}
+
 Table make_parameters(const TireFit& fit) {
   std::vector<ParameterEstimate> parameters = estimation::list_parameters(fit);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    std::string& name = parameters[i].name;
-    for (const char* table : {"rolling_resistance.", "thermal."}) boost::algorithm::erase_first(name, table);
-    name = name_without_unit(name) + (fit.estimates[i].nuisance ? " *" : "");
+    parameters[i].name = shorten_key(parameters[i].name) + (fit.estimates[i].nuisance ? " *" : "");
   }
   return make_estimate_table("Fitted, with standard uncertainty and 95 % interval (* beside a prior)", parameters);
+}
+
+/// What was known before, and how much of its uncertainty is left.
+Table make_priors(const TireFit& fit) {
+  Table table{
+      "Priors (*) and the part of their uncertainty that is left", {"parameter", "prior", "sd", "from", "left"}, {}};
+  for (const Estimate& at : fit.estimates) {
+    if (!at.prior.has_value()) continue;
+    table.rows.push_back({shorten_key(estimation::find_file_key(at.key)), fmt::format("{:.5g}", at.prior->value),
+                          fmt::format("{:.3g}", at.prior->sd), at.prior->of_class ? "class" : "file",
+                          fmt::format("{:.0f} %", 100.0 * at.sd / at.prior->sd)});
+  }
+  return table;
+}
+
+Table make_at_speeds(const TireFit& fit) {
+  Table table{"At the speeds of the set, with standard uncertainty (tau: time constant)",
+              {"km/h", "degC", "loss, N", "fall, 1/degC", "z + f v, W/K", "tau, s"},
+              {}};
+  for (const estimation::AtSpeed& speed : fit.at_speeds) {
+    const auto number = [](const estimation::Uncertain& at) {
+      return fmt::format("{:.4g} +- {:.2g}", at.value, at.sd);
+    };
+    table.rows.push_back({fmt::format("{:.0f}", unit_of_key("speed_km_h").from_si(speed.at.speed_m_s)),
+                          fmt::format("{:.0f}", speed.at.temperature_K - kZeroCelsius_K), number(speed.loss_N),
+                          number(speed.fall_per_K), number(speed.conductance_W_per_K), number(speed.time_constant_s)});
+  }
+  return table;
 }
 
 Table make_channels(const TireFit& fit) {
@@ -108,7 +140,7 @@ models::Context<double> make_fitted_context(measurements::MeasurementSet set, co
 }  // namespace
 
 std::vector<Table> make_tire_fit_tables(const TireFit& fit) {
-  return {make_parameters(fit), make_channels(fit), make_two_step(fit)};
+  return {make_parameters(fit), make_priors(fit), make_at_speeds(fit), make_channels(fit), make_two_step(fit)};
 }
 
 Page make_tire_fit_page(const measurements::MeasurementSet& set, const TireFit& fit) {

@@ -1,11 +1,29 @@
 #include "estimation/tire_fit/drum_residuals.h"
 
+#include <cmath>
 #include <map>
 
 #include "measurements/sample_selection.h"
 #include "sim/core/parallel.h"
 
 namespace rollrig::estimation {
+namespace {
+
+/// Rows of a channel that the fit compares. Of a force those at constant speed, if the run has enough of them: the
+/// others contain the inertia of the drum, of which no file says how well it is known.
+std::vector<std::size_t> find_fitted_rows(const measurements::MeasuredRun& run, const Quantity& channel) {
+  constexpr std::size_t kEnough = 30;  // Assumed: as of the two-step regression
+  std::vector<std::size_t> rows = measurements::find_compared_rows(run, channel);
+  if (!rigs::is_force(channel)) return rows;
+  std::vector<std::size_t> steady;
+  for (const std::size_t row : rows) {
+    const double acceleration_m_s2 = measurements::find_acceleration(run, row);
+    if (std::abs(acceleration_m_s2) < measurements::kSteadyAcceleration_m_s2) steady.push_back(row);
+  }
+  return steady.size() >= kEnough ? steady : rows;
+}
+
+}  // namespace
 
 DrumResiduals::DrumResiduals(const measurements::MeasurementSet& set, models::Context<double> context,
                              std::vector<FreeParameter> parameters, int threads)
@@ -25,7 +43,7 @@ void DrumResiduals::collect_series() {
     for (const Quantity& channel : measurements::measured_channels(*set_.kind)) {
       if (!run.has(channel)) continue;
       const models::SensorParameters& sensor = set_.sensors.at(channel);
-      std::vector<std::size_t> rows = measurements::find_compared_rows(run, channel);
+      std::vector<std::size_t> rows = find_fitted_rows(run, channel);
       if (rows.empty()) continue;
       const auto [it, fresh] = offsets.emplace(std::pair(run.session, channel), offset_sd_.size());
       if (fresh) offset_sd_.push_back(sensor.offset_sd);

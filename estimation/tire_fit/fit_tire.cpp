@@ -1,57 +1,19 @@
 #include "estimation/tire_fit/fit_tire.h"
 
-#include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "estimation/tire_fit/drum_residuals.h"
+#include "estimation/tire_fit/fit_solution.h"
 #include "estimation/tire_fit/fit_unknowns.h"
+#include "estimation/tire_fit/two_step_check.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
 namespace {
-
-using Lines = models::SpeedLines<double>;
-
-/// The residuals as Ceres takes them: one block of unknowns.
-class ResidualFunction : public ceres::CostFunction {
- public:
-  explicit ResidualFunction(const DrumResiduals& residuals) : residuals_(residuals) {
-    set_num_residuals(static_cast<int>(residuals.residual_count()));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(residuals.unknown_count()));
-  }
-  bool Evaluate(double const* const* unknowns, double* out, double** jacobians) const override {
-    try {
-      residuals_.evaluate(unknowns[0], out, jacobians != nullptr ? jacobians[0] : nullptr);
-    } catch (const RunFailure&) {  // no tire: the step that tried it is taken back
-      return false;
-    }
-    return std::all_of(out, out + residuals_.residual_count(), [](double r) { return std::isfinite(r); });
-  }
-
- private:
-  const DrumResiduals& residuals_;
-};
-
-/// Tells the caller and the log of each iteration.
-class FollowIterations : public ceres::IterationCallback {
- public:
-  explicit FollowIterations(Progress progress) : progress_(std::move(progress)) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& at) override {
-    spdlog::debug("fit: iteration {}, half chi2 {:.6g}, largest gradient {:.2g}", at.iteration, at.cost,
-                  at.gradient_max_norm);
-    if (progress_) progress_(std::nan(""), fmt::format("iteration {}", at.iteration));
-    return ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  Progress progress_;
-};
 
 /// Puts the fitted numbers and their uncertainties into the set's tire.
 void put_tire(const measurements::MeasurementSet& set, const models::TireParameters<double>& best,
@@ -101,6 +63,23 @@ void put_correlation(const measurements::MeasurementSet& set, TireFit& fit) {
   fit.tire.correlation = models::replace_correlation(fit.tire, std::move(fitted));
 }
 
+Estimate make_estimate(const FitUnknowns& unknowns, std::size_t i, double found_SI, double sd_SI) {
+  const FreeParameter& parameter = unknowns.parameters[i];
+  const Unit unit = unit_of_key(last_part(parameter.key));
+  Estimate estimate{parameter.key,
+                    unit.from_si(found_SI),
+                    sd_SI / unit.factor,
+                    i >= unknowns.asked_for,
+                    unit.from_si(parameter.lower_SI),
+                    unit.from_si(parameter.upper_SI),
+                    {}};
+  if (parameter.prior_sd_SI > 0.0) {
+    estimate.prior = {unit.from_si(parameter.start_SI), parameter.prior_sd_SI / unit.factor,
+                      unknowns.of_class.count(parameter.key) == 1};
+  }
+  return estimate;
+}
+
 void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& unknowns,
                    const std::vector<double>& found, const Eigen::MatrixXd& covariance, TireFit& fit) {
   models::Context<double> best = unknowns.start;
@@ -111,11 +90,10 @@ void put_estimates(const measurements::MeasurementSet& set, const FitUnknowns& u
   uncertainty.tire.thermal.rest_conductance_W_per_K = uncertainty.tire.thermal.speed_conductance_W_s_per_m_K = 0.0;
   for (std::size_t i = 0; i < unknowns.parameters.size(); ++i) {
     const std::string& key = unknowns.parameters[i].key;
-    const Unit unit = unit_of_key(last_part(key));
     const double sd = std::sqrt(covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)));
     find_parameter(best, key) = found[i];
     find_parameter(uncertainty, key) = sd;
-    fit.estimates.push_back({key, unit.from_si(found[i]), sd / unit.factor, i >= unknowns.asked_for});
+    fit.estimates.push_back(make_estimate(unknowns, i, found[i], sd));
   }
   const auto n = static_cast<Eigen::Index>(unknowns.parameters.size());
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -133,7 +111,22 @@ void write_notes(const measurements::MeasurementSet& set, TireFit& fit) {
   for (const Estimate& estimate : fit.estimates) {
     std::string key = find_written_key(set, estimate.key);
     if (key.rfind("load_map.", 0) == 0) key = "rolling_resistance.load_map." + last_part(key);
-    fit.notes[key] = from + (estimate.nuisance ? " within its uncertainty" : "");
+    const bool of_class = estimate.prior.has_value() && estimate.prior->of_class;
+    const char* within = of_class ? " within the uncertainty of its class" : " within its uncertainty";
+    fit.notes[key] = from + (estimate.nuisance ? within : "");
+  }
+}
+
+/// Warns of numbers that stand on a limit of their range.
+void warn_of_limits(TireFit& fit) {
+  constexpr double kNear = 1e-4;  // Assumed: of a standard uncertainty
+  for (const Estimate& estimate : fit.estimates) {
+    const bool is_on = std::min(estimate.value - estimate.least, estimate.most - estimate.value) <= kNear * estimate.sd;
+    if (!is_on) continue;
+    fit.warnings.push_back(
+        fmt::format("{} stands on the limit of its range, {:.4g}: the data ask for a value beyond it, "
+                    "and its interval ends there",
+                    find_file_key(estimate.key), estimate.value));
   }
 }
 
@@ -161,32 +154,19 @@ void measure_channels(const measurements::MeasurementSet& set, const DrumResidua
   fit.chi2_per_sample = chi2 / static_cast<double>(samples);
 }
 
-/// Inverse of J^T J. The columns of J are scaled to unit length first: in SI units a heat capacity's is so much shorter
-/// than the others' that it would pass for a direction that the data do not decide.
-Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vector<double>& unknowns) {
-  using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const auto count = static_cast<Eigen::Index>(residuals.unknown_count());
-  std::vector<double> at_best(residuals.residual_count());
-  RowMatrix jacobian(static_cast<Eigen::Index>(residuals.residual_count()), count);
-  residuals.evaluate(unknowns.data(), at_best.data(), jacobian.data());
-  const Eigen::VectorXd lengths = jacobian.colwise().norm();
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  constexpr double kUndecided = 1e-7;  // Assumed: of unit columns, what rounding leaves of a direction without effect
-  qr.setThreshold(kUndecided);
-  if (lengths.minCoeff() > 0.0) qr.compute(jacobian * lengths.cwiseInverse().asDiagonal());
-  if (!(lengths.minCoeff() > 0.0) || !lengths.allFinite() || qr.rank() < count) {
-    throw RunFailure("the fit has no covariance: the data do not decide the parameters");
-  }
-  const Eigen::MatrixXd r = qr.matrixR().topRows(count).triangularView<Eigen::Upper>();
-  const Eigen::MatrixXd inverse =
-      qr.colsPermutation() * r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(count, count));
-  const Eigen::MatrixXd scaled = lengths.cwiseInverse().asDiagonal() * inverse;
-  return scaled * scaled.transpose();
-}
-
 bool has_free_numbers(const models::TireModelInfo& model) {
   return std::any_of(model.parameters.begin(), model.parameters.end(),
                      [](const models::TireModelParameter& own) { return own.role != models::FitRole::kHeld; });
+}
+
+/// A map over load has A1 and B1 of its own at each load.
+void require_speeds_of_map(const measurements::MeasurementSet& set, const TwoStepEstimate& start) {
+  if (!start.slopes_held) return;
+  throw InputError({"a map over load (--load-map) needs two speeds at least, and the set has one", set.path, 0,
+                    "speed_km_h", "",
+                    "loaded runs at two or more constant speeds that differ by 10 %; or a fit without "
+                    "the map",
+                    ""});
 }
 
 void require_fittable_set(const measurements::MeasurementSet& set, bool load_map) {
@@ -206,28 +186,47 @@ void require_fittable_set(const measurements::MeasurementSet& set, bool load_map
   }
 }
 
-/// The unknowns at the optimum.
-std::vector<double> minimize(const DrumResiduals& residuals, const Progress& progress) {
-  std::vector<double> found = residuals.start();
-  ceres::Problem problem;
-  problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, found.data());
-  for (std::size_t i = 0; i < residuals.parameters().size(); ++i) {
-    const FreeParameter& parameter = residuals.parameters()[i];
-    const int at = static_cast<int>(i);
-    if (std::isfinite(parameter.lower_SI)) problem.SetParameterLowerBound(found.data(), at, parameter.lower_SI);
-    if (std::isfinite(parameter.upper_SI)) problem.SetParameterUpperBound(found.data(), at, parameter.upper_SI);
+/// The optimum within what the law of the tire allows.
+struct Solution {
+  FitUnknowns unknowns;
+  std::optional<DrumResiduals> residuals;
+  std::vector<double> found;
+};
+
+Solution solve_within_law(const measurements::MeasurementSet& set, const TireFitOptions& options, FitUnknowns unknowns,
+                          std::vector<std::string>& warnings) {
+  Solution solution{std::move(unknowns), {}, {}};
+  const auto solve = [&] {
+    solution.residuals.emplace(set, solution.unknowns.start, solution.unknowns.parameters, options.threads);
+    solution.found = minimize(*solution.residuals, options.progress);
+  };
+  solve();
+  while (const auto mistake = find_law_mistake(solution.unknowns, solution.found)) {
+    warnings.push_back(go_back_within_law(solution.unknowns, *mistake));
+    solve();
   }
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 100;
-  solver.function_tolerance = 1e-10;
-  solver.logging_type = ceres::SILENT;
-  FollowIterations follow(progress);
-  solver.callbacks.push_back(&follow);
-  ceres::Solver::Summary summary;
-  ceres::Solve(solver, &problem, &summary);
-  if (summary.termination_type != ceres::CONVERGENCE) throw RunFailure("the fit does not converge: " + summary.message);
-  return found;
+  return solution;
+}
+
+bool is_gas_measured(const measurements::MeasurementSet& set) {
+  return std::any_of(set.runs.begin(), set.runs.end(),
+                     [](const measurements::MeasuredRun& run) { return run.has(models::quantities::kGasTemperature); });
+}
+
+/// Warnings of numbers on a limit, of a two-step regression that says another thing, and of what no number explains.
+void add_warnings(const measurements::MeasurementSet& set, TireFit& fit) {
+  warn_of_limits(fit);
+  if (fit.two_step.has_value()) {
+    for (std::string& warning : compare_two_steps(set, fit.tire, fit.at_speeds)) {
+      fit.warnings.push_back(std::move(warning));
+    }
+  }
+  constexpr double kMostChi2 = 2.0;  // Assumed: per sample
+  if (fit.chi2_per_sample <= kMostChi2) return;
+  fit.warnings.push_back(
+      fmt::format("what is left is {:.1f} times the noise that the sensors' table says: the model "
+                  "lacks something, or the table is wrong; intervals are too narrow",
+                  std::sqrt(fit.chi2_per_sample)));
 }
 
 }  // namespace
@@ -236,77 +235,19 @@ TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& 
   require_fittable_set(set, options.load_map);
   TireFit fit;
   if (set.tire.values.model().info.follows_speed_lines()) fit.two_step = estimate_in_two_steps(set);
-  const bool gas_measured = std::any_of(set.runs.begin(), set.runs.end(), [](const measurements::MeasuredRun& run) {
-    return run.has(models::quantities::kGasTemperature);
-  });
-  const bool free_H = options.free_H || gas_measured;
-  FitUnknowns unknowns = choose_unknowns(set, fit.two_step, options.load_map, free_H);
-  std::optional<DrumResiduals> residuals;
-  std::vector<double> found;
-  const auto solve = [&] {
-    residuals.emplace(set, unknowns.start, unknowns.parameters, options.threads);
-    found = minimize(*residuals, options.progress);
-  };
-  solve();
-  while (const auto mistake = find_law_mistake(unknowns, found)) {
-    fit.warnings.push_back(go_back_within_law(unknowns, *mistake));
-    solve();
-  }
-
+  if (options.load_map) require_speeds_of_map(set, *fit.two_step);
+  const bool free_H = options.free_H || is_gas_measured(set);
+  const auto [unknowns, residuals, found] =
+      solve_within_law(set, options, choose_unknowns(set, fit.two_step, options.load_map, free_H), fit.warnings);
   std::vector<double> at_best(residuals->residual_count());
   residuals->evaluate(found.data(), at_best.data(), nullptr);
   measure_channels(set, *residuals, at_best, fit);
-  put_estimates(set, unknowns, found, find_covariance(*residuals, found), fit);
+  const Eigen::MatrixXd covariance = find_covariance(*residuals, found);
+  put_estimates(set, unknowns, found, covariance, fit);
+  fit.at_speeds = find_at_speeds(set, unknowns, found, covariance);
   write_notes(set, fit);
-  constexpr double kMostChi2 = 2.0;  // Assumed: per sample
-  if (fit.chi2_per_sample > kMostChi2) {
-    fit.warnings.push_back(
-        fmt::format("what is left is {:.1f} times the noise that the sensors' table says: the model "
-                    "lacks something, or the table is wrong; intervals are too narrow",
-                    std::sqrt(fit.chi2_per_sample)));
-  }
+  add_warnings(set, fit);
   return fit;
-}
-
-std::vector<ParameterEstimate> list_parameters(const TireFit& fit) {
-  std::vector<ParameterEstimate> parameters;
-  for (const Estimate& at : fit.estimates) {
-    const std::string key = find_file_key(at.key);
-    parameters.push_back({key, at.value, at.sd, at.lower_95(), at.upper_95(), unit_of_key(last_part(key)).symbol});
-  }
-  return parameters;
-}
-
-Json make_two_step_json(const TwoStepEstimate& two_step) {
-  Json json;
-  Lines::visit(two_step, [&](const Field& line, double value) { json[line.key] = value; });
-  json["z_W_per_K"] = two_step.rest_conductance_W_per_K;
-  json["f_W_s_per_m_K"] = two_step.speed_conductance_W_s_per_m_K;
-  if (two_step.H_gas_W_per_K.has_value()) json["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
-  return json;
-}
-
-Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) {
-  Json json = {{"format", "rollrig-fit/1"}, {"set", set.name}, {"tire", set.tire.name}, {"rig", set.rig->name}};
-  json["parameters"] = Json::array();
-  for (const Estimate& estimate : fit.estimates) {
-    json["parameters"].push_back({{"name", estimate.key},
-                                  {"value", estimate.value},
-                                  {"sd", estimate.sd},
-                                  {"ci95", {estimate.lower_95(), estimate.upper_95()}},
-                                  {"unit", unit_of_key(last_part(estimate.key)).symbol},
-                                  {"nuisance", estimate.nuisance}});
-  }
-  json["correlation"] = fit.correlation;
-  json["chi2_per_sample"] = fit.chi2_per_sample;
-  json["channels"] = Json::array();
-  for (const ChannelFit& channel : fit.channels) {
-    json["channels"].push_back(
-        {{"channel", channel.channel.header()}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
-  }
-  json["two_step"] = fit.two_step.has_value() ? make_two_step_json(*fit.two_step) : Json(nullptr);
-  if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
-  return json;
 }
 
 }  // namespace rollrig::estimation

@@ -1,11 +1,14 @@
 #pragma once
 /// A tire from a user's own warm-up data (`rollrig fit tire`).
 
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "estimation/tire_fit/at_speeds.h"
 #include "estimation/tire_fit/two_step.h"
 #include "include/rollrig/fit_options.h"
 #include "include/rollrig/result.h"
@@ -14,15 +17,25 @@
 
 namespace rollrig::estimation {
 
+/// What was known of a number before the fit, in the unit of its key.
+struct EstimatePrior {
+  double value = 0.0;
+  double sd = 0.0;
+  bool of_class = false;  // since the file gives no standard uncertainty (class_priors.h)
+};
+
 /// One fitted number, in the unit of its key.
 struct Estimate {
   std::string key;
   double value = 0.0;
   double sd = 0.0;
-  bool nuisance = false;  // held by a prior of the files, not asked for
+  bool nuisance = false;                                    // not asked for, held by its prior
+  double least = -std::numeric_limits<double>::infinity();  // limits of its range
+  double most = std::numeric_limits<double>::infinity();
+  std::optional<EstimatePrior> prior{};
 
-  double lower_95() const { return value - 1.959963984540054 * sd; }
-  double upper_95() const { return value + 1.959963984540054 * sd; }
+  double lower_95() const { return std::max(least, value - 1.959963984540054 * sd); }
+  double upper_95() const { return std::min(most, value + 1.959963984540054 * sd); }
 };
 
 /// How well one channel is met.
@@ -36,6 +49,7 @@ struct TireFit {
   std::vector<Estimate> estimates;
   std::vector<std::vector<double>> correlation;  // of the estimates
   std::vector<ChannelFit> channels;
+  std::vector<AtSpeed> at_speeds;
   double chi2_per_sample = 0.0;
   std::optional<TwoStepEstimate> two_step;   // of a law that has A0 to B1
   models::TireFile tire;                     // with the estimates and their uncertainties put in
@@ -44,15 +58,16 @@ struct TireFit {
 };
 
 /// Maximum likelihood over all runs at once, by simulation: the numbers of the law (A0, A1, B0, B1, or those of another
-/// law by their models::FitRole), z, f (and H) free; heat capacities, parasitic loss and whatever else the files give
-/// with an uncertainty move within it. Standard deviations from the curvature at the optimum.
+/// law by their models::FitRole), z, f (and H) free. Of a set with one speed A1, B1 and f are not free. All other
+/// numbers of the tire move within the uncertainty that the files give, or within that of the tire's class
+/// (class_priors.h); parasitic loss within that of the rig. Standard deviations from the curvature at the optimum.
 /// Bounds  ranges of the keys. An optimum that TireModelInfo::find_mistake refuses is not returned: the numbers of role
 ///         kFreeOverSpeedsWithinLaw are fixed, the fit is repeated, and a warning is added
-/// Errors  InputError: not a drum set, a law without numbers to fit, a load map or fewer than two speeds where they do
-///         not go with the law; RunFailure: no convergence, data that leave a parameter undecided, or an optimum where
-///         the law refuses the numbers
+/// Errors  InputError: not a drum set, a law without numbers to fit, no speed with loss and temperature, a load map
+///         where it does not go with the law or of one speed; RunFailure: no convergence, data that leave a parameter
+///         undecided, or an optimum where the law refuses the numbers
 /// Checked tests/estimation/fit_tire_test.cpp, tests/estimation/fit_own_law_test.cpp,
-///         tests/estimation/fit_coverage_test.cpp
+///         tests/estimation/one_warm_up_test.cpp, tests/estimation/fit_coverage_test.cpp
 TireFit fit_tire(const measurements::MeasurementSet& set, const TireFitOptions& options);
 
 /// The fitted numbers by key of the tire file.

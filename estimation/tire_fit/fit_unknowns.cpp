@@ -3,71 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
-#include "measurements/sample_selection.h"
+#include "estimation/tire_fit/class_priors.h"
+#include "estimation/tire_fit/set_variety.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
 namespace {
-
-constexpr double kLongEnough_s = 60.0;  // Assumed: at a load or speed, so that it counts
-
-/// How long the loaded tire is at each value of a channel.
-std::map<double, double> collect_loaded_seconds(const measurements::MeasurementSet& set, const Quantity& channel) {
-  std::map<double, double> seconds;
-  for (const measurements::MeasuredRun& run : set.runs) {
-    const std::vector<double>& load_N = run.column(models::quantities::kLoad);
-    const std::vector<double>& values = run.column(channel);
-    for (std::size_t row = 0; row + 1 < load_N.size(); ++row) {
-      if (load_N[row] < measurements::kLoadedShare * set.tire.values.rolling_resistance.reference_load_N) continue;
-      seconds[values[row]] += run.time_s[row + 1] - run.time_s[row];
-    }
-  }
-  return seconds;
-}
-
-/// Whether the loaded tire is at values of a channel, from a least one up, that differ by a tenth. The lowest and the
-/// highest for a short time do not count, so that ramps and noise are no values of their own.
-bool is_varied(const measurements::MeasurementSet& set, const Quantity& channel, double least = 0.0) {
-  constexpr double kDiffers = 1.1;   // Assumed: then the loss differs by more than sensors err
-  constexpr double kLeftOut = 0.05;  // Assumed: of the time; a minute at least
-  std::map<double, double> seconds = collect_loaded_seconds(set, channel);
-  seconds.erase(seconds.begin(), seconds.lower_bound(least));
-  double total_s = 0.0;
-  for (const auto& [value, at_value_s] : seconds) total_s += at_value_s;
-  const auto find_beyond = [left_out_s = std::max(kLongEnough_s, kLeftOut * total_s)](auto at, const auto end) {
-    for (double passed_s = 0.0; at != end; ++at) {
-      passed_s += at->second;
-      if (passed_s >= left_out_s) return at->first;
-    }
-    return std::nan("");
-  };
-  return find_beyond(seconds.rbegin(), seconds.rend()) >= kDiffers * find_beyond(seconds.begin(), seconds.end());
-}
-
-/// Loads at which the set rolls. Assumed: each at least a minute; near ones (2 %) are one.
-std::vector<double> find_loads_N(const measurements::MeasurementSet& set) {
-  constexpr double kSameLoad = 0.02;  // Assumed
-  const std::map<double, double> seconds_by_load = collect_loaded_seconds(set, models::quantities::kLoad);
-  std::vector<double> loads_N;
-  double group_s = 0.0;
-  for (const auto& [load_N, seconds] : seconds_by_load) {
-    const bool same = !loads_N.empty() && load_N - loads_N.back() <= kSameLoad * load_N;
-    if (!same) {
-      if (!loads_N.empty() && group_s < kLongEnough_s) loads_N.pop_back();
-      loads_N.push_back(load_N);
-      group_s = 0.0;
-    }
-    group_s += seconds;
-  }
-  if (!loads_N.empty() && group_s < kLongEnough_s) loads_N.pop_back();
-  return loads_N;
-}
 
 using Lines = models::SpeedLines<double>;
 
@@ -94,14 +40,17 @@ void add_free(FitUnknowns& unknowns, const std::string& key, double lower_SI, do
   unknowns.parameters.push_back({key, find_parameter(unknowns.start, key), sd_SI, lower_SI});
 }
 
-void add_speed_lines(FitUnknowns& unknowns) {
+/// A0 and B0, and with several speeds A1 and B1; at each load of a map.
+void add_speed_lines(FitUnknowns& unknowns, bool several_speeds) {
   constexpr double kNoBound = -std::numeric_limits<double>::infinity();
   const auto& map = unknowns.start.tire.load_map;
   std::vector<std::string> tables{"tire.rolling_resistance."};
   if (!map.empty()) tables.clear();
   for (std::size_t i = 0; i < map.size(); ++i) tables.push_back(fmt::format("tire.load_map.{}.", i));
+  std::vector<std::string> lines{"A0_N", "A1_N_s_per_m", "B0_per_degC", "B1_s_per_m_degC"};
+  if (!several_speeds) lines = {"A0_N", "B0_per_degC"};
   for (const std::string& table : tables) {
-    for (const Field& line : list_fields<Lines>()) add_free(unknowns, table + line.key, kNoBound, 0.0);
+    for (const std::string& line : lines) add_free(unknowns, table + line, kNoBound, 0.0);
   }
 }
 
@@ -117,12 +66,6 @@ void add_in_range(FitUnknowns& unknowns, const std::string& key, const Field& fi
   unknowns.parameters.push_back({key, start_SI, sd_SI, find_bound(field.range.lower, field.range.lower_open),
                                  find_bound(field.range.upper, field.range.upper_open)});
 }
-
-/// Speeds and loads of the set, as far as they decide numbers.
-struct Variety {
-  bool speeds = false;
-  bool loads = false;
-};
 
 bool asks_for(models::FitRole role, const Variety& variety) {
   switch (role) {
@@ -150,26 +93,46 @@ void add_own_numbers(FitUnknowns& unknowns, const Variety& variety) {
   }
 }
 
-/// Nuisances: what the files give with an uncertainty and the fit does not ask for.
-void add_nuisances(const measurements::MeasurementSet& set, FitUnknowns& unknowns) {
-  std::set<std::string> asked_for;
-  for (const Field& line : list_fields<Lines>()) asked_for.insert(line.key);
-  for (const FreeParameter& parameter : unknowns.parameters) asked_for.insert(last_part(parameter.key));
-  const auto add = [&](const std::string& table, const Field& field, double sd) {
-    if (sd > 0.0 && asked_for.count(field.output_key()) == 0) {
-      add_in_range(unknowns, table + "." + field.output_key(), field, sd);
-    }
-  };
+/// Standard uncertainties of the tire's numbers on the rig of the set, by key; 0 where no file gives one.
+std::map<std::string, double> list_given(const measurements::MeasurementSet& set) {
+  std::map<std::string, double> given;
   const models::TireParameters<double> uncertainties = set.tire.standard_uncertainties_on(set.rig->cooling_rig());
-  for (const std::string& table :
-       {std::string("thermal"), std::string("rolling_resistance"), unknowns.start.tire.model().info.id}) {
-    models::TireParameters<double>::visit_all(uncertainties,
-                                              [&](const std::string& of, const Field& field, const double& sd) {
-                                                if (of == table) add("tire." + of, field, sd);
-                                              });
+  models::TireParameters<double>::visit_all(uncertainties,
+                                            [&](const std::string& table, const Field& field, const double& sd) {
+                                              given["tire." + table + "." + field.output_key()] = sd;
+                                            });
+  return given;
+}
+
+/// Numbers of the tire for which the fit does not ask, each within the uncertainty of its file or else of its class.
+void add_tire_nuisances(const measurements::MeasurementSet& set, double level_speed_m_s, FitUnknowns& unknowns) {
+  std::set<std::string> asked_for;
+  for (const FreeParameter& parameter : unknowns.parameters) asked_for.insert(last_part(parameter.key));
+  const models::TireParameters<double>& start = unknowns.start.tire;
+  const std::map<std::string, double> given = list_given(set);
+  const std::map<std::string, double> of_class = find_class_uncertainties(start, level_speed_m_s);
+  const auto find_in = [](const std::map<std::string, double>& sds, const std::string& key) {
+    const auto found = sds.find(key);
+    return found == sds.end() ? 0.0 : found->second;
+  };
+  for (const std::string& table : {std::string("thermal"), std::string("rolling_resistance"), start.model().info.id}) {
+    models::TireParameters<double>::visit_all(start, [&](const std::string& of, const Field& field, const double&) {
+      if (of != table || asked_for.count(field.output_key()) == 1) return;
+      const std::string key = "tire." + of + "." + field.output_key();
+      const double given_sd = find_in(given, key);
+      const double sd = given_sd > 0.0 ? given_sd : find_in(of_class, key);
+      if (!(sd > 0.0)) return;
+      add_in_range(unknowns, key, field, sd);
+      if (!(given_sd > 0.0)) unknowns.of_class.insert(key);
+    });
   }
+}
+
+void add_rig_nuisances(const measurements::MeasurementSet& set, FitUnknowns& unknowns) {
   models::ParasiticParameters<double>::visit(
-      set.rig->parasitic_uncertainties, [&](const Field& field, const double& sd) { add("parasitic", field, sd); });
+      set.rig->parasitic_uncertainties, [&](const Field& field, const double& sd) {
+        if (sd > 0.0) add_in_range(unknowns, std::string("parasitic.") + field.output_key(), field, sd);
+      });
 }
 
 /// Holds at its usual value what is free within the law only. Returns "key = value" of each.
@@ -195,22 +158,23 @@ std::vector<std::string> hold_at_usual(FitUnknowns& unknowns) {
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::optional<TwoStepEstimate>& start,
                             bool load_map, bool free_H) {
   FitUnknowns unknowns;
-  Variety variety;
+  Variety variety = find_variety(set);
+  double level_speed_m_s = 0.0;
   if (start.has_value()) {
     unknowns.start = make_start_context(set, *start, load_map ? find_loads_N(set) : std::vector<double>{});
-    variety = {true, false};  // two speeds at least
-    add_speed_lines(unknowns);
+    variety.speeds = !start->slopes_held;
+    level_speed_m_s = start->mean_speed_m_s();
+    add_speed_lines(unknowns, variety.speeds);
   } else {
     unknowns.start = rigs::make_context(set.tire, *set.rig, models::Baseline::kCombined);
-    variety = {is_varied(set, models::quantities::kSpeed, measurements::kTrustedSpeed_m_s),
-               is_varied(set, models::quantities::kLoad)};
   }
   add_own_numbers(unknowns, variety);
   add_free(unknowns, "tire.thermal.z_W_per_K", 0.0, 0.0);
   if (variety.speeds) add_free(unknowns, "tire.thermal.f_W_s_per_m_K", 0.0, 0.0);
   if (free_H) add_free(unknowns, "tire.thermal.H_gas_W_per_K", 1e-3, 0.0);
   unknowns.asked_for = unknowns.parameters.size();
-  add_nuisances(set, unknowns);
+  add_tire_nuisances(set, level_speed_m_s, unknowns);
+  add_rig_nuisances(set, unknowns);
   put_correlations(models::list_correlated_pairs(set.tire, set.rig->thermal_name()), unknowns.parameters);
   return unknowns;
 }

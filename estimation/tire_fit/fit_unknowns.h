@@ -2,6 +2,7 @@
 /// What a tire fit varies, and from where it starts.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,13 @@ struct FitUnknowns {
   models::Context<double> start;          // the files' numbers, with the two-step estimate put in where there is one
   std::vector<FreeParameter> parameters;  // keys, starting values, bounds and priors
   std::size_t asked_for = 0;              // the first so many; the others are nuisances
+  std::set<std::string> of_class{};       // keys of nuisances whose prior is that of the class, since no file gives one
 };
 
-/// Asked for, without a prior: the numbers of the law (by models::FitRole, or A0, A1, B0 and B1, at each load with
-/// `load_map`); z; f, of another law than the source's with several speeds only; H with `free_H`. Nuisances: all other
-/// numbers to which the files give an uncertainty, with the correlations of the tire file.
+/// Asked for, without a prior: the numbers of the law (by models::FitRole, or A0 and B0, at each load with `load_map`),
+/// z, H with `free_H`; with several speeds also A1, B1 and f. Nuisances: all other numbers to which the files give an
+/// uncertainty, with the correlations of the tire file, and numbers of the tire without one that have a class prior
+/// (class_priors.h).
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::optional<TwoStepEstimate>& start,
                             bool load_map, bool free_H);
 

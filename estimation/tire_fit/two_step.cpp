@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "estimation/tire_fit/set_variety.h"
 #include "measurements/sample_selection.h"
 #include "models/tire/drum_curvature.h"
 #include "models/tire/inflation_gas.h"
@@ -112,6 +113,17 @@ void fit_over_speed(TwoStepEstimate& estimate) {
   estimate.B1_s_per_m_K = lines(1, 1);
 }
 
+/// Lines with the slopes of the file through the mean of what was found.
+void put_beside_slopes(const models::SpeedLines<double>& file, TwoStepEstimate& estimate) {
+  static_cast<models::SpeedLines<double>&>(estimate) = file;
+  estimate.A0_N = estimate.B0_per_K = 0.0;
+  const auto n = static_cast<double>(estimate.speeds.size());
+  for (const SpeedFit& fit : estimate.speeds) {
+    estimate.A0_N += (fit.A_N - file.A1_N_s_per_m * fit.speed_m_s) / n;
+    estimate.B0_per_K += (fit.B_per_K - file.B1_s_per_m_K * fit.speed_m_s) / n;
+  }
+}
+
 /// Rows of the integrated heat balances, one a sample.
 struct HeatBalance {
   std::vector<double> to_z, to_f, heat_J;        // z to_z + f to_f = heat
@@ -159,24 +171,46 @@ void collect_heat(const measurements::MeasurementSet& set, const measurements::M
   }
 }
 
+/// z of z to_z + f to_f = heat, where f is known.
+double fit_rest_conductance(const HeatBalance& balance, double speed_conductance_W_s_per_m_K) {
+  const auto to_z = as_vector(balance.to_z);
+  const Eigen::VectorXd left_J = as_vector(balance.heat_J) - speed_conductance_W_s_per_m_K * as_vector(balance.to_f);
+  return to_z.dot(left_J) / to_z.squaredNorm();
+}
+
 void fit_heat(const measurements::MeasurementSet& set, TwoStepEstimate& estimate) {
   HeatBalance balance;
   for (const measurements::MeasuredRun& run : set.runs) collect_heat(set, run, estimate, balance);
-  const Eigen::Vector2d conductances =
-      fit_two(as_vector(balance.to_z), as_vector(balance.to_f), as_vector(balance.heat_J));
-  estimate.rest_conductance_W_per_K = conductances[0];
-  estimate.speed_conductance_W_s_per_m_K = conductances[1];
+  if (estimate.slopes_held) {
+    estimate.speed_conductance_W_s_per_m_K = set.tire.parameters_on(set.rig->cooling_rig(), models::Baseline::kCombined)
+                                                 .thermal.speed_conductance_W_s_per_m_K;
+    estimate.rest_conductance_W_per_K = fit_rest_conductance(balance, estimate.speed_conductance_W_s_per_m_K);
+  } else {
+    const Eigen::Vector2d conductances =
+        fit_two(as_vector(balance.to_z), as_vector(balance.to_f), as_vector(balance.heat_J));
+    estimate.rest_conductance_W_per_K = conductances[0];
+    estimate.speed_conductance_W_s_per_m_K = conductances[1];
+  }
   if (balance.to_H.empty()) return;
   estimate.H_gas_W_per_K =
       fit_two(as_vector(balance.to_H), as_vector(balance.time_s), as_vector(balance.gas_heat_J))[0];
 }
 
-InputError too_few_speeds(const measurements::MeasurementSet& set, std::size_t found) {
-  return InputError({fmt::format("the set has {} speed(s) with loss and temperature; A and B need two at least", found),
-                     set.path, 0, "speed_km_h", "", "loaded runs at two or more constant speeds above 20 km/h", ""});
+InputError no_speed(const measurements::MeasurementSet& set) {
+  return InputError({"the set has no speed with loss and temperature, of which A and B are found", set.path, 0,
+                     "speed_km_h", "",
+                     fmt::format("a loaded run at a constant speed above 20 km/h with {} and {}",
+                                 set.kind->traits.force.header(), Quantity(quantities::kLinerTemperature).header()),
+                     ""});
 }
 
 }  // namespace
+
+double TwoStepEstimate::mean_speed_m_s() const {
+  double sum_m_s = 0.0;
+  for (const SpeedFit& fit : speeds) sum_m_s += fit.speed_m_s;
+  return sum_m_s / static_cast<double>(speeds.size());
+}
 
 TwoStepEstimate estimate_in_two_steps(const measurements::MeasurementSet& set) {
   std::vector<LossSamples> speeds;
@@ -184,12 +218,17 @@ TwoStepEstimate estimate_in_two_steps(const measurements::MeasurementSet& set) {
   speeds.erase(std::remove_if(speeds.begin(), speeds.end(),
                               [](const LossSamples& s) { return s.log_loss.size() < kEnoughSamples; }),
                speeds.end());
-  if (speeds.size() < 2) throw too_few_speeds(set, speeds.size());
+  if (speeds.empty()) throw no_speed(set);
   TwoStepEstimate estimate;
   for (const LossSamples& samples : speeds) estimate.speeds.push_back(fit_speed(samples));
   std::sort(estimate.speeds.begin(), estimate.speeds.end(),
             [](const SpeedFit& a, const SpeedFit& b) { return a.speed_m_s < b.speed_m_s; });
-  fit_over_speed(estimate);
+  estimate.slopes_held = estimate.speeds.size() < 2 || !find_variety(set).speeds;
+  if (estimate.slopes_held) {
+    put_beside_slopes(set.tire.values.rolling_resistance, estimate);
+  } else {
+    fit_over_speed(estimate);
+  }
   fit_heat(set, estimate);
   return estimate;
 }

@@ -20,8 +20,8 @@ struct TireFit : Report {
 };
 
 /// Method: docs/fit_tire.md.
-/// Errors  InputError: not a drum set, fewer than two speeds or a load map where they do not go with the tire's law;
-///         RunFailure: no convergence, or data that leave a parameter undecided
+/// Errors  InputError: not a drum set, no speed with loss and temperature of a law with A0 to B1, a load map where it
+///         does not go with the law or of one speed; RunFailure: no convergence, or data that leave a parameter undecided
 TireFit fit_tire(const MeasurementSet& set, const TireFitOptions& options = {});
 
 /// A, B, C of a vehicle. Its files: road_load.json, residuals.csv.

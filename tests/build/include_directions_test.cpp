@@ -65,7 +65,7 @@ const std::map<std::string, std::set<std::string>> kPackages{
       "rigs/simbody_system.h", "rigs/vehicle_bodies.h"}},
     {"CLI/", {"cli", "validation/program"}},
     {"nlohmann/", {"sim/core/json.h"}},
-    {"ceres/", {"sim/core/scalar.h", "estimation/tire_fit/fit_tire.cpp", "diagnosis/comparison/refit.cpp"}},
+    {"ceres/", {"sim/core/scalar.h", "estimation/tire_fit/fit_solution.cpp", "diagnosis/comparison/refit.cpp"}},
     {"edlib.h", {"sim/core/error.cpp"}},
     {"udunits2.h", {"sim/core/unit_names.cpp"}},
     {"tbb/", {"sim/core/parallel.cpp"}},

@@ -33,7 +33,10 @@ TEST_CASE("a set is written, validated and fitted", "[fast]") {
   CHECK(longest_line(fit.out) <= 80);
   CHECK(run_program("validate fitted/mine.toml", folder.path()).status == 0);
   const json result = json::parse(read_file(folder.file("fitted/fit.json")));
-  CHECK(result["parameters"].size() == 6);
+  const auto& parameters = result["parameters"];
+  CHECK(std::count_if(parameters.begin(), parameters.end(), [](const json& at) { return !at["nuisance"]; }) == 6);
+  CHECK(result["at_speeds"].size() == 2);
+  CHECK_THAT(fit.out, Contains("heat_capacity *") && Contains("class"));
   CHECK(run_program("run iso_28580 --tire fitted/mine.toml", folder.path()).status == 0);
 }
 
@@ -54,6 +57,23 @@ TEST_CASE("a tire with a bounded law is fitted, without what belongs to lines ov
   const auto map = run_program("fit tire set --load-map", folder.path());
   CHECK(map.status == 2);
   CHECK_THAT(flatten(map.err), Contains("--load-map") && Contains("bounded"));
+}
+
+TEST_CASE("one warm-up gives a tire, and the numbers that it decides at its speed", "[fast]") {
+  const TemporaryFolder folder;
+  for (const char* tire : {"c1_205_55r16", "'" ROLLRIG_SOURCE_DIR "/tests/published/combined_law/a50.toml'"}) {
+    REQUIRE(run_program(std::string("run warm_up --sensors source --write-set set --force --quiet --tire ") + tire,
+                        folder.path())
+                .status == 0);
+    const auto fit = run_program("fit tire set --out fitted --force --name mine --html page.html", folder.path());
+    INFO(fit.out << fit.err);
+    REQUIRE(fit.status == 0);
+    CHECK(longest_line(fit.out) <= 80);
+    CHECK_THAT(fit.out, Contains("At the speeds of the set"));
+    CHECK(json::parse(read_file(folder.file("fitted/fit.json")))["at_speeds"].size() == 1);
+    CHECK(run_program("validate fitted/mine.toml", folder.path()).status == 0);
+    CHECK(run_program("run iso_28580 --tire fitted/mine.toml --fidelity quasi_static", folder.path()).status == 0);
+  }
 }
 
 TEST_CASE("a set that is written without sensors is said to hold no measurement", "[fast]") {

@@ -1,0 +1,72 @@
+#include "estimation/tire_fit/fit_tire.h"
+#include "sim/core/text.h"
+
+namespace rollrig::estimation {
+namespace {
+
+Json make_prior_json(const EstimatePrior& prior) {
+  return {{"value", prior.value}, {"sd", prior.sd}, {"from", prior.of_class ? "class" : "file"}};
+}
+
+Json make_at_speeds_json(const std::vector<AtSpeed>& speeds) {
+  Json json = Json::array();
+  for (const AtSpeed& speed : speeds) {
+    const auto number = [](const Uncertain& at) -> Json { return {{"value", at.value}, {"sd", at.sd}}; };
+    json.push_back({{"speed_km_h", unit_of_key("speed_km_h").from_si(speed.at.speed_m_s)},
+                    {"load_N", speed.at.load_N},
+                    {"pressure_kPa", unit_of_key("pressure_kPa").from_si(speed.at.pressure_Pa)},
+                    {"temperature_degC", unit_of_key("temperature_degC").from_si(speed.at.temperature_K)},
+                    {"loss_N", number(speed.loss_N)},
+                    {"fall_per_degC", number(speed.fall_per_K)},
+                    {"conductance_W_per_K", number(speed.conductance_W_per_K)},
+                    {"time_constant_s", number(speed.time_constant_s)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::vector<ParameterEstimate> list_parameters(const TireFit& fit) {
+  std::vector<ParameterEstimate> parameters;
+  for (const Estimate& at : fit.estimates) {
+    const std::string key = find_file_key(at.key);
+    parameters.push_back({key, at.value, at.sd, at.lower_95(), at.upper_95(), unit_of_key(last_part(key)).symbol});
+  }
+  return parameters;
+}
+
+Json make_two_step_json(const TwoStepEstimate& two_step) {
+  Json json;
+  models::SpeedLines<double>::visit(two_step, [&](const Field& line, double value) { json[line.key] = value; });
+  json["z_W_per_K"] = two_step.rest_conductance_W_per_K;
+  json["f_W_s_per_m_K"] = two_step.speed_conductance_W_s_per_m_K;
+  if (two_step.H_gas_W_per_K.has_value()) json["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
+  return json;
+}
+
+Json make_fit_json(const measurements::MeasurementSet& set, const TireFit& fit) {
+  Json json = {{"format", "rollrig-fit/1"}, {"set", set.name}, {"tire", set.tire.name}, {"rig", set.rig->name}};
+  json["parameters"] = Json::array();
+  for (const Estimate& estimate : fit.estimates) {
+    json["parameters"].push_back({{"name", estimate.key},
+                                  {"value", estimate.value},
+                                  {"sd", estimate.sd},
+                                  {"ci95", {estimate.lower_95(), estimate.upper_95()}},
+                                  {"unit", unit_of_key(last_part(estimate.key)).symbol},
+                                  {"nuisance", estimate.nuisance}});
+    if (estimate.prior.has_value()) json["parameters"].back()["prior"] = make_prior_json(*estimate.prior);
+  }
+  json["correlation"] = fit.correlation;
+  json["at_speeds"] = make_at_speeds_json(fit.at_speeds);
+  json["chi2_per_sample"] = fit.chi2_per_sample;
+  json["channels"] = Json::array();
+  for (const ChannelFit& channel : fit.channels) {
+    json["channels"].push_back(
+        {{"channel", channel.channel.header()}, {"samples", channel.samples}, {"whitened_rms", channel.whitened_rms}});
+  }
+  json["two_step"] = fit.two_step.has_value() ? make_two_step_json(*fit.two_step) : Json(nullptr);
+  if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
+  return json;
+}
+
+}  // namespace rollrig::estimation
