@@ -184,3 +184,47 @@ TEST_CASE("lines above the header and units below it are passed over", "[fast]")
   CHECK(log.time_s.size() == 3);
   CHECK(log.line[0] == 5);
 }
+
+TEST_CASE("a log in Windows-1252 with decimal commas, mph, kgf and degF is read as its mapping says", "[fast]") {
+  const tests::TemporaryFolder folder;
+  std::string log =
+      "Zeit;v [mph];F [kgf];T [\xB0"
+      "F];M [lb-ft]\r\n";
+  for (const char* second : {"42,5", "43,5", "44,5"}) {
+    log += std::string("05.03.2024 13:29:") + second + ";50,0;550,0;77,0;30,0\r\n";
+  }
+  tests::write_file(folder.file("log.csv"), log);
+  tests::write_file(folder.file("import.toml"), R"(format = "rollrig-import/1"
+name = "abroad"
+tire = "a50"
+rig = "drum_2m"
+sensors = "source"
+[torque_log]
+encoding = "windows-1252"
+separator = "semicolon"
+decimal = "comma"
+time = { column = "Zeit", form = "date_time", date_order = "dmy", utc_offset_h = 1.0 }
+[torque_log.columns]
+speed_km_h = { column = "v [mph]", unit = "mph" }
+load_N = { column = "F [kgf]", unit = "kgf" }
+ambient_degC = { column = "T [°F]", unit = "°F" }
+drum_torque_Nm = { column = "M [lb-ft]", unit = "lb-ft" }
+[[run]]
+id = "one"
+session = "day"
+torque_log = "log.csv"
+initial_tire_temperature_degC = 25.0
+cold_pressure_kPa = 280.0
+from = "05.03.2024 13:29:43,5"
+)");
+  const measurements::Mapping mapping = measurements::read_mapping(folder.file("import.toml"));
+  const Log read = measurements::read_log(mapping.torque_log, folder.file("log.csv"));
+  CHECK(read.time_s.front() == Approx(1709641782.5).margin(1e-6));
+  CHECK(read.is_utc);
+  CHECK(read.columns.at("speed_km_h").front() == Approx(22.352));  // 50 mph in m/s, exact
+  CHECK(read.columns.at("load_N").front() == Approx(550.0 * 9.80665));
+  CHECK(read.columns.at("ambient_degC").front() == Approx(298.15));
+  CHECK(read.columns.at("drum_torque_Nm").front() == Approx(40.6745).epsilon(1e-5));  // 1 lbf ft = 1.355818 N m
+  CHECK(measurements::parse_log_time(mapping.torque_log, read, mapping.runs[0].from, "from", {}) ==
+        Approx(1709641783.5).margin(1e-6));
+}
