@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "build_paths.h"
 #include "exports/tree.h"
 #include "sim/core/error.h"
 #include "tests/exports/exported_run.h"
@@ -92,4 +93,25 @@ TEST_CASE("what is not a result says so", "[fast]") {
   CHECK_THROWS_WITH(exports::read_source(run.result()), Catch::Contains("not JSON") && Catch::Contains("line 3"));
   tests::write_file(run.result() + "/result.json", R"({"format": "rollrig-diagnosis/1"})");
   CHECK_THROWS_WITH(exports::read_source(run.result()), Catch::Contains("rollrig-result/1"));
+}
+
+TEST_CASE("a set with bad rows is exported as it is used, with a list of what was left out", "[fast]") {
+  const std::string path = ROLLRIG_SOURCE_DIR "/tests/bad_input/set_bad_rows.set";  // 60 rows, three of them bad
+  CHECK_THROWS_AS(exports::read_source(path), InputError);
+  std::vector<std::string> warnings;
+  const Group tree = exports::read_source(path, BadRows::kLeaveOut, &warnings);
+  CHECK(warnings.size() == 1);
+  const auto& run = member<Group>(member<Group>(tree, "runs"), "a");
+  const auto& recording = member<Group>(run, "recording");
+  CHECK(recording.is_table);
+  const auto& times = member<Column>(recording, "time_s");
+  REQUIRE(times.size() == 57);
+  CHECK(times[8] == 9.0);
+  CHECK(member<Column>(recording, "speed_km_h")[8] == Approx(80.0));
+  CHECK(member<Column>(recording, "ambient_degC")[8] == Approx(25.0));
+  CHECK(std::isnan(member<Column>(recording, "drum_torque_Nm")[8]));
+  CHECK(member<Column>(recording, "drum_torque_Nm")[12] == 40.0);
+  const auto& list = member<List>(tree, "bad_rows");
+  REQUIRE(list.items.size() == 1);
+  CHECK(member<double>(std::get<Group>(list.items[0].value), "rows_left_out") == 3.0);
 }
