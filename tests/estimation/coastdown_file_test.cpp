@@ -76,3 +76,16 @@ TEST_CASE("bins without a run column: a run begins where the speed does not fall
 TEST_CASE("a run that turns is refused", "[fast]") {
   CHECK_THROWS_AS(read_text("time_s,speed_km_h,run,heading\n0,100,a,+\n1,90,a,-\n"), InputError);
 }
+
+TEST_CASE("a start time is a time of day, seconds or nothing", "[fast]") {
+  const auto read = [](const std::string& start) {
+    return read_text("start_time,v_hi_kmh,v_lo_kmh,dt_s\n" + start + ",90,80,5\n").data.runs[0].start_s;
+  };
+  CHECK(*read("13:29:42") == Approx(48582.0));
+  CHECK(*read("48582.5") == Approx(48582.5));
+  CHECK_FALSE(read("").has_value());
+  for (const char* wrong : {"abc", "13:61:00", "13:29:60", "1:2:3:4", "13::29", "-5", "2026-01-16 13:29:42"}) {
+    INFO(wrong);
+    CHECK_THROWS_WITH(read(wrong), Catch::Contains("is not a time of day") && Catch::Contains("line 2"));
+  }
+}
