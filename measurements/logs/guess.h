@@ -58,7 +58,7 @@ struct GuessedLog {
 
 /// What guesses are made from.
 struct GuessSource {
-  const GuessOptions& options;
+  GuessOptions options;
   GuessedForm form;
   std::vector<GuessedLog> logs;
   std::vector<HeadingParts> headings;  // in the order of form.headings

@@ -115,7 +115,8 @@ const QuantityMap<std::vector<NameWord>>& name_words() {
 }
 
 /// Headings with these words are not what was measured.
-constexpr const char* kUnwanted[] = {"soll", "setpoint", "target", "demand", "wind", "slip", "schlupf", "stddev"};
+constexpr const char* kUnwanted[] = {"soll",       "setpoint", "target",  "demand", "windspeed",
+                                     "windgeschw", "slip",     "schlupf", "stddev"};
 
 /// Lower case, umlauts written out, other signs as blanks.
 std::string plain_words(const std::string& name) {
@@ -180,10 +181,10 @@ class ColumnMatcher {
     }
   }
 
-  void take(const Quantity& quantity, const std::string& heading, const std::string& reason) {
-    found_[quantity] = {heading, reason};
+  void take(const Quantity quantity, std::string heading, const std::string& reason) {
     free_.erase(std::remove(free_.begin(), free_.end(), heading), free_.end());
     open_.erase(std::remove(open_.begin(), open_.end(), quantity), open_.end());
+    found_[quantity] = {std::move(heading), reason};
   }
 
   /// Takes the pair with the highest score until none has one.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 #include <boost/date_time/gregorian/gregorian.hpp>
@@ -68,7 +69,7 @@ void find_start_of_tire(const GuessSource& source, const GuessedLog& log, const 
     throw source.problem(fmt::format("'{}' has no value of {}", log.path, air.target.header()), "--value", "",
                          fmt::format("--value {}=NUMBER", air.target.header()));
   }
-  run.initial_tire_temperature_K = std::round(10.0 * *tire_degC) / 10.0 + kZeroCelsius_K;
+  run.initial_tire_temperature_K = *tire_degC + kZeroCelsius_K;
   std::optional<double> pressure_kPa = source.options.cold_pressure_kPa;
   if (pressure_kPa.has_value()) {
     run.reason += "; pressure as --cold-pressure says";
@@ -116,6 +117,23 @@ void find_rest(const GuessSource& source, const GuessedTime& time, const Guessed
   }
 }
 
+/// Takes the offset of the liner's sensor off the temperature at the start. A tire that has soaked is as warm as the
+/// air, which shows the offset; in the same session it is the same.
+void correct_start_of_tire(double excess_K, std::map<std::string, double>& offsets_K, GuessedRun& run) {
+  constexpr double kLargestOffset_K = 1.5;  // Assumed
+  if (!run.rest_before_s.has_value() && std::abs(excess_K) < kLargestOffset_K) {
+    offsets_K.emplace(run.session, excess_K);
+    run.initial_tire_temperature_K -= excess_K;
+    run.reason +=
+        fmt::format("; a soaked tire is as warm as the air, and the liner's sensor reads {:+.1f} K", excess_K);
+    return;
+  }
+  const auto offset_K = offsets_K.find(run.session);
+  if (offset_K == offsets_K.end()) return;
+  run.initial_tire_temperature_K -= offset_K->second;
+  run.reason += fmt::format("; less the {:+.1f} K of the soaked run of the session", offset_K->second);
+}
+
 void require_known_rests(const GuessSource& source, const std::vector<GuessedRun>& runs) {
   std::vector<std::string> ids;
   for (const GuessedRun& run : runs) ids.push_back(run.id);
@@ -149,9 +167,11 @@ std::vector<GuessedRun> guess_runs(const GuessSource& source, const GuessedTime&
                      [](const auto& a, const auto& b) { return a.first.start_s < b.first.start_s; });
   }
   std::vector<GuessedRun> runs;
+  std::map<std::string, double> offsets_K;  // of the liner's sensor, by session
   for (auto& [run, log] : found) {
     const double excess_K = find_excess_K(source, *log, columns, run);
     find_rest(source, time, runs.empty() ? nullptr : &runs.back(), excess_K, run);
+    correct_start_of_tire(excess_K, offsets_K, run);
     run.reason += time.is_dated ? "; session: the day" : "; one session, since the logs state no day";
     runs.push_back(std::move(run));
   }

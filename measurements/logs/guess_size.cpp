@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -27,20 +28,34 @@ NumberSpan find_span(const std::vector<double>& numbers) {
   return {sorted.front(), sorted[sorted.size() / 2], sorted.back()};
 }
 
+double find_usual_load_N(const models::TireFile& tire) {
+  constexpr double kCar_N = 5000.0;  // Assumed: of a tire whose file states no load
+  if (tire.iso_28580.has_value()) return tire.iso_28580->load_N;
+  return tire.has_rolling_resistance ? tire.values.rolling_resistance.reference_load_N : kCar_N;
+}
+
+double find_usual_pressure_Pa(const models::TireFile& tire) {
+  constexpr double kCar_Pa = 250e3;  // Assumed: likewise
+  if (tire.iso_28580.has_value()) return tire.iso_28580->pressure_Pa;
+  return tire.has_rolling_resistance ? tire.values.rolling_resistance.reference_pressure_Pa : kCar_Pa;
+}
+
 /// Whether speeds that are held for long lie at multiples of 5 km/h.
 bool holds_round_speeds(const std::vector<double>& speeds_km_h) {
-  constexpr double kLong = 0.05;  // Assumed: of the rows
-  std::map<long, std::size_t> counts;
+  constexpr double kLong = 0.05;       // Assumed: of the rows
+  constexpr double kNear_km_h = 0.15;  // Assumed: how well a speed is held
+  std::map<long, std::vector<double>> held;
   std::size_t count = 0;
   for (const double speed_km_h : speeds_km_h) {
     if (!(speed_km_h > 5.0)) continue;
     ++count;
-    ++counts[std::lround(2.0 * speed_km_h)];
+    held[std::lround(2.0 * speed_km_h)].push_back(speed_km_h);
   }
   bool any = false;
-  for (const auto& [half_km_h, times] : counts) {
-    if (static_cast<double>(times) < kLong * static_cast<double>(count)) continue;
-    if (std::lround(0.5 * static_cast<double>(half_km_h)) % 5 != 0) return false;
+  for (const auto& [half_km_h, speeds] : held) {
+    if (static_cast<double>(speeds.size()) < kLong * static_cast<double>(count)) continue;
+    const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
+    if (std::abs(mean - 5.0 * std::round(mean / 5.0)) > kNear_km_h) return false;
     any = true;
   }
   return any;
@@ -59,12 +74,12 @@ bool may_be(const GuessSource& source, const Quantity& target, const GuessedUnit
     for (const double number : numbers) speeds_km_h.push_back(unit.convert(number, target));
     return holds_round_speeds(speeds_km_h);
   }
-  if (target == quantities::kLoad && source.tire.iso_28580.has_value()) {
-    const double ratio = std::max(span.highest, factor * span.lowest) / source.tire.iso_28580->load_N;
+  if (target == quantities::kLoad) {
+    const double ratio = std::max(span.highest, factor * span.lowest) / find_usual_load_N(source.tire);
     return ratio > 0.35 && ratio < 1.6;
   }
-  if (target == quantities::kCavityPressure && source.tire.iso_28580.has_value()) {
-    const double ratio = span.middle / (source.tire.iso_28580->pressure_Pa * 1e-3);
+  if (target == quantities::kCavityPressure) {
+    const double ratio = 1e3 * span.middle / find_usual_pressure_Pa(source.tire);
     return ratio > 0.5 && ratio < 2.0;
   }
   const std::string symbol = target.file_unit().symbol;

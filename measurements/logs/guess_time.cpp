@@ -26,11 +26,12 @@ StampKind find_kind_of_cell(const std::string& cell, char decimal) {
   static const std::regex both(R"(\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[T, ]+\d{1,2}:\d{2}(:\d{2}([.,]\d+)?)?)");
   static const std::regex date(R"(\d{1,4}[-./]\d{1,2}[-./]\d{1,4})");
   static const std::regex clock(R"(\d{1,2}:\d{2}(:\d{2}([.,]\d{1,9})?)?)");
+  if (parse_log_number(cell, decimal).has_value()) return StampKind::kNumber;
   if (std::regex_match(cell, iso)) return StampKind::kIso8601;
   if (std::regex_match(cell, both)) return StampKind::kDateAndTime;
   if (std::regex_match(cell, date)) return StampKind::kDate;
   if (std::regex_match(cell, clock)) return StampKind::kClock;
-  return parse_log_number(cell, decimal).has_value() ? StampKind::kNumber : StampKind::kNone;
+  return StampKind::kNone;
 }
 
 /// The kind of all cells of a column; kNone where they differ.

@@ -106,6 +106,17 @@ bool take_off_reference(std::string& text) {
   return is_absolute;
 }
 
+/// "p_bar" and its like. One letter that may be an index of the name, as in T_m, is none.
+std::optional<HeadingParts> split_at_underscore(const std::string& heading) {
+  for (std::size_t at = heading.find('_'); at != std::string::npos && at > 0; at = heading.find('_', at + 1)) {
+    const std::string last = heading.substr(at + 1);
+    const std::optional<GuessedUnit> unit = find_unit(last);
+    const bool may_be_index = last == "m" || last == "C" || last == "F" || last == "h";
+    if (unit.has_value() && !may_be_index) return HeadingParts{heading.substr(0, at), unit, ""};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool GuessedUnit::is_of(const Quantity& quantity) const {
@@ -155,23 +166,19 @@ HeadingParts split_heading(const std::string& heading, const std::string& unit_c
     const std::optional<GuessedUnit> unit = find_unit(cell);
     return {heading, unit, unit.has_value() ? "" : cell};
   }
-  static const std::array<std::regex, 5> kForms{
-      std::regex("^(.*\\S)\\s*\\[\\s*(.*?)\\s*\\]$"), std::regex("^(.*[^\\s(])\\s*\\(\\s*(.*?)\\s*\\)$"),
-      std::regex("^(.*\\S)\\s+in\\s+(\\S+)$"), std::regex("^(.*\\S)\\s*/\\s*(\\S+)$"),
-      std::regex("^(.*\\S)\\s+(\\S+)$")};
+  static const std::array<std::regex, 6> kForms{std::regex("^(.*\\S)\\s*\\[\\s*(.*?)\\s*\\]$"),
+                                                std::regex("^(.*[^\\s(])\\s*\\(\\s*(.*?)\\s*\\)$"),
+                                                std::regex("^(.*\\S)\\s+in\\s+(\\S+)$"),
+                                                std::regex("^(.*\\S)\\s+/\\s+(\\S+)$"),
+                                                std::regex("^(.*\\S)\\s+(\\S+)$"),
+                                                std::regex("^(.*?\\S)/(\\S+)$")};
+  if (const auto parts = split_at_underscore(heading)) return *parts;
   std::smatch match;
   for (const std::regex& form : kForms) {
     if (!std::regex_match(heading, match, form)) continue;
     const std::optional<GuessedUnit> unit = find_unit(match[2]);
     if (unit.has_value()) return {match[1], unit, ""};
     if (&form == &kForms.front()) return {match[1], std::nullopt, match[2]};
-  }
-  for (std::size_t at = heading.find('_'); at != std::string::npos && at > 0; at = heading.find('_', at + 1)) {
-    const std::string last = heading.substr(at + 1);
-    const std::optional<GuessedUnit> unit = find_unit(last);
-    if (unit.has_value() && last != "m" && last != "C" && last != "F" && last != "h") {
-      return {heading.substr(0, at), unit, ""};
-    }
   }
   return {heading, std::nullopt, ""};
 }

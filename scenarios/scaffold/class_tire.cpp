@@ -84,6 +84,13 @@ double find_iso_pressure_kPa(const NewTireOptions& options, const std::string& t
                     "command line", 0, "--pressure", "", "--pressure NUMBER, in kPa, gauge", ""});
 }
 
+/// A number that was estimated, without digits that nobody knows.
+double round_estimate(double value) {
+  constexpr double kDigits = 4.0;
+  const double step = std::pow(10.0, std::floor(std::log10(value)) + 1.0 - kDigits);
+  return step * std::round(value / step);
+}
+
 /// A number of the file and what is known of it.
 class NumberSetter {
  public:
@@ -95,7 +102,8 @@ class NumberSetter {
   }
   /// In proportion to `ratio` of the reference tire.
   void scale(const char* key, double& number, double ratio, const std::string& to) {
-    set(key, number, number * ratio, fmt::format("Assumed: that of {}, in proportion to {}", base_.name, to));
+    set(key, number, round_estimate(number * ratio),
+        fmt::format("Assumed: that of {}, in proportion to {}", base_.name, to));
   }
   void set_own(const char* key, double value, const std::string& note) {
     set(fmt::format("bounded.{}", key).c_str(), *models::find_own_number(made_.tire.values.own, key), value, note);
@@ -119,7 +127,7 @@ void set_geometry(const TireSize& size, const ClassValues& values, ClassTire& ma
   numbers.set("geometry.rim_diameter_m", geometry.rim_diameter_m, size.rim_diameter_m, "Designation");
   const double area_m2 = models::calc_outer_area_m2(geometry);
   if (values.mass_kg_per_m2 > 0.0) {
-    numbers.set("geometry.mass_kg", geometry.mass_kg, values.mass_kg_per_m2 * area_m2,
+    numbers.set("geometry.mass_kg", geometry.mass_kg, round_estimate(values.mass_kg_per_m2 * area_m2),
                 fmt::format("Assumed: {:g} kg/m2 of the outer area, as tires of vans", values.mass_kg_per_m2));
   } else {
     numbers.scale("geometry.mass_kg", geometry.mass_kg, area_m2 / models::calc_outer_area_m2(base), "the outer area");
@@ -149,9 +157,11 @@ void set_heat(const models::TireFile& base, double pressure_Pa, ClassTire& made,
   constexpr double kSpread = 0.3;
   models::TireThermalParameters<double>& thermal = made.tire.values.thermal;
   const models::TireGeometry<double>& geometry = made.tire.values.geometry;
-  numbers.set("thermal.heat_capacity_J_per_K", thermal.heat_capacity_J_per_K, kPerMass_J_per_kg_K * geometry.mass_kg,
+  numbers.set("thermal.heat_capacity_J_per_K", thermal.heat_capacity_J_per_K,
+              round_estimate(kPerMass_J_per_kg_K * geometry.mass_kg),
               "Assumed: 1640 J/(kg K) of the mass, as the prior of the calibrated tires");
-  made.tire.standard_uncertainties.thermal.heat_capacity_J_per_K = kSpread * thermal.heat_capacity_J_per_K;
+  made.tire.standard_uncertainties.thermal.heat_capacity_J_per_K =
+      round_estimate(kSpread * thermal.heat_capacity_J_per_K);
   made.notes["thermal.heat_capacity_J_per_K_sd"] =
       "Assumed: 30 %; the calibrated tires have 1940 to 2640 J/(kg K) of their masses";
   const auto cavity = [](const models::TireGeometry<double>& of) {  // in proportion to the volume
@@ -163,7 +173,8 @@ void set_heat(const models::TireFile& base, double pressure_Pa, ClassTire& made,
                 "cavity and absolute pressure");
   const double area_ratio = models::calc_outer_area_m2(geometry) / models::calc_outer_area_m2(base.values.geometry);
   numbers.scale("thermal.H_gas_W_per_K", thermal.H_gas_W_per_K, area_ratio, "the outer area");
-  const double conductance_W_per_K = *models::find_own_number(base.values.own, "conductance_W_per_K") * area_ratio;
+  const double conductance_W_per_K =
+      round_estimate(*models::find_own_number(base.values.own, "conductance_W_per_K") * area_ratio);
   numbers.set_own("conductance_W_per_K", conductance_W_per_K,
                   fmt::format("Assumed: that of {}, in proportion to the outer area", base.name));
   numbers.set_own_sd("conductance_W_per_K", 0.5 * conductance_W_per_K, "Assumed: half of the value, as a40");
