@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "estimation/road_load/checked_road_load.h"
 #include "estimation/road_load/road_load_report.h"
 #include "report/fit_pages.h"
 #include "rollrig/fit.h"
@@ -44,10 +45,45 @@ void select_sessions(const std::vector<std::string>& wanted, CoastdownFile& file
   runs.erase(std::remove_if(runs.begin(), runs.end(), unwanted), runs.end());
 }
 
+bool is_run(const estimation::CoastdownRun& run, const std::string& name) {
+  return run.id == name || run.session + "/" + run.id == name;
+}
+
+/// Takes out the runs that are not wanted.
+void leave_out_runs(const std::vector<std::string>& unwanted, CoastdownFile& file) {
+  auto& runs = file.data.runs;
+  for (const std::string& name : unwanted) {
+    const auto is_it = [&name](const estimation::CoastdownRun& run) { return is_run(run, name); };
+    const auto first = std::remove_if(runs.begin(), runs.end(), is_it);
+    if (first == runs.end()) {
+      std::vector<std::string> known;
+      for (const estimation::CoastdownRun& run : runs) known.push_back(run.id);
+      InputProblem problem = unknown_name("run", name, known);
+      problem.file = "command line";
+      problem.key = "--leave-out";
+      throw InputError(problem);
+    }
+    runs.erase(first, runs.end());
+  }
+}
+
+/// The vehicle of a recording, where it is asked for.
+RoadLoadFitOptions complete_options(const CoastdownFile& file, RoadLoadFitOptions options) {
+  if (!options.recorded_vehicle) return options;
+  if (!file.vehicle.has_value()) {
+    throw InputError({"the mass is missing: a coastdown alone gives force per mass", "command line", 0, "--mass", "",
+                      "--mass <kg>, the test mass; or --per-mass for A, B and C per unit of effective mass", ""});
+  }
+  options.mass_kg = file.vehicle->mass_kg;
+  options.rotating_mass_kg = file.vehicle->rotating_mass_kg;
+  if (!options.drag_area_m2.has_value()) options.drag_area_m2 = file.vehicle->drag_area_m2;
+  return options;
+}
+
 /// The fit, its InputErrors with the file's name.
-RoadLoadFit fit_file(const std::string& path, const CoastdownFile& file, const RoadLoadFitOptions& options) {
+RoadLoadFit fit_file(const std::string& path, CoastdownFile& file, const RoadLoadFitOptions& options) {
   try {
-    return estimation::fit_road_load(file.data, options);
+    return estimation::fit_checked_road_load(file, options);
   } catch (const InputError& error) {
     InputProblem problem = error.problem();
     if (problem.file.empty()) problem.file = path;
@@ -57,10 +93,12 @@ RoadLoadFit fit_file(const std::string& path, const CoastdownFile& file, const R
 
 }  // namespace
 
-RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& options,
+RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
                        const std::vector<std::string>& sessions) {
   const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path));
+  const RoadLoadFitOptions options = complete_options(*file, given);
   select_sessions(sessions, *file);
+  leave_out_runs(options.leave_out, *file);
   const auto fit = std::make_shared<RoadLoadFit>(fit_file(path, *file, options));
   if (file->rows_off > 0) fit->warnings.push_back(format_count(file->rows_off, "row") + " left out: use = Off");
   const RoadLoadChecks checks = estimation::check_road_load(file->data, *fit);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <boost/algorithm/string/split.hpp>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -14,12 +16,16 @@ namespace rollrig::cli {
 namespace {
 
 constexpr double kPerKmh = 1.0 / 3.6;
-constexpr const char* kKeys[]{"A_N", "B_N_per_km_h", "C_N_per_km_h2"};  // whose units --bounds has
+constexpr const char* kKeys[]{"A_N", "B_N_per_km_h", "C_N_per_km_h2"};  // whose units coefficients have
+constexpr const char* kNames[]{"A", "B", "C", "f0", "f1", "f2"};        // in N and km/h
+constexpr const char* kNamesLbf[]{"A_lbf", "B_lbf", "C_lbf"};           // in lbf and mph
 
 struct FitRoadLoadOptions {
   std::string csv;
   OutputOptions output;
   std::string bounds;
+  std::string target;
+  std::vector<std::string> leave_out;
   std::vector<std::string> sessions;
   std::optional<double> mass_kg;
   std::optional<double> rotating_mass_kg;
@@ -34,29 +40,66 @@ struct FitRoadLoadOptions {
   bool per_mass = false;
 };
 
+/// A coefficient by its name, with the factor of its unit.
+struct NamedCoefficient {
+  std::size_t which = 0;
+  double unit_SI = 1.0;
+};
+
+/// "A" and "f0" in N and km/h, "A_lbf" in lbf and mph; none for another name.
+std::optional<NamedCoefficient> find_coefficient(const std::string& name) {
+  constexpr double kPoundForce_N = 4.4482216152605, kMph_m_s = 0.44704;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (name == kNames[i]) return NamedCoefficient{i % 3, unit_of_key(kKeys[i % 3]).factor};
+    if (i < 3 && name == kNamesLbf[i]) return NamedCoefficient{i, kPoundForce_N / std::pow(kMph_m_s, i)};
+  }
+  return std::nullopt;
+}
+
+/// "A=120,B=0.5,C=0.03", f0, f1, f2, or A_lbf, B_lbf, C_lbf.
+std::array<double, 3> parse_target(const std::string& given) {
+  const std::string allowed = "A, B, C or f0, f1, f2 in N and km/h, or A_lbf, B_lbf, C_lbf, as A=120,B=0.5,C=0.03";
+  std::array<double, 3> target{};
+  std::vector<std::string> parts;
+  boost::algorithm::split(parts, given, [](char c) { return c == ','; });
+  for (const std::string& part : parts) {
+    const std::size_t equals = part.find('=');
+    const auto coefficient = find_coefficient(part.substr(0, equals));
+    const auto value = equals == std::string::npos ? std::nullopt : parse_number(part.substr(equals + 1));
+    if (!coefficient.has_value() || !value.has_value()) {
+      throw usage_error(fmt::format("target '{}' is not understood", part), "--target", given, allowed);
+    }
+    target[coefficient->which] = coefficient->unit_SI * *value;
+  }
+  return target;
+}
+
 double parse_edge(const std::string& text, double empty, const std::string& given) {
   if (text.empty()) return empty;
   if (const std::optional<double> value = parse_number(text)) return *value;
   throw usage_error(fmt::format("'{}' is not a number", text), "--bounds", given, "A=from:to,B=from:to,C=from:to");
 }
 
-/// "not-negative", or "A=0:300,C=0:" in N, N/(km/h), N/(km/h)^2.
+/// "not-negative", or "A=0:300,C=0:" in N, N/(km/h), N/(km/h)^2, or with f0, f1, f2, or "A_lbf=0:60" in lbf and mph.
 RoadLoadBounds parse_bounds(const std::string& given) {
   RoadLoadBounds bounds;
   if (given == "not-negative") return bounds;
   const double none = std::numeric_limits<double>::infinity();
   bounds.lower = {-none, -none, -none};
-  const std::string allowed = "not-negative, or A=from:to,B=from:to,C=from:to, either end left out";
+  const std::string allowed =
+      "not-negative, or A=from:to,B=from:to,C=from:to, either end left out; f0, f1, f2 are A, B, C, and A_lbf, B_lbf, "
+      "C_lbf are in lbf and mph";
   std::vector<std::string> parts;
   boost::algorithm::split(parts, given, [](char c) { return c == ','; });
   for (const std::string& part : parts) {
     const std::size_t colon = part.find(':');
-    const std::size_t which = part.empty() ? std::string::npos : std::string("ABC").find(part[0]);
-    if (which == std::string::npos || part.size() < 3 || part[1] != '=' || colon == std::string::npos) {
+    const std::size_t equals = part.find('=');
+    const auto coefficient = find_coefficient(part.substr(0, equals));
+    if (!coefficient.has_value() || equals == std::string::npos || colon == std::string::npos || colon < equals) {
       throw usage_error(fmt::format("bound '{}' is not understood", part), "--bounds", given, allowed);
     }
-    const double unit = unit_of_key(kKeys[which]).factor;
-    bounds.lower[which] = unit * parse_edge(part.substr(2, colon - 2), -none, given);
+    const auto [which, unit] = *coefficient;
+    bounds.lower[which] = unit * parse_edge(part.substr(equals + 1, colon - equals - 1), -none, given);
     bounds.upper[which] = unit * parse_edge(part.substr(colon + 1), none, given);
     if (bounds.lower[which] > bounds.upper[which]) {
       throw usage_error(fmt::format("bound '{}' has its ends swapped", part), "--bounds", given, "from <= to");
@@ -73,8 +116,8 @@ void set_mass(const FitRoadLoadOptions& options, RoadLoadFitOptions& to) {
     return;
   }
   if (!options.mass_kg.has_value()) {
-    throw usage_error("the mass is missing: a coastdown alone gives force per mass", "--mass", "",
-                      "--mass <kg>, the test mass; or --per-mass for A, B and C per unit of effective mass");
+    to.recorded_vehicle = true;  // a recording tells it; of any other file it is missing
+    return;
   }
   to.mass_kg = options.mass_kg;
   to.rotating_mass_kg = options.rotating_mass_kg;
@@ -103,6 +146,8 @@ RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
                       fmt::format("more than {:.6g}", options.speed_from_km_h));
   }
   if (!options.bounds.empty()) to.bounds = parse_bounds(options.bounds);
+  if (!options.target.empty()) to.target = parse_target(options.target);
+  to.leave_out = options.leave_out;
   return to;
 }
 
@@ -139,7 +184,11 @@ void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
   command.add_option("--bin-width", options.bin_width_km_h, "Of the bins that a trace is cut into, km/h [5]")
       ->check(CLI::Range(1.0, 50.0));
   command.add_option("--session", options.sessions, "Sessions used [all]");
-  command.add_option("--bounds", options.bounds, "not-negative, or as A=0:300,B=-1:,C=0: in N and km/h [none]");
+  command.add_option("--leave-out", options.leave_out, "Runs that are not used, as 7 or session/7 [none]");
+  command.add_option("--bounds", options.bounds,
+                     "not-negative, or as A=0:300,B=-1:,C=0: in N and km/h, A_lbf=0:60 in lbf and mph [none]");
+  command.add_option("--target", options.target,
+                     "A=..,B=..,C=.. (or f0, f1, f2; A_lbf, B_lbf, C_lbf) to compare with [none]");
 }
 
 }  // namespace
@@ -147,7 +196,10 @@ void add_method_options(CLI::App& command, FitRoadLoadOptions& options) {
 void add_fit_road_load(CLI::App& fit, Action& action) {
   const auto [command, options] = add_command<FitRoadLoadOptions>(
       fit, action, "road-load", "A, B, C from coastdowns on a road or a dyno", &fit_road_load_command);
-  command->add_option("csv", options->csv, "Speed traces, or times through speed bins")->required();
+  command
+      ->add_option("csv", options->csv,
+                   "Speed traces, times through speed bins, or what rollrig run coastdown --out wrote")
+      ->required();
   add_vehicle_options(*command, *options);
   add_method_options(*command, *options);
   options->output.add_to(*command, "File for road_load.json, - for standard output",

@@ -76,16 +76,29 @@ Table make_overview(const CoastSet& set, const DrumCoastdownFit& fit) {
                                      kKmhPerMs * set.reference_speed_m_s)}}};
 }
 
-Table make_level_table(const DrumCoastdownFit& fit, bool forces) {
-  Table table{"Net of the drum's own loss, with 95 % interval; * interpolated",
-              {"km/h", "kPa", "runs", forces ? "force N" : "net mm/s2", "over the reference"},
-              {}};
+/// Whether runs have different loads.
+bool has_loads(const DrumCoastdownFit& fit) {
+  double load_N = 0.0;
+  for (const SpeedPoint& point : fit.points) {
+    for (const PressureLevel& level : point.levels) {
+      if (load_N > 0.0 && !estimation::is_same_load(level.load_N, load_N)) return true;
+      load_N = level.load_N;
+    }
+  }
+  return false;
+}
+
+Table make_level_table(const std::string& title, const DrumCoastdownFit& fit, bool forces) {
+  const bool loads = has_loads(fit);
+  Table table{title, {"km/h", "kPa", "runs", forces ? "force N" : "net mm/s2", "over the reference"}, {}};
+  if (loads) table.columns.insert(table.columns.begin() + 2, "load N");
   for (const SpeedPoint& point : fit.points) {
     for (const PressureLevel& level : point.levels) {
       table.rows.push_back({fmt::format("{:.1f}{}", 3.6 * point.speed_m_s, level.in_range_left_out ? "*" : ""),
                             fmt::format("{:.0f}", level.pressure_Pa / 1e3), fmt::format("{}", level.runs),
                             forces ? show(level.force_N, 1.0, "{:.2f}") : show(level.net_m_s2, 1e-3, "{:.2f}"),
                             show(level.ratio)});
+      if (loads) table.rows.back().insert(table.rows.back().begin() + 2, fmt::format("{:.0f}", level.load_N));
     }
   }
   return table;
@@ -145,8 +158,15 @@ Block make_drum_residual_chart(const CoastSet& set, const DrumCoastdownFit& fit)
 }  // namespace
 
 std::vector<Table> make_drum_coastdown_tables(const CoastSet& set, const DrumCoastdownFit& fit) {
-  return {make_overview(set, fit), make_level_table(fit, set.calc_drum_mass_kg().has_value()), make_speed_table(fit),
-          make_law_table(fit)};
+  const bool forces = set.calc_drum_mass_kg().has_value();
+  std::vector<Table> tables{
+      make_overview(set, fit),
+      make_level_table("Net of the drum's own loss, with 95 % interval; * interpolated", fit, forces),
+      make_speed_table(fit), make_law_table(fit)};
+  if (fit.others != nullptr) {
+    tables.push_back(make_level_table("The same without the runs in doubt (see the warnings)", *fit.others, forces));
+  }
+  return tables;
 }
 
 Page make_drum_coastdown_page(const CoastSet& set, const DrumCoastdownFit& fit) {

@@ -17,20 +17,69 @@ using estimation::RoadLoadPoint;
 
 std::string force_unit(const RoadLoadFit& fit) { return fit.per_mass ? "m/s2" : "N"; }
 
-Table make_coefficients(const RoadLoadFit& fit) {
-  std::vector<ParameterEstimate> coefficients = estimation::list_coefficients(fit);
-  for (ParameterEstimate& at : coefficients) at.name = name_without_unit(at.name);
-  return make_estimate_table("At reference conditions, with standard deviation and 95 % interval", coefficients);
+/// A, B, C with intervals; what stands on a limit, or whose interval was cut there, is marked.
+Table make_coefficient_table(const std::string& title, const RoadLoadFit& fit,
+                             const std::vector<ParameterEstimate>& coefficients) {
+  constexpr const char* kNames[] = {"A, f0", "B, f1", "C, f2"};
+  const auto number = [](double value) { return fmt::format("{:.5g}", value); };
+  Table table{title, {"", "value", "sd", "from", "to", "unit", ""}, {}};
+  for (int i = 0; i < 3; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const ParameterEstimate& at = coefficients[index];
+    const bool on_limit = fit.on_bound[index];
+    table.rows.push_back({kNames[i], number(at.value), on_limit ? "-" : fmt::format("{:.3g}", at.sd), number(at.low_95),
+                          number(at.high_95), at.unit,
+                          on_limit        ? "on its limit"
+                          : fit.is_cut(i) ? "cut at its limit"
+                                          : ""});
+  }
+  return table;
 }
 
-Table make_forces(const RoadLoadFit& fit) {
+std::vector<Table> make_coefficients(const RoadLoadFit& fit) {
+  std::vector<Table> tables{make_coefficient_table("At reference conditions, with standard deviation and 95 % interval",
+                                                   fit, estimation::list_coefficients(fit))};
+  if (!fit.per_mass) {
+    tables.push_back(make_coefficient_table("In lbf and mph", fit, estimation::list_coefficients_lbf_mph(fit)));
+  }
+  if (fit.others != nullptr) {
+    tables.push_back(make_coefficient_table("Without the runs in doubt (see the warnings)", *fit.others,
+                                            estimation::list_coefficients(*fit.others)));
+  }
+  return tables;
+}
+
+Table make_target(const RoadLoadFitOptions& options) {
+  Table table{"Target", {"", "N, km/h", "lbf, mph"}, {}};
+  constexpr const char* kNames[] = {"A, f0", "B, f1", "C, f2"};
+  for (int i = 0; i < 3; ++i) {
+    const double value = (*options.target)[static_cast<std::size_t>(i)];
+    table.rows.push_back({kNames[i], fmt::format("{:.5g}", estimation::road_load_in_file_unit(i, value)),
+                          fmt::format("{:.5g}", estimation::road_load_in_lbf_mph(i, value))});
+  }
+  return table;
+}
+
+Table make_forces(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
   const std::string unit = force_unit(fit);
-  Table table{"", {"speed, km/h", "force, " + unit, "sd, " + unit, ""}, {}};
+  const bool compares = options.target.has_value();
+  Table table{"", {"speed, km/h", "force, " + unit, "sd, " + unit}, {}};
+  if (compares) table.columns.insert(table.columns.end(), {"target, N", "over target"});
+  table.columns.push_back("");
   for (const double km_h : {20.0, 50.0, 80.0, 100.0, 130.0}) {
     const double speed_m_s = km_h / kKmhPerMs;
     const bool outside = speed_m_s < fit.low_m_s - 0.1 || speed_m_s > fit.high_m_s + 0.1;
-    table.rows.push_back({fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", fit.force_N(speed_m_s)),
-                          fmt::format("{:.2g}", fit.force_sd_N(speed_m_s)), outside ? "outside the data" : ""});
+    const double force_N = fit.force_N(speed_m_s);
+    std::vector<std::string> row{fmt::format("{:.0f}", km_h), fmt::format("{:.4g}", force_N),
+                                 fmt::format("{:.2g}", fit.force_sd_N(speed_m_s))};
+    if (compares) {
+      const auto& target = *options.target;
+      const double target_N = target[0] + speed_m_s * (target[1] + speed_m_s * target[2]);
+      row.push_back(fmt::format("{:.4g}", target_N));
+      row.push_back(fmt::format("{:+.1f} %", 100.0 * (force_N / target_N - 1.0)));
+    }
+    row.push_back(outside ? "outside the data" : "");
+    table.rows.push_back(row);
   }
   return table;
 }
@@ -129,7 +178,11 @@ std::vector<Table> make_road_load_tables(const RoadLoadFitOptions& options, cons
         options.rotating_mass_kg.has_value() ? "" : ", of which 3 % of the test mass rotate (Assumed)";
     masses.rows.push_back({"effective mass", fmt::format("{:.6g} kg{}", fit.effective_mass_kg, assumed)});
   }
-  return {masses, make_coefficients(fit), make_forces(fit), make_scatter(fit, checks), make_checks(checks)};
+  std::vector<Table> tables{masses};
+  for (const Table& coefficients : make_coefficients(fit)) tables.push_back(coefficients);
+  if (options.target.has_value()) tables.push_back(make_target(options));
+  tables.insert(tables.end(), {make_forces(options, fit), make_scatter(fit, checks), make_checks(checks)});
+  return tables;
 }
 
 Page make_road_load_page(const estimation::CoastdownFile& file, const RoadLoadFitOptions& options,

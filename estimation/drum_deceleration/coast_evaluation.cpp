@@ -44,6 +44,7 @@ void add_levels(const CoastSet& set, const Tables& tables, Eigen::Index speed, S
     if (scatter.counts[i] == 0) continue;
     PressureLevel level;
     level.pressure_Pa = tables.levels.pressures_Pa[i];
+    level.load_N = tables.levels.loads_N[i];
     level.runs = static_cast<std::size_t>(scatter.counts[i]);
     level.loaded_m_s2 = scatter.means_m_s2[i];
     std::vector<VariancePart> parts = list_shared_parts(tables, speed);
@@ -156,6 +157,22 @@ void add_mass_ratio_slope(const Tables& tables, Eigen::Index speed, SpeedPoint& 
   point.exponent_per_mass_ratio = (slope - point.pressure_exponent->value) / kStep;
 }
 
+/// The law of pressure: of the runs at one load, since a force at another load is another force.
+void add_pressure_law(const CoastSet& set, const Tables& tables, Eigen::Index speed, SpeedPoint& point) {
+  Tables at_load = tables;
+  at_load.levels = keep_main_load(tables.levels);
+  SpeedPoint part;
+  add_levels(set, at_load, speed, part);
+  if (part.levels.empty()) return;
+  add_exponent(at_load, speed, part);
+  add_mass_ratio_slope(at_load, speed, part);
+  point.pressure_exponent = part.pressure_exponent;
+  point.exponent_by_repeats = part.exponent_by_repeats;
+  point.exponent_per_mass_ratio = part.exponent_per_mass_ratio;
+  point.level_scatter = part.level_scatter;
+  point.lack_of_fit_p = part.lack_of_fit_p;
+}
+
 /// First direction over second at each pressure that has both; the lifted part is shared and all but drops out.
 void add_directions(const CoastSet& set, const Tables& tables, Eigen::Index speed,
                     const std::vector<std::string>& directions, SpeedPoint& point) {
@@ -212,8 +229,7 @@ SpeedPoint evaluate_speed(const CoastSet& set, const Tables& tables, const DrumC
   if (drum.runs == 0 || (tables.mass_ratio > 0.0 && wheel.runs == 0)) return point;
   add_levels(set, tables, speed, point);
   if (point.levels.empty()) return point;
-  add_exponent(tables, speed, point);
-  add_mass_ratio_slope(tables, speed, point);
+  add_pressure_law(set, tables, speed, point);
   add_directions(set, tables, speed, fit.directions, point);
   return point;
 }

@@ -6,11 +6,14 @@
 namespace rollrig::estimation {
 namespace {
 
+/// The level at that pressure; of several loads, that with most runs.
 const PressureLevel* find_level(const SpeedPoint& point, double pressure_Pa) {
+  const PressureLevel* found = nullptr;
   for (const PressureLevel& level : point.levels) {
-    if (is_same_pressure(level.pressure_Pa, pressure_Pa)) return &level;
+    if (!is_same_pressure(level.pressure_Pa, pressure_Pa)) continue;
+    if (found == nullptr || level.runs > found->runs) found = &level;
   }
-  return nullptr;
+  return found;
 }
 
 /// Ratio of a level to the reference: what both share, and the same runs at two speeds, is counted once.
@@ -34,7 +37,7 @@ Interval calc_ratio(const Tables& tables, const PressureLevel& level, Eigen::Ind
   const auto n_ref = static_cast<double>(reference.runs);
   double loaded =
       run(speed, speed) / n / (net * net) + run(reference_speed, reference_speed) / n_ref / (net_ref * net_ref);
-  const bool same_runs = level.pressure_Pa == reference.pressure_Pa;
+  const bool same_runs = level.pressure_Pa == reference.pressure_Pa && level.load_N == reference.load_N;
   if (same_runs) loaded -= 2.0 * run(speed, reference_speed) / std::max(n, n_ref) / (net * net_ref);
   std::vector<VariancePart> parts{shared(tables.drum_alone, 1.0)};
   if (tables.mass_ratio > 0.0) parts.push_back(shared(tables.wheel_alone, tables.mass_ratio));

@@ -110,7 +110,7 @@ CoastRun read_run(const ConfigTable& table, const std::string& folder) {
   run.pressure_Pa =
       run.state == CoastState::kLoaded ? reader.number(pressure) : reader.number_or_none(pressure).value_or(0.0);
   run.direction = reader.text_or("direction", "");
-  reader.number_or_none({"load_N", positive(), ""});  // for the record: nothing depends on it
+  run.load_N = reader.number_or_none({"load_N", positive(), ""}).value_or(0.0);
   const bool wheel = reader.text_or("body", "drum", {"drum", "wheel"}) == "wheel";
   reader.finish();
   const CsvTable csv = CsvTable::read(run.file);
@@ -134,6 +134,27 @@ void require_states(const TableReader& reader, const CoastSet& set) {
   if (!lifted) {
     throw reader.problem("run", "no run has the drum alone: its own loss cannot be taken off",
                          "a [[run]] with state = \"lifted\"");
+  }
+}
+
+/// Where loads differ, every loaded run needs its own; where they do not, runs without one have that of the others.
+void complete_loads(const TableReader& reader, CoastSet& set) {
+  double known_N = 0.0;
+  const CoastRun* other = nullptr;
+  for (const CoastRun& run : set.runs) {
+    if (run.state != CoastState::kLoaded || run.load_N == 0.0) continue;
+    if (known_N == 0.0) known_N = run.load_N;
+    if (!is_same_load(run.load_N, known_N)) other = &run;
+  }
+  for (CoastRun& run : set.runs) {
+    if (run.state != CoastState::kLoaded || run.load_N > 0.0) continue;
+    if (other != nullptr) {
+      throw reader.problem("run",
+                           fmt::format("the loads of the runs differ ({:g} N, and {:g} N in {}), and {} has none",
+                                       known_N, other->load_N, other->id, run.id),
+                           "load_N in every loaded [[run]]");
+    }
+    run.load_N = known_N;
   }
 }
 
@@ -168,6 +189,7 @@ CoastSet read_coast_set(const std::string& path, const std::string& data_folder)
   for (const ConfigTable* table : reader.tables("run")) set.runs.push_back(read_run(*table, folder));
   reader.finish();
   require_states(reader, set);
+  complete_loads(reader, set);
   return set;
 }
 

@@ -20,6 +20,13 @@ inline bool is_same_pressure(double pressure_Pa, double level_Pa) {
   return std::abs(pressure_Pa / level_Pa - 1.0) < kSamePressure;
 }
 
+constexpr double kSameLoad = 0.02;  // Assumed: loads that differ by less are one.
+
+/// Whether a load is that of a level; 0: not known.
+inline bool is_same_load(double load_N, double level_N) {
+  return load_N == level_N || (level_N > 0.0 && std::abs(load_N / level_N - 1.0) < kSameLoad);
+}
+
 /// Surface speed of one body over time, a row a pulse (or a sample).
 struct CoastSeries {
   std::vector<double> time_s;
@@ -31,6 +38,7 @@ struct CoastRun {
   std::string file;  // path
   CoastState state = CoastState::kLoaded;
   double pressure_Pa = 0.0;  // gauge; of loaded runs
+  double load_N = 0.0;       // of loaded runs; 0 where not said
   std::string direction;     // empty where not said
   std::optional<CoastSeries> drum;
   std::optional<CoastSeries> wheel;

@@ -107,13 +107,42 @@ Levels group_by_pressure(const CoastSet& set, const RunTable& loaded) {
                    [&](Eigen::Index a, Eigen::Index b) { return pressure_of(a) < pressure_of(b); });
   for (const Eigen::Index row : order) {
     const double pressure_Pa = pressure_of(row);
-    if (levels.pressures_Pa.empty() || pressure_Pa > (1.0 + kSamePressure) * levels.pressures_Pa.back()) {
+    const double load_N = set.runs[loaded.runs[static_cast<std::size_t>(row)]].load_N;
+    std::size_t level = 0;
+    while (level < levels.rows.size() && (pressure_Pa > (1.0 + kSamePressure) * levels.pressures_Pa[level] ||
+                                          !is_same_load(load_N, levels.loads_N[level]))) {
+      ++level;
+    }
+    if (level == levels.rows.size()) {
       levels.pressures_Pa.push_back(pressure_Pa);
+      levels.loads_N.push_back(load_N);
       levels.rows.emplace_back();
     }
-    levels.rows.back().push_back(row);
+    levels.rows[level].push_back(row);
   }
   return levels;
+}
+
+Levels keep_main_load(const Levels& levels) {
+  std::size_t main = 0;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < levels.rows.size(); ++i) {
+    std::size_t runs = 0;
+    for (std::size_t k = 0; k < levels.rows.size(); ++k) {
+      if (is_same_load(levels.loads_N[k], levels.loads_N[i])) runs += levels.rows[k].size();
+    }
+    if (runs <= most) continue;
+    most = runs;
+    main = i;
+  }
+  Levels kept;
+  for (std::size_t i = 0; i < levels.rows.size(); ++i) {
+    if (!is_same_load(levels.loads_N[i], levels.loads_N[main])) continue;
+    kept.pressures_Pa.push_back(levels.pressures_Pa[i]);
+    kept.loads_N.push_back(levels.loads_N[i]);
+    kept.rows.push_back(levels.rows[i]);
+  }
+  return kept;
 }
 
 LoadedScatter calc_loaded_scatter(const RunTable& loaded, const Levels& levels, Eigen::Index speed) {

@@ -38,12 +38,15 @@ MeanOfRuns calc_mean(const RunTable& table, Eigen::Index speed);
 /// Covariance of the means of two columns, over runs that have both.
 double calc_mean_covariance(const RunTable& table, Eigen::Index speed_1, Eigen::Index speed_2);
 
-/// Loaded runs of one set grouped by pressure.
+/// Loaded runs of one set grouped by pressure and load.
 struct Levels {
   std::vector<double> pressures_Pa;
+  std::vector<double> loads_N;                  // 0 where not known
   std::vector<std::vector<Eigen::Index>> rows;  // of the loaded table
 };
 Levels group_by_pressure(const CoastSet& set, const RunTable& loaded);
+/// The levels of the load that most runs have.
+Levels keep_main_load(const Levels& levels);
 
 /// Means of the levels at one speed and the scatter of runs about them, pooled.
 struct LoadedScatter {

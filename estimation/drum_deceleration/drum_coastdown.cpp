@@ -5,25 +5,12 @@
 #include <algorithm>
 #include <set>
 
+#include "estimation/drum_deceleration/coast_doubts.h"
 #include "estimation/drum_deceleration/coast_evaluation.h"
 #include "sim/core/error.h"
 
 namespace rollrig::estimation {
 namespace {
-
-std::vector<CoastAnalysis> find_coasts(const CoastSet& set) {
-  std::vector<CoastAnalysis> analyses;
-  for (std::size_t i = 0; i < set.runs.size(); ++i) {
-    const CoastRun& run = set.runs[i];
-    if (run.drum.has_value()) {
-      analyses.push_back({i, CoastBody::kDrum, find_coast(*run.drum, set.drum_pulse_length_m, run), {}, {}});
-    }
-    if (run.wheel.has_value()) {
-      analyses.push_back({i, CoastBody::kWheel, find_coast(*run.wheel, set.wheel_pulse_length_m, run), {}, {}});
-    }
-  }
-  return analyses;
-}
 
 /// Drum coasts of one kind: lifted, loaded, or loaded at one pressure. A resonance may be the rig's, at one speed
 /// whatever the tire, or one in which the tire is the spring, whose speed moves with pressure.
@@ -92,6 +79,21 @@ void fit_decelerations(const CoastSet& set, DrumCoastdownFit& fit) {
   }
 }
 
+/// Speeds at which a run gives no deceleration though it passes them.
+void warn_of_failed_fits(const CoastSet& set, DrumCoastdownFit& fit) {
+  for (const CoastAnalysis& analysis : fit.analyses) {
+    for (std::size_t i = 0; i < analysis.decelerations.size(); ++i) {
+      const DecelerationFit& at = analysis.decelerations[i];
+      const double speed_m_s = set.speeds_m_s[i];
+      const bool passes = !analysis.coast.smooth_m_s.empty() && analysis.coast.smooth_m_s.front() > speed_m_s &&
+                          analysis.coast.smooth_m_s.back() < speed_m_s;
+      if (at.available || !passes) continue;
+      fit.warnings.push_back(
+          fmt::format("{}: no deceleration at {:.1f} km/h: {}", set.runs[analysis.run].id, 3.6 * speed_m_s, at.why));
+    }
+  }
+}
+
 void mark_left_out(const CoastSet& set, DrumCoastdownFit& fit) {
   for (const CoastAnalysis& analysis : fit.analyses) {
     const CoastRun& run = set.runs[analysis.run];
@@ -147,12 +149,67 @@ void warn_of_method(const CoastSet& set, const Tables& tables, DrumCoastdownFit&
   }
 }
 
+/// Why no speed gives a result: what is doubted, and what the fits of single runs say.
+std::string explain_no_speed(const CoastSet& set, const DrumCoastdownFit& fit) {
+  std::string text = "at none of the speeds asked for do loaded and lifted runs both pass";
+  if (!fit.doubts.empty()) return text + ". In doubt: " + fit.doubts.front().text;
+  for (const CoastAnalysis& analysis : fit.analyses) {
+    if (analysis.body != CoastBody::kDrum || analysis.decelerations.empty()) continue;
+    const DecelerationFit& at = analysis.decelerations[analysis.decelerations.size() / 2];
+    if (!at.available) return text + fmt::format(". Of {}: {}", set.runs[analysis.run].id, at.why);
+  }
+  return text;
+}
+
+/// Results at every speed from the decelerations of the runs.
+void evaluate_runs(const CoastSet& set, DrumCoastdownFit& fit) {
+  const Tables tables = make_tables(set, fit);
+  for (std::size_t i = 0; i < set.speeds_m_s.size(); ++i) fit.points.push_back(evaluate_speed(set, tables, fit, i));
+  if (std::all_of(fit.points.begin(), fit.points.end(), [](const SpeedPoint& point) { return point.levels.empty(); })) {
+    throw RunFailure(explain_no_speed(set, fit));
+  }
+  add_ratios(set, tables, fit);
+  mark_left_out(set, fit);
+}
+
+/// The same from the runs that are not in doubt; none where they give no result.
+std::shared_ptr<const DrumCoastdownFit> evaluate_others(const CoastSet& set, const DrumCoastdownFit& fit,
+                                                        const std::set<std::size_t>& set_aside) {
+  const auto others = std::make_shared<DrumCoastdownFit>();
+  others->mass_ratio = fit.mass_ratio;
+  others->directions = fit.directions;
+  for (const CoastAnalysis& analysis : fit.analyses) {
+    if (set_aside.count(analysis.run) == 0) others->analyses.push_back(analysis);
+  }
+  try {
+    evaluate_runs(set, *others);
+  } catch (const RunFailure&) {
+    return nullptr;
+  }
+  return others;
+}
+
 }  // namespace
+
+std::vector<CoastAnalysis> find_coasts(const CoastSet& set) {
+  std::vector<CoastAnalysis> analyses;
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    const CoastRun& run = set.runs[i];
+    if (run.drum.has_value()) {
+      analyses.push_back({i, CoastBody::kDrum, find_coast(*run.drum, set.drum_pulse_length_m, run), {}, {}});
+    }
+    if (run.wheel.has_value()) {
+      analyses.push_back({i, CoastBody::kWheel, find_coast(*run.wheel, set.wheel_pulse_length_m, run), {}, {}});
+    }
+  }
+  return analyses;
+}
 
 DrumCoastdownFit fit_drum_coastdown(const CoastSet& set) {
   DrumCoastdownFit fit;
   fit.mass_ratio = set.calc_mass_ratio();
   fit.analyses = find_coasts(set);
+  fit.doubts = leave_out_repeated_coasts(set, fit.analyses);
   warn_of_runs(set, fit);
   find_left_out(set, fit);
   fit_decelerations(set, fit);
@@ -161,14 +218,15 @@ DrumCoastdownFit fit_drum_coastdown(const CoastSet& set) {
     if (run.state == CoastState::kLoaded && !run.direction.empty()) directions.insert(run.direction);
   }
   fit.directions.assign(directions.begin(), directions.end());
-  const Tables tables = make_tables(set, fit);
-  for (std::size_t i = 0; i < set.speeds_m_s.size(); ++i) fit.points.push_back(evaluate_speed(set, tables, fit, i));
-  if (std::all_of(fit.points.begin(), fit.points.end(), [](const SpeedPoint& point) { return point.levels.empty(); })) {
-    throw RunFailure("at none of the speeds asked for do loaded and lifted runs both pass");
-  }
-  add_ratios(set, tables, fit);
-  mark_left_out(set, fit);
-  warn_of_method(set, tables, fit);
+  const CoastDoubts checked = check_coasts(set, fit.analyses);
+  fit.doubts.insert(fit.doubts.end(), checked.doubts.begin(), checked.doubts.end());
+  evaluate_runs(set, fit);
+  if (!checked.set_aside.empty()) fit.others = evaluate_others(set, fit, checked.set_aside);
+  warn_of_failed_fits(set, fit);
+  warn_of_method(set, make_tables(set, fit), fit);
+  std::vector<std::string> doubts;
+  for (const RunDoubt& doubt : fit.doubts) doubts.push_back(doubt.text);
+  fit.warnings.insert(fit.warnings.begin(), doubts.begin(), doubts.end());
   return fit;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 /// Rolling resistance by ISO 28580's deceleration method (`rollrig fit drum-coastdown`).
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "estimation/drum_deceleration/rig_resonance.h"
+#include "estimation/run_checks/run_doubt.h"
 #include "sim/core/json.h"
 
 namespace rollrig::estimation {
@@ -35,9 +37,10 @@ struct FoundResonance {
   Resonance resonance;
 };
 
-/// Means of one pressure at one speed.
+/// Means of one pressure (and load) at one speed.
 struct PressureLevel {
   double pressure_Pa = 0.0;
+  double load_N = 0.0;  // 0 where not known
   std::size_t runs = 0;
   bool in_range_left_out = false;  // interpolated over a range that was left out
   double loaded_m_s2 = 0.0;
@@ -71,14 +74,21 @@ struct DrumCoastdownFit {
   double reference_pressure_Pa = 0.0;
   double mass_ratio = 0.0;
   std::vector<std::string> warnings;
+  std::vector<RunDoubt> doubts;
+  std::shared_ptr<const DrumCoastdownFit> others;  // without the runs in doubt, if there are some
 };
+
+/// The coast of each body of each run.
+/// Errors    InputError: no coast in a run
+std::vector<CoastAnalysis> find_coasts(const CoastSet& set);
 
 /// The whole evaluation: coasts, resonances, decelerations, and what follows from them with intervals in which
 /// the scatter from run to run counts, not that within runs alone.
 /// Equation  net deceleration by models::calc_net_deceleration, force times I_D/R^2. Variance of a level: pooled
 ///           scatter of loaded runs at one pressure over their number, plus that of the lifted runs' mean, which all
 ///           levels share. Exponent: line of ln(net) over ln(p) through the levels' means, its interval from their
-///           scatter about the line (the law's own lack of fit counts) and the shared lifted part.
+///           scatter about the line (the law's own lack of fit counts) and the shared lifted part. Repeated recordings
+///           are counted once. Runs in doubt (check_coasts()) stay in; `others` does without them.
 /// Validity  intervals ask for two lifted runs and for two runs at one pressure; otherwise scatter within runs alone
 ///           stands in, and a warning says so
 /// Source    ISO 28580 (models/deceleration_method.h); Satterthwaite, Biometrics Bulletin 2 (1946) 110

@@ -1,5 +1,6 @@
 
 #include "estimation/drum_deceleration/drum_coastdown.h"
+#include "estimation/run_checks/doubts_json.h"
 #include "sim/core/csv.h"
 
 namespace rollrig::estimation {
@@ -22,6 +23,7 @@ Json to_json(const PressureLevel& level) {
                {"in_range_left_out", level.in_range_left_out},
                {"loaded_m_s2", level.loaded_m_s2},
                {"net_m_s2", to_json(level.net_m_s2)}};
+  if (level.load_N > 0.0) json["load_N"] = level.load_N;
   put(json, "force_N", level.force_N);
   put(json, "ratio", level.ratio);
   return json;
@@ -79,6 +81,10 @@ Json make_coastdown_json(const CoastSet& set, const DrumCoastdownFit& fit) {
   }
   json["speeds"] = make_list(fit.points, [](const SpeedPoint& point) { return to_json(point); });
   json["runs"] = make_list(fit.analyses, [&set](const CoastAnalysis& analysis) { return to_json(set, analysis); });
+  if (!fit.doubts.empty()) json["doubts"] = make_doubts_json(fit.doubts);
+  if (fit.others != nullptr) {
+    json["without_doubted_runs"] = make_list(fit.others->points, [](const SpeedPoint& at) { return to_json(at); });
+  }
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <optional>
 
@@ -11,6 +12,7 @@
 #include <boost/algorithm/string/trim.hpp>
 #include <boost/math/constants/constants.hpp>
 
+#include "estimation/road_load/coastdown_recording.h"
 #include "sim/core/csv.h"
 #include "sim/core/text.h"
 
@@ -28,8 +30,8 @@ const std::vector<ConditionColumn> kConditionColumns{
     {{"crosswind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::crosswind_m_s},
     {{"slope", between(-0.2, 0.2), ""}, &CoastdownConditions::slope}};
 const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "session", "heading"};
-const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh", "dt_s",    "run",
-                                           "use",      "heading",  "session", "start_time"};
+const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh",   "dt_s",   "run",         "use",       "heading",
+                                           "session",  "start_time", "dist_m", "run_total_s", "run_dist_m"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
 
 /// "13:29:42.5" or seconds; none where the cell is empty.
@@ -179,11 +181,51 @@ void require_order(const CsvTable& table, std::size_t row, const CoastdownRun& r
   }
 }
 
+/// Totals of a run, beside its bins: of the run, or bin by bin.
+class RunTotals {
+ public:
+  explicit RunTotals(const CsvTable& table) {
+    if (table.has("run_total_s")) totals_s_ = table.numbers({"run_total_s", between(0.0, 1e9), ""}, true);
+    if (table.has("run_dist_m")) distances_m_ = table.numbers({"run_dist_m", between(0.0, 1e9), ""}, true);
+    if (table.has("dist_m")) bin_distances_m_ = table.numbers({"dist_m", between(0.0, 1e9), ""}, true);
+  }
+
+  void add(std::size_t row, CoastdownRun& run) const {
+    if (!totals_s_.empty()) put(totals_s_[row], run.total_s);
+    if (!distances_m_.empty()) {
+      put(distances_m_[row], run.distance_m);
+    } else if (!bin_distances_m_.empty()) {
+      put(run.distance_m.value_or(0.0) + bin_distances_m_[row], run.distance_m);
+    }
+  }
+
+ private:
+  /// An empty cell says nothing, and neither does 0.
+  static void put(double value, std::optional<double>& to) {
+    if (value > 0.0) to = value;
+  }
+  std::vector<double> totals_s_, distances_m_, bin_distances_m_;
+};
+
 bool is_on(const CsvTable& table, std::size_t row, const std::string& cell) {
   const std::string word = boost::algorithm::to_lower_copy(boost::algorithm::trim_copy(cell));
   if (word == "on" || word == "yes" || word == "1" || word == "true") return true;
   if (word == "off" || word == "no" || word == "0" || word == "false") return false;
   throw table.cell_error(row, "use", "not a value of 'use'", "On or Off");
+}
+
+/// Totals of a run are not those of its bins where some of them are Off.
+void drop_incomplete_totals(const CsvTable& table, const std::vector<std::string>& uses, CoastdownData& data) {
+  if (!table.has("use")) return;
+  const std::vector<std::string> ids = text_or_empty(table, "run");
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    if (is_on(table, row, uses[row])) continue;
+    for (CoastdownRun& run : data.runs) {
+      if (table.has("run") && run.id != ids[row]) continue;
+      run.total_s.reset();
+      run.distance_m.reset();
+    }
+  }
 }
 
 void read_bins(const CsvTable& table, CoastdownFile& file) {
@@ -193,6 +235,7 @@ void read_bins(const CsvTable& table, CoastdownFile& file) {
   const std::vector<std::string> uses = text_or_empty(table, "use");
   const std::vector<std::string> starts = text_or_empty(table, "start_time");
   const CoastdownConditions conditions = read_conditions(table);
+  const RunTotals totals(table);
   const std::vector<std::string> known = add_condition_columns(kBinColumns);
   for (const std::string& column : table.columns()) {
     if (std::find(known.begin(), known.end(), column) == known.end()) file.ignored_columns.push_back(column);
@@ -211,14 +254,18 @@ void read_bins(const CsvTable& table, CoastdownFile& file) {
     const std::optional<double> start_s = read_start_s(table, row, starts[row]);
     if (!run.start_s.has_value()) run.start_s = start_s;
     run.bins.push_back({highs[row] * kPerKmh, lows[row] * kPerKmh, durations[row]});
+    totals.add(row, run);
     add_conditions(conditions, row, run.conditions);
   }
+  drop_incomplete_totals(table, uses, file.data);
 }
 
 }  // namespace
 
 CoastdownFile read_coastdowns(const std::string& path) {
+  if (std::filesystem::is_directory(path)) return read_coastdown_recording(path);
   const CsvTable table = CsvTable::read(path);
+  if (table.has("phase")) return read_coastdown_recording(path);
   CoastdownFile file;
   file.is_trace = table.has("time_s") || table.has("speed_km_h");
   if (file.is_trace) {

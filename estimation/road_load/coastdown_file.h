@@ -31,7 +31,9 @@ struct CoastdownRun {
   std::optional<double> start_s;  // on any clock that the runs of a session share
   std::vector<double> time_s;     // increasing
   std::vector<double> speed_m_s;
-  std::vector<SpeedBin> bins;  // by falling speed
+  std::vector<SpeedBin> bins;        // by falling speed
+  std::optional<double> total_s;     // of all bins, as the file gives it
+  std::optional<double> distance_m;  // likewise
   CoastdownConditions conditions;
 };
 
@@ -39,14 +41,23 @@ struct CoastdownData {
   std::vector<CoastdownRun> runs;
 };
 
+/// What the manifest of a simulated coastdown says of its vehicle.
+struct RecordedVehicle {
+  double mass_kg = 0.0;
+  double rotating_mass_kg = 0.0;
+  double drag_area_m2 = 0.0;
+};
+
 struct CoastdownFile {
   CoastdownData data;
   bool is_trace = false;
+  std::optional<RecordedVehicle> vehicle;    // of rollrig's own recording with its manifest
   std::size_t rows_off = 0;                  // left out by `use`
   std::vector<std::string> ignored_columns;  // of a bins file
 };
 
-/// Reads either form, told apart by its columns.
+/// Reads either form, told apart by its columns; or the recording of a simulated coastdown, or the folder that has it
+/// (read_coastdown_recording()).
 /// Errors   InputError: a wrong or missing column, times that do not increase within a run, a run whose speed
 ///          does not fall, bins that rise or overlap, times through a bin that are not positive
 /// Checked  tests/estimation/coastdown_file_test.cpp, tests/cli/bad_input_test.cpp

@@ -132,6 +132,24 @@ models::RoadLoad<double> at_test_weather(const CoastdownProblem& problem, const 
   return {load.A_N * rolling / bins, load.B_N_s_per_m * rolling / bins, load.C_N_s2_per_m2 * density / bins};
 }
 
+/// Half of a 95 % interval.
+double calc_reach(double degrees_freedom, double sd) {
+  const double freedom = std::clamp(degrees_freedom, 1.0, 1e6);
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975) * sd;
+}
+
+void put_bounds(const RoadLoadFitOptions& options, const IteratedFit& iterated, RoadLoadFit& fit) {
+  fit.bounds = options.bounds;
+  for (int i = 0; i < 3; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    fit.on_bound[at] = iterated.linear.covariance(i, i) == 0.0;
+    fit.degrees_freedom[at] = iterated.linear.degrees_freedom(i);
+    const double value = iterated.unbounded.coefficients(i);
+    const double reach = calc_reach(fit.degrees_freedom[at], std::sqrt(iterated.unbounded.covariance(i, i)));
+    fit.free_interval_95[at] = {value - reach, value + reach};
+  }
+}
+
 void require_enough(const CoastdownProblem& problem, const RoadLoadFitOptions& options) {
   constexpr std::size_t kLeastBins = 4;  // one more than coefficients
   const std::size_t bins = count_bins(problem);
@@ -195,10 +213,22 @@ double RoadLoadEstimate::force_sd_N(double speed_m_s) const {
 }
 
 std::array<double, 2> RoadLoadFit::interval_95(int i) const {
-  const double freedom = std::min(degrees_freedom[static_cast<std::size_t>(i)], 1e6);
-  const double reach = boost::math::quantile(boost::math::students_t(std::max(freedom, 1.0)), 0.975) * sd(i);
-  const double value = values()[static_cast<std::size_t>(i)];
-  return {value - reach, value + reach};
+  const auto at = static_cast<std::size_t>(i);
+  const double value = values()[at];
+  const double reach = calc_reach(degrees_freedom[at], sd(i));
+  const std::array<double, 2> whole = on_bound[at] ? std::array<double, 2>{std::min(value, free_interval_95[at][0]),
+                                                                           std::max(value, free_interval_95[at][1])}
+                                                   : std::array<double, 2>{value - reach, value + reach};
+  if (!bounds.has_value()) return whole;
+  return {std::max(whole[0], bounds->lower[at]), std::min(whole[1], bounds->upper[at])};
+}
+
+bool RoadLoadFit::is_cut(int i) const {
+  const auto at = static_cast<std::size_t>(i);
+  if (!bounds.has_value()) return false;
+  const double reach = calc_reach(degrees_freedom[at], sd(i));
+  const double value = values()[at];
+  return on_bound[at] || value - reach < bounds->lower[at] || value + reach > bounds->upper[at];
 }
 
 RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& options) {
@@ -212,15 +242,11 @@ RoadLoadFit fit_road_load(const CoastdownData& data, const RoadLoadFitOptions& o
   require_enough(problem, options);
   IterationStart start{start_coefficients(problem), VectorXd::Zero(kComponents)};
   start.components(kPassing) = 1e-4;
-  const auto [linear, coefficients, components, iterations] =
-      iterate_road_load(problem, options.bounds, start, Components::kEstimated);
+  const IteratedFit iterated = iterate_road_load(problem, options.bounds, start, Components::kEstimated);
+  const auto& [linear, unbounded, coefficients, components, iterations] = iterated;
   fit.iterations = iterations;
   static_cast<RoadLoadEstimate&>(fit) = to_estimate(linear);
-  for (int i = 0; i < 3; ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    fit.on_bound[at] = linear.covariance(i, i) == 0.0;
-    fit.degrees_freedom[at] = linear.degrees_freedom(i);
-  }
+  put_bounds(options, iterated, fit);
   fit.chi2_per_dof = linear.chi2 / static_cast<double>(static_cast<Index>(count_bins(problem)) - problem.model.count());
   const auto measured = [&data](auto member) {
     return std::any_of(data.runs.begin(), data.runs.end(),

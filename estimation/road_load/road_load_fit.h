@@ -2,6 +2,7 @@
 /// A, B, C of a vehicle from its coastdowns.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "estimation/road_load/coastdown_file.h"
+#include "estimation/run_checks/run_doubt.h"
 #include "include/rollrig/fit_options.h"
 #include "models/vehicle/road_load.h"
 
@@ -75,7 +77,9 @@ struct HeadingFit {
 struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
   std::array<double, 3> degrees_freedom{};  // of the intervals of A, B, C
   std::array<bool, 3> on_bound{};
-  models::RoadLoad<double> as_tested;  // at the mean weather of the test, no wind
+  std::optional<RoadLoadBounds> bounds;
+  std::array<std::array<double, 2>, 3> free_interval_95{};  // as without bounds
+  models::RoadLoad<double> as_tested;                       // at the mean weather of the test, no wind
   bool per_mass = false;
   double effective_mass_kg = 1.0;
   bool ambient_corrected = false;
@@ -91,9 +95,14 @@ struct RoadLoadFit : RoadLoadEstimate {     // at reference conditions
   double chi2_per_dof = 0.0;
   int iterations = 0;
   std::vector<std::string> warnings;
+  std::vector<RunDoubt> doubts;               // of fit_checked_road_load()
+  std::shared_ptr<const RoadLoadFit> others;  // likewise: the fit without the runs in doubt
 
-  /// Interval of 95 % of A, B or C, by Student's t.
+  /// Interval of 95 % of A, B or C, by Student's t, cut at the bounds. Of one on its bound it begins there, and reaches
+  /// as far as that without bounds.
   std::array<double, 2> interval_95(int i) const;
+  /// Whether the interval was cut at a bound.
+  bool is_cut(int i) const;
 };
 
 /// Generalized least squares on mean forces over speed bins.

@@ -51,6 +51,7 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     const std::vector<LinearBlock> blocks = linearize_all(problem, coefficients, components);
     LinearEstimate estimate = kind == Components::kHeld ? solve_weighted(blocks, components)
                                                         : step_variance_components(blocks, components, floors);
+    const LinearEstimate unbounded = estimate;
     if (bounds.has_value()) apply_bounds(estimate, bound(bounds->lower), bound(bounds->upper));
     // without scatter of passing times the covariance has no inverse: a first guess must not take it all away
     estimate.components(kPassing) = std::max(estimate.components(kPassing), 0.1 * components(kPassing));
@@ -75,7 +76,7 @@ IteratedFit iterate_road_load(const CoastdownProblem& problem, const std::option
     } else if (iterations <= kMostIterations / 2) {
       components = 0.5 * (components + estimate.components);
     }
-    if (settled) return {estimate, coefficients, components, iterations};
+    if (settled) return {estimate, unbounded, coefficients, components, iterations};
   }
   throw RunFailure(fmt::format("the fit of the road load does not converge within {} iterations", kMostIterations));
 }

@@ -17,6 +17,7 @@ enum class Components { kEstimated, kHeld };
 
 struct IteratedFit {
   LinearEstimate linear;
+  LinearEstimate unbounded;  // the same without bounds
   Eigen::VectorXd coefficients;
   Eigen::VectorXd components;
   int iterations = 0;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "estimation/run_checks/doubts_json.h"
 #include "sim/core/csv.h"
 #include "sim/core/units.h"
 
@@ -37,6 +38,44 @@ Json correlation_json(const RoadLoadEstimate& estimate) {
   return rows;
 }
 
+/// Intervals of A, B, C by their keys.
+template <class KeyOf, class Convert>
+Json intervals_json(const RoadLoadFit& fit, const KeyOf& key_of, const Convert& convert) {
+  Json json = Json::object();
+  for (int i = 0; i < 3; ++i) {
+    const std::array<double, 2> interval = fit.interval_95(i);
+    json[key_of(i)] = {convert(i, interval[0]), convert(i, interval[1])};
+  }
+  return json;
+}
+
+/// The coefficients in the forms of the standards: f0, f1, f2 in N and km/h (WLTP), A, B, C in lbf and mph (EPA).
+void put_other_units(const RoadLoadFit& fit, Json& json) {
+  if (fit.per_mass) return;
+  constexpr const char* kWltpKeys[] = {"f0_N", "f1_N_per_km_h", "f2_N_per_km_h2"};
+  Json wltp = Json::object(), epa = Json::object();
+  for (int i = 0; i < 3; ++i) {
+    const double value = fit.values()[static_cast<std::size_t>(i)];
+    const double sd = fit.sd(i);
+    const std::string key = road_load_lbf_key(i);
+    wltp[kWltpKeys[i]] = road_load_in_file_unit(i, value);
+    epa[key] = road_load_in_lbf_mph(i, value);
+    epa[key + "_sd"] = sd > 0.0 ? Json(road_load_in_lbf_mph(i, sd)) : Json(nullptr);
+  }
+  epa["ci95"] = intervals_json(fit, &road_load_lbf_key, &road_load_in_lbf_mph);
+  json["f0_f1_f2"] = wltp;
+  json["lbf_mph"] = epa;
+}
+
+/// What speaks against runs, and the result without them.
+void put_doubts(const RoadLoadFit& fit, Json& json) {
+  if (!fit.doubts.empty()) json["doubts"] = make_doubts_json(fit.doubts);
+  if (fit.others == nullptr) return;
+  json["without_doubted_runs"] = coefficients_json(*fit.others, fit.per_mass);
+  const auto key_of = [&fit](int i) { return road_load_key(i, fit.per_mass); };
+  json["without_doubted_runs"]["ci95"] = intervals_json(*fit.others, key_of, &road_load_in_file_unit);
+}
+
 Json number_or_null(const std::optional<double>& value) { return value.has_value() ? Json(*value) : Json(nullptr); }
 
 Json scatter_json(const RoadLoadFit& fit) {
@@ -59,6 +98,12 @@ Json options_json(const RoadLoadFitOptions& options, const RoadLoadFit& fit) {
                {"mass_kg", number_or_null(options.mass_kg)}};
   json["effective_mass_kg"] = fit.per_mass ? Json(nullptr) : Json(fit.effective_mass_kg);
   json["rotating_mass_assumed"] = !fit.per_mass && !options.rotating_mass_kg.has_value();
+  if (!options.leave_out.empty()) json["leave_out"] = options.leave_out;
+  for (int i = 0; i < 3 && options.target.has_value(); ++i) {
+    const double value = (*options.target)[static_cast<std::size_t>(i)];
+    json["target"][road_load_key(i, false)] = road_load_in_file_unit(i, value);
+    json["target"][road_load_lbf_key(i)] = road_load_in_lbf_mph(i, value);
+  }
   if (std::isfinite(options.speed_to_m_s)) json["speed_to_km_h"] = kKmhPerMs * options.speed_to_m_s;
   if (!options.bounds.has_value()) return json;
   for (int i = 0; i < 3; ++i) {
@@ -124,6 +169,31 @@ std::string road_load_key(int i, bool per_mass) {
 
 double road_load_in_file_unit(int i, double si_value) { return unit_of_key(road_load_key(i, false)).from_si(si_value); }
 
+double road_load_in_lbf_mph(int i, double si_value) { return si_value / road_load_from_lbf_mph(i, 1.0); }
+
+double road_load_from_lbf_mph(int i, double value) {
+  constexpr double kPoundForce_N = 4.4482216152605;  // exact: 0.45359237 kg times standard gravity
+  constexpr double kMph_m_s = 0.44704;               // exact
+  return value * kPoundForce_N / std::pow(kMph_m_s, i);
+}
+
+std::string road_load_lbf_key(int i) {
+  constexpr const char* kKeys[] = {"A_lbf", "B_lbf_per_mph", "C_lbf_per_mph2"};
+  return kKeys[i];
+}
+
+std::vector<ParameterEstimate> list_coefficients_lbf_mph(const RoadLoadFit& fit) {
+  constexpr const char* kUnits[] = {"lbf", "lbf/mph", "lbf/mph2"};
+  std::vector<ParameterEstimate> coefficients;
+  for (int i = 0; i < 3; ++i) {
+    const auto shown = [i](double value) { return road_load_in_lbf_mph(i, value); };
+    const std::array<double, 2> interval = fit.interval_95(i);
+    coefficients.push_back({road_load_lbf_key(i), shown(fit.values()[static_cast<std::size_t>(i)]), shown(fit.sd(i)),
+                            shown(interval[0]), shown(interval[1]), kUnits[i]});
+  }
+  return coefficients;
+}
+
 std::vector<ParameterEstimate> list_coefficients(const RoadLoadFit& fit) {
   std::vector<ParameterEstimate> coefficients;
   for (int i = 0; i < 3; ++i) {
@@ -149,14 +219,14 @@ Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& op
     const auto at = static_cast<std::size_t>(i);
     const std::array<double, 2> interval = fit.interval_95(i);
     const std::string key = road_load_key(i, fit.per_mass);
-    if (fit.on_bound[at]) {
-      json["on_bound"].push_back(key);
-      continue;
-    }
+    if (fit.is_cut(i)) json["cut_at_bound"].push_back(key);
+    if (fit.on_bound[at]) json["on_bound"].push_back(key);
     json["ci95"][key] = {road_load_in_file_unit(i, interval[0]), road_load_in_file_unit(i, interval[1])};
     json["degrees_of_freedom"][key] =
-        std::isfinite(fit.degrees_freedom[at]) ? Json(fit.degrees_freedom[at]) : Json(nullptr);
+        !fit.on_bound[at] && std::isfinite(fit.degrees_freedom[at]) ? Json(fit.degrees_freedom[at]) : Json(nullptr);
   }
+  put_other_units(fit, json);
+  put_doubts(fit, json);
   json["correlation"] = correlation_json(fit);
   json["chi2_per_dof"] = fit.chi2_per_dof;
   json["as_tested"] = Json::object();

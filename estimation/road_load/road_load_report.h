@@ -15,6 +15,16 @@ std::string road_load_key(int i, bool per_mass);
 /// An SI value of A, B or C in the unit of that key.
 double road_load_in_file_unit(int i, double si_value);
 
+/// An SI value of A, B or C in lbf and mph, the units of dynamometer settings in the United States.
+double road_load_in_lbf_mph(int i, double si_value);
+/// The SI value of one that is given in lbf and mph.
+double road_load_from_lbf_mph(int i, double value);
+/// Key of A, B or C in lbf and mph: "B_lbf_per_mph".
+std::string road_load_lbf_key(int i);
+
+/// A, B, C in lbf and mph, with intervals.
+std::vector<ParameterEstimate> list_coefficients_lbf_mph(const RoadLoadFit& fit);
+
 /// A, B, C in the units of files; a coefficient on a bound has no standard deviation.
 std::vector<ParameterEstimate> list_coefficients(const RoadLoadFit& fit);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "progress.h"
 
@@ -37,6 +38,9 @@ struct RoadLoadFitOptions {
   double speed_to_m_s = std::numeric_limits<double>::infinity();
   double bin_width_m_s = 5.0 / 3.6;  // of a trace. Assumed
   std::optional<RoadLoadBounds> bounds;
+  std::optional<std::array<double, 3>> target;  // A, B, C in SI units, with which the result is compared
+  std::vector<std::string> leave_out;           // runs: "7", or "session/7"
+  bool recorded_vehicle = false;                // masses and drag area from the manifest beside a recording
 };
 
 }  // namespace rollrig

@@ -1,0 +1,121 @@
+#include "estimation/drum_deceleration/coast_doubts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "estimation/drum_deceleration/coast_curves.h"
+#include "estimation/drum_deceleration/odd_coasts.h"
+
+namespace rollrig::estimation {
+namespace {
+
+std::vector<const CoastCurve*> select_state(const CoastSet& set, const std::vector<CoastCurve>& curves,
+                                            CoastState state, const std::set<std::size_t>& without) {
+  std::vector<const CoastCurve*> selected;
+  for (const CoastCurve& curve : curves) {
+    if (set.runs[curve.run].state == state && without.count(curve.run) == 0) selected.push_back(&curve);
+  }
+  return selected;
+}
+
+/// Time that the wheel coasts over that of the drum; none where the wheel was not recorded.
+std::optional<double> find_wheel_share(const std::vector<CoastAnalysis>& analyses, std::size_t run) {
+  double drum_s = 0.0, wheel_s = 0.0;
+  for (const CoastAnalysis& analysis : analyses) {
+    if (analysis.run != run) continue;
+    (analysis.body == CoastBody::kDrum ? drum_s : wheel_s) = analysis.coast.time_s.back() - analysis.coast.start_s;
+  }
+  if (drum_s <= 0.0 || wheel_s <= 0.0) return std::nullopt;
+  return wheel_s / drum_s;
+}
+
+/// A tire on the drum turns as long as the drum does; a lifted wheel comes to rest by itself.
+bool does_wheel_object(const std::vector<CoastAnalysis>& analyses, std::size_t run, CoastState true_state) {
+  constexpr double kFree = 0.5, kCoupled = 0.9;
+  const std::optional<double> share = find_wheel_share(analyses, run);
+  if (!share.has_value()) return false;
+  return true_state == CoastState::kLoaded ? *share < kFree : *share > kCoupled;
+}
+
+const char* call_state(CoastState state) { return state == CoastState::kLoaded ? "loaded" : "lifted"; }
+
+/// A run whose deceleration is that of the other state.
+std::optional<RunDoubt> check_state(const CoastSet& set, const std::vector<CoastCurve>& curves, const CoastCurve& curve,
+                                    const std::vector<CoastAnalysis>& analyses) {
+  constexpr double kLeastSeparation = 0.2;  // of ln(deceleration) between the states
+  constexpr double kNearer = 0.5;
+  constexpr double kLeastOff = 0.15;
+  const CoastRun& run = set.runs[curve.run];
+  const CoastState other = run.state == CoastState::kLoaded ? CoastState::kLifted : CoastState::kLoaded;
+  const auto own_runs = select_state(set, curves, run.state, {curve.run});
+  const auto other_runs = select_state(set, curves, other, {});
+  if (own_runs.empty() || other_runs.empty()) return std::nullopt;
+  const CoastCurve own = calc_median_curve(own_runs);
+  const CoastCurve opposite = calc_median_curve(other_runs);
+  const double from_own = compare_curves(curve, own).log;
+  const double from_other = compare_curves(curve, opposite).log;
+  const double separation = compare_curves(opposite, own).log;
+  const bool apart = (run.state == CoastState::kLoaded ? -separation : separation) > kLeastSeparation;
+  const bool nearer = std::abs(from_other) < kNearer * std::abs(from_own);
+  if (!apart || !nearer || std::abs(from_own) < kLeastOff) return std::nullopt;
+  if (does_wheel_object(analyses, curve.run, other)) return std::nullopt;
+  RunDoubt doubt{DoubtKind::kState, {run.id}, std::string("it is ") + call_state(other), std::expm1(from_own), ""};
+  doubt.text = fmt::format(
+      "{} is said to be {}, but its deceleration is that of the {} runs ({:+.0f} %) and not that of the other {} ones "
+      "({:+.0f} %): is its state '{}'?",
+      run.id, call_state(run.state), call_state(other), 100.0 * std::expm1(from_other), call_state(run.state),
+      100.0 * std::expm1(from_own), call_state(other));
+  return doubt;
+}
+
+/// Loads that differ at one pressure.
+void check_loads(const CoastSet& set, CoastDoubts& checked) {
+  std::map<long, std::vector<const CoastRun*>> by_pressure;
+  std::vector<double> pressures_Pa;
+  for (const CoastRun& run : set.runs) {
+    if (run.state != CoastState::kLoaded) continue;
+    auto known = std::find_if(pressures_Pa.begin(), pressures_Pa.end(),
+                              [&run](double level_Pa) { return is_same_pressure(run.pressure_Pa, level_Pa); });
+    if (known == pressures_Pa.end()) known = pressures_Pa.insert(known, run.pressure_Pa);
+    by_pressure[known - pressures_Pa.begin()].push_back(&run);
+  }
+  for (const auto& [level, runs] : by_pressure) {
+    const bool differ = std::any_of(runs.begin(), runs.end(), [&runs](const CoastRun* run) {
+      return !is_same_load(run->load_N, runs.front()->load_N);
+    });
+    if (!differ) continue;
+    RunDoubt doubt{DoubtKind::kLoad, {}, "different loads", 0.0, ""};
+    std::string loads;
+    for (const CoastRun* run : runs) {
+      doubt.runs.push_back(run->id);
+      loads += fmt::format("{}{:g} N in {}", loads.empty() ? "" : ", ", run->load_N, run->id);
+    }
+    doubt.text = fmt::format(
+        "the loads at {:.0f} kPa differ ({}): runs at another load are no repeats, they have results "
+        "of their own",
+        runs.front()->pressure_Pa / 1e3, loads);
+    checked.doubts.push_back(doubt);
+  }
+}
+
+}  // namespace
+
+CoastDoubts check_coasts(const CoastSet& set, const std::vector<CoastAnalysis>& analyses) {
+  CoastDoubts checked;
+  const std::vector<CoastCurve> curves = make_coast_curves(analyses);
+  for (const CoastCurve& curve : curves) {
+    if (const auto doubt = check_state(set, curves, curve, analyses)) {
+      checked.doubts.push_back(*doubt);
+      checked.set_aside.insert(curve.run);
+    }
+  }
+  check_loads(set, checked);
+  add_odd_coasts(set, curves, checked);
+  return checked;
+}
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,116 @@
+#include "estimation/road_load/road_force_reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "estimation/run_checks/robust_statistics.h"
+
+namespace rollrig::estimation {
+namespace {
+
+constexpr Eigen::Index kCommonFactors = 4;  // A, B, C, d_0
+
+std::vector<double> to_sizes(const Eigen::VectorXd& values) {
+  std::vector<double> sizes;
+  for (const double value : values) sizes.push_back(std::abs(value));
+  return sizes;
+}
+
+double calc_reference_weight(double u, bool tukey) {
+  constexpr double kHuberLimit = 1.345, kTukeyLimit = 4.685;
+  if (!tukey) return u <= kHuberLimit ? 1.0 : kHuberLimit / u;
+  const double share = u / kTukeyLimit;
+  return share >= 1.0 ? 0.0 : (1.0 - share * share) * (1.0 - share * share);
+}
+
+}  // namespace
+
+RoadForceReference::RoadForceReference(const CoastdownData& data, const std::vector<FitRun>& runs,
+                                       const std::vector<bool>& used, double mass_kg)
+    : data_(data), mass_kg_(mass_kg) {
+  for (const FitRun& run : runs) {
+    sessions_.try_emplace(data.runs[run.index].session, static_cast<Eigen::Index>(sessions_.size()));
+  }
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (!used[i]) continue;
+    const std::vector<Point> of_run = list_points(runs[i]);
+    points.insert(points.end(), of_run.begin(), of_run.end());
+  }
+  solve(points);
+}
+
+std::vector<RoadForceReference::Point> RoadForceReference::list_points(const FitRun& run) const {
+  const auto sessions = static_cast<Eigen::Index>(sessions_.size());
+  const Eigen::Index session = sessions_.at(data_.runs[run.index].session);
+  std::vector<Point> points;
+  for (const FitBin& bin : run.bins) {
+    double dv = bin.high_m_s - bin.low_m_s;
+    double dt = bin.duration_s;
+    Point point;
+    point.speed_m_s = 0.5 * (bin.high_m_s + bin.low_m_s);
+    if (bin.upper_cell >= 0) {
+      const SpeedCell& upper = run.cells[static_cast<std::size_t>(bin.upper_cell)];
+      const SpeedCell& lower = run.cells[static_cast<std::size_t>(bin.upper_cell) + 1];
+      dv = upper.mean_speed_m_s - lower.mean_speed_m_s;
+      dt = lower.mean_time_s - upper.mean_time_s;
+      point.speed_m_s = 0.5 * (upper.mean_speed_m_s + lower.mean_speed_m_s);
+    }
+    point.force_N = mass_kg_ * dv / dt - bin.at.offset_N - bin.at.offset_N_s_per_m * point.speed_m_s;
+    if (dt <= 0.0 || point.force_N <= 0.0) continue;
+    const double air_m_s = point.speed_m_s + bin.at.wind_m_s;
+    point.factors = Eigen::VectorXd::Zero(kCommonFactors + 2 * sessions);
+    point.factors.head(kCommonFactors) << bin.at.rolling, bin.at.rolling * point.speed_m_s,
+        bin.at.density * air_m_s * std::abs(air_m_s), run.heading;
+    point.factors(kCommonFactors + session) = run.heading * point.speed_m_s;
+    if (session > 0) point.factors(kCommonFactors + sessions + session) = bin.at.rolling;
+    points.push_back(point);
+  }
+  return points;
+}
+
+void RoadForceReference::solve(const std::vector<Point>& points) {
+  constexpr int kIterations = 40;
+  constexpr int kHuberFirst = 25;
+  constexpr double kLeastSd = 1e-4;  // relative: rounding
+  constexpr double kLeastShare = 0.2;
+  const auto n = static_cast<Eigen::Index>(points.size());
+  const auto sessions = static_cast<Eigen::Index>(sessions_.size());
+  coefficients_ = Eigen::VectorXd::Zero(kCommonFactors + 2 * sessions);
+  if (n == 0) return;
+  Eigen::MatrixXd X(n, coefficients_.size());
+  Eigen::VectorXd y(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    X.row(i) = points[static_cast<std::size_t>(i)].factors;
+    y(i) = points[static_cast<std::size_t>(i)].force_N;
+  }
+  Eigen::VectorXd scale = y, weights = Eigen::VectorXd::Ones(n);
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const Eigen::VectorXd root = weights.cwiseSqrt().cwiseQuotient(scale);
+    coefficients_ = (root.asDiagonal() * X).completeOrthogonalDecomposition().solve(root.cwiseProduct(y).eval()).eval();
+    const Eigen::VectorXd fitted = X * coefficients_;
+    // a reference force near zero would make one bin count for all
+    scale = fitted.cwiseMax(kLeastShare * fitted.mean());
+    const Eigen::VectorXd residual = (y - fitted).cwiseQuotient(scale);
+    const double sd = std::max(kLeastSd, 1.4826 * calc_median(to_sizes(residual)));
+    weights =
+        residual.unaryExpr([&](double r) { return calc_reference_weight(std::abs(r) / sd, iteration > kHuberFirst); });
+  }
+}
+
+RunDeviation RoadForceReference::deviation_of(const FitRun& run, std::size_t place) const {
+  RunDeviation deviation;
+  deviation.run = place;
+  deviation.group = static_cast<std::size_t>(sessions_.at(data_.runs[run.index].session));
+  for (const Point& point : list_points(run)) {
+    const double reference_N = point.factors.dot(coefficients_);
+    if (reference_N <= 0.0) continue;
+    deviation.speed_m_s.push_back(point.speed_m_s);
+    deviation.relative.push_back(point.force_N / reference_N - 1.0);
+  }
+  return deviation;
+}
+
+}  // namespace rollrig::estimation

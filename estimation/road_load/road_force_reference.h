@@ -1,0 +1,47 @@
+#pragma once
+/// What the other runs say of the force of a run: a robust road load, to find the odd one.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "estimation/road_load/coastdown_model.h"
+#include "estimation/run_checks/odd_runs.h"
+
+namespace rollrig::estimation {
+
+/// A road load through mean forces over bins that a few odd runs do not move.
+/// Equation  f = k (A + B v) + q C u|u| + offset + k D_s + h (d_0 + d_1s v), Tukey's weights on the relative residuals
+///           (c = 4.685 robust standard deviations), Huber's (c = 1.345) first
+/// Symbols   f m dv/dt of a bin, at its middle speed v; u = v + h w; D_s, d_1s one for each session; others as in
+///           fit_road_load()
+/// Validity  to look for deviations, not to estimate A, B, C: dv/dt is taken at the middle speed
+/// Source    Holland and Welsch, Communications in Statistics A6 (1977) 813 (the weights)
+/// Checked   tests/estimation/odd_runs_test.cpp
+class RoadForceReference {
+ public:
+  /// From the runs for which `used` holds.
+  RoadForceReference(const CoastdownData& data, const std::vector<FitRun>& runs, const std::vector<bool>& used,
+                     double mass_kg);
+
+  /// Force of the run over that of the reference, less 1, bin by bin. `place` is its place among the runs.
+  RunDeviation deviation_of(const FitRun& run, std::size_t place) const;
+
+ private:
+  struct Point {
+    double speed_m_s = 0.0;
+    double force_N = 0.0;
+    Eigen::VectorXd factors;
+  };
+  std::vector<Point> list_points(const FitRun& run) const;
+  void solve(const std::vector<Point>& points);
+
+  const CoastdownData& data_;
+  double mass_kg_;
+  std::map<std::string, Eigen::Index> sessions_;
+  Eigen::VectorXd coefficients_;
+};
+
+}  // namespace rollrig::estimation

@@ -1,0 +1,112 @@
+// What a person is told of drum coastdowns that are not what they seem.
+#include "estimation/drum_deceleration/coast_doubts.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/coast_study.h"
+#include "tests/support/run_program.h"
+
+using namespace rollrig;
+using namespace rollrig::estimation;
+using Catch::Contains;
+using tests::TemporaryFolder;
+using tests::write_file;
+
+namespace {
+
+CoastSet make_set() {
+  CoastSet set = tests::make_coasts({}, 3);
+  for (std::size_t i = 0; i < set.runs.size(); ++i) set.runs[i].id = std::to_string(i) + ".csv";
+  return set;
+}
+
+const PressureLevel& level_at(const DrumCoastdownFit& fit, std::size_t speed, double pressure_Pa, double load_N) {
+  for (const PressureLevel& level : fit.points[speed].levels) {
+    if (is_same_pressure(level.pressure_Pa, pressure_Pa) && is_same_load(level.load_N, load_N)) return level;
+  }
+  throw std::logic_error("no such level");
+}
+
+}  // namespace
+
+TEST_CASE("a recording that is there twice does not make an interval narrower", "[fast]") {
+  CoastSet set = make_set();
+  const DrumCoastdownFit once = fit_drum_coastdown(set);
+  CHECK(once.doubts.empty());
+  CHECK(once.others == nullptr);
+  set.runs.push_back(set.runs[12]);
+  set.runs.back().id = "copy.csv";
+  const DrumCoastdownFit twice = fit_drum_coastdown(set);
+  REQUIRE(twice.doubts.size() == 1);
+  CHECK(twice.doubts[0].runs == std::vector<std::string>{"12.csv", "copy.csv"});
+  CHECK_THAT(twice.warnings.front(), Contains("12.csv and copy.csv are the same recording"));
+  for (std::size_t i = 0; i < once.points.size(); ++i) {
+    CHECK(twice.points[i].drum_alone_m_s2->lower == once.points[i].drum_alone_m_s2->lower);
+    CHECK(twice.points[i].drum_alone_m_s2->upper == once.points[i].drum_alone_m_s2->upper);
+  }
+}
+
+TEST_CASE("one recording under two labels is doubted aloud", "[fast]") {
+  CoastSet set = make_set();
+  set.runs.push_back(set.runs[0]);
+  set.runs.back().id = "copy.csv";
+  set.runs.back().pressure_Pa = 350e3;
+  CHECK_THAT(fit_drum_coastdown(set).warnings.front(), Contains("The two differ in pressure"));
+}
+
+TEST_CASE("a lifted run that is said to be loaded is named, and the others say what they said", "[fast]") {
+  CoastSet set = make_set();
+  const DrumCoastdownFit right = fit_drum_coastdown(set);
+  set.runs[13].state = CoastState::kLoaded;
+  set.runs[13].pressure_Pa = 420e3;
+  const DrumCoastdownFit wrong = fit_drum_coastdown(set);
+  REQUIRE(wrong.doubts.size() == 1);
+  CHECK(wrong.doubts[0].kind == DoubtKind::kState);
+  CHECK(wrong.doubts[0].runs == std::vector<std::string>{"13.csv"});
+  CHECK_THAT(wrong.warnings.front(), Contains("13.csv is said to be loaded") && Contains("'lifted'"));
+  REQUIRE(wrong.others != nullptr);
+  const Interval& net = level_at(*wrong.others, 2, 420e3, 0.0).net_m_s2;
+  const Interval& truth = level_at(right, 2, 420e3, 0.0).net_m_s2;
+  const Interval& pooled = level_at(wrong, 2, 420e3, 0.0).net_m_s2;
+  CHECK(net.value == Approx(truth.value).epsilon(0.02));
+  CHECK(pooled.upper - pooled.lower > 5.0 * (net.upper - net.lower));
+}
+
+TEST_CASE("runs at another load are a level of their own, and are named", "[fast]") {
+  CoastSet set = make_set();
+  for (CoastRun& run : set.runs) run.load_N = run.state == CoastState::kLoaded ? 1115.0 : 0.0;
+  set.runs[4].load_N = 156.0;
+  const DrumCoastdownFit fit = fit_drum_coastdown(set);
+  REQUIRE(fit.doubts.size() == 1);
+  CHECK(fit.doubts[0].kind == DoubtKind::kLoad);
+  CHECK_THAT(fit.warnings.front(), Contains("156 N in 4.csv") && Contains("1115 N in 5.csv"));
+  CHECK(level_at(fit, 2, 420e3, 156.0).runs == 1);
+  CHECK(level_at(fit, 2, 420e3, 1115.0).runs == 1);
+  CHECK(level_at(fit, 2, 350e3, 1115.0).runs == 2);
+}
+
+TEST_CASE("a braked loaded run is told from its repeat by the other pressures", "[fast]") {
+  CoastSet set = make_set();
+  CoastSeries& drum = *set.runs[6].drum;
+  for (double& time_s : drum.time_s) time_s *= 0.7;
+  const DrumCoastdownFit fit = fit_drum_coastdown(set);
+  REQUIRE(fit.doubts.size() == 1);
+  CHECK(fit.doubts[0].kind == DoubtKind::kOdd);
+  CHECK(fit.doubts[0].runs == std::vector<std::string>{"6.csv"});
+  CHECK_THAT(fit.warnings.front(), Contains("was it braked"));
+  REQUIRE(fit.others != nullptr);
+  CHECK(level_at(*fit.others, 2, 490e3, 0.0).runs == 1);
+}
+
+TEST_CASE("where loads differ, every loaded run needs its own", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string head = "format = \"rollrig-drum-coastdown/1\"\n[drum]\ndiameter_m = 1.7\n";
+  const auto run = [](const std::string& state) { return "[[run]]\nfile = \"1.csv\"\nstate = \"" + state + "\"\n"; };
+  write_file(folder.file("1.csv"), "time_s,speed_km_h\n0,80\n1,79\n2,78\n");
+  const std::string loaded = run("loaded") + "pressure_kPa = 250\n";
+  write_file(folder.file("set.toml"),
+             head + loaded + "load_N = 500\n" + loaded + "load_N = 900\n" + loaded + run("lifted"));
+  CHECK_THROWS_WITH(read_coast_set(folder.file("set.toml")), Contains("the loads of the runs differ"));
+  write_file(folder.file("set.toml"), head + loaded + "load_N = 500\n" + loaded + run("lifted"));
+  CHECK(read_coast_set(folder.file("set.toml")).runs[1].load_N == 500.0);
+}
