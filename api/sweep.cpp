@@ -9,6 +9,7 @@
 
 #include "api/data.h"
 #include "report/list_pages.h"
+#include "scenarios/run/flat_results.h"
 #include "sim/core/columns.h"
 #include "sim/core/csv.h"
 #include "sim/core/parallel.h"
@@ -76,6 +77,13 @@ void require_known(const std::vector<std::string>& asked, const std::vector<std:
   }
 }
 
+void require_declared(const std::vector<std::string>& asked, const std::vector<std::string>& declared) {
+  for (const std::string& key : asked) {
+    if (std::find(declared.begin(), declared.end(), scenarios::find_declared_key(key)) != declared.end()) continue;
+    throw InputError(unknown_name("result", key, declared));
+  }
+}
+
 /// Results shown in the terminal: as asked for, else the first of those that change, as many as fit the terminal.
 std::vector<std::string> choose_shown(const std::vector<std::string>& asked, const Json& json,
                                       const SweepResult& sweep) {
@@ -132,7 +140,7 @@ Sweep::Sweep(const SweepInput& input) {
   }
   std::vector<std::string> declared;
   for (const scenarios::ResultInfo& info : data->specs.front().scenario->results) declared.push_back(info.key);
-  require_known(input.shown, declared);
+  require_declared(input.shown, declared);
   data_ = data;
 }
 
@@ -153,21 +161,20 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   for (const SweepAxis& axis : data_->input.axes) sweep.axes.push_back(axis.key);
   sweep.points = data_->points;
   const Json json = make_json(specs.front().scenario->text.name, sweep, results);
-  sweep.results = report::list_numbers(json);
-  for (const Json& result : results) {
+  const std::vector<Json> numbers = scenarios::flatten_results(results);
+  const Json flat = make_json(specs.front().scenario->text.name, sweep, numbers);
+  sweep.results = report::list_numbers(flat);
+  for (const Json& result : numbers) {
     sweep.values.emplace_back();
     for (const std::string& key : sweep.results) {
       const Json value = result.value(key, Json());
       sweep.values.back().push_back(value.is_number() ? value.get<double>() : std::nan(""));
     }
   }
-  const std::vector<std::string> shown = choose_shown(data_->input.shown, json, sweep);
+  const std::vector<std::string> shown = choose_shown(data_->input.shown, flat, sweep);
   sweep.json = to_text(json);
-  sweep.text = format_table(report::make_sweep_table(json, format_count(specs.size(), "run"), shown));
-  if (shown.empty()) {
-    sweep.text +=
-        wrap("The results of this scenario are lists, which a table does not have. --out and --json write them.", 0);
-  } else if (shown.size() < sweep.results.size()) {
+  sweep.text = format_table(report::make_sweep_table(flat, format_count(specs.size(), "run"), shown));
+  if (shown.size() < sweep.results.size()) {
     sweep.text += wrap(fmt::format("{} of {} results are shown. --show names others, --out and --json write all.",
                                    shown.size(), sweep.results.size()),
                        0);
@@ -175,10 +182,10 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   files[0] = {"sweep.csv", make_csv(sweep)};
   files[1] = {"sweep.json", sweep.json};
   sweep.make_files = [files] { return files; };
-  sweep.make_page = [json, data = data_] {
+  sweep.make_page = [flat, data = data_] {
     const scenarios::RunSpec& spec = data->specs.front();
     const std::string of = fmt::format("Tire {}, rig {}", spec.tire.name, spec.rig.name);
-    return report::make_html(report::make_sweep_page(json, data->input.shown, of));
+    return report::make_html(report::make_sweep_page(flat, data->input.shown, of));
   };
   return sweep;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "report/blocks.h"
+#include "report/readings.h"
 #include "rigs/vehicle_channels.h"
 #include "scenarios/common/vehicle_conditions.h"
 #include "sim/core/units.h"
@@ -52,6 +53,11 @@ class Scene {
     return json;
   }
 
+  /// For what the picture says in numbers.
+  Json recorded(const Column& values_SI, const char* key) const {
+    return make_recorded(recording_.time_s, in_unit_of(key, values_SI));
+  }
+
   static Json make_tire(const Tire& tire) {
     const auto& geometry = tire.geometry;
     return {{"radius_m", geometry.outer_diameter_m / 2.0}, {"rim_radius_m", geometry.rim_diameter_m / 2.0}};
@@ -92,7 +98,7 @@ class Scene {
     Json wheel = {
         {"x_m", 0.0},
         {"tire", make_tire(tire)},
-        {"load_N", series(load_N, "load_N")},
+        {"load_N", recorded(load_N, "load_N")},
         {"temperature_degC",
          series(recording_.channel(wheel_channel(quantities::kLinerTemperature, position)), "x_degC")},
         {"angle_rad", series(angle_of(wheel_channel({"wheel_angle", "rad"}, position), rolling_m), "angle_rad")}};
@@ -221,7 +227,7 @@ Block make_animation(const RunSpec& spec, const Recording& recording) {
                  {"label", what + " at the slider's time; the tire is colored by its temperature"},
                  {"caption", std::string(of) + " The tire has the color of its liner temperature."},
                  {"temperature_degC", scene.temperature_range_degC()},
-                 {"speed_km_h", scene.series(recording.channel(quantities::kSpeed), "speed_km_h")},
+                 {"speed_km_h", scene.recorded(recording.channel(quantities::kSpeed), "speed_km_h")},
                  {"wheels", Json::array()}};
   if (!is_road) block["drum_radius_m"] = scene.surface_radius_m();
   if (is_vehicle) {

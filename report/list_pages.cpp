@@ -51,6 +51,9 @@ Block make_sweep_chart(const Json& sweep, const std::vector<std::string>& axes, 
   return make_curves({plain_name(axis), shown_unit(axis)}, {plain_name(result), shown_unit(result)}, series);
 }
 
+/// Not of a list.
+bool is_alone(const std::string& key) { return key.find('.') == std::string::npos; }
+
 /// A result at every point, null where a point has none.
 std::vector<Json> list_values(const Json& sweep, const std::string& key) {
   std::vector<Json> values;
@@ -62,11 +65,24 @@ std::vector<Json> list_values(const Json& sweep, const std::string& key) {
 
 std::vector<std::string> list_numbers(const Json& sweep) {
   std::vector<std::string> keys;
-  for (const auto& [key, value] : sweep["points"].front()["result"].items()) {
-    const std::vector<Json> values = list_values(sweep, key);
-    if (std::any_of(values.begin(), values.end(), [](const Json& at) { return at.is_number(); })) keys.push_back(key);
+  for (const Json& point : sweep["points"]) {
+    auto next = keys.begin();
+    for (const auto& [key, value] : point["result"].items()) {
+      const auto known = std::find(keys.begin(), keys.end(), key);
+      next = known != keys.end() ? known + 1 : keys.insert(next, key) + 1;
+    }
   }
   return keys;
+}
+
+std::vector<std::string> choose_charts(const Json& sweep) {
+  constexpr std::size_t kMostOfLists = 12;
+  std::vector<std::string> alone;
+  std::vector<std::string> of_lists;
+  for (const std::string& key : list_changing(sweep)) (is_alone(key) ? alone : of_lists).push_back(key);
+  if (!alone.empty()) return alone;
+  of_lists.resize(std::min(of_lists.size(), kMostOfLists));
+  return of_lists;
 }
 
 std::vector<std::string> list_changing(const Json& sweep) {
@@ -101,7 +117,7 @@ Table make_sweep_table(const Json& sweep, const std::string& title, const std::v
 }
 
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle) {
-  if (shown.empty()) shown = list_changing(sweep);
+  if (shown.empty()) shown = choose_charts(sweep);
   const std::vector<std::string> axes = find_axes(sweep);
   const std::string scenario = sweep["scenario"];
   Page page{"sweep", fmt::format("Sweep of {} over {}", scenario, fmt::join(axes, ", ")), subtitle};
@@ -110,9 +126,20 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
     for (const std::string& result : shown) charts.blocks.push_back(make_sweep_chart(sweep, axes, result));
   }
   page.add(std::move(charts));
-  const std::vector<std::string> keys = list_numbers(sweep);
+  std::vector<std::string> keys = list_numbers(sweep);
+  const std::size_t all = keys.size();
+  keys.erase(std::remove_if(keys.begin(), keys.end(),
+                            [&shown](const std::string& key) {
+                              return !is_alone(key) && std::find(shown.begin(), shown.end(), key) == shown.end();
+                            }),
+             keys.end());
   const std::string title = "All " + format_count(sweep["points"].size(), "run");
-  page.add({"All runs", "", {make_table(make_sweep_table(sweep, title, keys))}});
+  Section runs{"All runs", "", {make_table(make_sweep_table(sweep, title, keys))}};
+  if (keys.size() < all) {
+    runs.blocks.push_back(make_paragraph(fmt::format(
+        "{} of {} results are on this page. --show names others; sweep.csv of --out has all.", keys.size(), all)));
+  }
+  page.add(std::move(runs));
   return page;
 }
 

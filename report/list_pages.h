@@ -9,16 +9,21 @@
 
 namespace rollrig::report {
 
-/// Keys of the results of a sweep's document that are single numbers, at one point at least, in order.
+/// Keys of the results that one point of a sweep's document has at least, in order. Here and below, the results of the
+/// document are flat (scenarios::flatten_results).
 std::vector<std::string> list_numbers(const Json& sweep);
 /// Those that are not the same at every point; times of evaluation do not count.
 std::vector<std::string> list_changing(const Json& sweep);
+
+/// Of those that change the ones that have a chart where none is named: those that are in no list, else the first of
+/// lists.
+std::vector<std::string> choose_charts(const Json& sweep);
 
 /// A row a point of a sweep's document: what is set, then the results of `keys`.
 Table make_sweep_table(const Json& sweep, const std::string& title, const std::vector<std::string>& keys);
 
 /// Of the sweep's document (rollrig-sweep/1): results over what is varied, and a table of all points. `shown` are the
-/// results that have a chart; where none is named, those that change.
+/// results that have a chart; where none is named, those of choose_charts.
 Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const std::string& subtitle);
 
 /// A row a run of the comparison's document: its status and its worst difference.

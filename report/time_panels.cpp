@@ -6,6 +6,7 @@
 
 #include "models/quantities.h"
 #include "report/blocks.h"
+#include "report/readings.h"
 #include "rigs/vehicle_channels.h"
 #include "sim/core/units.h"
 
@@ -56,6 +57,7 @@ struct Place {
   const Quantity* order;  // in kOrder
   std::string panel;
   std::string series;
+  bool is_read = true;  // the page shows its value at the time of the slider
 };
 
 /// Panel and name of a channel. With several wheels a panel holds one quantity, a line a wheel; their loads, which stay
@@ -70,7 +72,8 @@ std::optional<Place> find_place(const Quantity& channel, const std::vector<std::
     const std::optional<Quantity> own = rigs::without_position(channel, position);
     if (!own.has_value()) continue;
     if (*own == quantities::kLoad) return std::nullopt;
-    return Place{find_order(*own), capitalized(plain_name(own->header())), plain_name(position)};
+    return Place{find_order(*own), capitalized(plain_name(own->header())), plain_name(position),
+                 position == positions.front()};
   }
   const bool is_further_temperature = find_order(channel) == std::end(kOrder) && channel.unit_suffix() == "degC";
   return Place{is_further_temperature ? find_order(quantities::kAmbient) : find_order(channel),
@@ -125,7 +128,11 @@ Block make_times(const sim::Recording<double>& recording) {
     if (!place.has_value()) continue;
     const std::string channel = recording.channels[i].quantity.header();
     Panel& panel = find_panel(panels, *place, shown_unit(channel));
-    panel.series.push_back(make_series(place->series, recording.time_s, in_unit_of(channel, recording.values[i])));
+    const std::vector<double> values = in_unit_of(channel, recording.values[i]);
+    Json series = make_series(place->series, recording.time_s, values);
+    series["phases"] = summarize_phases(recording, values);
+    if (place->is_read) series["recorded"] = make_recorded(recording.time_s, values);
+    panel.series.push_back(std::move(series));
   }
   std::stable_sort(panels.begin(), panels.end(), [](const Panel& a, const Panel& b) { return a.order < b.order; });
   const PageClock view = find_view(recording);
@@ -133,6 +140,7 @@ Block make_times(const sim::Recording<double>& recording) {
       {"type", "times"},
       {"view", {view.start_s, view.end_s}},
       {"phases", make_phases(recording.phases)},
+      {"rows", make_row_times(recording.time_s)},
       {"panels", Json::array()},
       {"caption",
        "Click on the chart to move the time of slider and animation. The bar below the chart, or Ctrl and the "

@@ -30,7 +30,7 @@ struct SweepInput {
 struct SweepResult : Report {
   std::vector<std::string> axes;                 // keys
   std::vector<std::vector<std::string>> points;  // values of the axes
-  std::vector<std::string> results;              // names of the results that are single numbers
+  std::vector<std::string> results;              // names of all results; of a list's: "cycles.1.load_N"
   std::vector<std::vector<double>> values;       // of each point the results; NaN where it has none
 };
 

@@ -1,5 +1,6 @@
 // Every scenario's results in JSON, on the terminal, on the page, in docs/reference.md and as columns of a sweep: the
 // same ones everywhere, with the same numbers.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -164,6 +165,28 @@ void check_tables(const OrderedJson& result, const OrderedJson& tables) {
   CHECK(unseen == std::set<std::string>{});
 }
 
+/// All numbers of a result, at any depth; a flag is 1 or 0.
+std::vector<double> list_numbers(const OrderedJson& result) {
+  std::vector<double> numbers;
+  if (result.is_number()) numbers.push_back(result.get<double>());
+  if (result.is_boolean()) numbers.push_back(result.get<bool>() ? 1.0 : 0.0);
+  if (!result.is_structured()) return numbers;
+  for (const OrderedJson& inner : result) {
+    for (const double number : list_numbers(inner)) numbers.push_back(number);
+  }
+  return numbers;
+}
+
+/// All numbers of the one row of a table.
+std::multiset<double> read_numbers(const std::string& csv) {
+  std::multiset<double> numbers;
+  std::istringstream fields(csv.substr(csv.find('\n') + 1));
+  for (std::string field; std::getline(fields, field, ',');) {
+    if (field.find_first_of("0123456789") != std::string::npos) numbers.insert(std::stod(field));
+  }
+  return numbers;
+}
+
 /// What the terminal and the page say are the same words, in the same order.
 void check_same_words(const std::string& terminal, const OrderedJson& blocks) {
   std::string words;
@@ -211,8 +234,20 @@ TEST_CASE("JSON, terminal, page, reference and sweep agree on every scenario's r
       REQUIRE(run_program("sweep " + options + " --vary pressure_kPa=250 --out sweep", folder.path()).status == 0);
       const std::string csv = read_file(folder.file("sweep/sweep.csv"));
       std::string columns = "pressure_kPa";
-      for (const auto& [key, value] : result.items()) columns += value.is_number() ? "," + key : "";
-      CHECK(csv.substr(0, csv.find('\n')) == columns);
+      for (const auto& [key, value] : result.items())
+        columns += value.is_number() || value.is_boolean() ? "," + key : "";
+      CHECK_THAT(csv, Catch::StartsWith(columns));
+      std::multiset<double> found = read_numbers(csv);
+      const OrderedJson swept = OrderedJson::parse(read_file(folder.file("sweep/sweep.json")))["points"][0]["result"];
+      for (const double number : list_numbers(swept)) {
+        INFO(number);
+        const auto at = std::find_if(found.begin(), found.end(), [number](double each) {
+          return std::abs(each - number) <= 1e-11 * std::abs(number);
+        });
+        CHECK(at != found.end());
+        if (at != found.end()) found.erase(at);
+      }
+      CHECK(found == std::multiset<double>{250.0});  // the pressure that is set
     }
   }
 }

@@ -52,7 +52,9 @@ void write_set(const TemporaryFolder& folder) {
 }  // namespace
 
 TEST_CASE("page of an ISO test on the multibody drum", "[slow]") {
-  check_command(TemporaryFolder(), "run iso_28580 --tire a50", "--charts 2 --animation");
+  const TemporaryFolder folder;
+  check_command(folder, "run iso_28580 --tire a50 --out run",
+                "--charts 2 --animation --recording '" + folder.file("run/recording.csv") + "'");
 }
 
 TEST_CASE("page of a multi-cycle test of a quarter on its roller", "[slow]") {

@@ -1,6 +1,6 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
-// node check_page.mjs <page.html> [--charts N] [--animation] [--screenshots DIR]
-import { writeFileSync } from 'node:fs';
+// node check_page.mjs <page.html> [--charts N] [--animation] [--recording FILE.csv] [--screenshots DIR]
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Chromium } from './chromium.mjs';
@@ -92,6 +92,31 @@ async function checkAnimation() {
   check(start.values !== before.values, 'the slider moves the values beside it');
 }
 
+/// The readings beside the animation are those of the recording's last row at or before the time of the slider. Every
+/// change of phase is looked at from both sides.
+async function checkReadings(file) {
+  const [head, ...rows] = readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
+  const time_s = rows.map((row) => Number(row[0]));
+  const start_s = await chromium.evaluate('rollrig.clock.start_s');
+  const looked = new Set([Math.floor(rows.length / 2)]);
+  rows.forEach((row, i) => i > 0 && row[1] !== rows[i - 1][1] && [i - 1, i, i + 1].forEach((k) => looked.add(k)));
+  let compared = 0;
+  let wrong = '';
+  for (const i of [...looked].filter((k) => k + 1 < rows.length && time_s[k] >= start_s)) {
+    const between_s = 0.5 * (time_s[i] + time_s[i + 1]);
+    const shown = await chromium.evaluate(`(rollrig.clock.set(${between_s}), [...document.querySelectorAll('.readings tbody tr')].map((tr) => [...tr.children].map((cell) => cell.textContent)))`);
+    for (const [name, text, unit] of shown) {
+      const column = head.indexOf(`${name.replaceAll(' ', '_')}_${unit.replace('\u00b0C', 'degC').replace('km/h', 'km_h')}`);
+      if (column < 0) continue;
+      const value = Number(text.replace('\u2212', '-'));
+      const digit = 10 ** -(text.split('.')[1] || '').length;
+      ++compared;
+      if (!(Math.abs(value - Number(rows[i][column])) <= 1.1 * digit)) wrong = `${name} ${text} at ${between_s} s, recorded ${rows[i][column]}`;
+    }
+  }
+  check(compared > 50 && wrong === '', `${compared} readings are those of the recording's rows: ${wrong}`);
+}
+
 async function checkWords() {
   const odd = await chromium.evaluate(`(document.querySelector('main').textContent.match(/.{0,40}(\\[object|undefined|NaN|Infinity).{0,20}/) || [''])[0]`);
   check(odd === '', `no word that a person is not to see: ${odd}`);
@@ -176,6 +201,7 @@ async function checkPage() {
   await checkWords();
   await checkAccess();
   if (args.includes('--animation')) await checkAnimation();
+  if (option('--recording')) await checkReadings(option('--recording'));
   await checkNarrow();
   await checkDarkAndPaper();
   const strange = requests.filter((url) => url !== pathToFileURL(page).href);

@@ -1,4 +1,5 @@
-// Scenes of the machines. Lengths in meters; each scene has an element and show(time_s).
+// Scenes of the machines. Lengths in meters; each scene has an element and show(time_s). `recorded` gives the value of a
+// recorded row at a time.
 import { svg } from '../dom.js';
 import { fixed } from '../format.js';
 import { valueAt } from '../clock.js';
@@ -23,7 +24,7 @@ function makeBelt(r) {
 }
 
 /// The drum, or the belt, with the carriage that presses the wheel on it from above.
-function makeDrumScene(block) {
+function makeDrumScene(block, recorded) {
   const [wheel] = block.wheels;
   const { tire } = wheel;
   const isBelt = block.machine === 'belt';
@@ -47,8 +48,8 @@ function makeDrumScene(block) {
       rail, turning.element, svg('g', { 'clip-path': 'url(#below)' }, drum.element), carriage, load.element, speed.element, scale.element),
     show(t) {
       const height = valueAt(wheel.axle_height_m, t);
-      const now_N = valueAt(wheel.load_N, t);
-      const km_h = valueAt(block.speed_km_h, t);
+      const now_N = recorded(wheel.load_N, t);
+      const km_h = recorded(block.speed_km_h, t);
       const heat = share(valueAt(wheel.temperature_degC, t));
       drum.turn(-valueAt(wheel.surface_angle_rad, t), 0, 0);
       turning.turn(valueAt(wheel.angle_rad, t), 0, -height);
@@ -80,7 +81,7 @@ const makeQuarter = ({ height_m }) => svg('g', null,
   svg('line', { x1: 0, y1: height_m - 0.92, x2: 0, y2: height_m - 0.4, class: 'rail' }));
 
 /// A vehicle, or one wheel with its share of it, on rollers or on the road.
-function makeVehicleScene(block) {
+function makeVehicleScene(block, recorded) {
   const { body } = block;
   const isWhole = body.axles_x_m.length > 0;
   const R = block.drum_radius_m || 0;
@@ -102,7 +103,7 @@ function makeVehicleScene(block) {
     viewBox: [left, -top, right - left, top + depth],
     element: svg('g', null, shell, wheels.map((w) => w.drawn.element), ground, wheels.map((w) => w.roller && w.roller.element), wheels.map((w) => w.force.element), speed.element, scale.element),
     show(t) {
-      const km_h = valueAt(block.speed_km_h, t);
+      const km_h = recorded(block.speed_km_h, t);
       for (const wheel of wheels) {
         const heat = share(valueAt(wheel.temperature_degC, t));
         wheel.drawn.turn(valueAt(wheel.angle_rad, t), wheel.x_m, -valueAt(wheel.axle_height_m, t));
@@ -129,4 +130,4 @@ function moveRoad(ticks, position_m, left, right) {
   ticks.replaceChildren(...marks);
 }
 
-export const makeScene = (block) => (block.machine === 'drum' || block.machine === 'belt' ? makeDrumScene(block) : makeVehicleScene(block));
+export const makeScene = (block, recorded) => (block.machine === 'drum' || block.machine === 'belt' ? makeDrumScene(block, recorded) : makeVehicleScene(block, recorded));
