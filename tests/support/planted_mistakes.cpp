@@ -23,7 +23,7 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
 /// Written again: as it is, coarser, or in other units; on another clock.
 void rewrite(std::vector<double>& time_s, std::vector<double>& speed_m_s, RandomStream& random) {
   const double shift_s = round_to(draw_between(random, -500.0, 500.0), 0.01);
-  const std::size_t way = draw(random, 4);
+  const std::size_t way = draw_index(random, 4);
   for (double& time : time_s) time += shift_s;
   for (double& speed : speed_m_s) {
     if (way == 1) speed = round_to(speed, 0.01);
@@ -46,8 +46,8 @@ std::size_t find_passing(const std::vector<double>& speed_m_s, double below_m_s)
 }
 
 std::pair<std::size_t, std::size_t> draw_pair(RandomStream& random, std::size_t count) {
-  const std::size_t a = draw(random, count);
-  const std::size_t b = (a + 1 + draw(random, count - 1)) % count;
+  const std::size_t a = draw_index(random, count);
+  const std::size_t b = (a + 1 + draw_index(random, count - 1)) % count;
   return {std::min(a, b), std::max(a, b)};
 }
 
@@ -55,8 +55,8 @@ std::pair<std::size_t, std::size_t> draw_pair(RandomStream& random, std::size_t 
 std::pair<std::size_t, std::size_t> draw_stretch(RandomStream& random, std::size_t count) {
   if (random.uniform() < 0.3) return {0, count};
   const auto least = static_cast<std::size_t>(std::ceil(0.4 * static_cast<double>(count)));
-  const std::size_t length = least + draw(random, count - least + 1);
-  const std::size_t begin = draw(random, count - length + 1);
+  const std::size_t length = least + draw_index(random, count - least + 1);
+  const std::size_t begin = draw_index(random, count - length + 1);
   return {begin, begin + length};
 }
 
@@ -100,14 +100,14 @@ Judged judge(const Planted& planted, const std::vector<RunDoubt>& doubts) {
   return judged;
 }
 
-std::size_t draw(RandomStream& random, std::size_t count) {
+std::size_t draw_index(RandomStream& random, std::size_t count) {
   return std::min(count - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
 }
 
 double draw_between(RandomStream& random, double low, double high) { return low + (high - low) * random.uniform(); }
 
 Planted plant_repeat(CoastdownData& data, RandomStream& random) {
-  const std::size_t from = draw(random, data.runs.size());
+  const std::size_t from = draw_index(random, data.runs.size());
   CoastdownRun copy = data.runs[from];
   copy.id = "copy";
   if (random.uniform() < 0.5) copy.session = "copied";
@@ -129,7 +129,7 @@ Planted plant_shared_part(CoastdownData& data, RandomStream& random) {
   if (!to.bins.empty()) {
     const std::size_t bins = std::min(from.bins.size(), to.bins.size());
     const std::size_t least = std::max<std::size_t>(3, (2 * bins + 4) / 5);  // 40 %
-    const std::size_t count = std::min(least + draw(random, bins - least + 1), bins);
+    const std::size_t count = std::min(least + draw_index(random, bins - least + 1), bins);
     for (std::size_t i = 0; i < count; ++i) to.bins[i] = from.bins[i];
     return {DoubtKind::kRepeat, {from.id, to.id}, "the same recording"};
   }
@@ -155,10 +155,10 @@ Planted plant_shared_part(CoastdownData& data, RandomStream& random) {
 
 Planted plant_labels(CoastdownData& data, RandomStream& random) {
   Planted planted{DoubtKind::kLabels, {}, ""};
-  const std::size_t way = draw(random, 4);
-  const int bins = 1 + static_cast<int>(draw(random, 2));
+  const std::size_t way = draw_index(random, 4);
+  const int bins = 1 + static_cast<int>(draw_index(random, 2));
   constexpr double kWidths[] = {0.8, 1.2, 2.0, 0.5};
-  double width = kWidths[draw(random, 4)];
+  double width = kWidths[draw_index(random, 4)];
   for (const CoastdownRun& run : data.runs) {  // no label may come to lie below 5 km/h
     const double top = run.bins.front().high_m_s;
     if (top - (top - run.bins.back().low_m_s) * width < 5.0 * kPerKmh) width = 0.8;
@@ -166,7 +166,7 @@ Planted plant_labels(CoastdownData& data, RandomStream& random) {
   const bool all = random.uniform() < 0.3;
   std::vector<std::size_t> guilty;
   for (std::size_t i = 0; i < data.runs.size() && all; ++i) guilty.push_back(i);
-  if (!all) guilty.push_back(draw(random, data.runs.size()));
+  if (!all) guilty.push_back(draw_index(random, data.runs.size()));
   for (const std::size_t i : guilty) {
     CoastdownRun& run = data.runs[i];
     planted.runs.push_back(run.id);
@@ -187,7 +187,7 @@ Planted plant_labels(CoastdownData& data, RandomStream& random) {
 }
 
 Planted plant_brake(CoastdownData& data, RandomStream& random) {
-  CoastdownRun& run = data.runs[draw(random, data.runs.size())];
+  CoastdownRun& run = data.runs[draw_index(random, data.runs.size())];
   const double factor = 1.0 / (1.0 + draw_between(random, 0.25, 1.0));
   run.total_s.reset();  // of a run that is braked, they are those of the braked run
   run.distance_m.reset();
@@ -205,7 +205,7 @@ Planted plant_brake(CoastdownData& data, RandomStream& random) {
 }
 
 CoastdownData draw_runs(const CoastdownData& data, RandomStream& random) {
-  const std::string session = data.runs[draw(random, data.runs.size())].session;
+  const std::string session = data.runs[draw_index(random, data.runs.size())].session;
   CoastdownData drawn;
   const double share = draw_between(random, 0.5, 1.0);
   for (const CoastdownRun& run : data.runs) {
@@ -217,7 +217,7 @@ CoastdownData draw_runs(const CoastdownData& data, RandomStream& random) {
 
 CoastdownData make_random_coastdowns(RandomStream& random, bool bins) {
   CoastdownStudy study;
-  study.pairs = 3 + static_cast<int>(draw(random, 6));
+  study.pairs = 3 + static_cast<int>(draw_index(random, 6));
   study.mass_kg = draw_between(random, 1000.0, 2600.0);
   study.effective_mass_kg = 1.03 * study.mass_kg;
   study.from_km_h = 5.0 * std::round(draw_between(random, 18.0, 28.0)) + 1.0;
@@ -259,7 +259,7 @@ CoastdownData make_random_coastdowns(RandomStream& random, bool bins) {
 
 Planted plant_repeat(CoastSet& set, RandomStream& random) {
   const std::vector<std::size_t> runs = list_drum_runs(set);
-  const std::size_t from = runs[draw(random, runs.size())];
+  const std::size_t from = runs[draw_index(random, runs.size())];
   CoastRun copy = set.runs[from];
   copy.id = "copy.csv";
   rewrite(copy.drum->time_s, copy.drum->speed_m_s, random);
@@ -293,7 +293,7 @@ Planted plant_shared_part(CoastSet& set, RandomStream& random) {
 
 Planted plant_state(CoastSet& set, RandomStream& random) {
   const std::vector<std::size_t> runs = list_drum_runs(set);
-  CoastRun& run = set.runs[runs[draw(random, runs.size())]];
+  CoastRun& run = set.runs[runs[draw_index(random, runs.size())]];
   const bool was_loaded = run.state == CoastState::kLoaded;
   run.state = was_loaded ? CoastState::kLifted : CoastState::kLoaded;
   if (!was_loaded) {
@@ -312,14 +312,14 @@ Planted plant_load(CoastSet& set, RandomStream& random) {
     set.runs[i].load_N = load_N;
     loaded.push_back(i);
   }
-  const std::size_t guilty = loaded[draw(random, loaded.size())];
+  const std::size_t guilty = loaded[draw_index(random, loaded.size())];
   set.runs[guilty].load_N *= random.uniform() < 0.5 ? factor : 1.0 / factor;
   return {DoubtKind::kLoad, {set.runs[guilty].id}, "different loads"};
 }
 
 Planted plant_brake(CoastSet& set, RandomStream& random) {
   const std::vector<std::size_t> runs = list_drum_runs(set);
-  const std::size_t place = runs[draw(random, runs.size())];
+  const std::size_t place = runs[draw_index(random, runs.size())];
   CoastSet alone = set;
   alone.runs = {set.runs[place]};
   const CoastCurve own = make_coast_curves(find_coasts(alone)).front();
@@ -362,7 +362,7 @@ CoastSet make_random_coasts(RandomStream& random) {
   study.exponent = draw_between(random, -0.6, -0.2);
   study.left_over_right = draw_between(random, -0.03, 0.03);
   if (random.uniform() < 0.5) study.pressures_Pa = {280e3, 350e3, 420e3};
-  study.lifted_runs = 4 + static_cast<int>(draw(random, 4));
+  study.lifted_runs = 4 + static_cast<int>(draw_index(random, 4));
   CoastSet set = make_coasts(study, static_cast<std::uint64_t>(random.uniform() * 1e9));
   for (std::size_t i = 0; i < set.runs.size(); ++i) set.runs[i].id = std::to_string(i + 1) + ".csv";
   return set;

@@ -26,7 +26,7 @@ struct Judged {
 Judged judge(const Planted& planted, const std::vector<estimation::RunDoubt>& doubts);
 
 /// A whole number below `count`.
-std::size_t draw(RandomStream& random, std::size_t count);
+std::size_t draw_index(RandomStream& random, std::size_t count);
 /// A number between two.
 double draw_between(RandomStream& random, double low, double high);
 
