@@ -33,27 +33,39 @@ std::string shorten(const std::string& value) {
   return value.substr(0, end) + "...";
 }
 
-/// Where of two neighboring rows either could belong to the sequence, that one belongs to it whose time is nearer to
-/// what even steps give.
-void prefer_even_steps(const std::vector<double>& times, std::vector<std::size_t>& rows) {
-  if (rows.size() < 3) return;
+/// Median time from row to row of a sequence; rows that it passes over count.
+double calc_step(const std::vector<double>& times, const std::vector<std::size_t>& rows) {
   std::vector<double> steps;
   for (std::size_t k = 1; k < rows.size(); ++k) {
     steps.push_back((times[rows[k]] - times[rows[k - 1]]) / static_cast<double>(rows[k] - rows[k - 1]));
   }
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
-  const double step = *middle;
-  for (std::size_t k = 1; k + 1 < rows.size(); ++k) {
-    const std::size_t before = rows[k - 1], after = rows[k + 1];
-    const auto miss = [&](std::size_t row) {
-      return std::abs(times[row] - times[before] - static_cast<double>(row - before) * step) +
-             std::abs(times[after] - times[row] - static_cast<double>(after - row) * step);
+  return *middle;
+}
+
+/// Where of two neighboring rows either could belong to the sequence, that one belongs to it whose time is nearer to
+/// what even steps give. Two rows tell no step: then it is the earlier one.
+void prefer_even_steps(const std::vector<double>& times, std::vector<std::size_t>& rows) {
+  if (rows.size() < 2) return;
+  const double step = calc_step(times, rows);
+  const bool has_step = rows.size() > 2;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const bool is_first = k == 0, is_last = k + 1 == rows.size();
+    const auto miss_from = [&](std::size_t early, std::size_t late) {
+      return std::abs(times[late] - times[early] - static_cast<double>(late - early) * step);
     };
-    for (const std::size_t other : {rows[k] - 1, rows[k] + 1}) {
-      const bool is_between =
-          other > before && other < after && times[other] > times[before] && times[other] < times[after];
-      if (is_between && miss(other) < miss(rows[k])) rows[k] = other;
+    const auto miss = [&](std::size_t row) {
+      return (is_first ? 0.0 : miss_from(rows[k - 1], row)) + (is_last ? 0.0 : miss_from(row, rows[k + 1]));
+    };
+    const auto can_replace = [&](std::size_t row) {
+      if (row >= times.size() || std::isnan(times[row])) return false;
+      const bool is_after = is_first || (row > rows[k - 1] && times[row] > times[rows[k - 1]]);
+      return is_after && (is_last || (row < rows[k + 1] && times[row] < times[rows[k + 1]]));
+    };
+    for (const std::size_t other : {rows[k] - 1, rows[k] + 1}) {  // before the first row, this is none
+      if (!can_replace(other)) continue;
+      if (has_step ? miss(other) < miss(rows[k]) : other < rows[k]) rows[k] = other;
     }
   }
 }

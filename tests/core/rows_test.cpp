@@ -29,6 +29,11 @@ TEST_CASE("the rows outside the longest sequence of increasing times are those t
   CHECK(kept({9, 1, 2, 3}) == "-+++");
   CHECK(kept({0, 1, 2, -7}) == "+++-");
   CHECK(kept({0, std::nan(""), 2}) == "+-+");
+  CHECK(kept({0, 1, 2, 3, 2.5}) == "++++-");  // the last row falls, not the one before it
+  CHECK(kept({0, -0.5, 2, 3, 4}) == "+-+++");
+  CHECK(kept({0.5, 0, 1, 2, 3}) == "-++++");
+  CHECK(kept({0, 20, 10}) == "++-");  // nothing tells: the later one
+  CHECK(kept({1}) == "+");
   CHECK(kept({5, 4, 3, 2, 1}).find('+') != std::string::npos);
   CHECK(kept({}).empty());
 }

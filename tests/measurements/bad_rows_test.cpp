@@ -279,7 +279,8 @@ const std::vector<Mistake>& mistakes() {
        }},
       {"a time ahead of the next",
        [](RunLines& file, std::size_t at, Random& random) {
-         const double next_s = file.time_s(at + 1);
+         const bool is_last = at + 1 == file.lines.size();  // then nothing but a time days ahead is wrong
+         const double next_s = is_last ? 1e9 : file.time_s(at + 1);
          return plant_cell(file, at, "time_s", fmt::format("{:.3f}", next_s + std::pow(10.0, draw(random, -1.0, 9.0))));
        }},
       {"a quote that does not end", [](RunLines& file, std::size_t at, Random&) {
@@ -304,7 +305,7 @@ std::vector<Planted> plant_all(std::vector<RunLines>& files, Random& random) {
   for (const Mistake& mistake : mistakes()) {
     for (;;) {
       RunLines& file = files[std::uniform_int_distribution<std::size_t>(0, files.size() - 1)(random)];
-      const std::size_t at = std::uniform_int_distribution<std::size_t>(3, file.lines.size() - 3)(random);
+      const std::size_t at = std::uniform_int_distribution<std::size_t>(2, file.lines.size() - 1)(random);
       std::set<std::size_t>& rows = taken[file.path];
       const auto near = rows.lower_bound(at - std::min(at, kApart));
       if (near != rows.end() && *near <= at + kApart) continue;
