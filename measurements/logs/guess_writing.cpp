@@ -117,8 +117,7 @@ void write_time(const GuessedTime& time, CommentedText& out) {
 /// Keys of a [[run]] of sets and mappings that say how the tire was at the start.
 void write_tire_state(const GuessedRun& run, CommentedText& out) {
   out.line("session", quote(run.session), "guessed, as the next keys: " + run.reason);
-  out.line("initial_tire_temperature_degC", fmt::format("{:.2f}", run.initial_tire_temperature_K - kZeroCelsius_K),
-           "");
+  out.line("initial_tire_temperature_degC", fmt::format("{:.2f}", run.initial_tire_temperature_K - kZeroCelsius_K), "");
   out.line("cold_pressure_kPa", fmt::format("{:.10g}", run.cold_pressure_Pa / 1e3), "");
   if (run.rest_before_s.has_value() && *run.rest_before_s > 0.0) {
     out.line("rest_before_min", fmt::format("{:.10g}", *run.rest_before_s / 60.0), "");
