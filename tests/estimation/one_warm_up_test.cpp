@@ -49,7 +49,8 @@ void check_stays_at_prior(const TireFit& fit, const std::string& key) {
   const Estimate& estimate = estimate_of(fit, key);
   REQUIRE(estimate.prior.has_value());
   CHECK(estimate.nuisance);
-  CHECK(std::abs(estimate.value - estimate.prior->value) < 0.05 * estimate.prior->sd);
+  // Data that narrow a prior by 1 % move it by 0.14 standard uncertainties as a rule.
+  CHECK(std::abs(estimate.value - estimate.prior->value) < 2.0 * 0.14 * estimate.prior->sd);
   CHECK(estimate.sd == Approx(estimate.prior->sd).epsilon(0.01));
 }
 
