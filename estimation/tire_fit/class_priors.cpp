@@ -15,6 +15,20 @@ const std::map<std::string, double>& list_bounded() {
   return uncertainties;
 }
 
+/// Usual heat capacity of the gas.
+double calc_gas_J_per_K(const models::TireParameters<double>& tire) {
+  constexpr double kPi = 3.141592653589793;
+  constexpr double kCavityShare = 0.6;
+  constexpr double kHeatPerGasConstant = 2.5;  // of air at constant volume
+  constexpr double kFilled_K = 298.15;
+  constexpr double kAtmosphere_Pa = 101325.0;
+  const models::TireGeometry<double>& g = tire.geometry;
+  const double around_rim_m3 =
+      kPi / 4.0 * (g.outer_diameter_m * g.outer_diameter_m - g.rim_diameter_m * g.rim_diameter_m) * g.section_width_m;
+  const double pressure_Pa = tire.rolling_resistance.reference_pressure_Pa + kAtmosphere_Pa;
+  return kHeatPerGasConstant * pressure_Pa * kCavityShare * around_rim_m3 / kFilled_K;
+}
+
 void add_heat_balance(const models::TireParameters<double>& tire, std::map<std::string, double>& sd) {
   constexpr double kPerMass_J_per_kg_K = 0.3 * 1640.0;
   constexpr double kPerArea_W_per_m2_K = 0.3 * 4.1;
@@ -22,7 +36,7 @@ void add_heat_balance(const models::TireParameters<double>& tire, std::map<std::
   constexpr double kGasShare = 0.15;
   const double area_m2 = models::calc_outer_area_m2(tire.geometry);
   sd["tire.thermal.heat_capacity_J_per_K"] = kPerMass_J_per_kg_K * tire.geometry.mass_kg;
-  sd["tire.thermal.gas_heat_capacity_J_per_K"] = kGasShare * tire.thermal.gas_heat_capacity_J_per_K;
+  sd["tire.thermal.gas_heat_capacity_J_per_K"] = kGasShare * calc_gas_J_per_K(tire);
   sd["tire.thermal.H_gas_W_per_K"] = kPerArea_W_per_m2_K * area_m2;
   sd["tire.thermal.f_W_s_per_m_K"] = kPerArea_W_s_per_m3_K * area_m2;
 }
