@@ -13,6 +13,8 @@
 #include "sim/core/columns.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
+#include "tables/tir_file.h"
 
 namespace fs = std::filesystem;
 
@@ -49,15 +51,39 @@ std::string describe_cycle(const std::string& path) {
               0);
 }
 
+/// The rolling resistance of a tire property file.
+std::string describe_tir(const std::string& path) {
+  const tables::TirFile tir = tables::read_tir(path);
+  const double pressure_Pa = tir.pressure_Pa.value_or(1.0);
+  std::string text = fmt::format("{}: tire property file, FITTYP {}\n", path, tir.version) +
+                     wrap(fmt::format("Rolling resistance on a flat surface at nominal load, {:.0f} N{}", tir.load_N,
+                                      tir.pressure_Pa.has_value()
+                                          ? fmt::format(", and nominal pressure, {:.0f} kPa", 1e-3 * pressure_Pa)
+                                          : ""),
+                          0);
+  Table table{"", {"km/h", "N", "RRc N/kN"}, {}};
+  for (const double speed_km_h : {30.0, 60.0, 80.0, 100.0, 130.0}) {
+    const double force_N = tables::calc_rolling_resistance_N(tir, tir.load_N, pressure_Pa, speed_km_h / kKmhPerMs);
+    table.rows.push_back({fmt::format("{:.0f}", speed_km_h), fmt::format("{:.2f}", force_N),
+                          fmt::format("{:.3f}", 1e3 * force_N / tir.load_N)});
+  }
+  text += format_table(table);
+  text += fmt::format("  exponent of load (QSY7)      {:g}\n  exponent of pressure (QSY8)  {:g}\n",
+                      tir.has_exponents() ? tir.coefficients[6] : 1.0, tir.has_exponents() ? tir.coefficients[7] : 0.0);
+  for (const std::string& warning : tir.warnings) text += wrap("warning: " + warning, 2);
+  return text;
+}
+
 bool is_path(const std::string& name) {
   const std::string extension = fs::path(name).extension().string();
-  return name.find('/') != std::string::npos || extension == ".toml" || extension == ".csv";
+  return name.find('/') != std::string::npos || extension == ".toml" || extension == ".csv" || extension == ".tir";
 }
 
 /// What a file of the user's is, and the file; of a set its set.toml.
 std::string describe_file(const std::string& given) {
   const std::string path = fs::is_directory(given) ? (fs::path(given) / "set.toml").string() : given;
   if (fs::path(path).extension() == ".csv") return describe_cycle(path);
+  if (fs::path(path).extension() == ".tir") return describe_tir(path);
   return check_file(path).what + "\n" + path + "\n\n" + read_text_file(path);
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <boost/algorithm/string/trim.hpp>
 
+#include "measurements/logs/file_units.h"
 #include "sim/core/text.h"
 
 namespace rollrig::measurements {
@@ -203,7 +204,9 @@ void mark_gaps(Log& log) {
 
 Log read_log(const LogForm& form, const std::string& path, RowProblems* problems) {
   RowProblems found;
-  const CsvTable csv = CsvTable::read(path, form.csv, &found);
+  const tables::LogTable table = tables::read_log_table(path, form.csv, form.time.column, &found);
+  require_units(form, table);
+  const CsvTable& csv = table.rows;
   Log log;
   log.file = path;
   log.form = form.name;

@@ -31,6 +31,10 @@ class CsvTable {
   /// ragged or have a quote that does not end are left out.
   static CsvTable read(const std::string& path, const CsvForm& form = {}, RowProblems* problems = nullptr);
 
+  /// A table of cells that a file of another format holds, column by column; row i is "line" i + 1.
+  static CsvTable of_columns(const std::string& path, const std::vector<std::string>& names,
+                             std::vector<std::vector<std::string>> cells);
+
   const std::string& path() const { return path_; }
   const std::vector<std::string>& columns() const { return columns_; }
   std::size_t row_count() const { return rows_.size(); }

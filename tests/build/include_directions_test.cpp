@@ -24,6 +24,7 @@ const fs::path kSource = ROLLRIG_SOURCE_DIR;
 /// The folders from the lowest up; each may include what stands before it.
 const std::vector<std::string> kOrder{"include/rollrig",
                                       "sim/core",
+                                      "tables",
                                       "sim",
                                       "models",
                                       "rigs",
@@ -72,8 +73,9 @@ const std::map<std::string, std::set<std::string>> kPackages{
     {"sha256.h", {"sim/core/file_io.cpp"}},
     {"boost/numeric/odeint", {"validation/generator/recorder.cpp"}},
     {"mpi.h", {"validation/scoring/ranks.cpp"}},
-    {"hdf5.h", {"exports/hdf5_file.cpp"}},
-    {"matio.h", {"exports/mat_file.cpp"}},
+    {"hdf5.h", {"exports/hdf5_file.cpp", "tables/hdf5_table.cpp"}},
+    {"zlib.h", {"tables/mdf4_blocks.cpp"}},
+    {"matio.h", {"exports/mat_file.cpp", "tables/mat_table.cpp"}},
 };
 
 std::string folder_of(const std::string& path) {
@@ -90,9 +92,9 @@ std::size_t rank_of(const std::string& folder) {
   return static_cast<std::size_t>(std::find(kOrder.begin(), kOrder.end(), folder) - kOrder.begin());
 }
 
-const std::vector<const char*> kTops{"include",    "sim",       "models",  "rigs",      "measurements",
-                                     "estimation", "scenarios", "exports", "diagnosis", "validation",
-                                     "report",     "api",       "cli",     "examples"};
+const std::vector<const char*> kTops{"include",      "sim",        "tables",    "models",  "rigs",
+                                     "measurements", "estimation", "scenarios", "exports", "diagnosis",
+                                     "validation",   "report",     "api",       "cli",     "examples"};
 
 template <class Visit>
 void visit_includes(Visit&& visit) {

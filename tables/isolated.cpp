@@ -1,0 +1,169 @@
+#include "tables/isolated.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+#include "sim/core/error.h"
+
+namespace rollrig::tables {
+namespace {
+
+/// What the child tells the parent, as bytes.
+class Writer {
+ public:
+  void add(std::uint64_t number) { add_bytes(&number, sizeof number); }
+  void add(const std::string& text) {
+    add(text.size());
+    bytes_ += text;
+  }
+  void add(const std::vector<double>& numbers) {
+    add(numbers.size());
+    add_bytes(numbers.data(), numbers.size() * sizeof(double));
+  }
+  void add(const std::vector<std::string>& texts) {
+    add(texts.size());
+    for (const std::string& text : texts) add(text);
+  }
+  void send(int descriptor) const {
+    for (std::size_t done = 0; done < bytes_.size();) {
+      const ssize_t n = ::write(descriptor, bytes_.data() + done, bytes_.size() - done);
+      if (n <= 0) return;
+      done += static_cast<std::size_t>(n);
+    }
+  }
+
+ private:
+  void add_bytes(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+
+  std::string bytes_;
+};
+
+/// Throws std::out_of_range where the child did not tell all.
+class Reader {
+ public:
+  explicit Reader(std::string bytes) : bytes_(std::move(bytes)) {}
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    std::memcpy(&value, take(sizeof value), sizeof value);
+    return value;
+  }
+  std::string text() {
+    const std::uint64_t size = number();
+    return {take(size), size};
+  }
+  std::vector<double> numbers() {
+    const std::uint64_t size = number();
+    const char* data = take(size * sizeof(double));
+    std::vector<double> values(size);
+    if (size > 0) std::memcpy(values.data(), data, size * sizeof(double));
+    return values;
+  }
+  std::vector<std::string> texts() {
+    std::vector<std::string> values;
+    for (std::uint64_t left = number(); left > 0; --left) values.push_back(text());
+    return values;
+  }
+
+ private:
+  const char* take(std::uint64_t size) {
+    if (size > bytes_.size() - at_) throw std::out_of_range("a child process told less than it should");
+    at_ += size;
+    return bytes_.data() + at_ - size;
+  }
+
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+enum : std::uint64_t { kColumns = 1, kError = 2 };
+
+void write_columns(const Columns& columns, Writer& out) {
+  out.add(kColumns);
+  out.add(columns.size());
+  for (const Column& column : columns) {
+    out.add(column.name);
+    out.add(column.group);
+    out.add(static_cast<std::uint64_t>(column.recording));
+    out.add(column.unit);
+    out.add(column.values.index());
+    std::visit([&out](const auto& values) { out.add(values); }, column.values);
+  }
+}
+
+void write_error(const InputProblem& problem, Writer& out) {
+  out.add(kError);
+  for (const std::string& text : {problem.what, problem.key, problem.value, problem.allowed}) out.add(text);
+}
+
+/// Ends the child.
+[[noreturn]] void carry_out(const std::string& path, const std::function<Columns(const std::string&)>& read,
+                            int descriptor) {
+  Writer out;
+  try {
+    write_columns(read(path), out);
+  } catch (const InputError& error) {
+    write_error(error.problem(), out);
+  } catch (...) {
+    ::_exit(1);  // the parent says that the file is damaged
+  }
+  out.send(descriptor);
+  ::_exit(0);
+}
+
+std::string receive(int descriptor) {
+  std::string bytes;
+  std::array<char, 65536> part;
+  for (ssize_t n = 0; (n = ::read(descriptor, part.data(), part.size())) > 0;) {
+    bytes.append(part.data(), static_cast<std::size_t>(n));
+  }
+  return bytes;
+}
+
+Columns understand(const std::string& path, Reader reader) {
+  if (reader.number() == kError) {
+    InputProblem problem;
+    problem.file = path;
+    for (std::string* text : {&problem.what, &problem.key, &problem.value, &problem.allowed}) *text = reader.text();
+    throw InputError(problem);
+  }
+  Columns columns(reader.number());
+  for (Column& column : columns) {
+    column.name = reader.text();
+    column.group = reader.text();
+    column.recording = static_cast<int>(reader.number());
+    column.unit = reader.text();
+    if (reader.number() == 0) {
+      column.values = reader.numbers();
+    } else {
+      column.values = reader.texts();
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+Columns read_isolated(const std::string& path, const std::function<Columns(const std::string&)>& read) {
+  std::array<int, 2> ends;
+  if (::pipe(ends.data()) != 0) throw std::runtime_error("no pipe to a child process");
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("no child process");
+  if (child == 0) carry_out(path, read, ends[1]);
+  ::close(ends[1]);
+  const std::string bytes = receive(ends[0]);
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  try {
+    return understand(path, Reader(bytes));
+  } catch (const std::out_of_range&) {
+    throw InputError({"a damaged file", path, 0, "", "", "a whole file, as its program wrote it", ""});
+  }
+}
+
+}  // namespace rollrig::tables
