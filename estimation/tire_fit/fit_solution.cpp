@@ -62,7 +62,7 @@ std::vector<double> minimize(const DrumResiduals& residuals, const Progress& pro
   }
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = 100;
+  solver.max_num_iterations = 300;  // Assumed: enough for guesses that are far off
   solver.function_tolerance = 1e-10;
   solver.logging_type = ceres::SILENT;
   FollowIterations follow(progress);
