@@ -10,7 +10,7 @@ namespace rollrig::estimation {
 /// Reads the phases "coastdown 1 +", "coastdown 1 -" ... of a recording as runs; `path` is recording.csv, or the folder
 /// that `rollrig run` wrote. Of a manifest beside it come the vehicle, the pressure of the air, wind and slope.
 /// Errors   InputError: no recording in the folder, no phase of a coastdown, a broken manifest
-/// Checked  tests/estimation/coastdown_recording_test.cpp
+/// Checked  tests/cli/fit_recording_test.cpp
 CoastdownFile read_coastdown_recording(const std::string& path);
 
 }  // namespace rollrig::estimation

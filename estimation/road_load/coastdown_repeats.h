@@ -17,7 +17,7 @@ std::string call_run(const CoastdownData& data, std::size_t run);
 /// Equation  times through bins: neighboring bins repeat where N product(p) < 0.01, N = pairs of runs times bins of the
 ///           run, p = chance that two runs agree to the resolution in one bin, by the scatter of the runs in it;
 ///           traces: find_series_repeats()
-/// Checked   tests/estimation/coastdown_repeats_test.cpp
+/// Checked   tests/estimation/planted_mistakes_test.cpp
 std::vector<RunDoubt> leave_out_repeats(CoastdownData& data);
 
 }  // namespace rollrig::estimation

@@ -41,7 +41,7 @@ void add_heat_balance(const models::TireParameters<double>& tire, std::map<std::
   sd["tire.thermal.f_W_s_per_m_K"] = kPerArea_W_s_per_m3_K * area_m2;
 }
 
-void add_speed_lines(const models::SpeedLines<double>& lines, double speed_m_s, std::map<std::string, double>& sd) {
+void add_lines_of_class(const models::SpeedLines<double>& lines, double speed_m_s, std::map<std::string, double>& sd) {
   constexpr double kShare = 0.3;
   constexpr double kReference_m_s = 80.0 / 3.6;
   const double loss_N = std::abs(lines.A0_N + lines.A1_N_s_per_m * speed_m_s);
@@ -61,7 +61,7 @@ std::map<std::string, double> find_class_uncertainties(const models::TireParamet
     sd.emplace("tire." + model.id + "." + own.field.output_key(), own.usual_sd * std::abs(tire.own[i]));
   }
   add_heat_balance(tire, sd);
-  if (model.follows_speed_lines()) add_speed_lines(tire.rolling_resistance, level_speed_m_s, sd);
+  if (model.follows_speed_lines()) add_lines_of_class(tire.rolling_resistance, level_speed_m_s, sd);
   constexpr double kPressureExponent = 0.06;
   sd["tire.rolling_resistance.pressure_exponent"] = kPressureExponent;
   return sd;

@@ -39,8 +39,9 @@ measurements::MeasurementSet add_errors(measurements::MeasurementSet set, std::u
 }
 
 /// Standard uncertainty of the regression at each speed.
-std::vector<TwoStepAtSpeed> find_scatter(const measurements::MeasurementSet& set, const std::vector<AtSpeed>& speeds,
-                                         const std::vector<TwoStepAtSpeed>& middle) {
+std::vector<TwoStepAtSpeed> find_scatter_of_steps(const measurements::MeasurementSet& set,
+                                                  const std::vector<AtSpeed>& speeds,
+                                                  const std::vector<TwoStepAtSpeed>& middle) {
   constexpr int kDraws = 24;  // Assumed: the scatter is then known to 15 %
   std::vector<TwoStepAtSpeed> sums(speeds.size());
   for (int draw = 1; draw <= kDraws; ++draw) {
@@ -77,7 +78,7 @@ std::vector<std::string> compare_two_steps(const measurements::MeasurementSet& s
   with_fitted.tire.values = fitted.values;
   with_fitted.tire.rig_thermal = fitted.rig_thermal;
   const std::vector<TwoStepAtSpeed> found = find_in_two_steps(with_fitted, joint);
-  const std::vector<TwoStepAtSpeed> sd = find_scatter(with_fitted, joint, found);
+  const std::vector<TwoStepAtSpeed> sd = find_scatter_of_steps(with_fitted, joint, found);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < joint.size(); ++i) {
     const double v = joint[i].at.speed_m_s;

@@ -49,29 +49,29 @@ std::map<std::string, Names> find_common_names(const std::vector<Json>& results)
   return common;
 }
 
-void add_numbers(const std::string& key, const Json& value, Json& flat) {
+void add_flat_numbers(const std::string& key, const Json& value, Json& flat) {
   if (value.is_number()) flat[key] = value;
   if (value.is_boolean()) flat[key] = value.get<bool>() ? 1 : 0;
   if (value.is_object()) {
-    for (const auto& [member, inner] : value.items()) add_numbers(key + "." + member, inner, flat);
+    for (const auto& [member, inner] : value.items()) add_flat_numbers(key + "." + member, inner, flat);
   }
   if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i) add_numbers(key + "." + std::to_string(i + 1), value[i], flat);
+    for (std::size_t i = 0; i < value.size(); ++i) add_flat_numbers(key + "." + std::to_string(i + 1), value[i], flat);
   }
 }
 
 Json flatten(const Json& result, const std::map<std::string, Names>& names) {
   Json flat = Json::object();
   for (const auto& [key, value] : result.items()) {
-    if (!value.is_structured()) add_numbers(key, value, flat);
+    if (!value.is_structured()) add_flat_numbers(key, value, flat);
   }
   for (const auto& [key, value] : result.items()) {
     const auto named = names.find(key);
     if (named == names.end() || named->second.empty()) {
-      if (value.is_structured()) add_numbers(key, value, flat);
+      if (value.is_structured()) add_flat_numbers(key, value, flat);
       continue;
     }
-    for (std::size_t i = 0; i < value.size(); ++i) add_numbers(key + "." + named->second[i], value[i], flat);
+    for (std::size_t i = 0; i < value.size(); ++i) add_flat_numbers(key + "." + named->second[i], value[i], flat);
   }
   return flat;
 }

@@ -54,7 +54,7 @@ void replace_line(std::string& toml, const std::string& table, const std::string
   toml.replace(at, end - at, comment.empty() ? assignment : fmt::format("{:<37} # {}", assignment, comment));
 }
 
-std::string show(double value) { return fmt::format("{:.7g}", value); }
+std::string show_seven_digits(double value) { return fmt::format("{:.7g}", value); }
 
 void require_rig_options(const NewRigOptions& options) {
   const bool is_belt = options.kind == "flat_belt";
@@ -85,22 +85,24 @@ void scale_bearings(const NewRigOptions& options, const rigs::RigFile& rig, std:
                         (loss.c0_N + loss.c1_N_s_per_m * kSpeed_m_s + loss.c2_N_s2_per_m2 * kSpeed_m_s * kSpeed_m_s);
   const std::string note =
       fmt::format("Assumed: that of {}, scaled to {:g} N at 80 km/h", rig.name, *options.bearing_loss_N);
-  replace_line(toml, "parasitic", "c0_N", show(factor * loss.c0_N), note);
-  replace_line(toml, "parasitic", "c1_N_s_per_m", show(factor * loss.c1_N_s_per_m), "Assumed: likewise");
-  replace_line(toml, "parasitic", "c2_N_s2_per_m2", show(factor * loss.c2_N_s2_per_m2), "Assumed: likewise");
+  replace_line(toml, "parasitic", "c0_N", show_seven_digits(factor * loss.c0_N), note);
+  replace_line(toml, "parasitic", "c1_N_s_per_m", show_seven_digits(factor * loss.c1_N_s_per_m), "Assumed: likewise");
+  replace_line(toml, "parasitic", "c2_N_s2_per_m2", show_seven_digits(factor * loss.c2_N_s2_per_m2),
+               "Assumed: likewise");
 }
 
 void put_drum(const NewRigOptions& options, const RigBase& base, const rigs::RigFile& rig, std::string& toml) {
-  if (options.diameter_m.has_value()) replace_line(toml, base.table, "diameter_m", show(*options.diameter_m), "Given");
+  if (options.diameter_m.has_value())
+    replace_line(toml, base.table, "diameter_m", show_seven_digits(*options.diameter_m), "Given");
   if (options.inertia_kg_m2.has_value()) {
-    replace_line(toml, base.table, "inertia_kg_m2", show(*options.inertia_kg_m2), "Given");
+    replace_line(toml, base.table, "inertia_kg_m2", show_seven_digits(*options.inertia_kg_m2), "Given");
   } else if (options.diameter_m.has_value()) {
     replace_line(toml, base.table, "inertia_kg_m2",
-                 show(rig.drum.inertia_kg_m2 * std::pow(*options.diameter_m / rig.drum.diameter_m, 3.0)),
+                 show_seven_digits(rig.drum.inertia_kg_m2 * std::pow(*options.diameter_m / rig.drum.diameter_m, 3.0)),
                  fmt::format("Assumed: that of {}, in proportion to the cube of the diameter", base.asset));
   }
   if (options.moving_mass_kg.has_value()) {
-    replace_line(toml, base.table, "moving_mass_kg", show(*options.moving_mass_kg), "Given");
+    replace_line(toml, base.table, "moving_mass_kg", show_seven_digits(*options.moving_mass_kg), "Given");
   }
 }
 
@@ -111,7 +113,7 @@ class VehicleText {
  public:
   void text(const std::string& more) { text_ += more; }
   void number(const std::string& key, double value, const std::string& note) {
-    text_ += fmt::format("{:<37} # {}\n", fmt::format("{} = {}", key, show(value)), note);
+    text_ += fmt::format("{:<37} # {}\n", fmt::format("{} = {}", key, show_seven_digits(value)), note);
   }
   void number(const std::string& key, const std::optional<double>& given, double usual, const std::string& note) {
     number(key, given.value_or(usual), given.has_value() ? "Given" : note);
@@ -176,9 +178,10 @@ std::string write_new_rig(const NewRigOptions& options) {
   replace_line(toml, "", "name", "\"" + (options.name.empty() ? "my_" + options.kind : options.name) + "\"", "");
   put_drum(options, base, rig, toml);
   scale_bearings(options, rig, toml);
-  if (options.skim_load_N.has_value()) replace_line(toml, "skim", "load_N", show(*options.skim_load_N), "Given");
+  if (options.skim_load_N.has_value())
+    replace_line(toml, "skim", "load_N", show_seven_digits(*options.skim_load_N), "Given");
   if (options.ambient_degC.has_value()) {
-    replace_line(toml, "environment", "ambient_degC", show(*options.ambient_degC), "Given");
+    replace_line(toml, "environment", "ambient_degC", show_seven_digits(*options.ambient_degC), "Given");
   }
   rigs::read_rig(parse_config(toml, "the new rig"));  // whatever it would refuse is refused before it is written
   return toml;

@@ -39,7 +39,7 @@ std::vector<NewTireOptions> list_requests() {
 }
 
 /// Loss of an ISO test at an air temperature, relative to that at 25 degC.
-double measure_ambient_slope_per_K(const models::TireFile& tire) {
+double measure_class_slope_per_K(const models::TireFile& tire) {
   const auto rrc_at = [&tire](const char* air) {
     scenarios::RunSpec spec = tests::make_spec("iso_28580", "a50", {air, "warm_up_min=300"}, "quasi_static");
     spec.tire = tire;
@@ -136,7 +136,7 @@ TEST_CASE("new tires fall with the temperature of the air as their class does", 
   for (const auto& [request, slope_per_K] :
        std::vector<std::pair<std::size_t, double>>{{0, 0.008}, {3, 0.010}, {5, 0.006}}) {
     INFO(requests[request].size);
-    CHECK(measure_ambient_slope_per_K(scenarios::make_class_tire(requests[request]).tire) ==
+    CHECK(measure_class_slope_per_K(scenarios::make_class_tire(requests[request]).tire) ==
           Approx(slope_per_K).epsilon(0.1));
   }
 }

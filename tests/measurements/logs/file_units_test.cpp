@@ -11,7 +11,7 @@ using namespace rollrig::measurements;
 
 namespace {
 
-LogForm make_form(const std::string& unit) {
+LogForm make_unit_form(const std::string& unit) {
   LogColumn column;
   column.target = models::quantities::kSpeed;
   column.column = "v";
@@ -29,11 +29,11 @@ tables::LogTable make_table(const std::string& unit) {
 }  // namespace
 
 TEST_CASE("a column in another unit by the file than by the mapping is refused", "[fast]") {
-  CHECK_NOTHROW(require_units(make_form("km_h"), make_table("km/h")));
-  CHECK_NOTHROW(require_units(make_form("km_h"), make_table("furlong")));  // not known
-  CHECK_THROWS_AS(require_units(make_form("km_h"), make_table("m/s")), InputError);
-  CHECK_THROWS_AS(require_units(make_form("m_s"), make_table("N m")), InputError);
-  LogForm scaled = make_form("km_h");
+  CHECK_NOTHROW(require_units(make_unit_form("km_h"), make_table("km/h")));
+  CHECK_NOTHROW(require_units(make_unit_form("km_h"), make_table("furlong")));  // not known
+  CHECK_THROWS_AS(require_units(make_unit_form("km_h"), make_table("m/s")), InputError);
+  CHECK_THROWS_AS(require_units(make_unit_form("m_s"), make_table("N m")), InputError);
+  LogForm scaled = make_unit_form("km_h");
   scaled.columns.front().factor = 3.6;
   CHECK_NOTHROW(require_units(scaled, make_table("m/s")));
 }
