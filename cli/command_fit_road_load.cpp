@@ -48,7 +48,6 @@ struct NamedCoefficient {
 
 /// "A" and "f0" in N and km/h, "A_lbf" in lbf and mph; none for another name.
 std::optional<NamedCoefficient> find_coefficient(const std::string& name) {
-  constexpr double kPoundForce_N = 4.4482216152605, kMph_m_s = 0.44704;
   for (std::size_t i = 0; i < 6; ++i) {
     if (name == kNames[i]) return NamedCoefficient{i % 3, unit_of_key(kKeys[i % 3]).factor};
     if (i < 3 && name == kNamesLbf[i]) return NamedCoefficient{i, kPoundForce_N / std::pow(kMph_m_s, i)};

@@ -93,10 +93,9 @@ double calc_squares_without(const Repair& mistake, const MeasurementSet& set, st
 std::vector<WrongUnit> list_common_wrong_units() {
   constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
   constexpr double kBar_kPa = 100.0;
-  constexpr double kMile_km = 1.609344;  // exact
   return {{quantities::kSpeed, 3.6, 0.0, "holds m/s"},
           {quantities::kSpeed, 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
-          {quantities::kSpeed, kMile_km, 0.0, "holds mph"},
+          {quantities::kSpeed, kMile_m / 1e3, 0.0, "holds mph"},
           {quantities::kLoad, kStandardGravity_m_s2, 0.0, "holds kgf"},
           {quantities::kLoad, 1e3, 0.0, "holds kN"},
           {quantities::kCavityPressure, 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},

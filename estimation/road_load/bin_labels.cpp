@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "estimation/road_load/coastdown_repeats.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -70,7 +71,7 @@ double by_width_from_bottom(const LabeledRun& run, double width_km_h) {
 }
 
 std::vector<Mistake> list_mistakes(bool total_known) {
-  constexpr double kMph = 1.609344, kKnot = 1.852, kMps = 3.6, kFoot = 0.3048;
+  constexpr double kMph = kMile_m / 1e3, kKnot = 1.852, kMps = 3.6, kFoot = 0.3048;
   std::vector<Mistake> mistakes{
       {DoubtKind::kLabels, "the labels are in mph", 1.0, &by_factor, kMph},
       {DoubtKind::kLabels, "the labels are in knots", 0.1, &by_factor, kKnot},

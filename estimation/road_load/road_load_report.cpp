@@ -171,11 +171,7 @@ double road_load_in_file_unit(int i, double si_value) { return unit_of_key(road_
 
 double road_load_in_lbf_mph(int i, double si_value) { return si_value / road_load_from_lbf_mph(i, 1.0); }
 
-double road_load_from_lbf_mph(int i, double value) {
-  constexpr double kPoundForce_N = 4.4482216152605;  // exact: 0.45359237 kg times standard gravity
-  constexpr double kMph_m_s = 0.44704;               // exact
-  return value * kPoundForce_N / std::pow(kMph_m_s, i);
-}
+double road_load_from_lbf_mph(int i, double value) { return value * kPoundForce_N / std::pow(kMph_m_s, i); }
 
 std::string road_load_lbf_key(int i) {
   constexpr const char* kKeys[] = {"A_lbf", "B_lbf_per_mph", "C_lbf_per_mph2"};

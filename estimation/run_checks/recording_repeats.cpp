@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "estimation/run_checks/robust_statistics.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -35,11 +36,11 @@ double calc_row_noise(const RecordedSeries& rows) {
 }
 
 SearchedSeries prepare(const RecordedSeries& rows) {
-  constexpr double kKmh = 1.0 / 3.6, kMph = 0.44704;
+  constexpr double kKmh = 1.0 / 3.6;
   SearchedSeries searched;
   searched.rows = &rows;
   searched.time_step_s = find_resolution(rows.time_s, {1.0});
-  searched.speed_step_m_s = find_resolution(rows.speed_m_s, {1.0, kKmh, kMph});
+  searched.speed_step_m_s = find_resolution(rows.speed_m_s, {1.0, kKmh, kMph_m_s});
   std::vector<double> intervals;
   for (std::size_t i = 1; i < rows.time_s.size(); ++i) intervals.push_back(rows.time_s[i] - rows.time_s[i - 1]);
   searched.interval_s = calc_median(intervals);

@@ -2,8 +2,11 @@
 
 #include <cmath>
 
+#include <boost/math/constants/constants.hpp>
+
 #include "models/tire/tire_file.h"
 #include "models/tire/tire_model.h"
+#include "sim/core/units.h"
 
 namespace rollrig::estimation {
 namespace {
@@ -17,15 +20,15 @@ const std::map<std::string, double>& list_bounded() {
 
 /// Usual heat capacity of the gas.
 double calc_gas_J_per_K(const models::TireParameters<double>& tire) {
-  constexpr double kPi = 3.141592653589793;
+  using boost::math::constants::pi;
   constexpr double kCavityShare = 0.6;
   constexpr double kHeatPerGasConstant = 2.5;  // of air at constant volume
   constexpr double kFilled_K = 298.15;
-  constexpr double kAtmosphere_Pa = 101325.0;
   const models::TireGeometry<double>& g = tire.geometry;
-  const double around_rim_m3 =
-      kPi / 4.0 * (g.outer_diameter_m * g.outer_diameter_m - g.rim_diameter_m * g.rim_diameter_m) * g.section_width_m;
-  const double pressure_Pa = tire.rolling_resistance.reference_pressure_Pa + kAtmosphere_Pa;
+  const double around_rim_m3 = pi<double>() / 4.0 *
+                               (g.outer_diameter_m * g.outer_diameter_m - g.rim_diameter_m * g.rim_diameter_m) *
+                               g.section_width_m;
+  const double pressure_Pa = tire.rolling_resistance.reference_pressure_Pa + kStandardAtmosphere_Pa;
   return kHeatPerGasConstant * pressure_Pa * kCavityShare * around_rim_m3 / kFilled_K;
 }
 

@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/split.hpp>
+#include <boost/math/constants/constants.hpp>
 
 #include "measurements/logs/guess.h"
 #include "sim/core/error.h"
@@ -294,7 +295,7 @@ GuessedUnit find_column_unit(const GuessSource& source, const Quantity& target, 
                            fmt::format("--unit {}=UNIT", target.header()));
     }
     reason += fmt::format(" of the drum of {:.4g} m", source.drum_diameter_m);
-    return {"m_s", 3.14159265358979 * source.drum_diameter_m / 60.0, 0.0, unit->written};
+    return {"m_s", boost::math::constants::pi<double>() * source.drum_diameter_m / 60.0, 0.0, unit->written};
   }
   if (!unit->is_of(target)) {
     throw source.problem(fmt::format("{} is no unit of {}", unit->written, target.header()), "--column", heading,

@@ -12,6 +12,9 @@ constexpr double kZeroCelsius_K = 273.15;          // 0 degC, by definition of t
 constexpr double kStandardGravity_m_s2 = 9.80665;  // CGPM 1901
 constexpr double kStandardAtmosphere_Pa = 101325;  // formats.md: ambient unless the rig says otherwise
 constexpr double kKmhPerMs = 3.6;                  // km/h in a m/s
+constexpr double kPoundForce_N = 0.45359237 * kStandardGravity_m_s2;
+constexpr double kMile_m = 1609.344;           // exact, NIST SP 811
+constexpr double kMph_m_s = kMile_m / 3600.0;  // 1 mph
 
 /// A unit of a file: value in SI = value in file * factor + offset.
 struct Unit {
