@@ -13,6 +13,8 @@ struct Settings {
     VehicleConditions::visit(p.conditions, visit);
     Coastdowns::visit(p.coastdowns, visit);
   }
+
+  void complete(const RunSpec& spec) { conditions.complete(spec); }
 };
 
 struct ForcePoint {

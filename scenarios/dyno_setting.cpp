@@ -35,6 +35,8 @@ struct Settings {
           p.criterion_N);
     visit(Field{"iterations", between(1.0, 50.0), "Most corrections of the set force", 12.0}, p.iterations);
   }
+
+  void complete(const RunSpec& spec) { conditions.complete(spec); }
 };
 
 struct Difference {

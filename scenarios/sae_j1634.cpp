@@ -49,6 +49,8 @@ struct Settings {
   bool is_source() const { return variant.value == "source"; }
   double calc_end_speed_m_s() const { return end_speed_m_s.value_or(is_source() ? 80.0 / 3.6 : mid_speed_m_s); }
   double calc_count_from_m_s() const { return count_from_m_s.value_or(is_source() ? 20.0 / 3.6 : 0.0); }
+
+  void complete(const RunSpec& spec) { conditions.complete(spec); }
 };
 
 /// One section, or all of them together: of one tire (the first that is simulated), and of the whole vehicle.

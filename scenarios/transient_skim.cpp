@@ -22,6 +22,8 @@ struct Settings {
           p.repeats);
   }
 
+  void complete(const RunSpec& spec) { conditions.complete(spec); }
+
   Settings() {
     conditions.load_N = kVehicleLoad_N;  // §4.1.7: the load of all these tests
     conditions.pressure_Pa = kVehiclePressure_Pa;

@@ -16,20 +16,13 @@ struct OnlyConditions {
   static void visit(Self& p, Visit&& visit) {
     Conditions::visit(p.conditions, visit);
   }
+
+  void complete(const RunSpec& spec) { conditions.complete(spec); }
 };
 
-/// Fills what the tire and the rig decide: by the settings' own `complete`, else by that of their conditions.
-template <class Settings>
-auto complete_settings(Settings& settings, const RunSpec& spec) -> decltype(settings.complete(spec)) {
-  settings.complete(spec);
-}
-template <class Settings, class... None>
-void complete_settings(Settings& settings, const RunSpec& spec, None...) {
-  settings.conditions.complete(spec);
-}
-
-/// Settings (with a member `conditions`) are read and completed, `plan(settings, spec)` makes the program and throws
-/// InputError where it cannot, `carry_out(spec, settings, program, progress, outcome)` runs it and returns the results.
+/// Settings (with a member `conditions`, and `complete` for what the tire and the rig decide) are read and completed,
+/// `plan(settings, spec)` makes the program and throws InputError where it cannot, `carry_out(spec, settings, program,
+/// progress, outcome)` runs it and returns the results.
 template <class Settings, class Results, class Plan, class CarryOut>
 Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
   Scenario scenario;
@@ -38,7 +31,7 @@ Scenario make_scenario(ScenarioText text, Plan plan, CarryOut carry_out) {
   scenario.results = ResultSheet::of(Results{}).infos;
   scenario.prepare = [plan, carry_out](const RunSpec& spec) -> PreparedRun {
     const auto settings = std::make_shared<Settings>(read_settings<Settings>(spec));
-    complete_settings(*settings, spec);
+    settings->complete(spec);
     using Program = decltype(plan(*settings, spec));
     const auto program = std::make_shared<const Program>(plan(*settings, spec));
     return [&spec, carry_out, settings, program](const sim::Progress& progress) {
