@@ -1,36 +1,18 @@
 // HDF5: groups, data sets and the attribute "unit".
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "exports/tree.h"
 #include "sim/core/units.h"
+#include "tables/hdf5_handle.h"
 
 namespace rollrig::exports {
 namespace {
 
-/// The file lies in memory, so that only a fault of this program makes the library refuse.
-template <class Result>
-Result require_hdf5(Result result) {
-  if (result < 0) throw std::runtime_error("HDF5 refused to write");
-  return result;
-}
-
-/// An identifier of the library with its close function.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(require_hdf5(id)), close_(close) {}
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: stands for the identifier
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
+// The file lies in memory, so that only a fault of this program makes the library refuse.
+using Handle = tables::Hdf5Handle;
+using tables::require_hdf5;
 
 /// Strings of one length, padded with NUL.
 Handle make_text_type(std::size_t length) {

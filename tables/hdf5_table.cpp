@@ -1,5 +1,3 @@
-#include <hdf5.h>
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,32 +6,12 @@
 
 #include "sim/core/error.h"
 #include "tables/formats.h"
+#include "tables/hdf5_handle.h"
 
 namespace rollrig::tables {
 namespace {
 
-/// The library refused: the file is damaged, or holds something that the library was not built for.
-struct Refused {};
-
-/// An identifier of the library with its close function.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw Refused();
-  }
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: stands for the identifier
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void require(herr_t result) {
-  if (result < 0) throw Refused();
-}
+using Handle = Hdf5Handle;
 
 /// The library prints nothing while one of these is there.
 class Silence {
@@ -57,10 +35,10 @@ std::vector<std::string> read_strings(hid_t type, std::size_t count, const Read&
   std::vector<std::string> texts;
   if (H5Tis_variable_str(type) > 0) {
     const Handle memory(H5Tcopy(H5T_C_S1), H5Tclose);
-    require(H5Tset_size(memory, H5T_VARIABLE));
-    require(H5Tset_cset(memory, H5Tget_cset(type)));
+    require_hdf5(H5Tset_size(memory, H5T_VARIABLE));
+    require_hdf5(H5Tset_cset(memory, H5Tget_cset(type)));
     std::vector<char*> cells(count, nullptr);
-    require(read(memory, cells.data()));
+    require_hdf5(read(memory, cells.data()));
     for (char* cell : cells) {
       texts.emplace_back(cell == nullptr ? "" : cell);
       H5free_memory(cell);
@@ -68,9 +46,9 @@ std::vector<std::string> read_strings(hid_t type, std::size_t count, const Read&
     return texts;
   }
   const std::size_t width = H5Tget_size(type);
-  if (width == 0 || width > 65536) throw Refused();
+  if (width == 0 || width > 65536) throw Hdf5Refused();
   std::string cells(width * count, '\0');
-  require(read(type, cells.data()));
+  require_hdf5(read(type, cells.data()));
   for (std::size_t i = 0; i < count; ++i) {
     std::string text = cells.substr(i * width, width);
     text.erase(std::min(text.find('\0'), text.size()));
@@ -109,10 +87,10 @@ class Hdf5Collector {
   void visit(hid_t group, const std::string& prefix, int depth = 0) {
     constexpr int kDeepest = 30;
     H5O_info_t info;
-    require(H5Oget_info(group, &info));
+    require_hdf5(H5Oget_info(group, &info));
     if (depth > kDeepest || !visited_.insert(info.addr).second) return;
     H5G_info_t links;
-    require(H5Gget_info(group, &links));
+    require_hdf5(H5Gget_info(group, &links));
     for (hsize_t i = 0; i < links.nlinks; ++i) visit_link(group, prefix, i, depth);
   }
 
@@ -121,12 +99,12 @@ class Hdf5Collector {
  private:
   void visit_link(hid_t group, const std::string& prefix, hsize_t index, int depth) {
     const ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, nullptr, 0, H5P_DEFAULT);
-    if (length < 0 || length > 65536) throw Refused();
+    if (length < 0 || length > 65536) throw Hdf5Refused();
     std::string name(static_cast<std::size_t>(length) + 1, '\0');
     H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, name.data(), name.size(), H5P_DEFAULT);
     name.pop_back();
     H5L_info_t link;
-    require(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT));
+    require_hdf5(H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT));
     if (link.type != H5L_TYPE_HARD || name.front() == '#') return;  // '#': what MATLAB refers to
     const Handle object(H5Oopen(group, name.c_str(), H5P_DEFAULT), H5Oclose);
     const H5I_type_t type = H5Iget_type(object);
@@ -163,7 +141,7 @@ class Hdf5Collector {
     hsize_t extent[2] = {1, 1};
     H5Sget_simple_extent_dims(space, extent, nullptr);
     constexpr hsize_t kMost = 200'000'000;
-    if (extent[0] > kMost || extent[1] > kMost || extent[0] * extent[1] > kMost) throw Refused();
+    if (extent[0] > kMost || extent[1] > kMost || extent[0] * extent[1] > kMost) throw Hdf5Refused();
     const auto rows = static_cast<std::size_t>(extent[0]);
     const auto count = static_cast<std::size_t>(extent[0] * extent[1]);
     if (count < 2) return;
@@ -171,7 +149,7 @@ class Hdf5Collector {
     const std::size_t first = columns_.size();
     if (is_number(of) && read_attribute(set, "MATLAB_class") != "char") {
       std::vector<double> values(count);
-      require(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+      require_hdf5(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
       add_matrix(prefix + name, prefix, static_cast<std::size_t>(extent[1]), rows, values, columns_);
     } else if (of == H5T_STRING && count == std::max(extent[0], extent[1])) {
       const auto read = [&](hid_t memory, void* out) {
@@ -194,9 +172,9 @@ class Hdf5Collector {
       const Handle of(H5Tget_member_type(type, i), H5Tclose);
       if (name.empty() || !is_number(H5Tget_class(of))) continue;
       const Handle one(H5Tcreate(H5T_COMPOUND, sizeof(double)), H5Tclose);
-      require(H5Tinsert(one, name.c_str(), 0, H5T_NATIVE_DOUBLE));
+      require_hdf5(H5Tinsert(one, name.c_str(), 0, H5T_NATIVE_DOUBLE));
       std::vector<double> values(rows);
-      require(H5Dread(set, one, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+      require_hdf5(H5Dread(set, one, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
       columns_.push_back({group + name, group, values});
     }
   }
@@ -222,7 +200,7 @@ Columns read_hdf5(const std::string& path) {
     Hdf5Collector collector(is_of_matlab(path));
     collector.visit(root, "");
     return collector.take();
-  } catch (const Refused&) {
+  } catch (const Hdf5Refused&) {
     throw InputError({"a damaged HDF5 file, or one with a compression that is not read", path, 0, "", "",
                       "a whole file, not compressed or with gzip", ""});
   }
