@@ -1,11 +1,11 @@
 #include "measurements/logs/file_units.h"
 
 #include <cmath>
-#include <map>
+#include <stdexcept>
 
 #include <fmt/format.h>
-#include <boost/algorithm/string/erase.hpp>
-#include <boost/algorithm/string/replace.hpp>
+
+#include "sim/core/unit_names.h"
 
 namespace rollrig::measurements {
 namespace {
@@ -16,27 +16,26 @@ bool is_same(const Unit& a, const Unit& b) {
          std::abs(a.offset_SI - b.offset_SI) <= kSame * std::abs(b.offset_SI);
 }
 
-}  // namespace
-
-std::optional<Unit> find_logged_unit(const std::string& text) {
-  static const std::map<std::string, std::string> kSpellings{{"\u00b0C", "degC"},
-                                                             {"\xb0"
-                                                              "C",
-                                                              "degC"},
-                                                             {"C", "degC"},
-                                                             {"kph", "km_h"},
-                                                             {"kmh", "km_h"},
-                                                             {"sec", "s"},
-                                                             {"N*m", "Nm"},
-                                                             {"N-m", "Nm"},
-                                                             {"N.m", "Nm"},
-                                                             {"%", "percent"}};
-  std::string name = boost::algorithm::erase_all_copy(text, " ");
-  if (const auto spelling = kSpellings.find(name); spelling != kSpellings.end()) name = spelling->second;
-  boost::algorithm::replace_all(name, "/", "_");
-  const Unit unit = unit_of_key("value_" + name);
-  return unit.symbol.empty() ? std::nullopt : std::optional(unit);
+/// Texts of a file in Latin-1 have a degree sign of one byte.
+std::string to_utf8(std::string text) {
+  if (text ==
+      "\xb0"
+      "C")
+    text = "\u00b0C";
+  return text;
 }
+
+/// Whether a text names another unit than that of the mapping; a text that names no unit does not.
+bool contradicts(const std::string& text, const Unit& of_mapping) {
+  if (!is_known_unit(text)) return false;
+  try {
+    return !is_same(parse_unit(text, of_mapping), of_mapping);
+  } catch (const std::invalid_argument&) {
+    return true;  // of another dimension
+  }
+}
+
+}  // namespace
 
 void require_units(const LogForm& form, const tables::LogTable& table) {
   for (const LogColumn& column : form.columns) {
@@ -46,8 +45,7 @@ void require_units(const LogForm& form, const tables::LogTable& table) {
     }
     const auto said = table.units.find(column.column);
     if (said == table.units.end() || column.factor != 1.0 || column.offset != 0.0) continue;
-    const std::optional<Unit> unit = find_logged_unit(said->second);
-    if (!unit.has_value() || is_same(*unit, column.unit)) continue;
+    if (!contradicts(to_utf8(said->second), column.unit)) continue;
     throw InputError({fmt::format("'{}' is in {} by the file, and in {} by the mapping", column.column, said->second,
                                   column.unit.symbol),
                       table.rows.path(), 0, column.column, said->second,

@@ -11,20 +11,19 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include "sim/core/unit_names.h"
+
 namespace rollrig::measurements {
 namespace {
 
-constexpr double kPound_N = 4.4482216152605;  // 0.45359237 kg at standard gravity
-constexpr double kPerFahrenheit = 5.0 / 9.0;
-
 struct UnitSpelling {
-  const char* text;  // without blanks and signs of multiplication
-  const char* suffix;
-  double factor = 1.0;
-  double offset = 0.0;
+  const char* text;       // without blanks and signs of multiplication
+  const char* suffix;     // of a mapping, in this unit or another one of its dimension
+  const char* name = "";  // of parse_unit(), where the unit is not that of the suffix
 };
 
-/// The first spelling of a unit is the one of messages. Revolutions per minute have no suffix.
+/// The first spelling of a unit is the one of messages. Revolutions per minute have no suffix. The list is short, since
+/// a letter of a heading is rarely a unit, although many letters are units.
 const std::vector<UnitSpelling>& unit_spellings() {
   static const std::vector<UnitSpelling> all{
       {"km/h", "km_h"},
@@ -35,45 +34,45 @@ const std::vector<UnitSpelling>& unit_spellings() {
       {"m/s", "m_s"},
       {"m_s", "m_s"},
       {"mps", "m_s"},
-      {"mph", "km_h", 1.609344},
-      {"mi/h", "km_h", 1.609344},
+      {"mph", "km_h", "mph"},
+      {"mi/h", "km_h", "mph"},
       {"1/min", ""},
       {"rpm", ""},
       {"U/min", ""},
       {"min-1", ""},
       {"N", "N"},
       {"kN", "kN"},
-      {"daN", "N", 10.0},
-      {"kgf", "N", kStandardGravity_m_s2},
-      {"kg", "N", kStandardGravity_m_s2},
-      {"kp", "N", kStandardGravity_m_s2},
-      {"lbf", "N", kPound_N},
-      {"lb", "N", kPound_N},
-      {"lbs", "N", kPound_N},
+      {"daN", "N", "daN"},
+      {"kgf", "N", "kgf"},
+      {"kg", "N", "kgf"},
+      {"kp", "N", "kgf"},
+      {"lbf", "N", "lbf"},
+      {"lb", "N", "lbf"},
+      {"lbs", "N", "lbf"},
       {"degC", "degC"},
       {"C", "degC"},
       {"Celsius", "degC"},
       {"GradC", "degC"},
       {"K", "K"},
-      {"degF", "degC", kPerFahrenheit, -32.0 * kPerFahrenheit},
-      {"F", "degC", kPerFahrenheit, -32.0 * kPerFahrenheit},
-      {"Fahrenheit", "degC", kPerFahrenheit, -32.0 * kPerFahrenheit},
+      {"degF", "degC", "degF"},
+      {"F", "degC", "degF"},
+      {"Fahrenheit", "degC", "degF"},
       {"Nm", "Nm"},
-      {"kNm", "Nm", 1e3},
-      {"lbfft", "Nm", 0.3048 * kPound_N},
-      {"ftlbf", "Nm", 0.3048 * kPound_N},
-      {"ftlb", "Nm", 0.3048 * kPound_N},
-      {"lbft", "Nm", 0.3048 * kPound_N},
+      {"kNm", "Nm", "kN m"},
+      {"lbfft", "Nm", "lbf ft"},
+      {"ftlbf", "Nm", "lbf ft"},
+      {"ftlb", "Nm", "lbf ft"},
+      {"lbft", "Nm", "lbf ft"},
       {"kPa", "kPa"},
       {"bar", "bar"},
       {"mbar", "mbar"},
       {"hPa", "mbar"},
-      {"MPa", "kPa", 1e3},
+      {"MPa", "kPa", "MPa"},
       {"Pa", "Pa"},
-      {"psi", "kPa", 6.894757293168},
+      {"psi", "kPa", "psi"},
       {"m", "m"},
       {"km", "km"},
-      {"ft", "m", 0.3048},
+      {"ft", "m", "ft"},
       {"s", "s"},
       {"sec", "s"},
       {"sek", "s"},
@@ -84,6 +83,16 @@ const std::vector<UnitSpelling>& unit_spellings() {
       {"h", "h"},
   };
   return all;
+}
+
+GuessedUnit make_unit(const UnitSpelling& spelling, const std::string& written) {
+  GuessedUnit unit{spelling.suffix, 1.0, 0.0, written};
+  if (*spelling.name == '\0') return unit;
+  const Unit of_suffix = unit_of_key("value_" + unit.suffix);
+  const Unit named = parse_unit(spelling.name, of_suffix);
+  unit.factor = named.factor / of_suffix.factor;
+  unit.offset = (named.offset_SI - of_suffix.offset_SI) / of_suffix.factor;
+  return unit;
 }
 
 /// "N·m" and "N m" are "Nm"; "°C" is "degC".
@@ -133,7 +142,7 @@ std::optional<GuessedUnit> find_unit(const std::string& text) {
   std::string plain = normalize_unit(text);
   const bool is_absolute = take_off_reference(plain);
   const auto make = [&](const UnitSpelling& spelling) {
-    GuessedUnit unit{spelling.suffix, spelling.factor, spelling.offset, text};
+    GuessedUnit unit = make_unit(spelling, text);
     if (is_absolute) unit.offset -= kStandardAtmosphere_Pa / unit_of_key("value_" + unit.suffix).factor;
     return unit;
   };
@@ -149,7 +158,7 @@ std::optional<GuessedUnit> find_unit(const std::string& text) {
 std::vector<GuessedUnit> list_units(const Quantity& quantity) {
   std::vector<GuessedUnit> units;
   for (const UnitSpelling& spelling : unit_spellings()) {
-    const GuessedUnit unit{spelling.suffix, spelling.factor, spelling.offset, spelling.text};
+    const GuessedUnit unit = make_unit(spelling, spelling.text);
     const auto is_same = [&unit](const GuessedUnit& known) {
       return known.suffix == unit.suffix && known.factor == unit.factor;
     };

@@ -135,6 +135,14 @@ std::string find_by_case(const std::string& text, const Dimension& dimension) {
 
 }  // namespace
 
+bool is_known_unit(const std::string& text) {
+  const std::string name = boost::algorithm::trim_copy(text);
+  if (name.empty()) return false;
+  if (!unit_of_key("value_" + name).symbol.empty()) return true;
+  const std::lock_guard<std::mutex> lock(Database::get().mutex());
+  return Database::get().parse(find_udunits_name(name, dimension::kTemperature)) != nullptr;
+}
+
 std::vector<std::string> list_unit_names(const Dimension& dimension) {
   for (const NamedDimension& named : named_dimensions()) {
     if (named.dimension == dimension) return named.units;
