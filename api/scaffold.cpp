@@ -78,16 +78,15 @@ void put_fit(const TireFit& fit, scenarios::ClassTire& made) {
 /// The sentences about a new tire, `rrc_N_per_kN` being what its simulated test gives.
 std::string format_new_tire(const scenarios::ClassTire& made, double rrc_N_per_kN) {
   const models::Iso28580Reference& iso = *made.tire.iso_28580;
-  const Table table{
-      "",
-      {},
-      {{"Class", fmt::format("{} ({})", made.tire_class, made.class_reason)},
-       {"Load of the index", fmt::format("{:.0f} N", made.load_capacity_N)},
-       {"Test of ISO 28580", fmt::format("{:.0f} N, {:.0f} kPa, 80 km/h, warm-up {:.0f} min", iso.load_N,
-                                         iso.pressure_Pa / 1e3, scenarios::find_iso_warm_up_s(made.tire) / 60.0)},
-       {"RRc given", fmt::format("{:.3f} N/kN", 1e3 * iso.rrc)},
-       {"RRc simulated", fmt::format("{:.3f} N/kN", rrc_N_per_kN)},
-       {"Values of the class", fmt::format("of {}, in proportion to size and load", made.base)}}};
+  const Table table{"",
+                    {},
+                    {{"Class", fmt::format("{} ({})", made.tire_class, made.class_reason)},
+                     {"Load of the index", fmt::format("{:.0f} N", made.load_capacity_N)},
+                     {"Test of ISO 28580", fmt::format("{:.0f} N, {:.0f} kPa, 80 km/h, warm-up {:.0f} min", iso.load_N,
+                                                       iso.pressure_Pa / 1e3, iso.warm_up_s / 60.0)},
+                     {"RRc given", fmt::format("{:.3f} N/kN", 1e3 * iso.rrc)},
+                     {"RRc simulated", fmt::format("{:.3f} N/kN", rrc_N_per_kN)},
+                     {"Values of the class", fmt::format("of {}, in proportion to size and load", made.base)}}};
   return fmt::format("new tire   {}   {}\n", made.tire.name, made.tire.designation) + format_tables({table});
 }
 

@@ -9,6 +9,7 @@
 #include "rollrig/scaffold.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
+#include "sim/core/units.h"
 
 namespace fs = std::filesystem;
 
@@ -139,8 +140,6 @@ void add_road_load(CLI::App& command, const std::string& option, NewVehicleOptio
 }
 
 void add_new_vehicle(CLI::App& parent, Action& action) {
-  constexpr double kPound_N = 4.4482216152605;
-  constexpr double kMile_km = 1.609344;
   const auto [command, options] = add_command<NewVehicleCommand>(
       parent, action, "vehicle", "A vehicle of two axles from its mass, and its drag or road load",
       &new_vehicle_command);
@@ -149,7 +148,8 @@ void add_new_vehicle(CLI::App& parent, Action& action) {
   command->add_option("--name", vehicle.name, "Name of the vehicle [my_vehicle]");
   command->add_option("--drag-area", vehicle.drag_area_m2, "Drag coefficient times frontal area in m2 [from C]");
   add_road_load(*command, "--abc", vehicle, 1.0, 1.0, "Road load in N, N/(km/h), N/(km/h)^2");
-  add_road_load(*command, "--abc-lbf-mph", vehicle, kPound_N, kMile_km, "Road load in lbf, lbf/mph, lbf/mph^2");
+  add_road_load(*command, "--abc-lbf-mph", vehicle, kPoundForce_N, kMile_m / 1e3,
+                "Road load in lbf, lbf/mph, lbf/mph^2");
   command->add_option("--rotating-mass", vehicle.rotating_mass_kg, "Of all rotating parts in kg [3 % of the mass]");
   command->add_option("--wheelbase", vehicle.wheelbase_m, "Between the axles in m [2.7]");
   command->add_option("--front-load-share", vehicle.front_load_share, "Share of the weight on the front axle [0.5]");

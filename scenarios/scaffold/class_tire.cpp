@@ -29,44 +29,30 @@ struct ClassValues {
   std::array<double, 3> sweep_shares;
   double fall_per_degC;   // 0: of the base
   double mass_kg_per_m2;  // of the outer area; 0: of the base
-  double warm_up_min;     // ISO 28580
-  double K_t_per_K;       // UN R117, Annex 6, 6.2
 };
 
 const std::vector<ClassValues>& class_values() {
-  static const std::vector<ClassValues> all{{"C1",
-                                             "c1_205_55r16",
-                                             0.80,
-                                             "§3.2.3.1: 80 % of the load of the index",
-                                             0.4,
-                                             160.0,
-                                             {0.8, 0.7, 0.6},
-                                             0.0,
-                                             0.0,
-                                             30.0,
-                                             0.008},
-                                            {"C2",
-                                             "c1_205_55r16",
-                                             0.85,
-                                             "Assumed: ISO 28580 for class C2, not read: 85 % of the load of the index",
-                                             0.4,
-                                             140.0,
-                                             {0.85, 0.7, 0.55},
-                                             0.0190,
-                                             14.0,
-                                             50.0,
-                                             0.010},
-                                            {"C3",
-                                             "c3_315_80r22_5",
-                                             0.85,
-                                             "Assumed: ISO 28580 for class C3, not read: 85 % of the load of the index",
-                                             0.33,
-                                             110.0,
-                                             {0.85, 0.68, 0.51},
-                                             0.0,
-                                             0.0,
-                                             180.0,
-                                             0.006}};
+  static const std::vector<ClassValues> all{
+      {"C1", "c1_205_55r16", 0.80, "§3.2.3.1: 80 % of the load of the index", 0.4, 160.0, {0.8, 0.7, 0.6}, 0.0, 0.0},
+      {"C2",
+       "c1_205_55r16",
+       0.85,
+       "Assumed: ISO 28580 for class C2, not read: 85 % of the load of the index",
+       0.4,
+       140.0,
+       {0.85, 0.7, 0.55},
+       0.0190,
+       14.0},
+      {"C3",
+       "c3_315_80r22_5",
+       0.85,
+       "Assumed: ISO 28580 for class C3, not read: 85 % of the load of the index",
+       0.33,
+       110.0,
+       {0.85, 0.68, 0.51},
+       0.0,
+       0.0},
+  };
   return all;
 }
 
@@ -210,6 +196,20 @@ void set_law(const NewTireOptions& options, const ClassValues& values, ClassTire
   }
 }
 
+double find_iso_warm_up_s(const std::string& tire_class, bool is_heavy, double rim_diameter_m) {
+  constexpr double kLargeRim_m = 0.571;  // 22.5 inches
+  constexpr double kMinute_s = 60.0;
+  if (tire_class == "C1") return 30.0 * kMinute_s;
+  if (!is_heavy) return 50.0 * kMinute_s;
+  return (rim_diameter_m > kLargeRim_m ? 180.0 : 150.0) * kMinute_s;
+}
+
+/// K_t of ISO 28580 by class; heavy is a load index above 121.
+double find_K_t_per_K(const std::string& tire_class, bool is_heavy) {
+  if (tire_class == "C1") return models::kAmbientCoefficient_per_K;
+  return is_heavy ? 0.006 : 0.010;
+}
+
 void set_tests(const NewTireOptions& options, const ClassValues& values, double pressure_kPa, ClassTire& made,
                NumberSetter& numbers) {
   models::TireFile& tire = made.tire;
@@ -222,12 +222,12 @@ void set_tests(const NewTireOptions& options, const ClassValues& values, double 
   numbers.set("iso_28580.rrc_N_per_kN", iso.rrc, options.rrc_N_per_kN * 1e-3, "Given");
   numbers.set("iso_28580.load_N", iso.load_N, std::round(values.iso_load_share * capacity_N), values.iso_load_note);
   numbers.set("iso_28580.pressure_kPa", iso.pressure_Pa, pressure_kPa * 1e3, pressure_note);
-  constexpr double kIndex121_N = 1450.0 * kStandardGravity_m_s2;  // C3 up to this load index is tested as C2
-  const bool as_C2 = values.name == std::string("C3") && capacity_N <= kIndex121_N * 1.001;
-  const ClassValues& test = as_C2 ? find_class("C2") : values;
-  numbers.set("iso_28580.warm_up_min", iso.warm_up_s, test.warm_up_min * 60.0, "ISO 28580, of the class");
-  numbers.set("iso_28580.ambient_coefficient_per_degC", iso.ambient_coefficient_per_K, test.K_t_per_K,
-              "UN R117, Annex 6, 6.2, of the class");
+  const bool is_heavy = capacity_N > find_load_capacity_N("121");
+  numbers.set("iso_28580.warm_up_min", iso.warm_up_s,
+              find_iso_warm_up_s(made.tire_class, is_heavy, tire.values.geometry.rim_diameter_m),
+              "Assumed: ISO 28580, table of warm-up times, as other publications cite it");
+  numbers.set("iso_28580.ambient_coefficient_per_degC", iso.ambient_coefficient_per_K,
+              find_K_t_per_K(made.tire_class, is_heavy), "UN R117, Annex 6, 6.2");
   auto& reference = tire.values.rolling_resistance;
   numbers.set("rolling_resistance.reference_load_N", reference.reference_load_N, iso.load_N, "as [iso_28580]");
   numbers.set("rolling_resistance.reference_pressure_kPa", reference.reference_pressure_Pa, iso.pressure_Pa,

@@ -6,30 +6,26 @@
 
 #include "models/tire/own_number.h"
 #include "scenarios/run/run_spec.h"
-#include "scenarios/scaffold/tire_size.h"
 #include "sim/core/assets.h"
 
 namespace rollrig::scenarios {
 
-double find_iso_warm_up_s(const models::TireFile& tire) {
-  static const double heavy_N = 0.85 * find_load_capacity_N("121");
-  constexpr double kLargeRim_m = 0.571;  // 22.5 inches
-  constexpr double kMinute_s = 60.0;
-  const bool is_heavy = tire.iso_28580.has_value() && tire.iso_28580->load_N > heavy_N;
-  if (is_heavy) return (tire.values.geometry.rim_diameter_m > kLargeRim_m ? 180.0 : 150.0) * kMinute_s;
-  const bool is_commercial = !tire.designation.empty() && tire.designation.back() == 'C';
-  return (is_commercial ? 50.0 : 30.0) * kMinute_s;
-}
+namespace {
 
-double simulate_iso_rrc(const models::TireFile& tire) {
+Outcome simulate_iso_test(const models::TireFile& tire) {
   RunSpec spec;
   spec.scenario = &find_scenario("iso_28580");
   spec.tire = tire;
   spec.rig = rigs::read_rig(read_config(find_asset("rigs", spec.scenario->default_rig)));
   spec.fidelity = Fidelity::kQuasiStatic;
-  set_config_value(spec.settings, "warm_up_min", fmt::format("{}", find_iso_warm_up_s(tire) / 60.0), "ISO 28580");
-  return run_scenario(spec, {}).result["rrc_25degC_2m_N_per_kN"].get<double>() * 1e-3;
+  return run_scenario(spec, {});
 }
+
+double read_rrc(const Outcome& outcome) { return outcome.result["rrc_25degC_2m_N_per_kN"].get<double>() * 1e-3; }
+
+}  // namespace
+
+double simulate_iso_rrc(const models::TireFile& tire) { return read_rrc(simulate_iso_test(tire)); }
 
 void scale_to_iso_rrc(models::TireFile& tire) {
   constexpr int kMost = 40;
@@ -47,14 +43,17 @@ void scale_to_iso_rrc(models::TireFile& tire) {
 
 std::optional<std::string> check_iso_rrc(const models::TireFile& tire) {
   if (!tire.iso_28580.has_value()) return std::nullopt;
-  const double rrc = simulate_iso_rrc(tire);
+  const Outcome test = simulate_iso_test(tire);
+  const double rrc = read_rrc(test);
   const double difference = rrc / tire.iso_28580->rrc - 1.0;
   if (std::abs(difference) <= kIsoTolerance) return std::nullopt;
-  return fmt::format(
-      "the simulated test of ISO 28580 gives an RRc of {:.3f} N/kN, which is {:+.1f} % from the {:.3f} N/kN that the "
-      "file "
-      "states; more than {:.0f} % apart, one of them is not that of this tire",
+  std::string warning = fmt::format(
+      "the simulated test of ISO 28580 gives an RRc of {:.3f} N/kN, {:+.1f} % from the {:.3f} N/kN that the file "
+      "states; "
+      "if they are more than {:.0f} % apart, one of them is not that of this tire",
       1e3 * rrc, 100.0 * difference, 1e3 * tire.iso_28580->rrc, 100.0 * kIsoTolerance);
+  for (const std::string& of_test : test.warnings) warning += ". " + of_test;
+  return warning;
 }
 
 }  // namespace rollrig::scenarios

@@ -8,13 +8,7 @@
 
 namespace rollrig::scenarios {
 
-/// Warm-up that ISO 28580 asks for: 30 min of class C1, 50 min of tires marked C, 150 min of heavier ones, and 180 min
-/// of those on rims from 22.5 inches.
-/// Source    Assumed: ISO 28580, table of warm-up times, as other publications cite it; a tire is heavy if its load in
-///           the test is more than 85 % of the load of index 121
-double find_iso_warm_up_s(const models::TireFile& tire);
-
-/// RRc at 25 degC on the 2 m drum [N/N]: the scenario iso_28580 after the warm-up of the tire's class, quasi-static.
+/// RRc at 25 degC on the 2 m drum [N/N]: the scenario iso_28580 as the tire's file has its conditions, quasi-static.
 /// Errors    InputError: the tire lacks a table that the test needs; RunFailure
 double simulate_iso_rrc(const models::TireFile& tire);
 

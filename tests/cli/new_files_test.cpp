@@ -94,7 +94,7 @@ TEST_CASE("validate warns of a tire whose RRc is not what its numbers give", "[f
   text.replace(text.find(stated), stated.size(), "rrc_N_per_kN = 8.0");
   write_file(folder.file("mine.toml"), text);
   CHECK_THAT(flatten(run_well("validate mine.toml", folder).out),
-             Contains("gives an RRc of 8.200 N/kN, which is +2.5 %"));
+             Contains("gives an RRc of 8.200 N/kN, +2.5 % from the 8.000 N/kN"));
 }
 
 TEST_CASE("a new rig and a new vehicle carry a new tire", "[fast]") {
