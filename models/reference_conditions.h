@@ -5,13 +5,15 @@
 
 namespace rollrig::models {
 
-/// 80 km/h. Source  ISO 28580
+/// 80 km/h.
+/// Source  ISO 28580
 template <class S>
 S get_reference_speed_m_s() {
   return quantity<S>(80.0 / 3.6, dimension::kSpeed);
 }
 
-/// 25 degC. Source  ISO 28580
+/// 25 degC.
+/// Source  ISO 28580
 template <class S>
 S get_reference_temperature_K() {
   return quantity<S>(298.15, dimension::kTemperature);

@@ -1,6 +1,7 @@
 #pragma once
 /// Readers of the single formats. All throw InputError for a file that is damaged or holds what they do not read; a
-/// file without columns gives none. Checked  tests/tables
+/// file without columns gives none.
+/// Checked  tests/tables
 
 #include <string>
 

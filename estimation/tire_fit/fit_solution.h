@@ -15,7 +15,8 @@ std::vector<double> minimize(const DrumResiduals& residuals, const Progress& pro
 
 /// Covariance of the unknowns at the optimum: the inverse of J^T J. The columns of J are scaled to unit length first:
 /// in SI units a heat capacity's is so much shorter than the others' that it would pass for a direction that the data
-/// do not decide. Errors  RunFailure: data and priors leave a direction undecided
+/// do not decide.
+/// Errors  RunFailure: data and priors leave a direction undecided
 Eigen::MatrixXd find_covariance(const DrumResiduals& residuals, const std::vector<double>& unknowns);
 
 }  // namespace rollrig::estimation

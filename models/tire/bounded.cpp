@@ -119,7 +119,8 @@ struct Bounded : TreadAndCarcass {
   }
 
   /// Refuses limits in the wrong order or too near for the width of their transitions, a loss that rises with
-  /// temperature at some speed, and one that falls with speed at some temperature. Equation  T_m < T_h
+  /// temperature at some speed, and one that falls with speed at some temperature.
+  /// Equation  T_m < T_h,  w <= (T_h - T_m)/4
   ///           1 + c (S - S_80) >= 0  at S = 0 and S = 1
   ///           s >= B c (theta - theta(30 degC))  at theta = 0 and theta = T_h - T_m
   static std::optional<TireModelMistake> find_mistake(const OwnParameters<double>& own) {

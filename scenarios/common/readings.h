@@ -124,9 +124,11 @@ std::vector<Cycle> find_cycles(const sim::Recording<double>& recording, const Ru
                                const DrumConditions& conditions);
 
 /// RRc corrected to 25 degC and to the 2 m drum.
-/// Equation  RRc K_r (1 + K_t (T_amb - 25 degC)), K_t that of [iso_28580] of the tire, else 0.008 1/degC of class C1,
-/// K_r of (3.1) to R_2 = 1 m Validity  tires of class C1, 20 to 30 degC; a warning outside Source    ISO 28580 as in
-/// §3.2.3.3, K_t from the standard
+/// Equation  RRc K_r (1 + K_t (T_amb - 25 degC))
+/// Symbols   K_t of [iso_28580] of the tire, else 0.008 1/degC of class C1; K_r of (3.1) to R_2 = 1 m; T_amb temperature
+///           of the air [degC]
+/// Validity  20 to 30 degC; a warning outside
+/// Source    ISO 28580 as in §3.2.3.3; K_t from the standard
 double correct_rrc(double rrc, double ambient_K, const RunSpec& spec);
 
 /// Expanded uncertainty (k = 2) of a cycle's RRc, corrected as correct_rrc does, from the torque sensor.

@@ -23,7 +23,8 @@ struct SettingsComparison {
 /// Checked  tests/validation/scoring/decision_settings_test.cpp
 SettingsComparison compare_settings(const Json& recorded, const Json& now);
 
-/// The record in a file. Errors  InputError: no such record
+/// The record in a file.
+/// Errors  InputError: no such record
 Json read_settings(const std::string& file);
 
 }  // namespace rollrig::validation
