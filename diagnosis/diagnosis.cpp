@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "diagnosis/checks/set_checks.h"
 #include "diagnosis/comparison/model_comparison.h"
@@ -80,6 +81,7 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   diagnosis.causes = find_causes(study, comparison);
   diagnosis.warnings = checks.warnings;
   diagnosis.doubt = checks.doubt;
+  for (const std::size_t r : checks.mistaken_runs) diagnosis.mistaken_runs.insert(measured.runs[r].id);
   if (checks.is_implausible()) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   const bool is_named = diagnosis.verdict != Verdict::kNoGap;
@@ -102,31 +104,41 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   return diagnosis;
 }
 
-/// The run that holds at least half of a gap; empty where none does.
-std::pair<std::string, double> find_lone_run(const std::vector<Location>& where) {
+/// Runs without which the others are looked at, and their share of the gap: those that are in doubt, or the run that
+/// holds at least half of a gap that nothing explains. Empty where there is none.
+std::pair<std::set<std::string>, double> find_runs_apart(const Diagnosis& diagnosis) {
   constexpr double kMost_percent = 50.0;
   std::map<std::string, double> share_percent;
-  for (const Location& at : where) share_percent[at.run] += at.share_percent;
+  for (const Location& at : diagnosis.where) share_percent[at.run] += at.share_percent;
+  if (!diagnosis.mistaken_runs.empty()) {
+    double sum_percent = 0.0;
+    for (const std::string& run : diagnosis.mistaken_runs) sum_percent += share_percent[run];
+    return {diagnosis.mistaken_runs, sum_percent};
+  }
   for (const auto& [run, share] : share_percent) {
-    if (share >= kMost_percent) return {run, share};
+    if (share >= kMost_percent) return {{run}, share};
   }
   return {};
 }
 
-/// What the other runs show, where one run holds most of the gap and nothing explains it.
-std::optional<LoneRun> diagnose_without_run(measurements::MeasurementSet set, const Diagnosis& diagnosis,
-                                            DiagnosisOptions options) {
-  const auto [run, share_percent] = find_lone_run(diagnosis.where);
-  if (diagnosis.verdict != Verdict::kUnexplained || run.empty() || set.runs.size() < 3) return std::nullopt;
+/// What the other runs show, where some are in doubt, or one holds most of the gap and nothing explains it.
+std::optional<LoneRun> diagnose_without_runs(measurements::MeasurementSet set, const Diagnosis& diagnosis,
+                                             DiagnosisOptions options) {
+  constexpr std::size_t kFewest = 2;
+  const auto [apart, share_percent] = find_runs_apart(diagnosis);
+  if (diagnosis.verdict != Verdict::kUnexplained || apart.empty() || set.runs.size() < apart.size() + kFewest) {
+    return std::nullopt;
+  }
+  const std::string names = fmt::format("{}", fmt::join(apart, ", "));
   if (options.progress) {
-    options.progress = [report = options.progress, run = run](double done, const std::string& stage) {
-      report(done, fmt::format("without run {}: {}", run, stage));
+    options.progress = [report = options.progress, names](double done, const std::string& stage) {
+      report(done, fmt::format("without {}: {}", names, stage));
     };
   }
-  const auto is_lone = [&name = run](const measurements::MeasuredRun& one) { return one.id == name; };
-  set.runs.erase(std::remove_if(set.runs.begin(), set.runs.end(), is_lone), set.runs.end());
+  const auto is_apart = [&runs = apart](const measurements::MeasuredRun& one) { return runs.count(one.id) > 0; };
+  set.runs.erase(std::remove_if(set.runs.begin(), set.runs.end(), is_apart), set.runs.end());
   const Diagnosis rest = diagnose_all_runs(set, options);
-  LoneRun lone{run, share_percent, rest.verdict, {}, 0.0};
+  LoneRun lone{names, share_percent, rest.verdict, {}, 0.0};
   if (rest.verdict == Verdict::kNoGap) {
     lone.probability = rest.probability.at("none");
   } else if (!rest.causes.empty()) {
@@ -157,7 +169,7 @@ void require_known_effects(const DiagnosisOptions& options) {
 
 Diagnosis diagnose(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
   Diagnosis diagnosis = diagnose_all_runs(set, options);
-  diagnosis.without_run = diagnose_without_run(set, diagnosis, options);
+  diagnosis.without_run = diagnose_without_runs(set, diagnosis, options);
   return diagnosis;
 }
 

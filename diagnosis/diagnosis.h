@@ -3,6 +3,7 @@
 /// shrinks once that effect is added.
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct FittedSet {
 struct Diagnosis : Findings {
   std::optional<ProposedTest> plan;  // the first of next_tests
   FittedSet fitted;
+  std::set<std::string> mistaken_runs;  // that cannot be what the set says they are, by its checks
 };
 
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.

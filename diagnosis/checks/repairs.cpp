@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "diagnosis/kinds/measurement_kind.h"
-#include "sim/core/parallel.h"
+#include "measurements/sample_selection.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
@@ -43,7 +42,8 @@ std::vector<double> read_as(const std::vector<double>& values, const Unit& from,
   return out;
 }
 
-Repair exchange(const MeasurementSet& set, const rigs::Column& a, const rigs::Column& b) {
+Mistake exchange(const MeasurementSet& set, const rigs::Column& a, const rigs::Column& b) {
+  constexpr double kWeight = 0.3;  // Assumed: there are many pairs
   const auto undo = [a, b, a_given = is_given(set, a.quantity), b_given = is_given(set, b.quantity)](MeasuredRun& run) {
     if (!run.has(a.quantity) || !run.has(b.quantity)) return false;
     std::vector<double> as_a = read_as(run.column(b.quantity), b.quantity.file_unit(), a, a_given);
@@ -53,39 +53,36 @@ Repair exchange(const MeasurementSet& set, const rigs::Column& a, const rigs::Co
     run.column(b.quantity) = std::move(as_b);
     return true;
   };
-  return {fmt::format("the columns {} and {} are exchanged", a.quantity.header(), b.quantity.header()), undo};
+  const std::string text = fmt::format("the columns {} and {} are exchanged", a.quantity.header(), b.quantity.header());
+  return {text, kWeight, {a.quantity, b.quantity}, true, undo};
 }
 
-Repair wrong_unit(const WrongUnit& wrong) {
-  const auto undo = [wrong](MeasuredRun& run) {
-    if (!run.has(wrong.column)) return false;
+Mistake make_wrong_unit(const WrongUnit& wrong, const Range& range) {
+  const auto undo = [wrong, range](MeasuredRun& run) {
+    if (!run.has_samples(wrong.column)) return false;
     const Unit unit = wrong.column.file_unit();
     for (double& value : run.column(wrong.column)) {
-      value = unit.to_si(wrong.factor * unit.from_si(value) + wrong.offset);
+      const double number = wrong.factor * unit.from_si(value) + wrong.offset;
+      if (!std::isnan(number) && !range.contains(number)) return false;
+      value = unit.to_si(number);
     }
     return true;
   };
-  return {wrong.column.header() + " " + wrong.text, undo};
+  return {wrong.column.header() + " " + wrong.text, wrong.weight, {wrong.column}, false, undo};
 }
 
-std::vector<Repair> list_mistakes(const MeasurementSet& set, Mistakes which) {
-  std::vector<Repair> mistakes;
-  if (which == Mistakes::kAll) {
-    for (const WrongUnit& wrong : kind_of(set).list_wrong_units()) mistakes.push_back(wrong_unit(wrong));
-  }
-  const std::vector<rigs::Column> columns = set.kind->columns.all();
-  for (std::size_t a = 0; a < columns.size(); ++a) {
-    for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
-  }
-  return mistakes;
-}
-
-/// Sum of squares of a run's misfit once the mistake is undone; infinite where a channel stays outside.
-double calc_squares_without(const Repair& mistake, const MeasurementSet& set, std::size_t r) {
-  MeasuredRun run = set.runs[r];
-  if (!mistake.undo(run)) return std::numeric_limits<double>::infinity();
-  const RunMisfit misfit = calc_misfit(set, run);
-  return misfit.worst() > 1.0 ? std::numeric_limits<double>::infinity() : misfit.sum_of_squares();
+/// Times in another unit, where rows are then a tenth of a second to a minute apart.
+Mistake make_wrong_time(double factor, const std::string& text) {
+  static constexpr Quantity kTime{"time", "s"};
+  const auto undo = [factor](MeasuredRun& run) {
+    constexpr double kDensest_s = 0.01;
+    constexpr double kWidest_s = 60.0;
+    const double interval_s = factor * measurements::calc_mean_interval_s(run);
+    if (interval_s < kDensest_s || interval_s > kWidest_s) return false;
+    for (double& time_s : run.time_s) time_s *= factor;
+    return true;
+  };
+  return {"time_s " + text, 1.0, {kTime}, false, undo};
 }
 
 }  // namespace
@@ -93,40 +90,60 @@ double calc_squares_without(const Repair& mistake, const MeasurementSet& set, st
 std::vector<WrongUnit> list_common_wrong_units() {
   constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
   constexpr double kBar_kPa = 100.0;
+  constexpr double kNauticalMile_km = 1.852;     // exact
+  constexpr double kVeryRare = 5e-4;             // Assumed: of ships and aircraft
+  constexpr double kRare = 0.2;                  // Assumed
   return {{quantities::kSpeed, 3.6, 0.0, "holds m/s"},
-          {quantities::kSpeed, 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often"},
+          {quantities::kSpeed, 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often", kRare},
           {quantities::kSpeed, kMile_m / 1e3, 0.0, "holds mph"},
+          {quantities::kSpeed, kNauticalMile_km, 0.0, "holds knots", kVeryRare},
           {quantities::kLoad, kStandardGravity_m_s2, 0.0, "holds kgf"},
           {quantities::kLoad, 1e3, 0.0, "holds kN"},
+          {quantities::kLoad, kPoundForce_N, 0.0, "holds lbf"},
           {quantities::kCavityPressure, 1.0, -kStandardAtmosphere_Pa / 1e3, "is absolute, not gauge"},
           {quantities::kCavityPressure, kBar_kPa, 0.0, "holds bar"},
           {quantities::kCavityPressure, kPsi_kPa, 0.0, "holds psi"},
           {quantities::kLinerTemperature, 1.0 / 1.8, -32.0 / 1.8, "holds degF"},
+          {quantities::kLinerTemperature, 1.0, -kZeroCelsius_K, "holds K", kRare},
           {quantities::kAmbient, 1.0 / 1.8, -32.0 / 1.8, "holds degF"}};
 }
 
-std::optional<Repair> find_repair(const MeasurementSet& set, const std::vector<std::size_t>& odd_runs, Mistakes which,
-                                  int threads) {
-  constexpr double kMuchBetter = 0.1;  // Assumed: of the sum of squares
-  const auto calc_squares = [&set](std::size_t r) { return calc_misfit(set, set.runs[r]).sum_of_squares(); };
-  double before = 0.0;
-  for (const std::size_t r : odd_runs) before += calc_squares(r);
-  const std::vector<Repair> mistakes = list_mistakes(set, which);
-  std::vector<double> after(mistakes.size(), 0.0);
-  parallel_for(mistakes.size(), threads, [&](std::size_t i) {
-    for (const std::size_t r : odd_runs) {
-      after[i] += calc_squares_without(mistakes[i], set, r);
-      if (!(after[i] <= kMuchBetter * before)) return;
+std::vector<WrongUnit> list_mixed_up_lever(const Quantity& force, double factor, const std::string& text) {
+  constexpr double kNear = 0.3;  // Assumed: of the logarithm; effects change a force by less
+  if (std::abs(std::log(factor)) < kNear) return {};
+  return {{force, factor, 0.0, text}};
+}
+
+std::vector<Mistake> list_mistakes(const MeasurementSet& set) {
+  std::vector<Mistake> mistakes;
+  const std::vector<rigs::Column> columns = set.kind->columns.all();
+  for (const WrongUnit& wrong : kind_of(set).list_wrong_units(set)) {
+    for (const rigs::Column& column : columns) {
+      if (column.quantity == wrong.column) mistakes.push_back(make_wrong_unit(wrong, column.range));
     }
-  });
-  const auto best = std::min_element(after.begin(), after.end());
-  if (*best > kMuchBetter * before) return std::nullopt;
-  Repair repair = mistakes[static_cast<std::size_t>(best - after.begin())];
-  for (std::size_t r = 0; r < set.runs.size(); ++r) {
-    const bool odd = std::find(odd_runs.begin(), odd_runs.end(), r) != odd_runs.end();
-    if (odd || calc_squares_without(repair, set, r) <= kMuchBetter * calc_squares(r)) repair.runs.push_back(r);
   }
-  return repair;
+  for (std::size_t a = 0; a < columns.size(); ++a) {
+    for (std::size_t b = a + 1; b < columns.size(); ++b) mistakes.push_back(exchange(set, columns[a], columns[b]));
+  }
+  mistakes.push_back(make_wrong_time(1e-3, "holds ms"));
+  mistakes.push_back(make_wrong_time(60.0, "holds min"));
+  return mistakes;
+}
+
+Mistake combine(const Mistake& a, const Mistake& b) {
+  Mistake both = a;
+  both.text += " and " + b.text;
+  both.weight *= b.weight;
+  both.columns.insert(both.columns.end(), b.columns.begin(), b.columns.end());
+  both.is_exchange = a.is_exchange && b.is_exchange;
+  both.undo = [of_a = a.undo, of_b = b.undo](MeasuredRun& run) { return of_a(run) && of_b(run); };
+  return both;
+}
+
+bool have_common_column(const Mistake& a, const Mistake& b) {
+  return std::any_of(a.columns.begin(), a.columns.end(), [&](const Quantity& column) {
+    return std::find(b.columns.begin(), b.columns.end(), column) != b.columns.end();
+  });
 }
 
 }  // namespace rollrig::diagnosis

@@ -1,21 +1,13 @@
 #pragma once
-/// Mistakes that people make with columns and units, tried out on a run that cannot be what it is said to be.
+/// Mistakes that people make with columns and units, and how to undo them.
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "diagnosis/checks/plausibility.h"
+#include "measurements/measurement_set.h"
 
 namespace rollrig::diagnosis {
-
-/// A mistake that, undone, makes runs plausible.
-struct Repair {
-  std::string text;                                      // "speed_km_h holds m/s"
-  std::function<bool(measurements::MeasuredRun&)> undo;  // false where it cannot have been made in that run
-  std::vector<std::size_t> runs = {};                    // in which it was made
-};
 
 /// A mistake with a unit that a kind of set is prone to: the numbers of the file, times `factor` and plus `offset`, in
 /// the unit of the column, are right.
@@ -23,21 +15,31 @@ struct WrongUnit {
   Quantity column;
   double factor = 1.0;
   double offset = 0.0;
-  std::string text;  // after the column's name
+  std::string text;     // after the column's name
+  double weight = 1.0;  // how often it is made, beside the others. Assumed
 };
 /// Those of columns that several kinds have: speed, load, pressure and temperatures.
 std::vector<WrongUnit> list_common_wrong_units();
 
-/// Which mistakes are tried: where a column stands still, a factor may fit it by chance.
-enum class Mistakes { kAll, kExchanges };
+/// Those of a column that should hold what another factor away was written to: a torque in the place of a force, or a
+/// force in that of a torque. None where `factor` is so near to 1 that an effect may do the same.
+std::vector<WrongUnit> list_mixed_up_lever(const Quantity& force, double factor, const std::string& text);
 
-/// Of the mistakes in the list (two columns exchanged; speed in m/s or multiplied by 3.6; load in kgf;
-/// pressure absolute, in bar or psi; temperature in degF; torque too small by 3.6 or with the other sign) the one that,
-/// undone in all of `odd_runs` and simulated again, brings every channel within its tolerance and the sum of squares
-/// below a tenth; with it the other runs that it brings below a tenth. None where none does.
-/// Validity  one mistake at a time, the same in all of `odd_runs`
-/// Checked   tests/diagnosis/wrong_columns_test.cpp
-std::optional<Repair> find_repair(const measurements::MeasurementSet& set, const std::vector<std::size_t>& odd_runs,
-                                  Mistakes which, int threads);
+/// A mistake that may have been made in a run, or two.
+struct Mistake {
+  std::string text;               // "speed_km_h holds m/s"
+  double weight = 1.0;            // how often it is made, beside the others
+  std::vector<Quantity> columns;  // that hold other numbers because of it
+  bool is_exchange = false;
+  std::function<bool(measurements::MeasuredRun&)> undo;  // false where it cannot have been made in that run
+};
+
+/// Two columns exchanged; a column in another unit, with the other sign, or with a torque in the place of a force;
+/// times in minutes or milliseconds.
+std::vector<Mistake> list_mistakes(const measurements::MeasurementSet& set);
+
+/// Both mistakes in one run. They have no column in common.
+Mistake combine(const Mistake& a, const Mistake& b);
+bool have_common_column(const Mistake& a, const Mistake& b);
 
 }  // namespace rollrig::diagnosis

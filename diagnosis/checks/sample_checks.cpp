@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "diagnosis/checks/interpolated.h"
 #include "diagnosis/checks/plausibility.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "measurements/sample_selection.h"
@@ -157,6 +158,9 @@ void check_samples(const MeasurementSet& set, SetChecks& checks) {
   check_runs(set, checks);
   check_spacing(set, checks);
   check_spikes(set, checks);
+  const Interpolated interpolated = find_interpolated(set);
+  checks.left_out.insert(checks.left_out.end(), interpolated.rows.begin(), interpolated.rows.end());
+  checks.warnings.insert(checks.warnings.end(), interpolated.warnings.begin(), interpolated.warnings.end());
 }
 
 std::vector<std::string> find_missing_samples(const MeasurementSet& set) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
+#include "diagnosis/checks/mistakes.h"
 #include "diagnosis/checks/plausibility.h"
-#include "diagnosis/checks/repairs.h"
 #include "diagnosis/checks/sample_checks.h"
+#include "diagnosis/checks/still_inputs.h"
 #include "diagnosis/checks/tire_checks.h"
 #include "diagnosis/kinds/measurement_kind.h"
 #include "measurements/run_rows.h"
@@ -18,8 +18,7 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-constexpr double kOdd = 0.3;      // tolerances of plausibility.h from which a mistake is looked for
-constexpr double kOutside = 2.0;  // from which none is needed to doubt the set; effects of unlikely size stay below
+constexpr double kOutside = 2.0;  // tolerances of plausibility.h; effects of unlikely size stay below
 
 std::string join(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
@@ -59,24 +58,48 @@ std::string describe_misfit(const MeasurementSet& set, const std::vector<std::si
 
 /// Throws for the first run that cannot be simulated, with the mistake that would explain it.
 void require_simulated(const MeasurementSet& set, const std::vector<RunMisfit>& misfits,
-                       const std::optional<Repair>& repair) {
+                       const std::vector<FoundMistake>& mistakes) {
   for (std::size_t r = 0; r < set.runs.size(); ++r) {
     if (misfits[r].failure.empty()) continue;
     throw InputError({fmt::format("run '{}' cannot be simulated: {}", set.runs[r].id, misfits[r].failure),
                       set.runs[r].file, 0, "", "",
-                      repair.has_value() ? "it looks as if " + repair->text : "inputs that such a test can have", ""});
+                      mistakes.empty() ? "inputs that such a test can have" : describe(set, mistakes.front()), ""});
   }
 }
 
-void report_repair(const MeasurementSet& set, const Repair& repair, SetChecks& checks) {
-  checks.suspicion = fmt::format("in {} it looks as if {}", name_runs(set, repair.runs), repair.text);
+/// Names what cannot be true in some runs.
+void report_suspicion(const std::string& suspicion, const std::vector<std::size_t>& runs, SetChecks& checks) {
+  checks.suspicion += (checks.suspicion.empty() ? "" : "; ") + suspicion;
   checks.doubt = checks.suspicion + ": no cause is named until that is mended";
-  checks.warnings.push_back(checks.doubt);
+  checks.mistaken_runs.insert(checks.mistaken_runs.end(), runs.begin(), runs.end());
+  std::sort(checks.mistaken_runs.begin(), checks.mistaken_runs.end());
+  const auto end = std::unique(checks.mistaken_runs.begin(), checks.mistaken_runs.end());
+  checks.mistaken_runs.erase(end, checks.mistaken_runs.end());
 }
 
-/// Whether no sensor of these runs stands still once the mistake is undone.
-bool moves_without(const Repair& repair, MeasurementSet set, const std::vector<std::size_t>& runs, int threads) {
-  for (const std::size_t r : runs) repair.undo(set.runs[r]);
+void report_mistakes(const MeasurementSet& set, const std::vector<FoundMistake>& mistakes, SetChecks& checks) {
+  for (const FoundMistake& mistake : mistakes) report_suspicion(describe(set, mistake), mistake.runs, checks);
+}
+
+/// Inputs that stand still although they should move.
+void report_still(const std::vector<StillInput>& still, SetChecks& checks) {
+  for (const StillInput& one : still) {
+    if (one.is_certain) {
+      report_suspicion(one.text + ": a stuck sensor, or a number that stands for none", one.runs, checks);
+    } else {
+      checks.warnings.push_back(one.text +
+                                ": measured, or a number that stands for none? What follows it cannot be told then");
+    }
+  }
+}
+
+/// Whether no sensor of the mistaken runs stands still once the mistakes are undone.
+bool moves_without(const std::vector<FoundMistake>& mistakes, MeasurementSet set, int threads) {
+  std::vector<std::size_t> runs;
+  for (const FoundMistake& one : mistakes) {
+    for (const std::size_t r : one.runs) one.mistake.undo(set.runs[r]);
+    runs.insert(runs.end(), one.runs.begin(), one.runs.end());
+  }
   const Stuck left = find_stuck(set, resimulate_baseline(set, threads));
   return std::none_of(left.rows.begin(), left.rows.end(), [&runs](const DoubtfulRows& rows) {
     return std::find(runs.begin(), runs.end(), rows.run) != runs.end();
@@ -87,13 +110,14 @@ bool moves_without(const Repair& repair, MeasurementSet set, const std::vector<s
 void check_stuck(const MeasurementSet& set, const BaselineRuns& baseline, int threads, SetChecks& checks) {
   const Stuck stuck = find_stuck(set, baseline);
   if (stuck.rows.empty()) return;
-  std::vector<std::size_t> runs;
-  for (const DoubtfulRows& rows : stuck.rows) {
-    if (runs.empty() || runs.back() != rows.run) runs.push_back(rows.run);
-  }
-  const std::optional<Repair> repair = find_repair(set, runs, Mistakes::kExchanges, threads);
-  if (repair.has_value() && moves_without(*repair, set, runs, threads)) {
-    report_repair(set, *repair, checks);
+  // Where a column stands still, a factor may fit it by chance.
+  const auto tells = [&stuck](const Mistake& mistake, std::size_t r) {
+    return mistake.is_exchange &&
+           std::any_of(stuck.rows.begin(), stuck.rows.end(), [r](const DoubtfulRows& rows) { return rows.run == r; });
+  };
+  const std::vector<FoundMistake> exchanges = find_mistakes(set, baseline, threads, tells);
+  if (!exchanges.empty() && moves_without(exchanges, set, threads)) {
+    report_mistakes(set, exchanges, checks);
     return;
   }
   checks.left_out.insert(checks.left_out.end(), stuck.rows.begin(), stuck.rows.end());
@@ -112,26 +136,39 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
                     kept.runs[first.run].file, 0, first.channel.header(), "", "samples of a sensor that works", ""});
 }
 
-/// Columns and units.
-void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline, int threads, SetChecks& checks) {
-  const std::vector<RunMisfit>& misfits = baseline.misfits;
-  std::vector<std::size_t> odd;
+/// Columns and units. A column that stands still tells nothing of them.
+void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline, const std::vector<StillInput>& still,
+                        int threads, SetChecks& checks) {
+  const auto tells = [&still](const Mistake& mistake, std::size_t r) {
+    return std::none_of(still.begin(), still.end(), [&](const StillInput& one) {
+      const auto& columns = mistake.columns;
+      return std::find(one.runs.begin(), one.runs.end(), r) != one.runs.end() &&
+             std::find(columns.begin(), columns.end(), one.column) != columns.end();
+    });
+  };
+  const std::vector<FoundMistake> mistakes = find_mistakes(kept, baseline, threads, tells);
+  require_simulated(kept, baseline.misfits, mistakes);
+  report_mistakes(kept, mistakes, checks);
+  std::vector<std::size_t> others;
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
-    if (misfits[r].worst() > kOdd) odd.push_back(r);
+    if (std::count(checks.mistaken_runs.begin(), checks.mistaken_runs.end(), r) == 0) others.push_back(r);
   }
-  if (odd.empty()) return;
-  const std::optional<Repair> repair = find_repair(kept, odd, Mistakes::kAll, threads);
-  require_simulated(kept, misfits, repair);
-  if (repair.has_value()) {
-    report_repair(kept, *repair, checks);
+  const std::string outside = describe_misfit(kept, others, baseline.misfits);
+  if (outside.empty()) return;
+  const std::string suspicion = fmt::format(
+      "further from the simulation than any effect of the catalog: {}. Check tire, rig, columns and units", outside);
+  if (!checks.suspicion.empty()) {
+    checks.warnings.push_back(suspicion);
     return;
   }
-  const std::string outside = describe_misfit(kept, odd, misfits);
-  if (outside.empty()) return;
-  checks.suspicion = fmt::format(
-      "further from the simulation than any effect of the catalog: {}. Check tire, rig, columns and units", outside);
-  checks.doubt = checks.suspicion + "; no cause is named";
+  checks.suspicion = suspicion;
+  checks.doubt = suspicion + "; no cause is named";
+}
+
+/// The doubt as the last of the warnings.
+SetChecks warn_of_doubt(SetChecks checks) {
   checks.warnings.push_back(checks.doubt);
+  return checks;
 }
 
 }  // namespace
@@ -145,15 +182,17 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   check_samples(set, checks);
   BaselineRuns baseline = resimulate_baseline(set, threads);
   check_stuck(set, baseline, threads, checks);
-  if (checks.is_implausible()) return checks;
+  if (checks.is_implausible()) return warn_of_doubt(std::move(checks));
   const MeasurementSet kept = leave_out(set, checks.left_out);
   for (std::size_t r = 0; r < kept.runs.size(); ++r) {
     const bool simulated = baseline.misfits[r].failure.empty();
     if (simulated) baseline.misfits[r] = calc_misfit(kept, kept.runs[r], baseline.recordings[r]);
   }
   require_rest(kept, checks);
-  check_plausibility(kept, baseline, threads, checks);
-  if (checks.is_implausible()) return checks;
+  const std::vector<StillInput> still = find_still_inputs(kept);
+  report_still(still, checks);
+  check_plausibility(kept, baseline, still, threads, checks);
+  if (checks.is_implausible()) return warn_of_doubt(std::move(checks));
   const std::vector<std::string> of_tire = check_tire(kept, baseline, threads);
   checks.warnings.insert(checks.warnings.end(), of_tire.begin(), of_tire.end());
   return checks;

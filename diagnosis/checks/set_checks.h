@@ -15,6 +15,7 @@ struct SetChecks {
   std::vector<DoubtfulRows> left_out;  // rows of stuck sensors and samples that stand alone
   std::string suspicion;               // why columns, units or files cannot be what they are said to be; else empty
   std::string doubt;                   // the suspicion and what a diagnosis makes of it; one of the warnings, or empty
+  std::vector<std::size_t> mistaken_runs;  // those of the suspicion, where it is of some runs
 
   /// Whether no cause is to be named.
   bool is_implausible() const { return !doubt.empty(); }

@@ -54,11 +54,19 @@ class DynoKind : public KindWithRig {
     return kForce_N + kShare * std::abs(simulated_N);
   }
 
-  std::vector<WrongUnit> list_wrong_units() const override {
+  std::vector<WrongUnit> list_wrong_units(const MeasurementSet& set) const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
     wrong.push_back({kLoss, 1e3, 0.0, "holds kN"});
-    wrong.push_back({kLoss, 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({kLoss, 3.6, 0.0, "is too small by a factor of 3.6", 0.2});
     wrong.push_back({kLoss, -1.0, 0.0, "has the other sign: a loss is positive"});
+    const double radius_m = set.tire.values.geometry.outer_diameter_m / 2.0;
+    for (WrongUnit& one : list_mixed_up_lever(kLoss, 1.0 / radius_m, "holds the torque at the wheel, in N m")) {
+      wrong.push_back(std::move(one));
+    }
+    for (WrongUnit& one :
+         list_mixed_up_lever(kLoss, 1.0 / set.rig->lever_m(), "holds the torque at the roller, in N m")) {
+      wrong.push_back(std::move(one));
+    }
     return wrong;
   }
 

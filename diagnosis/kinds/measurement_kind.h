@@ -53,7 +53,13 @@ class MeasurementKind {
   // Whether a set can be what it says it is.
   /// By how much the force channel may differ from its simulation, in SI units (plausibility.h).
   virtual double calc_force_tolerance(const measurements::MeasurementSet& set, double simulated) const = 0;
-  virtual std::vector<WrongUnit> list_wrong_units() const = 0;
+  /// Forces of numbers that are not known well, by row, in SI units: each as large as its standard deviation makes it.
+  /// None where all of the force is known as its tolerance says.
+  virtual std::vector<std::vector<double>> list_unknown_forces(const measurements::MeasurementSet& /*set*/,
+                                                               const measurements::MeasuredRun& /*run*/) const {
+    return {};
+  }
+  virtual std::vector<WrongUnit> list_wrong_units(const measurements::MeasurementSet& set) const = 0;
   /// Of a reading of the force channel what is the tire's; none where the rest is not known well enough.
   virtual std::optional<double> find_tire_force_N(const measurements::MeasurementSet& set,
                                                   const measurements::MeasuredRun& run, std::size_t row,

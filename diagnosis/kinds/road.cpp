@@ -11,6 +11,7 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
+constexpr double kAirDensity_kg_m3 = 1.2;  // near enough for a part that is not known
 constexpr Quantity kTraction = models::quantities::kTractionForce;
 
 class RoadKind : public MeasurementKind {
@@ -69,12 +70,40 @@ class RoadKind : public MeasurementKind {
     return kShareOfWeight * set.vehicle->body.mass_kg * kStandardGravity_m_s2 + kShare * std::abs(simulated_N);
   }
 
-  std::vector<WrongUnit> list_wrong_units() const override {
+  /// Mass 10 %, height 10 %, drag 30 % off (wind), Assumed.
+  std::vector<std::vector<double>> list_unknown_forces(const MeasurementSet& set,
+                                                       const MeasuredRun& run) const override {
+    constexpr double kMass = 0.1;
+    constexpr double kHeight = 0.1;
+    constexpr double kDrag = 0.3;
+    constexpr double kSlowest_m_s = 1.0;
+    const models::VehicleBody<double>& body = set.vehicle->body;
+    const std::vector<double>& speed_m_s = run.column(models::quantities::kSpeed);
+    const std::vector<double>& height_m = run.column(models::quantities::kElevation);
+    std::vector<std::vector<double>> forces_N(3, std::vector<double>(speed_m_s.size(), 0.0));
+    for (std::size_t row = 1; row < speed_m_s.size(); ++row) {
+      const double duration_s = run.time_s[row] - run.time_s[row - 1];
+      const double mean_m_s = 0.5 * (speed_m_s[row] + speed_m_s[row - 1]);
+      const double rise_m = height_m[row] - height_m[row - 1];
+      forces_N[0][row] = kMass * body.mass_kg * (speed_m_s[row] - speed_m_s[row - 1]) / duration_s;
+      forces_N[1][row] = mean_m_s < kSlowest_m_s
+                             ? 0.0
+                             : kHeight * body.mass_kg * kStandardGravity_m_s2 * rise_m / (mean_m_s * duration_s);
+      forces_N[2][row] = kDrag * 0.5 * kAirDensity_kg_m3 * body.drag_area_m2 * mean_m_s * mean_m_s;
+    }
+    return forces_N;
+  }
+
+  std::vector<WrongUnit> list_wrong_units(const MeasurementSet& set) const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
-    wrong.push_back({kTraction, 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({kTraction, 3.6, 0.0, "is too small by a factor of 3.6", 0.2});
     wrong.push_back({kTraction, -1.0, 0.0, "has the other sign: positive drives"});
     wrong.push_back({kTraction, 1e3, 0.0, "holds kN"});
     wrong.push_back({models::quantities::kElevation, 0.3048, 0.0, "holds feet"});
+    const double radius_m = set.tire.values.geometry.outer_diameter_m / 2.0;
+    for (WrongUnit& one : list_mixed_up_lever(kTraction, 1.0 / radius_m, "holds the torque at the wheels, in N m")) {
+      wrong.push_back(std::move(one));
+    }
     return wrong;
   }
 

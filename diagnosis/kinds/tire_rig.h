@@ -58,11 +58,14 @@ class TireRigKind : public KindWithRig {
 
   /// A torque too large by a factor is not among them: bearings of a very cold rig come near it, and it is far outside
   /// all else anyway.
-  std::vector<WrongUnit> list_wrong_units() const override {
+  std::vector<WrongUnit> list_wrong_units(const measurements::MeasurementSet& set) const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
     wrong.push_back({force_, 1e3, 0.0, std::string("holds ") + words_.kilo});
-    wrong.push_back({force_, 3.6, 0.0, "is too small by a factor of 3.6"});
+    wrong.push_back({force_, 3.6, 0.0, "is too small by a factor of 3.6", 0.2});
     wrong.push_back({force_, -1.0, 0.0, "has the other sign: positive drives"});
+    for (WrongUnit& one : list_mixed_up_lever(force_, set.rig->lever_m(), "holds the force at the surface, in N")) {
+      wrong.push_back(std::move(one));
+    }
     return wrong;
   }
 

@@ -231,8 +231,10 @@ std::string format_summary(const Findings& findings) {
     for (const std::string& objection : findings.causes.front().objections) text += line("But", objection);
   }
   if (const auto& lone = findings.without_run) {
-    text += line("Without", fmt::format("run {}, which holds {:.0f} % of the gap: {}", lone->run, lone->share_percent,
-                                        describe_rest(*lone)));
+    const bool several = lone->run.find(',') != std::string::npos;
+    const std::string why = in_doubt ? fmt::format(", which {} in doubt", several ? "are" : "is")
+                                     : fmt::format(", which holds {:.0f} % of the gap", lone->share_percent);
+    text += line("Without", fmt::format("run{} {}{}: {}", several ? "s" : "", lone->run, why, describe_rest(*lone)));
   }
   if (!findings.next_sensors.empty()) {
     const NextSensor& next = findings.next_sensors.front();

@@ -1,0 +1,74 @@
+#pragma once
+/// How well a run agrees with its simulation, whatever it is that the simulation does not know.
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "diagnosis/checks/plausibility.h"
+
+namespace rollrig::diagnosis {
+
+/// Sizes of what a simulation may not know (effects, and numbers that are not known well), in the tolerances of
+/// plausibility.h, and how likely each is before a set has been looked at. Assumed: the effects of the catalog at usual
+/// sizes make 0.03 to 0.5.
+constexpr std::array<double, 7> kUnknownSizes{0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0};
+constexpr std::array<double, 7> kSizeWeights{0.2, 0.2, 0.2, 0.2, 0.13, 0.06, 0.01};
+
+/// Rows of the measured channels by which the hypotheses on a run are compared, the same for all of them.
+using ComparedRows = QuantityMap<std::vector<std::size_t>>;
+
+/// Rows of a run as it is: on a vehicle all samples, else those that a comparison uses, or all where these are fewer
+/// than half of the samples (as where the speed is not one).
+ComparedRows choose_rows(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run);
+
+/// Residual of a channel and the parts that a simulation may not know, whitened: what its likelihood is made of. Parts
+/// are in their standard deviations; those of the first `scaled` grow with the unknown size, the last is the offset of
+/// the sensor.
+struct ChannelProducts {
+  double count = 0.0;
+  double residual = 0.0;       // squared
+  Eigen::VectorXd projection;  // of the residual on the parts
+  Eigen::MatrixXd gram;        // of the parts
+  Eigen::Index scaled = 0;
+};
+
+/// By channel; in all runs in the order of the measured channels of the set's kind. None where there are no samples.
+using RunProducts = std::vector<std::optional<ChannelProducts>>;
+
+RunProducts calc_products(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
+                          const sim::Recording<double>& simulated, const ComparedRows& rows);
+
+/// The parts that all runs have in common, by channel, in their standard deviations; empty for none.
+using CommonParts = std::vector<Eigen::VectorXd>;
+
+/// Fits the common parts to all runs, and again without those that they do not describe.
+CommonParts fit_common(const std::vector<const RunProducts*>& runs);
+
+/// Logarithm of the probability of common parts before the data, for an unknown size.
+double calc_common_log_prior(const CommonParts& common, const RunProducts& products, double size);
+
+/// Logarithm of the likelihood of what a run measured, above that of residuals which are noise and no more.
+///
+/// Equation  y - h = B (m + a) + b + n;  a ~ N(0, s^2),  b ~ N(0, offset_sd^2),  n ~ k N(0, C),  summed over k
+/// Symbols   y measured, h simulated; s size, half of it where common parts m are given; columns of B: the tolerance of
+///           the channel at rest and its share of h, each as it is, fading over 10 min, and in proportion to speed and
+///           load; of temperatures and pressures a lag; of a force what its kind lists, whose size does not depend on
+///           s. C drift and noise of the sensor, k 1 to 50 for what B leaves, with a probability in proportion to 1/k^2
+/// Validity  Numbers of a file in another unit have another scatter. That is not counted: noise as the set states it
+/// may
+///           be a guess. On machines that hold the speed, samples are averaged over 20 s
+/// Source    Assumed: B, the values of k and their probabilities
+/// Checked   tests/diagnosis/planted_mistakes_test.cpp
+double calc_log_likelihood(const RunProducts& products, const CommonParts& common, double size);
+
+/// What the given columns of a run tell by themselves: a soaked tire is as warm as the air, and a run at the heights of
+/// the others is likelier than one far from them. `run` is run r of the set, or the same with a mistake undone.
+/// Equation  -3 ln(1 + (x/s)^2/5), Student's t with five degrees of freedom
+/// Symbols   x difference, s 3 K, or 100 m and no less than the scatter of the others
+/// Source    Assumed: all limits
+double calc_given_log_likelihood(const measurements::MeasurementSet& set, std::size_t r,
+                                 const measurements::MeasuredRun& run);
+
+}  // namespace rollrig::diagnosis
