@@ -215,7 +215,7 @@ Eigen::VectorXd fit_kept(const std::vector<const ChannelProducts*>& runs, const 
 }
 
 /// By how much the squares of a run, in those of its noise, are above what parts of its own leave.
-double calc_excess(const ChannelProducts& run, const Eigen::VectorXd& common) {
+double calc_run_excess(const ChannelProducts& run, const Eigen::VectorXd& common) {
   const Eigen::Index parts = run.projection.size();
   const Eigen::MatrixXd own = run.gram + Eigen::MatrixXd::Identity(parts, parts);
   const double least = run.residual - run.projection.dot(own.ldlt().solve(run.projection));
@@ -231,7 +231,7 @@ Eigen::VectorXd fit_channel(const std::vector<const ChannelProducts*>& runs) {
   Eigen::VectorXd fitted = fit_kept(runs, is_kept);
   for (int round = 0; round < kRounds; ++round) {
     Values excess;
-    for (const ChannelProducts* run : runs) excess.push_back(calc_excess(*run, fitted));
+    for (const ChannelProducts* run : runs) excess.push_back(calc_run_excess(*run, fitted));
     const double usual = calc_median(excess);
     for (std::size_t r = 0; r < runs.size(); ++r) is_kept[r] = excess[r] <= kFew + kOdd * usual;
     fitted = fit_kept(runs, is_kept);

@@ -24,7 +24,7 @@ constexpr double kInAllRuns = 3e-2;
 constexpr double kNamed = 0.9;
 constexpr double kPlausible = 1.0;      // tolerances
 constexpr double kOdd = 0.3;            // tolerances
-constexpr double kFarBetter = 0.2;      // of the sum of squares
+constexpr double kShareLeft = 0.2;      // of the sum of squares
 constexpr std::size_t kFirstOfTwo = 6;  // single mistakes that a second one is tried with
 
 /// A hypothesis on one run: nothing mistaken, or a mistake undone.
@@ -126,7 +126,7 @@ class Candidates {
       const Trial& none = runs_[work[i].first].none;
       const bool is_odd = !none.is_simulated || none.worst > kOdd;
       tried[i].is_far_better =
-          models::is_on_road(set_.kind->traits) || (is_odd && tried[i].squares <= kFarBetter * none.squares);
+          models::is_on_road(set_.kind->traits) || (is_odd && tried[i].squares <= kShareLeft * none.squares);
       tried[i].mistake = work[i].second;
       tried[i].log_prior = std::log(prior_of_weight * mistakes_[work[i].second].weight);
       runs_[work[i].first].mistaken.push_back(std::move(tried[i]));

@@ -19,7 +19,7 @@ using measurements::MeasurementSet;
 constexpr double kCertainMoves = 10.0;
 constexpr double kDoubtfulMoves = 3.0;
 constexpr double kFar_K = 5.0;
-constexpr double kLong_s = 600.0;
+constexpr double kLongTrip_s = 600.0;
 
 double find_duration_s(const MeasuredRun& run) { return run.time_s.back() - run.time_s.front(); }
 
@@ -82,7 +82,7 @@ void find_in_all(const MeasurementSet& set, std::vector<StillInput>& found) {
     all.is_certain = true;
     all.text += fmt::format(", while the tires began at {:.0f} to {:.0f} degC", coldest_K - kZeroCelsius_K,
                             warmest_K - kZeroCelsius_K);
-  } else if (shortest_s < kLong_s) {
+  } else if (shortest_s < kLongTrip_s) {
     return;
   }
   found.push_back(std::move(all));
