@@ -24,7 +24,8 @@ constexpr double kInAllRuns = 3e-2;
 constexpr double kNamed = 0.9;
 constexpr double kPlausible = 1.0;      // tolerances
 constexpr double kOdd = 0.3;            // tolerances
-constexpr double kShareLeft = 0.2;      // of the sum of squares
+constexpr double kShareLeft = 0.2;      // of the sum of squares, on rollers
+constexpr double kHalf = 0.5;           // likewise, on drums and belts
 constexpr std::size_t kFirstOfTwo = 6;  // single mistakes that a second one is tried with
 
 /// A hypothesis on one run: nothing mistaken, or a mistake undone.
@@ -69,13 +70,31 @@ bool changes_inputs(const MeasurementSet& set, const Mistake& mistake) {
   });
 }
 
+/// What the scatter of a measured column tells of its unit: numbers that are too small scatter less than their sensor.
+/// Equation  w n ln f
+/// Symbols   n independent samples, f factor that undoes the mistake; w 0.7, Assumed: less than 1, as the noise that a
+///           set states may be a guess, and more than 1/2, so that no other hypothesis gains by numbers near 0
+double calc_log_of_scatter(const MeasurementSet& set, const Mistake& mistake, const RunProducts& products) {
+  constexpr double kWeight = 0.7;
+  const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);
+  double sum = 0.0;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto factor = mistake.log_factors.find(channels[c]);
+    if (factor == mistake.log_factors.end() || !products[c].has_value()) continue;
+    sum += kWeight * products[c]->count * factor->second;
+  }
+  return sum;
+}
+
 /// A run with a mistake undone.
 Trial judge_without(const MeasurementSet& set, const BaselineRuns& baseline, std::size_t r, const Mistake& mistake) {
   MeasuredRun run = set.runs[r];
   if (!mistake.undo(run)) return {};
   try {
     const bool as_before = baseline.misfits[r].failure.empty() && !changes_inputs(set, mistake);
-    return judge(set, r, run, as_before ? baseline.recordings[r] : resimulate_baseline(set, run));
+    Trial trial = judge(set, r, run, as_before ? baseline.recordings[r] : resimulate_baseline(set, run));
+    trial.of_given += calc_log_of_scatter(set, mistake, trial.products);
+    return trial;
   } catch (const RunFailure&) {
     return {};
   }
@@ -123,14 +142,18 @@ class Candidates {
     });
     for (std::size_t i = 0; i < work.size(); ++i) {
       if (!tried[i].is_simulated) continue;
-      const Trial& none = runs_[work[i].first].none;
-      const bool is_odd = !none.is_simulated || none.worst > kOdd;
-      tried[i].is_far_better =
-          models::is_on_road(set_.kind->traits) || (is_odd && tried[i].squares <= kShareLeft * none.squares);
+      tried[i].is_far_better = is_far_better(tried[i], runs_[work[i].first].none);
       tried[i].mistake = work[i].second;
       tried[i].log_prior = std::log(prior_of_weight * mistakes_[work[i].second].weight);
       runs_[work[i].first].mistaken.push_back(std::move(tried[i]));
     }
+  }
+
+  /// Whether a mistake undone takes enough of the misfit, where effects show far above the noise.
+  bool is_far_better(const Trial& tried, const Trial& none) const {
+    if (models::is_on_road(set_.kind->traits) || !none.is_simulated) return true;
+    if (!models::is_of_vehicle(set_.kind->traits)) return tried.squares <= kHalf * none.squares;
+    return none.worst > kOdd && tried.squares <= kShareLeft * none.squares;
   }
 
   /// Two mistakes in runs that none alone explains.

@@ -29,7 +29,8 @@ struct FoundMistake {
 ///           mistakes by their weights (Assumed)
 /// A run is named if it is mistaken with 90 % or more. A mistake counts only if every channel is within its tolerance
 /// once it is undone (RunMisfit of at most 1). On machines that measure a loss by itself, effects show far above the
-/// noise. There a mistake also has to lie 0.3 tolerances off, and undoing it has to take four fifths of the squares.
+/// noise. There undoing a mistake has to take half of the squares; on rollers four fifths, and the run has to lie 0.3
+/// tolerances off.
 /// Cost      two mistakes are tried in runs that lie 0.3 tolerances off or more and that no single one explains
 /// `tells`   whether a mistake is considered in a run
 /// Checked   tests/diagnosis/mistakes_test.cpp, tests/diagnosis/wrong_columns_test.cpp

@@ -54,7 +54,7 @@ Mistake exchange(const MeasurementSet& set, const rigs::Column& a, const rigs::C
     return true;
   };
   const std::string text = fmt::format("the columns {} and {} are exchanged", a.quantity.header(), b.quantity.header());
-  return {text, kWeight, {a.quantity, b.quantity}, true, undo};
+  return {text, kWeight, {a.quantity, b.quantity}, true, {}, undo};
 }
 
 Mistake make_wrong_unit(const WrongUnit& wrong, const Range& range) {
@@ -68,7 +68,8 @@ Mistake make_wrong_unit(const WrongUnit& wrong, const Range& range) {
     }
     return true;
   };
-  return {wrong.column.header() + " " + wrong.text, wrong.weight, {wrong.column}, false, undo};
+  return {wrong.column.header() + " " + wrong.text,           wrong.weight, {wrong.column}, false,
+          {{wrong.column, std::log(std::abs(wrong.factor))}}, undo};
 }
 
 /// Times in another unit, where rows are then a tenth of a second to a minute apart.
@@ -82,7 +83,7 @@ Mistake make_wrong_time(double factor, const std::string& text) {
     for (double& time_s : run.time_s) time_s *= factor;
     return true;
   };
-  return {"time_s " + text, 1.0, {kTime}, false, undo};
+  return {"time_s " + text, 1.0, {kTime}, false, {}, undo};
 }
 
 }  // namespace
@@ -135,6 +136,7 @@ Mistake combine(const Mistake& a, const Mistake& b) {
   both.text += " and " + b.text;
   both.weight *= b.weight;
   both.columns.insert(both.columns.end(), b.columns.begin(), b.columns.end());
+  both.log_factors.insert(b.log_factors.begin(), b.log_factors.end());
   both.is_exchange = a.is_exchange && b.is_exchange;
   both.undo = [of_a = a.undo, of_b = b.undo](MeasuredRun& run) { return of_a(run) && of_b(run); };
   return both;

@@ -31,6 +31,7 @@ struct Mistake {
   double weight = 1.0;            // how often it is made, beside the others
   std::vector<Quantity> columns;  // that hold other numbers because of it
   bool is_exchange = false;
+  QuantityMap<double> log_factors = {};  // of columns in another unit: logarithm of the factor that undoes it
   std::function<bool(measurements::MeasuredRun&)> undo;  // false where it cannot have been made in that run
 };
 
