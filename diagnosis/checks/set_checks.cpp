@@ -192,7 +192,11 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
   const std::vector<StillInput> still = find_still_inputs(kept);
   report_still(still, checks);
   check_plausibility(kept, baseline, still, threads, checks);
-  if (checks.is_implausible()) return warn_of_doubt(std::move(checks));
+  if (checks.is_implausible()) {
+    const std::vector<std::string> of_conditions = check_tire_conditions(kept);
+    checks.warnings.insert(checks.warnings.end(), of_conditions.begin(), of_conditions.end());
+    return warn_of_doubt(std::move(checks));
+  }
   const std::vector<std::string> of_tire = check_tire(kept, baseline, threads);
   checks.warnings.insert(checks.warnings.end(), of_tire.begin(), of_tire.end());
   return checks;

@@ -22,31 +22,6 @@ constexpr double kOddLevel = 0.15;    // three times the usual uncertainty of a 
 constexpr double kFarBetter = 0.15;   // of the sum of squares
 constexpr double kVisible = 0.02;     // sum of squares a run below which there is nothing to mend
 
-/// Conditions under which the tire of the file is hardly tested.
-void check_conditions(const MeasurementSet& set, std::vector<std::string>& warnings) {
-  const auto& reference = set.tire.values.rolling_resistance;
-  std::vector<std::size_t> odd_pressure;
-  std::vector<std::size_t> odd_load;
-  for (std::size_t r = 0; r < set.runs.size() && set.tire.has_rolling_resistance; ++r) {
-    const double pressure = set.runs[r].cold_pressure_Pa / reference.reference_pressure_Pa;
-    if (pressure > kOddPressure || pressure < 1.0 / kOddPressure) odd_pressure.push_back(r);
-    if (!set.runs[r].has(models::quantities::kLoad)) continue;
-    const std::vector<double>& load_N = set.runs[r].column(models::quantities::kLoad);
-    const double load = *std::max_element(load_N.begin(), load_N.end()) / reference.reference_load_N;
-    if (load > kOddLoad || (load < 1.0 / kOddLoad && load > measurements::kLoadedShare)) odd_load.push_back(r);
-  }
-  const auto warn = [&](const std::vector<std::size_t>& runs, const char* what, double reference_value,
-                        const char* unit) {
-    if (runs.empty()) return;
-    warnings.push_back(
-        fmt::format("{} of {} is far from {:.0f} {} at which tire {} was identified: is it its "
-                    "file?",
-                    what, name_runs(set, runs), reference_value, unit, set.tire.name));
-  };
-  warn(odd_pressure, "the cold pressure", reference.reference_pressure_Pa / 1e3, "kPa");
-  warn(odd_load, "the load", reference.reference_load_N, "N");
-}
-
 /// Measured and simulated rolling resistance of steady rows under load, summed over a set.
 struct Level {
   double measured_N = 0.0;
@@ -118,13 +93,39 @@ void check_other_tires(const MeasurementSet& set, const BaselineRuns& baseline, 
 
 }  // namespace
 
+std::vector<std::string> check_tire_conditions(const MeasurementSet& set) {
+  std::vector<std::string> warnings;
+  const auto& reference = set.tire.values.rolling_resistance;
+  std::vector<std::size_t> odd_pressure;
+  std::vector<std::size_t> odd_load;
+  for (std::size_t r = 0; r < set.runs.size() && set.tire.has_rolling_resistance; ++r) {
+    const double pressure = set.runs[r].cold_pressure_Pa / reference.reference_pressure_Pa;
+    if (pressure > kOddPressure || pressure < 1.0 / kOddPressure) odd_pressure.push_back(r);
+    if (!set.runs[r].has(models::quantities::kLoad)) continue;
+    const std::vector<double>& load_N = set.runs[r].column(models::quantities::kLoad);
+    const double load = *std::max_element(load_N.begin(), load_N.end()) / reference.reference_load_N;
+    if (load > kOddLoad || (load < 1.0 / kOddLoad && load > measurements::kLoadedShare)) odd_load.push_back(r);
+  }
+  const auto warn = [&](const std::vector<std::size_t>& runs, const char* what, double reference_value,
+                        const char* unit) {
+    if (runs.empty()) return;
+    warnings.push_back(
+        fmt::format("{} of {} is far from {:.0f} {} at which tire {} was identified: is it its "
+                    "file?",
+                    what, name_runs(set, runs), reference_value, unit, set.tire.name));
+  };
+  warn(odd_pressure, "the cold pressure", reference.reference_pressure_Pa / 1e3, "kPa");
+  warn(odd_load, "the load", reference.reference_load_N, "N");
+  return warnings;
+}
+
 std::vector<std::string> check_tire(const MeasurementSet& set, const BaselineRuns& baseline, int threads) {
   std::vector<std::string> warnings;
   if (set.rig.has_value() && set.baseline == models::Baseline::kCombined) {
     const auto warning = set.tire.warn_of_conductances(set.rig->cooling_rig());
     if (warning.has_value()) warnings.push_back(*warning);
   }
-  check_conditions(set, warnings);
+  for (std::string& warning : check_tire_conditions(set)) warnings.push_back(std::move(warning));
   check_level(set, baseline, warnings);
   check_other_tires(set, baseline, threads, warnings);
   return warnings;

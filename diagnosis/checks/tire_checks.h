@@ -17,4 +17,7 @@ namespace rollrig::diagnosis {
 /// Checked   tests/diagnosis/set_checks_test.cpp
 std::vector<std::string> check_tire(const measurements::MeasurementSet& set, const BaselineRuns& baseline, int threads);
 
+/// Those of load and cold pressure alone, which need no simulation.
+std::vector<std::string> check_tire_conditions(const measurements::MeasurementSet& set);
+
 }  // namespace rollrig::diagnosis
