@@ -300,6 +300,7 @@ double calc_common_log_prior(const CommonParts& common, const RunProducts& produ
 
 double calc_log_likelihood(const RunProducts& products, const CommonParts& common, double size) {
   constexpr double kShareOfRun = 0.5;  // of the size, where the runs have parts in common
+  constexpr double kPower = 0.5;       // what B lacks goes through many samples, which are less independent for it
   double sum = 0.0;
   for (std::size_t c = 0; c < products.size(); ++c) {
     if (!products[c].has_value()) continue;
@@ -310,7 +311,7 @@ double calc_log_likelihood(const RunProducts& products, const CommonParts& commo
     for (const double noise : kNoiseFactors) {
       of_channel = add_logs(of_channel, calc_gaussian(left, share * size, 1.0, noise) - 2.0 * std::log(noise));
     }
-    sum += of_channel;
+    sum += kPower * of_channel;
   }
   return sum;
 }

@@ -51,6 +51,8 @@ double calc_common_log_prior(const CommonParts& common, const RunProducts& produ
 
 /// Logarithm of the likelihood of what a run measured, above that of residuals which are noise and no more.
 ///
+/// The square root of what this gives is taken: samples that all lack the same part of the physics are less independent
+/// than their noise.
 /// Equation  y - h = B (m + a) + b + n;  a ~ N(0, s^2),  b ~ N(0, offset_sd^2),  n ~ k N(0, C),  summed over k
 /// Symbols   y measured, h simulated; s size, half of it where common parts m are given; columns of B: the tolerance of
 ///           the channel at rest and its share of h, each as it is, fading over 10 min, and in proportion to speed and

@@ -72,10 +72,11 @@ bool changes_inputs(const MeasurementSet& set, const Mistake& mistake) {
 
 /// What the scatter of a measured column tells of its unit: numbers that are too small scatter less than their sensor.
 /// Equation  w n ln f
-/// Symbols   n independent samples, f factor that undoes the mistake; w 0.7, Assumed: less than 1, as the noise that a
-///           set states may be a guess, and more than 1/2, so that no other hypothesis gains by numbers near 0
+/// Symbols   n independent samples, f factor that undoes the mistake; w 0.35, Assumed: less than 1/2, as the noise that
+/// a
+///           set states may be a guess, and more than 1/4, so that no other hypothesis gains by numbers near 0
 double calc_log_of_scatter(const MeasurementSet& set, const Mistake& mistake, const RunProducts& products) {
-  constexpr double kWeight = 0.7;
+  constexpr double kWeight = 0.35;
   const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);
   double sum = 0.0;
   for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -153,7 +154,7 @@ class Candidates {
   bool is_far_better(const Trial& tried, const Trial& none) const {
     if (models::is_on_road(set_.kind->traits) || !none.is_simulated) return true;
     if (!models::is_of_vehicle(set_.kind->traits)) return tried.squares <= kHalf * none.squares;
-    return none.worst > kOdd && tried.squares <= kShareLeft * none.squares;
+    return tried.squares <= kShareLeft * none.squares;
   }
 
   /// Two mistakes in runs that none alone explains.
