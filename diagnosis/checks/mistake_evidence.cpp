@@ -319,9 +319,9 @@ double calc_log_likelihood(const RunProducts& products, const CommonParts& commo
 double calc_given_log_likelihood(const MeasurementSet& set, std::size_t r, const MeasuredRun& run) {
   constexpr double kUsual_K = 3.0;
   double sum = 0.0;
-  if (!run.started_warm && !run.rest_before_s.has_value()) {
-    sum += calc_student(run.column(quantities::kAmbient).front() - run.initial_tire_temperature_K, kUsual_K);
-  }
+  const bool is_soaked = !run.started_warm && !run.rest_before_s.has_value();
+  const double above_K = run.column(quantities::kAmbient).front() - run.initial_tire_temperature_K;
+  if (is_soaked || above_K > 0.0) sum += calc_student(above_K, kUsual_K);
   if (run.has(quantities::kElevation)) sum += judge_height(set, r, run);
   return sum;
 }

@@ -65,11 +65,10 @@ double calc_common_log_prior(const CommonParts& common, const RunProducts& produ
 /// Checked   tests/diagnosis/planted_mistakes_test.cpp
 double calc_log_likelihood(const RunProducts& products, const CommonParts& common, double size);
 
-/// What the given columns of a run tell by themselves: a soaked tire is as warm as the air, and a run at the heights of
-/// the others is likelier than one far from them. `run` is run r of the set, or the same with a mistake undone.
-/// Equation  -3 ln(1 + (x/s)^2/5), Student's t with five degrees of freedom
-/// Symbols   x difference, s 3 K, or 100 m and no less than the scatter of the others
-/// Source    Assumed: all limits
+/// What the given columns of a run tell by themselves: a soaked tire is as warm as the air, one that has run is no
+/// colder, and a run at the heights of the others is likelier than one far from them. `run` is run r of the set, or the
+/// same with a mistake undone. Equation  -3 ln(1 + (x/s)^2/5), Student's t with five degrees of freedom Symbols   x
+/// difference, s 3 K, or 100 m and no less than the scatter of the others Source    Assumed: all limits
 double calc_given_log_likelihood(const measurements::MeasurementSet& set, std::size_t r,
                                  const measurements::MeasuredRun& run);
 

@@ -19,13 +19,13 @@ using measurements::MeasurementSet;
 
 // Assumed.
 constexpr double kInOneRun = 1e-2;
-constexpr double kTwoInOneRun = 1e-3;
+constexpr double kTwoInOneRun = 1e-5;
 constexpr double kInAllRuns = 3e-2;
 constexpr double kNamed = 0.9;
 constexpr double kPlausible = 1.0;      // tolerances
 constexpr double kOdd = 0.3;            // tolerances
-constexpr double kShareLeft = 0.2;      // of the sum of squares, on rollers
-constexpr double kHalf = 0.5;           // likewise, on drums and belts
+constexpr double kHalf = 0.5;           // of the sum of squares
+constexpr double kTenth = 0.1;          // likewise, of exchanged columns and of two mistakes
 constexpr std::size_t kFirstOfTwo = 6;  // single mistakes that a second one is tried with
 
 /// A hypothesis on one run: nothing mistaken, or a mistake undone.
@@ -143,8 +143,8 @@ class Candidates {
     });
     for (std::size_t i = 0; i < work.size(); ++i) {
       if (!tried[i].is_simulated) continue;
-      tried[i].is_far_better = is_far_better(tried[i], runs_[work[i].first].none);
       tried[i].mistake = work[i].second;
+      tried[i].is_far_better = is_far_better(tried[i], runs_[work[i].first].none);
       tried[i].log_prior = std::log(prior_of_weight * mistakes_[work[i].second].weight);
       runs_[work[i].first].mistaken.push_back(std::move(tried[i]));
     }
@@ -153,18 +153,21 @@ class Candidates {
   /// Whether a mistake undone takes enough of the misfit, where effects show far above the noise.
   bool is_far_better(const Trial& tried, const Trial& none) const {
     if (models::is_on_road(set_.kind->traits) || !none.is_simulated) return true;
-    if (!models::is_of_vehicle(set_.kind->traits)) return tried.squares <= kHalf * none.squares;
-    return tried.squares <= kShareLeft * none.squares;
+    const bool is_single_unit = tried.mistake < singles_ && !mistakes_[tried.mistake].is_exchange;
+    if (is_single_unit) return tried.squares <= kHalf * none.squares;
+    return none.worst > kOdd && tried.squares <= kTenth * none.squares;
   }
 
-  /// Two mistakes in runs that none alone explains.
+  /// Two wrong units in runs that one mistake alone does not explain.
   void add_pairs(const std::function<bool(const Mistake&, std::size_t)>& tells) {
     std::vector<std::pair<std::size_t, std::size_t>> work;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
-      if (runs_[r].none.worst <= kOdd || is_explained(r)) continue;
+      if (is_explained(r)) continue;
       for (const std::size_t first : find_first_of_two(r)) {
         for (std::size_t second = 0; second < singles_; ++second) {
-          const bool fits = !have_common_column(mistakes_[first], mistakes_[second]) && tells(mistakes_[second], r);
+          const bool is_exchange = mistakes_[first].is_exchange || mistakes_[second].is_exchange;
+          const bool fits =
+              !is_exchange && !have_common_column(mistakes_[first], mistakes_[second]) && tells(mistakes_[second], r);
           if (fits) work.emplace_back(r, find_pair(first, second));
         }
       }
@@ -175,9 +178,18 @@ class Candidates {
     try_out(work, kTwoInOneRun / (0.5 * sum * sum));
   }
 
+  /// On the road noise hides much: there a run in which any mistake is likely is tried with two.
   bool is_explained(std::size_t r) const {
-    return std::any_of(runs_[r].mistaken.begin(), runs_[r].mistaken.end(),
-                       [](const Trial& one) { return one.worst <= kOdd; });
+    constexpr double kSize = 0.25;
+    constexpr double kLikely = 5.0;  // natural logarithm
+    const RunTrials& run = runs_[r];
+    if (!models::is_on_road(set_.kind->traits)) {
+      return run.none.worst <= kOdd ||
+             std::any_of(run.mistaken.begin(), run.mistaken.end(), [](const Trial& one) { return one.worst <= kOdd; });
+    }
+    const double none = run.none.calc_log_likelihood({}, kSize);
+    return std::none_of(run.mistaken.begin(), run.mistaken.end(),
+                        [&](const Trial& one) { return one.calc_log_likelihood({}, kSize) > none + kLikely; });
   }
 
   /// The single mistakes without which a run agrees best.

@@ -29,9 +29,11 @@ struct FoundMistake {
 ///           mistakes by their weights (Assumed)
 /// A run is named if it is mistaken with 90 % or more. A mistake counts only if every channel is within its tolerance
 /// once it is undone (RunMisfit of at most 1). On machines that measure a loss by itself, effects show far above the
-/// noise. There undoing a mistake has to take half of the squares; on rollers four fifths, and the run has to lie 0.3
-/// tolerances off.
-/// Cost      two mistakes are tried in runs that lie 0.3 tolerances off or more and that no single one explains
+/// noise. There undoing a mistake also has to take half of the squares of the misfit; for exchanged columns and two
+/// mistakes nine tenths, of a run that lies 0.3 tolerances off.
+/// Cost      two mistakes are tried where one alone leaves a channel 0.3 tolerances off, on the road where one is
+/// likely.
+///           They are wrong units: an exchange beside them is not tried
 /// `tells`   whether a mistake is considered in a run
 /// Checked   tests/diagnosis/mistakes_test.cpp, tests/diagnosis/wrong_columns_test.cpp
 std::vector<FoundMistake> find_mistakes(const measurements::MeasurementSet& set, const BaselineRuns& baseline,

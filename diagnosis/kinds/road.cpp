@@ -96,7 +96,7 @@ class RoadKind : public MeasurementKind {
 
   std::vector<WrongUnit> list_wrong_units(const MeasurementSet& set) const override {
     std::vector<WrongUnit> wrong = list_common_wrong_units();
-    wrong.push_back({kTraction, 3.6, 0.0, "is too small by a factor of 3.6", 0.2});
+    wrong.push_back({kTraction, 3.6, 0.0, "is too small by a factor of 3.6", 0.05});
     wrong.push_back({kTraction, -1.0, 0.0, "has the other sign: positive drives"});
     wrong.push_back({kTraction, 1e3, 0.0, "holds kN"});
     wrong.push_back({models::quantities::kElevation, 0.3048, 0.0, "holds feet"});

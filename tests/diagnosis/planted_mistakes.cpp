@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <set>
 
+#include "diagnosis/checks/interpolated.h"
 #include "diagnosis/checks/set_checks.h"
 #include "sim/core/error.h"
 #include "sim/core/units.h"
@@ -91,8 +93,10 @@ PlantedMistake make_still_column(const std::string& column, double number) {
           }};
 }
 
-PlantedMistake make_interpolated(const std::vector<std::string>& columns) {
-  return {"interpolated", "interpolated", [columns](MeasuredRun& run, std::mt19937_64& random) {
+PlantedMistake make_interpolated(const MeasurementSet& set, const std::vector<std::string>& columns) {
+  std::map<std::string, double> steps;
+  for (const std::string& column : columns) steps[column] = diagnosis::find_step(set, intern_quantity(column));
+  return {"interpolated", "interpolated", [columns, steps](MeasuredRun& run, std::mt19937_64& random) {
             // where the force has samples at both ends
             const std::vector<double>& force = run.columns.at(columns.back());
             std::size_t first = 0;
@@ -106,7 +110,7 @@ PlantedMistake make_interpolated(const std::vector<std::string>& columns) {
             }
             for (const std::string& column : columns) {
               std::vector<double>& values = run.columns.at(column);
-              const double step = unit_of_key(column).factor * 0.01;
+              const double step = steps.at(column);
               for (std::size_t row = first + 1; row < last; ++row) {
                 const double share = static_cast<double>(row - first) / static_cast<double>(last - first);
                 const double value = values[first] + share * (values[last] - values[first]);

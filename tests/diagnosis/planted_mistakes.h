@@ -22,7 +22,7 @@ std::vector<PlantedMistake> list_wrong_columns(const measurements::MeasurementSe
 /// A column of which one number fills a whole run.
 PlantedMistake make_still_column(const std::string& column, double number);
 /// A stretch of 30 to 300 s in which every column follows a straight line.
-PlantedMistake make_interpolated(const std::vector<std::string>& columns);
+PlantedMistake make_interpolated(const measurements::MeasurementSet& set, const std::vector<std::string>& columns);
 
 /// How often it was found in so many sets.
 struct PlantedScore {

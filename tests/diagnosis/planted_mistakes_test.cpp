@@ -59,7 +59,7 @@ void require_bars_of_all(const std::string& of, const MeasurementSet& set, int c
   for (const PlantedMistake& mistake : tests::list_wrong_columns(set)) require_bars(of, mistake, sets);
   std::vector<std::string> columns{set.kind->traits.force.header()};
   if (set.kind->word == std::string("road")) columns.insert(columns.begin(), {"speed_km_h", "elevation_m"});
-  require_bars(of, tests::make_interpolated(columns), sets);
+  require_bars(of, tests::make_interpolated(set, columns), sets);
 }
 
 }  // namespace
