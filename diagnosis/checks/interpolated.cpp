@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "measurements/spikes.h"
 #include "sim/core/units.h"
@@ -29,6 +30,7 @@ constexpr double kMostSmooth = 0.5;  // share of smooth rows above which a colum
 struct Deviation {
   double smallest = std::nan("");  // in limits: smooth up to 1; NaN where it cannot be judged
   double from_line_SI = 0.0;
+  bool is_still = false;  // the same number as both neighbors
 };
 
 /// Deviation of the middle of an odd number of rows from the polynomial through the others, and its limit.
@@ -71,8 +73,9 @@ std::vector<Deviation> calc_deviations(const MeasuredRun& run, const Quantity& c
   for (std::size_t row = 1; row + 1 < values.size(); ++row) {
     const auto [off, limit] = calc_deviation(run.time_s, values, row, 1, step);
     const bool is_still = values[row - 1] == values[row] && values[row] == values[row + 1];
+    deviations[row].is_still = is_still;
     if (std::isnan(off) || is_still) continue;
-    deviations[row] = {off / limit, off};
+    deviations[row] = {off / limit, off, false};
     if (row < 2 || row + 2 >= values.size()) continue;
     const auto [cubic_off, cubic_limit] = calc_deviation(run.time_s, values, row, 2, step);
     if (!std::isnan(cubic_off)) deviations[row].smallest = std::min(off / limit, cubic_off / cubic_limit);
@@ -127,14 +130,32 @@ bool scatters_beside(const Column& column, const std::vector<Deviation>& rows, c
   return *middle >= std::max(kClear * 1.01 * column.step, kShareOfNoise * kOfNoise * column.noise_sd);
 }
 
+/// The row after the last of a stretch of smooth rows from `first` on, and how many of them are smooth: a slow line has
+/// a few rows at one number.
+std::pair<std::size_t, double> find_end(const std::vector<Deviation>& rows, std::size_t first) {
+  constexpr std::size_t kMostStill = 5;
+  std::size_t end = first;
+  double smooth = 0.0;
+  for (std::size_t row = first; row < rows.size() && row - end <= kMostStill; ++row) {
+    if (rows[row].smallest <= 1.0) {
+      end = row + 1;
+      smooth += 1.0;
+    } else if (!rows[row].is_still) {
+      break;
+    }
+  }
+  return {end, smooth};
+}
+
 /// Stretches of smooth rows of a column in a run, with the rows at their ends.
 std::vector<SmoothRows> find_smooth_rows(const MeasurementSet& set, const Column& column, std::size_t r) {
   std::vector<SmoothRows> stretches;
   const std::vector<Deviation>& rows = column.of_run[r];
-  for (std::size_t first = 0, last = 0; first < rows.size(); first = last + 1) {
-    for (last = first; last < rows.size() && rows[last].smallest <= 1.0;) ++last;
-    if (static_cast<double>(last - first) < column.least_rows) continue;
-    const SmoothRows stretch{first - 1, last};
+  for (std::size_t first = 0, end = 0; first < rows.size(); first = end + 1) {
+    double smooth = 0.0;
+    std::tie(end, smooth) = find_end(rows, first);
+    if (smooth < column.least_rows) continue;
+    const SmoothRows stretch{first - 1, end};
     const std::vector<double>& values = set.runs[r].column(column.quantity);
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(stretch.first);
     const auto [low, high] = std::minmax_element(begin, values.begin() + static_cast<std::ptrdiff_t>(stretch.last) + 1);

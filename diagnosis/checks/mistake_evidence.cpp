@@ -104,6 +104,21 @@ std::vector<measurements::Block> make_averages(const MeasurementSet& set, const 
   return blocks;
 }
 
+/// The rows without those that stand far out: a spike tells nothing of units and columns.
+std::vector<std::size_t> drop_spikes(const Values& measured, const Values& simulated, double noise_sd,
+                                     std::vector<std::size_t> rows) {
+  constexpr double kFar = 10.0;  // Assumed: times the noise, and the deviation that kUsual of the rows do not exceed
+  constexpr double kUsual = 0.95;
+  Values deviations;
+  for (const std::size_t row : rows) deviations.push_back(std::abs(measured[row] - simulated[row]));
+  const auto usual = deviations.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(rows.size() - 1));
+  std::nth_element(deviations.begin(), usual, deviations.end());
+  const double limit = kFar * std::max(*usual, noise_sd);
+  const auto is_far = [&](std::size_t row) { return std::abs(measured[row] - simulated[row]) > limit; };
+  rows.erase(std::remove_if(rows.begin(), rows.end(), is_far), rows.end());
+  return rows;
+}
+
 ChannelProducts calc_channel_products(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel,
                                       const Values& simulated, const std::vector<std::size_t>& rows) {
   const Unknowns unknowns = list_unknowns(set, run, channel, simulated);
@@ -268,7 +283,9 @@ RunProducts calc_products(const MeasurementSet& set, const MeasuredRun& run, con
       if (!std::isnan(run.column(channel)[row])) there.push_back(row);
     }
     if (there.empty()) continue;
-    products.back() = calc_channel_products(set, run, channel, simulated.channel(channel), there);
+    const Values& expected = simulated.channel(channel);
+    there = drop_spikes(run.column(channel), expected, set.sensors.at(channel).noise_sd, std::move(there));
+    products.back() = calc_channel_products(set, run, channel, expected, there);
   }
   return products;
 }

@@ -116,6 +116,7 @@ class Candidates {
     parallel_for(runs_.size(), threads, [&](std::size_t r) { judge_as_it_is(r); });
     std::vector<std::pair<std::size_t, std::size_t>> work;
     for (std::size_t r = 0; r < runs_.size(); ++r) {
+      if (is_near(r)) continue;
       for (std::size_t m = 0; m < singles_; ++m) {
         if (tells(mistakes_[m], r)) work.emplace_back(r, m);
       }
@@ -133,6 +134,12 @@ class Candidates {
     runs_[r].none.squares = baseline_.misfits[r].sum_of_squares();
     if (baseline_.misfits[r].failure.empty()) runs_[r].none = judge(set_, r, set_.runs[r], baseline_.recordings[r]);
     runs_[r].none.log_prior = std::log(1.0 - kInOneRun);
+  }
+
+  /// Whether a run is so near to its simulation that no mistake could be that small. On the road noise hides it.
+  bool is_near(std::size_t r) const {
+    constexpr double kNear = 0.1;  // tolerances
+    return !models::is_on_road(set_.kind->traits) && runs_[r].none.is_simulated && runs_[r].none.worst < kNear;
   }
 
   void try_out(const std::vector<std::pair<std::size_t, std::size_t>>& work, double prior_of_weight) {

@@ -31,8 +31,8 @@ struct FoundMistake {
 /// once it is undone (RunMisfit of at most 1). On machines that measure a loss by itself, effects show far above the
 /// noise. There undoing a mistake also has to take half of the squares of the misfit; for exchanged columns and two
 /// mistakes nine tenths, of a run that lies 0.3 tolerances off.
-/// Cost      two mistakes are tried where one alone leaves a channel 0.3 tolerances off, on the road where one is
-/// likely.
+/// Cost      runs within 0.1 tolerances are not tried, but on the road; two mistakes are tried where one alone leaves a
+/// channel 0.3 tolerances off, on the road where one is likely.
 ///           They are wrong units: an exchange beside them is not tried
 /// `tells`   whether a mistake is considered in a run
 /// Checked   tests/diagnosis/mistakes_test.cpp, tests/diagnosis/wrong_columns_test.cpp
