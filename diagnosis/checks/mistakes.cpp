@@ -24,6 +24,7 @@ constexpr double kInAllRuns = 3e-2;
 constexpr double kNamed = 0.9;
 constexpr double kPlausible = 1.0;      // tolerances
 constexpr double kOdd = 0.3;            // tolerances
+constexpr double kOddOnRollers = 0.15;  // likewise, of wrong units where all of a drive is compared
 constexpr double kHalf = 0.5;           // of the sum of squares
 constexpr double kTenth = 0.1;          // likewise, of exchanged columns and of two mistakes
 constexpr std::size_t kFirstOfTwo = 6;  // single mistakes that a second one is tried with
@@ -160,8 +161,10 @@ class Candidates {
   /// Whether a mistake undone takes enough of the misfit, where effects show far above the noise.
   bool is_far_better(const Trial& tried, const Trial& none) const {
     if (models::is_on_road(set_.kind->traits) || !none.is_simulated) return true;
-    const bool is_single_unit = tried.mistake < singles_ && !mistakes_[tried.mistake].is_exchange;
-    if (is_single_unit) return tried.squares <= kHalf * none.squares;
+    const bool warms = set_.baseline == models::Baseline::kCombined;  // else much of every run is not simulated
+    const bool is_single_unit = warms && tried.mistake < singles_ && !mistakes_[tried.mistake].is_exchange;
+    const double odd = models::is_of_vehicle(set_.kind->traits) ? kOddOnRollers : 0.0;
+    if (is_single_unit) return none.worst > odd && tried.squares <= kHalf * none.squares;
     return none.worst > kOdd && tried.squares <= kTenth * none.squares;
   }
 

@@ -23,19 +23,18 @@ struct FoundMistake {
 /// mistake, or two, whatever it was in the other runs.
 ///
 /// Equation  P(H | data) ~ P(H) sum_s P(s) sum_m P(m | s) prod_r L_r(H, s, m)
-/// Symbols   L likelihood of a run (mistake_evidence.h); s size of the unknown effects, the same in all runs; P(H)
-/// prior:
-///           a mistake in all runs 1 in 100, in one run 1 in 1000, two in one run 1 in 10 000, each divided among the
-///           mistakes by their weights (Assumed)
-/// A run is named if it is mistaken with 90 % or more. A mistake counts only if every channel is within its tolerance
-/// once it is undone (RunMisfit of at most 1). On machines that measure a loss by itself, effects show far above the
-/// noise. There undoing a mistake also has to take half of the squares of the misfit; for exchanged columns and two
-/// mistakes nine tenths, of a run that lies 0.3 tolerances off.
-/// Cost      runs within 0.1 tolerances are not tried, but on the road; two mistakes are tried where one alone leaves a
-/// channel 0.3 tolerances off, on the road where one is likely.
-///           They are wrong units: an exchange beside them is not tried
+/// Symbols   L likelihood of a run (mistake_evidence.h); s size of the unknown effects, the same in all runs; m parts
+///           that the runs have in common, none or as fitted to them; P(H) before the data: a mistake in all runs 3 in
+///           100, in one run 1 in 100, two in one run 1 in 100 000, divided among the mistakes by weight (Assumed)
+/// Validity  A run is named if it is mistaken with 90 % or more. A mistake counts only if every channel is within its
+///           tolerance once it is undone (RunMisfit of at most 1). On machines that measure a loss by itself, effects
+///           show far above the noise. There undoing a mistake also has to take half of the squares of the misfit, on
+///           rollers of a run that lies 0.15 tolerances off; for exchanged columns, for two mistakes, and against a
+///           constant coefficient nine tenths, of a run that lies 0.3 tolerances off
+/// Cost      Runs within 0.1 tolerances are not tried, but on the road. Two wrong units are tried where one mistake
+///           alone leaves a channel 0.3 tolerances off, on the road where one is likely
 /// `tells`   whether a mistake is considered in a run
-/// Checked   tests/diagnosis/mistakes_test.cpp, tests/diagnosis/wrong_columns_test.cpp
+/// Checked   tests/diagnosis/planted_mistakes_test.cpp, tests/diagnosis/wrong_columns_test.cpp
 std::vector<FoundMistake> find_mistakes(const measurements::MeasurementSet& set, const BaselineRuns& baseline,
                                         int threads, const std::function<bool(const Mistake&, std::size_t run)>& tells);
 
