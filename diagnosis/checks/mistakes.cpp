@@ -38,9 +38,10 @@ struct Trial {
   double worst = kLargestMisfit;
   double squares = 0.0;  // of the misfit
   bool is_simulated = false;
+  bool is_plausible = false;
   bool is_far_better = true;  // than the run as it is
 
-  bool is_possible() const { return is_simulated && is_far_better && worst <= kPlausible; }
+  bool is_possible() const { return is_simulated && is_far_better && is_plausible; }
   double calc_log_likelihood(const CommonParts& common, double size) const {
     constexpr double kRuledOut = -1e9;
     return is_simulated ? of_given + diagnosis::calc_log_likelihood(products, common, size) : kRuledOut;
@@ -55,11 +56,13 @@ struct RunTrials {
 
 Trial judge(const MeasurementSet& set, std::size_t r, const MeasuredRun& run, const sim::Recording<double>& simulated) {
   Trial trial;
-  trial.products = calc_products(set, run, simulated, choose_rows(set, set.runs[r]));
+  const ComparedRows rows = choose_rows(set, set.runs[r]);
+  trial.products = calc_products(set, run, simulated, rows);
   trial.of_given = calc_given_log_likelihood(set, r, run);
-  const RunMisfit misfit = calc_misfit(set, run, simulated);
+  const RunMisfit misfit = calc_misfit(set, run, simulated, rows);
   trial.worst = misfit.worst();
   trial.squares = misfit.sum_of_squares();
+  trial.is_plausible = calc_misfit(set, run, simulated).worst() <= kPlausible;
   trial.is_simulated = true;
   return trial;
 }
@@ -132,7 +135,6 @@ class Candidates {
 
  private:
   void judge_as_it_is(std::size_t r) {
-    runs_[r].none.squares = baseline_.misfits[r].sum_of_squares();
     if (baseline_.misfits[r].failure.empty()) runs_[r].none = judge(set_, r, set_.runs[r], baseline_.recordings[r]);
     runs_[r].none.log_prior = std::log(1.0 - kInOneRun);
   }

@@ -36,8 +36,7 @@ double calc_noise(const MeasurementSet& set, const Quantity& channel) {
 }
 
 ChannelMisfit calc_channel_misfit(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel,
-                                  const std::vector<double>& simulated) {
-  const std::vector<std::size_t> rows = find_compared_rows(set, run, channel);
+                                  const std::vector<double>& simulated, const std::vector<std::size_t>& rows) {
   const std::vector<double>& measured = run.column(channel);
   const Unit unit = channel.file_unit();
   ChannelMisfit misfit{channel, rows.size()};
@@ -112,7 +111,22 @@ RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const s
   RunMisfit misfit;
   for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     if (!run.has(channel)) continue;
-    misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel)));
+    misfit.channels.push_back(
+        calc_channel_misfit(set, run, channel, simulated.channel(channel), find_compared_rows(set, run, channel)));
+  }
+  return misfit;
+}
+
+RunMisfit calc_misfit(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated,
+                      const QuantityMap<std::vector<std::size_t>>& rows) {
+  RunMisfit misfit;
+  for (const auto& [channel, all] : rows) {
+    if (!run.has(channel)) continue;
+    std::vector<std::size_t> there;
+    for (const std::size_t row : all) {
+      if (!std::isnan(run.column(channel)[row])) there.push_back(row);
+    }
+    misfit.channels.push_back(calc_channel_misfit(set, run, channel, simulated.channel(channel), there));
   }
   return misfit;
 }

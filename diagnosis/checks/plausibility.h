@@ -45,6 +45,9 @@ struct RunMisfit {
 };
 RunMisfit calc_misfit(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
                       const sim::Recording<double>& simulated);
+/// The same in these rows of each channel, as far as they have samples, whatever the speed.
+RunMisfit calc_misfit(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
+                      const sim::Recording<double>& simulated, const QuantityMap<std::vector<std::size_t>>& rows);
 /// The same with a resimulation of its own; a run that cannot be simulated has the largest misfit.
 RunMisfit calc_misfit(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run);
 
