@@ -257,16 +257,22 @@ Eigen::VectorXd fit_channel(const std::vector<const ChannelProducts*>& runs) {
 }  // namespace
 
 ComparedRows choose_rows(const MeasurementSet& set, const MeasuredRun& run) {
+  constexpr double kSlow = 0.2;  // Assumed: of the highest speed; about 20 km/h in town, in whatever unit
+  const bool is_driven = models::is_of_vehicle(set.kind->traits);
+  const Values& speed_m_s = run.column(quantities::kSpeed);
+  const double slow_m_s = kSlow * *std::max_element(speed_m_s.begin(), speed_m_s.end());
   ComparedRows chosen;
   for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     if (!run.has(channel)) continue;
+    const bool is_force = channel == set.kind->traits.force;
     const Values& measured = run.column(channel);
     std::vector<std::size_t> samples;
     for (std::size_t row = 0; row < measured.size(); ++row) {
-      if (!std::isnan(measured[row])) samples.push_back(row);
+      const bool is_slow = is_driven && is_force && speed_m_s[row] < slow_m_s;
+      if (!std::isnan(measured[row]) && !is_slow) samples.push_back(row);
     }
     std::vector<std::size_t> compared = find_compared_rows(set, run, channel);
-    const bool all = models::is_of_vehicle(set.kind->traits) || 2 * compared.size() < samples.size();
+    const bool all = is_driven || 2 * compared.size() < samples.size();
     chosen[channel] = all ? std::move(samples) : std::move(compared);
   }
   return chosen;
