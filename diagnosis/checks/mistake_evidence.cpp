@@ -93,10 +93,10 @@ Unknowns list_unknowns(const MeasurementSet& set, const MeasuredRun& run, const 
   return unknowns;
 }
 
-/// Blocks of the samples in these rows: each of its own on the road and on rollers, where every change of speed tells.
+/// Blocks of the samples in these rows: each of its own on the road, where every change of speed tells.
 std::vector<measurements::Block> make_averages(const MeasurementSet& set, const Values& times_s) {
   std::vector<measurements::Block> blocks;
-  const double length_s = models::is_of_vehicle(set.kind->traits) ? 0.0 : kAverage_s;
+  const double length_s = models::is_on_road(set.kind->traits) ? 0.0 : kAverage_s;
   for (std::size_t first = 0, last = 0; first < times_s.size(); first = last) {
     for (last = first + 1; last < times_s.size() && times_s[last] - times_s[first] < length_s;) ++last;
     blocks.push_back({first, last});

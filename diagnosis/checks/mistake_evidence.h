@@ -58,17 +58,19 @@ double calc_common_log_prior(const CommonParts& common, const RunProducts& produ
 ///           the channel at rest and its share of h, each as it is, fading over 10 min, and in proportion to speed and
 ///           load; of temperatures and pressures a lag; of a force what its kind lists, whose size does not depend on
 ///           s. C drift and noise of the sensor, k 1 to 50 for what B leaves, with a probability in proportion to 1/k^2
-/// Validity  Numbers of a file in another unit have another scatter. That is not counted: noise as the set states it
-/// may
-///           be a guess. On machines that hold the speed, samples are averaged over 20 s
+/// Validity  The scatter of numbers in another unit is not counted, since the noise that a set states may be a guess.
+///           Samples are averaged over 20 s, but on the road, where every change of speed tells
 /// Source    Assumed: B, the values of k and their probabilities
 /// Checked   tests/diagnosis/planted_mistakes_test.cpp
 double calc_log_likelihood(const RunProducts& products, const CommonParts& common, double size);
 
 /// What the given columns of a run tell by themselves: a soaked tire is as warm as the air, one that has run is no
 /// colder, and a run at the heights of the others is likelier than one far from them. `run` is run r of the set, or the
-/// same with a mistake undone. Equation  -3 ln(1 + (x/s)^2/5), Student's t with five degrees of freedom Symbols   x
-/// difference, s 3 K, or 100 m and no less than the scatter of the others Source    Assumed: all limits
+/// same with a mistake undone.
+///
+/// Equation  -3 ln(1 + (x/s)^2/5), Student's t with five degrees of freedom
+/// Symbols   x difference, s 3 K, or 100 m and no less than the scatter of the others
+/// Source    Assumed: all limits
 double calc_given_log_likelihood(const measurements::MeasurementSet& set, std::size_t r,
                                  const measurements::MeasuredRun& run);
 

@@ -76,9 +76,8 @@ bool changes_inputs(const MeasurementSet& set, const Mistake& mistake) {
 
 /// What the scatter of a measured column tells of its unit: numbers that are too small scatter less than their sensor.
 /// Equation  w n ln f
-/// Symbols   n independent samples, f factor that undoes the mistake; w 0.35, Assumed: less than 1/2, as the noise that
-/// a
-///           set states may be a guess, and more than 1/4, so that no other hypothesis gains by numbers near 0
+/// Symbols   n independent samples, f factor that undoes the mistake; w 0.35, Assumed: less than 1/2, as the noise of a
+///           set may be a guess, and more than 1/4, so that no other hypothesis gains by numbers near 0
 double calc_log_of_scatter(const MeasurementSet& set, const Mistake& mistake, const RunProducts& products) {
   constexpr double kWeight = 0.35;
   const std::vector<Quantity> channels = measurements::measured_channels(*set.kind);

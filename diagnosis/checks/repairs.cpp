@@ -91,9 +91,9 @@ Mistake make_wrong_time(double factor, const std::string& text) {
 std::vector<WrongUnit> list_common_wrong_units() {
   constexpr double kPsi_kPa = 6.894757;  // NIST SP 811
   constexpr double kBar_kPa = 100.0;
-  constexpr double kNauticalMile_km = 1.852;     // exact
-  constexpr double kVeryRare = 1.5e-3;           // Assumed: of ships and aircraft
-  constexpr double kRare = 0.2;                  // Assumed
+  constexpr double kNauticalMile_km = 1.852;  // exact
+  constexpr double kVeryRare = 1.5e-3;        // Assumed: of ships and aircraft
+  constexpr double kRare = 0.2;               // Assumed
   return {{quantities::kSpeed, 3.6, 0.0, "holds m/s"},
           {quantities::kSpeed, 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often", kRare},
           {quantities::kSpeed, kMile_m / 1e3, 0.0, "holds mph"},

@@ -17,6 +17,7 @@
 #include "tests/diagnosis/checked_sets.h"
 #include "tests/diagnosis/driving_sets.h"
 #include "tests/support/fit_study.h"
+#include "tests/validation/generator/generated_set.h"
 
 namespace fs = std::filesystem;
 using namespace rollrig;
@@ -86,8 +87,7 @@ TEST_CASE("mistakes planted in made sets are found and named", "[slow]") {
   tests::Campaign campaign = tests::make_wide_campaign();
   campaign.effects = {tests::make_effect_at("bearing_warmup", 0.5)};
   require_bars_of_all("drum", tests::simulate_campaign(campaign, 3), count, 4);
-  const auto surface = tests::make_effect_at("surface_warming", 0.5);
-  require_bars_of_all("dyno", tests::add_noise(tests::make_dyno_set({surface}, 4), 5), count, 4);
+  require_bars_of_all("dyno", tests::make_generated_set("--kind dyno --effect none --seed 3").set, count, 4);
   const auto warming = tests::make_effect_at("tire_temperature", 0.6);
   require_bars_of_all("road", tests::add_noise(tests::make_road_set({warming}, 6), 4), count, 6);
 }
