@@ -54,7 +54,8 @@ struct RunTrials {
   std::vector<Trial> mistaken;
 };
 
-Trial judge(const MeasurementSet& set, std::size_t r, const MeasuredRun& run, const sim::Recording<double>& simulated) {
+Trial judge_run(const MeasurementSet& set, std::size_t r, const MeasuredRun& run,
+                const sim::Recording<double>& simulated) {
   Trial trial;
   const ComparedRows rows = choose_rows(set, set.runs[r]);
   trial.products = calc_products(set, run, simulated, rows);
@@ -96,7 +97,7 @@ Trial judge_without(const MeasurementSet& set, const BaselineRuns& baseline, std
   if (!mistake.undo(run)) return {};
   try {
     const bool as_before = baseline.misfits[r].failure.empty() && !changes_inputs(set, mistake);
-    Trial trial = judge(set, r, run, as_before ? baseline.recordings[r] : resimulate_baseline(set, run));
+    Trial trial = judge_run(set, r, run, as_before ? baseline.recordings[r] : resimulate_baseline(set, run));
     trial.of_given += calc_log_of_scatter(set, mistake, trial.products);
     return trial;
   } catch (const RunFailure&) {
@@ -134,7 +135,7 @@ class Candidates {
 
  private:
   void judge_as_it_is(std::size_t r) {
-    if (baseline_.misfits[r].failure.empty()) runs_[r].none = judge(set_, r, set_.runs[r], baseline_.recordings[r]);
+    if (baseline_.misfits[r].failure.empty()) runs_[r].none = judge_run(set_, r, set_.runs[r], baseline_.recordings[r]);
     runs_[r].none.log_prior = std::log(1.0 - kInOneRun);
   }
 
@@ -236,7 +237,7 @@ class Candidates {
   std::vector<RunTrials> runs_;
 };
 
-double add_logs(const std::vector<double>& logs) {
+double add_all_logs(const std::vector<double>& logs) {
   const double largest = *std::max_element(logs.begin(), logs.end());
   double sum = 0.0;
   for (const double log : logs) sum += std::exp(log - largest);
@@ -264,7 +265,7 @@ class Posterior {
     for (std::size_t m = 0; m < candidates_.single_count(); ++m) add_in_all(m, parts);
     std::vector<double> logs;
     for (const auto& [log, share] : parts) logs.push_back(log);
-    const double total = add_logs(logs);
+    const double total = add_all_logs(logs);
     for (const auto& [log, share] : parts) share(std::exp(log - total));
   }
 
@@ -287,7 +288,7 @@ class Posterior {
         logs.push_back(one.log_prior + one.calc_log_likelihood(common, size));
         mistakes.push_back(one.mistake);
       }
-      const double of_run = add_logs(logs);
+      const double of_run = add_all_logs(logs);
       log += of_run;
       for (std::size_t k = 0; k < mistakes.size(); ++k) shares[r][mistakes[k]] += std::exp(logs[k + 1] - of_run);
     }
