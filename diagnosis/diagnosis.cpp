@@ -6,7 +6,8 @@
 #include <set>
 
 #include "diagnosis/checks/set_checks.h"
-#include "diagnosis/comparison/model_comparison.h"
+#include "diagnosis/comparison/base_moves.h"
+#include "diagnosis/comparison/tire_beliefs.h"
 #include "diagnosis/findings/balance.h"
 #include "diagnosis/findings/gap.h"
 #include "diagnosis/findings/locations.h"
@@ -64,6 +65,26 @@ void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& di
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
 }
 
+void add_base_numbers(const Study& study, const Comparison& comparison, Diagnosis& diagnosis) {
+  const bool is_caused = diagnosis.verdict != Verdict::kNoGap;
+  diagnosis.base_numbers = list_base_numbers(study, is_caused ? find_lead(comparison, diagnosis.causes) : nullptr);
+}
+
+/// What the tire's file leaves open, and whether the measurement speaks against it.
+void warn_of_tire(const measurements::MeasurementSet& set, const Study& study, Diagnosis& diagnosis) {
+  if (is_tire_origin_open(set)) {
+    diagnosis.warnings.push_back(
+        study.settings.belief == TireBelief::kClass
+            ? "the tire file does not say how well its numbers are known, and the measurement asks for more than the "
+              "usual uncertainties: they count as class values (docs/diagnosis.md)"
+            : "the tire file does not say how well its numbers are known: usual uncertainties are assumed. Add _sd, or "
+              "basis = \"measured\" or \"class\"");
+  }
+  if (diagnosis.verdict != Verdict::kNoGap) return;  // with a cause it is an objection
+  const std::string moved = describe_far_moves(study, study.null.fit);
+  if (!moved.empty()) diagnosis.warnings.push_back("numbers of the files seem to be wrong: they move by " + moved);
+}
+
 Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const DiagnosisOptions& options) {
   StudySettings settings;
   Stages& stages = *settings.stages;
@@ -72,13 +93,15 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   const SetChecks checks = check_set(measured, options.threads);
   settings.terms = find_terms(measured, options);
   settings.threads = options.threads;
-  Study study(leave_out(measured, checks.left_out), settings);
-  const Comparison comparison = compare_models(study);
+  const Beliefs beliefs = compare_beliefs(leave_out(measured, checks.left_out), settings);
+  const Study& study = *beliefs.likelier.study;
+  const Comparison& comparison = beliefs.likelier.comparison;
 
   Diagnosis diagnosis;
   diagnosis.set = measured.name;
   diagnosis.probability = find_probabilities(study, comparison);
   diagnosis.causes = find_causes(study, comparison);
+  average_over_beliefs(beliefs, diagnosis.probability, diagnosis.causes);
   diagnosis.warnings = checks.warnings;
   diagnosis.doubt = checks.doubt;
   for (const std::size_t r : checks.mistaken_runs) diagnosis.mistaken_runs.insert(measured.runs[r].id);
@@ -100,6 +123,8 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   stages.begin("runs left out", 1.0);
   diagnosis.fitted.recalibrated = find_fitted(study, study.null.fit);
   judge_cause(study, comparison, diagnosis);
+  add_base_numbers(study, comparison, diagnosis);
+  warn_of_tire(measured, study, diagnosis);
   if (!checks.left_out.empty()) diagnosis.fitted = {};
   return diagnosis;
 }

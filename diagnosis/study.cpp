@@ -1,13 +1,12 @@
 #include "diagnosis/study.h"
 
-#include "diagnosis/comparison/base_parameters.h"
-
 namespace rollrig::diagnosis {
 
 Study::Study(const measurements::MeasurementSet& measured, StudySettings with)
     : settings(std::move(with)),
       set(measured),
-      base(find_base_parameters(set.source(), set.context())),
+      base(find_base_parameters(set.source(), set.context(), settings.belief)),
+      sd_sources(find_sd_sources(set.source(), set.context(), settings.belief)),
       discrepancy(set) {}
 
 }  // namespace rollrig::diagnosis

@@ -2,10 +2,12 @@
 /// One measured set under diagnosis: what every step of it works on, each made once.
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "diagnosis/comparison/base_parameters.h"
 #include "diagnosis/comparison/refit.h"
 #include "diagnosis/thresholds.h"
 #include "include/rollrig/progress.h"
@@ -34,6 +36,7 @@ struct StudySettings {
   std::vector<const Term*> terms;  // in the comparison
   ComparisonPriors priors;
   ModelError model_error;
+  TireBelief belief = TireBelief::kIdentified;
   int threads = 0;  // 0: as many as the machine has
   std::shared_ptr<Stages> stages = std::make_shared<Stages>();
 
@@ -66,9 +69,10 @@ struct Study {
 
   StudySettings settings;
   PreparedSet set;
-  std::vector<estimation::FreeParameter> base;  // what a recalibration may move
-  Discrepancy discrepancy;                      // of time: model error, or what follows nothing recorded
-  Candidate null;                               // the baseline, recalibrated; compare_models() fits it
+  std::vector<estimation::FreeParameter> base;          // what a recalibration may move
+  std::map<std::string, rollrig::SdSource> sd_sources;  // of their standard uncertainties, by key
+  Discrepancy discrepancy;                              // of time: model error, or what follows nothing recorded
+  Candidate null;                                       // the baseline, recalibrated; compare_models() fits it
 };
 
 }  // namespace rollrig::diagnosis

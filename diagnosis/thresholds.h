@@ -56,6 +56,10 @@ constexpr double kDiscrepancyScales_s[] = {120.0, 480.0};  // Assumed: shorter i
 // Verdict.
 constexpr double kToldApart_nats = 3.0;  // Assumed: odds of 20, below which hypotheses are named together
 constexpr double kTail_sd = 3.0;         // Assumed: 3 draws of a prior in 1000; a parameter so far out is an objection
+constexpr double kBeyondRange_sd = 2.0;  // Assumed: so far beyond its range a size is an objection
+constexpr double kFarMoveChance = 0.01;  // Assumed: that any number of right files moves as far as an objection needs
+constexpr double kStrained_sd = 1.5;     // Assumed: moves of a tire's numbers from which class values are tried
+constexpr double kClassTire = 0.5;       // Assumed: that numbers of unknown origin are no better than those of a class
 constexpr double kRunSizeChance = 1e-3;  // Assumed: of the test whether the size is one in all runs ...
 constexpr double kRunSizeShare = 0.3;    // ... by which a law's idealization may change it from run to run
 constexpr double kKeptUnderObjection = 0.05;  // Assumed: of a cause's probability, the rest goes to "unknown"

@@ -104,7 +104,8 @@ Table make_estimate_table(const std::string& title, const std::vector<ParameterE
   for (const ParameterEstimate& at : estimates) {
     const auto number = [](double value) { return fmt::format("{:.5g}", value); };
     const bool is_free = at.sd > 0.0;
-    table.rows.push_back({at.name, number(at.value), is_free ? fmt::format("{:.3g}", at.sd) : "on its bound",
+    const char* on_limit = at.on_limit == RangeLimit::kNone ? "" : " (on the limit of its range)";
+    table.rows.push_back({at.name + on_limit, number(at.value), is_free ? fmt::format("{:.3g}", at.sd) : "on its bound",
                           is_free ? number(at.low_95) : "", is_free ? number(at.high_95) : "", at.unit});
   }
   return table;

@@ -81,6 +81,7 @@ Page make_diagnosis_page(const measurements::MeasurementSet& set, const Diagnosi
   page.add(make_verdict(diagnosis));
   page.add(make_causes(diagnosis));
   page.add(make_gap(diagnosis));
+  if (!diagnosis.base_numbers.empty()) page.add(make_base_numbers(diagnosis));
   Section where{"Where it lies"};
   if (!simulated.front().values.empty()) {
     where.blocks.push_back(make_gap_map(prepared, simulated.front(), diagnosis.where));

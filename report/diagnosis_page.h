@@ -15,6 +15,7 @@ Page make_diagnosis_page(const measurements::MeasurementSet& set, const diagnosi
 std::string describe_verdict(const Findings& findings);
 Section make_verdict(const Findings& findings);
 Section make_causes(const Findings& findings);
+Section make_base_numbers(const Findings& findings);
 Section make_gap(const Findings& findings);
 Block make_balance(const Findings& findings);
 Section make_next(const Findings& findings);

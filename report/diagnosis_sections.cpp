@@ -28,7 +28,8 @@ std::string join(const std::vector<std::string>& words) { return fmt::format("{}
 
 std::string show_estimate(const ParameterEstimate& at) {
   const std::string unit = at.unit.empty() ? "" : " " + pretty_unit(at.unit);
-  return fmt::format("{:.3g}{} (95 %: {:.3g} to {:.3g})", at.value, unit, at.low_95, at.high_95);
+  return fmt::format("{:.3g}{} (95 %: {:.3g} to {:.3g}){}", at.value, unit, at.low_95, at.high_95,
+                     diagnosis::describe_limit(at));
 }
 
 std::string describe_shrinkage(const Gap& gap) {
@@ -133,8 +134,6 @@ Section make_verdict(const Findings& findings) {
                              show_estimate(cause.parameters.front()));
     }
     more = meaning + "." + describe_shrinkage(findings.gap);
-    const std::string open = diagnosis::describe_unconfirmed(findings);
-    if (!open.empty()) more += " But " + open + ".";
   }
   section.blocks.push_back(make_lead(tone, describe_verdict(findings), more));
   if (!findings.warnings.empty()) section.blocks.push_back(make_warnings(findings.warnings));
@@ -159,9 +158,30 @@ Section make_causes(const Findings& findings) {
   return section;
 }
 
+Section make_base_numbers(const Findings& findings) {
+  Section section{"Numbers of the files",
+                  "The recalibration moves each number within its standard uncertainty. Moves are in standard "
+                  "uncertainties. An uncertainty is that of the file (key _sd), or it is assumed: the usual one of an "
+                  "identified number, or that of a value of the tire's class."};
+  const char* sources[] = {"file", "assumed, usual", "assumed, class"};
+  Table table{
+      "", {"number", "unit", "file", "uncertainty", "from", "recalibrated", "moved", "with the cause", "moved"}, {}};
+  const auto show = [](double value) { return fmt::format("{:.4g}", value); };
+  const auto show_move = [](double by_sd) { return fmt::format("{:+.1f}", by_sd); };
+  for (const BaseNumber& base : findings.base_numbers) {
+    table.rows.push_back({base.name, pretty_unit(base.unit), show(base.value), fmt::format("{:.2g}", base.sd),
+                          sources[static_cast<int>(base.sd_source)], show(base.recalibrated), show_move(base.moved_sd),
+                          base.with_cause.has_value() ? show(*base.with_cause) : "-",
+                          base.with_cause_moved_sd.has_value() ? show_move(*base.with_cause_moved_sd) : "-"});
+  }
+  section.blocks.push_back(make_table(table));
+  return section;
+}
+
 Section make_gap(const Findings& findings) {
   const Gap& gap = findings.gap;
   const bool is_held_out = !gap.held_out.empty();
+  const bool has_cause = findings.verdict != Verdict::kNoGap && !findings.causes.empty();
   Section section{"Before and after", is_held_out
                                           ? fmt::format("Judged on {}, each left out of the fit in turn: {}.",
                                                         format_count(gap.held_out.size(), "run"), join(gap.held_out))
@@ -174,7 +194,9 @@ Section make_gap(const Findings& findings) {
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
   };
-  std::string shrinks = percent(gap.shrink_percent);
+  const bool is_unjudged = has_cause && is_held_out && gap.judged_on.empty();
+  std::string shrinks =
+      is_unjudged ? "not known: the other runs predict none well enough" : percent(gap.shrink_percent);
   if (gap.shrink_percent.has_value()) {
     shrinks += fmt::format(" ({:.0f} to {:.0f} %)", gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
   }

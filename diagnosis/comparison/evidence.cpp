@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/comparison/log_determinant.h"
+#include "diagnosis/comparison/truncated_normal.h"
 #include "diagnosis/thresholds.h"
 
 namespace rollrig::diagnosis {
@@ -51,7 +52,7 @@ AmplitudePrior free_amplitude(double smallest) {
 }
 
 Evidence::Evidence(const Discrepancy& discrepancy, const Fit& fit)
-    : discrepancy_(discrepancy), unknowns_(fit.unknowns) {
+    : discrepancy_(discrepancy), unknowns_(fit.unknowns), own_bounds_(list_own_bounds(fit.hypothesis)) {
   RowMatrix columns = fit.jacobian;
   Eigen::VectorXd r = fit.residuals;
   discrepancy.whiten_below(columns);
@@ -94,6 +95,21 @@ Evidence::Sums Evidence::sum_channel(std::size_t channel, double amplitude) cons
   return sum;
 }
 
+double Evidence::calc_log_within(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorXd& step) const {
+  constexpr double kOutOfReach = 5.0;  // prior units: no standard deviation is larger than one of them
+  double sum = 0.0;
+  for (std::size_t i = 0; i < own_bounds_.size(); ++i) {
+    const auto [lower, upper] = own_bounds_[i];
+    const double mean = unknowns_[to_index(i)] + step[to_index(i)];
+    const double nearest = std::min({upper - mean, mean - lower, upper, -lower});
+    if (nearest > kOutOfReach) continue;
+    const Eigen::VectorXd column = factor.solve(Eigen::VectorXd::Unit(step.size(), to_index(i)));
+    sum += calc_log_mass({mean, std::sqrt(column[to_index(i)]), lower, upper});
+    sum -= calc_log_mass({0.0, 1.0, lower, upper});
+  }
+  return sum;
+}
+
 Evidence::Solution Evidence::solve(const Sums& sums, bool with_covariance) const {
   const Eigen::Index n = unknowns_.size();
   const Eigen::MatrixXd m = sums.curvature + Eigen::MatrixXd::Identity(n, n);
@@ -103,7 +119,8 @@ Evidence::Solution Evidence::solve(const Sums& sums, bool with_covariance) const
   solution.step = -factor.solve(g);
   solution.chi2 = sums.square + unknowns_.squaredNorm() + g.dot(solution.step);
   const double log_m = calc_log_determinant(factor);
-  solution.log_value = -0.5 * (solution.chi2 + sums.log_determinant + log_determinant_below_ + log_m);
+  solution.log_value = -0.5 * (solution.chi2 + sums.log_determinant + log_determinant_below_ + log_m) +
+                       calc_log_within(factor, solution.step);
   if (with_covariance) solution.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
   return solution;
 }

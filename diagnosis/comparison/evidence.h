@@ -1,6 +1,7 @@
 #pragma once
 /// How well a hypothesis predicts a set, all its parameters and its model error integrated out.
 
+#include <Eigen/Cholesky>
 #include <vector>
 
 #include "diagnosis/comparison/refit.h"
@@ -21,11 +22,13 @@ AmplitudePrior near_amplitude(double middle);
 AmplitudePrior law_amplitude(double least, double middle);
 
 /// Evidence of a hypothesis linear about an expansion point.
-/// Equation  Z = sum over amplitudes of w |Sigma|^-1/2 |M|^-1/2 exp(-chi2/2),
+/// Equation  Z = sum over amplitudes of w |Sigma|^-1/2 |M|^-1/2 exp(-chi2/2) prod_i P_i/P0_i,
 ///           M = 1 + J^T Sigma^-1 J, g = u + J^T Sigma^-1 r, chi2 = r^T Sigma^-1 r + u^T u - g^T M^-1 g
 /// Symbols   r whitened residual at the unknowns u (prior units), J its derivatives, Sigma of the discrepancy;
+///           P_i probability that own parameter i lies within its allowed range, after the measurement, P0_i before it;
 ///           constants that all hypotheses share are left out
-/// Source    Laplace's method with a normal prior of unit variance
+/// Validity  one own parameter at most is held back by its range; of several the product is an approximation
+/// Source    Laplace's method with a normal prior of unit variance that is cut off at the allowed range
 /// Checked   tests/diagnosis/evidence_test.cpp
 class Evidence {
  public:
@@ -61,8 +64,12 @@ class Evidence {
   Sums sum_channel(std::size_t channel, double amplitude) const;
   Solution solve(const Sums& sums, bool with_covariance) const;
 
+  /// ln of the product of P_i/P0_i.
+  double calc_log_within(const Eigen::LLT<Eigen::MatrixXd>& factor, const Eigen::VectorXd& step) const;
+
   const Discrepancy& discrepancy_;
   Eigen::VectorXd unknowns_;
+  std::vector<PriorBounds> own_bounds_;
   double log_determinant_below_ = 0.0;
   struct Part {                 // of a basis
     Eigen::MatrixXd curvature;  // J^T J

@@ -60,7 +60,7 @@ void assign_probabilities(Study& study, Comparison& comparison) {
     const double look_alike = prior * priors.look_alike / priors.singles;
     logs.push_back(std::log(share * look_alike) + candidate.log_discrepancy);
   }
-  const double total = log_sum_exp(logs);
+  const double total = comparison.log_evidence = log_sum_exp(logs);
   study.null.probability = std::exp(logs[0] - total);
   study.null.discrepancy_probability = comparison.unknown_probability = std::exp(logs[1] - total);
   for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {

@@ -10,6 +10,7 @@ namespace rollrig::diagnosis {
 struct Comparison {
   std::vector<Screened> screened;     // on top of the null
   std::vector<Candidate> candidates;  // of a term, pairs and triples, the likeliest first
+  double log_evidence = 0.0;          // of all hypotheses together, with their prior probabilities
   double unknown_probability = 0.0;   // all hypotheses with a free discrepancy
 
   /// Size of a term's signature at the middle of its prior, in standard deviations: of its best trial; 0 where none

@@ -4,6 +4,7 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace rollrig::diagnosis {
@@ -56,6 +57,58 @@ class WhitenedResiduals : public ceres::CostFunction {
   mutable Derived last_;
 };
 
+/// Whether a step of Gauss and Newton from a fit takes an own parameter beyond its range, near which it is: the fit may
+/// have stopped short of it, with all else not yet at its best.
+bool presses_on_range(const Model& model, const Discrepancy& discrepancy, const RefitStart& start, const Fit& fit) {
+  constexpr double kNear = 0.5;  // Assumed: prior units
+  std::vector<std::size_t> near;
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const PriorBounds bounds = model.own_parameters()[i].bounds();
+    const double u = fit.unknowns[to_index(i)];
+    if (std::min(bounds.upper - u, u - bounds.lower) < kNear) near.push_back(i);
+  }
+  if (near.empty()) return false;
+  RowMatrix jacobian = fit.jacobian;
+  Eigen::VectorXd residuals = fit.residuals;
+  discrepancy.whiten(start.amplitudes, jacobian);
+  discrepancy.whiten(start.amplitudes, residuals);
+  const Eigen::Index n = jacobian.cols();
+  const Eigen::VectorXd step = (jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n))
+                                   .llt()
+                                   .solve(-(jacobian.transpose() * residuals + fit.unknowns));
+  return std::any_of(near.begin(), near.end(), [&](std::size_t i) {
+    const PriorBounds bounds = model.own_parameters()[i].bounds();
+    const double aim = fit.unknowns[to_index(i)] + step[to_index(i)];
+    return aim > bounds.upper || aim < bounds.lower;
+  });
+}
+
+void set_ranges(const Model& model, ceres::Problem& problem, double* unknowns) {
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const PriorBounds bounds = model.own_parameters()[i].bounds();
+    const auto index = static_cast<int>(i);
+    if (std::isfinite(bounds.lower)) problem.SetParameterLowerBound(unknowns, index, bounds.lower);
+    if (std::isfinite(bounds.upper)) problem.SetParameterUpperBound(unknowns, index, bounds.upper);
+  }
+}
+
+/// Minimizes, and derives the residuals where it stops. False where that is no solution; then the cost is infinite.
+bool solve(const ceres::Solver::Options& options, ceres::Problem& problem, const WhitenedResiduals& residuals,
+           const Model& model, const RefitStart& start, Fit& fit) {
+  fit.cost = std::numeric_limits<double>::infinity();
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  if (residuals.last().unknowns.size() > 0 && residuals.last().unknowns == fit.unknowns) {
+    fit.residuals = residuals.last().residuals;
+    fit.jacobian = residuals.last().jacobian;
+  } else if (!model.evaluate(fit.unknowns, start.threads, fit.residuals, &fit.jacobian)) {
+    return false;
+  }
+  fit.cost = summary.final_cost;
+  return true;
+}
+
 }  // namespace
 
 Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& start) {
@@ -80,17 +133,15 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   FLAGS_minloglevel = google::GLOG_FATAL;  // a start that cannot be simulated is an answer, not a mistake
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return fit;
-  if (residuals->last().unknowns.size() > 0 && residuals->last().unknowns == fit.unknowns) {
-    fit.residuals = residuals->last().residuals;
-    fit.jacobian = residuals->last().jacobian;
-  } else if (!model.evaluate(fit.unknowns, start.threads, fit.residuals, &fit.jacobian)) {
-    return fit;
+  if (!solve(options, problem, *residuals, model, start, fit)) return fit;
+  if (presses_on_range(model, discrepancy, start, fit)) {
+    const Fit short_of_range = fit;
+    set_ranges(model, problem, fit.unknowns.data());
+    if (!solve(options, problem, *residuals, model, start, fit)) fit = short_of_range;
   }
-  if (!model.simulate(fit.unknowns, start.threads, fit.simulated, nullptr)) return fit;
-  fit.cost = summary.final_cost;
+  if (!model.simulate(fit.unknowns, start.threads, fit.simulated, nullptr)) {
+    fit.cost = std::numeric_limits<double>::infinity();
+  }
   return fit;
 }
 

@@ -156,6 +156,7 @@ struct HeldOut {
   Measure certain_before;  // of runs of which the others say enough
   Measure certain_after;
   std::vector<std::string> runs;
+  std::vector<std::string> certain_runs;
 };
 
 HeldOut measure_held_out(const Study& study, const Candidate* cause, const BlackBox& black_box) {
@@ -192,8 +193,26 @@ HeldOut measure_held_out(const Study& study, const Candidate* cause, const Black
     if (uncertainty > thresholds::kCertainHeldOut * measure_change(study, *cause, run)) continue;
     add_run(set, run, difference, all.certain_before);
     add_run(set, run, with_cause, all.certain_after);
+    all.certain_runs.push_back(set.runs()[run].measured.id);
   }
   return all;
+}
+
+/// What the cause takes from the gap of the runs left out. Where that may be nothing, only runs of which the others say
+/// enough are judged on: what a prediction is uncertain by is no evidence against the cause.
+void judge_shrinkage(const HeldOut& left, Gap& gap) {
+  gap.judged_on = left.runs;
+  Shrinkage shrinkage = resample(left.before, left.after);
+  if (!shrinkage.above_noise) return;
+  const bool is_left_out = !left.runs.empty();
+  if (is_left_out && shrinkage.ci95_percent[0] <= 0.0) {
+    gap.judged_on = left.certain_runs;
+    if (gap.judged_on.empty()) return;
+    shrinkage = resample(left.certain_before, left.certain_after);
+    if (!shrinkage.above_noise) return;
+  }
+  gap.shrink_percent = shrinkage.percent;
+  gap.shrink_ci95_percent = shrinkage.ci95_percent;
 }
 
 std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& before, const Measure& after) {
@@ -230,13 +249,10 @@ Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_b
   if (gap.as_calibrated.before > 0.0) {
     gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
   }
-  const Shrinkage shrinkage = resample(left.before, left.after);
-  if (!shrinkage.above_noise) return gap;
-  if (cause != nullptr) {
-    gap.shrink_percent = shrinkage.percent;
-    gap.shrink_ci95_percent = shrinkage.ci95_percent;
-  }
-  if (!left.runs.empty()) gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(left.black_box));
+  if (cause != nullptr) judge_shrinkage(left, gap);
+  const bool is_above_noise = resample(left.before, left.before).above_noise;
+  if (is_above_noise && !left.runs.empty())
+    gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(left.black_box));
   return gap;
 }
 

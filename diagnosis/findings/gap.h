@@ -18,6 +18,8 @@ using BlackBox =
 /// Equation  gap^2 = mean over blocks of (d^2 - expected noise)/floor^2, not below 0;
 ///           shrinkage = 1 - after/before, both on the left-out runs, each left out of both fits in turn
 /// Symbols   d measured less simulated, less the best offset within the sensor's; floor: noise of a full block
+///           Where the interval contains 0, runs count of which the others say enough (prediction uncertain by less than
+///           a quarter of what the cause changes, in squares), and where there are none, no shrinkage is given
 /// Interval  2.5 and 97.5 percentiles over 1000 seeded resamples of stretches (a phase of a run, all its channels)
 /// With one run, nothing can be left out: the gap is judged on the run itself, and held_out is empty.
 /// Black box what `black_box` leaves of each run (black_box.h)

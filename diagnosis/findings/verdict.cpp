@@ -8,14 +8,14 @@
 #include <set>
 #include <tuple>
 
+#include "diagnosis/comparison/base_moves.h"
 #include "diagnosis/comparison/evidence.h"
+#include "diagnosis/comparison/truncated_normal.h"
 #include "diagnosis/findings/common_value.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
-
-constexpr double kNormal95 = 1.959963984540054;
 
 bool was_fitted(const Candidate& candidate) { return std::isfinite(candidate.fit.cost); }
 
@@ -26,23 +26,80 @@ double distance_from_off(const Model::OwnParameter& own, double u) {
   return std::abs((value.value_SI - off_SI) / value.derivative_SI);
 }
 
-/// Own parameters with their intervals. The discrepancy covers a law that is wrong here and there; that it may be wrong
-/// by a share everywhere alike widens the size.
+/// Where own parameters of a candidate lie after the measurement, in prior units, before their ranges cut them off.
+struct OwnPosterior {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd covariance;
+};
+
+/// Of own parameter i, given that all others which their range holds back are on its limit; of the others, what their
+/// ranges allow is not followed further.
+TruncatedNormal find_own_posterior(const Model& model, const Candidate& candidate, const OwnPosterior& posterior,
+                                   std::size_t i) {
+  const Eigen::VectorXd& u = candidate.fit.unknowns;
+  const Eigen::Index at = to_index(i);
+  std::vector<Eigen::Index> held;
+  for (std::size_t k = 0; k < model.own_count(); ++k) {
+    const PriorBounds bounds = model.own_parameters()[k].bounds();
+    const double mean = posterior.mean[to_index(k)];
+    if (k != i && (mean < bounds.lower || mean > bounds.upper)) held.push_back(to_index(k));
+  }
+  double mean = posterior.mean[at];
+  double variance = posterior.covariance(at, at);
+  if (!held.empty()) {
+    const Eigen::MatrixXd among = posterior.covariance(held, held);
+    const Eigen::VectorXd with = posterior.covariance(held, at);
+    const Eigen::VectorXd back = u(held) - posterior.mean(held);
+    const Eigen::VectorXd gain = among.llt().solve(with);
+    mean += gain.dot(back);
+    variance -= gain.dot(with);
+  }
+  const PriorBounds bounds = model.own_parameters()[i].bounds();
+  const bool is_held = mean < bounds.lower || mean > bounds.upper;
+  return {is_held ? mean : u[at], std::sqrt(variance), bounds.lower, bounds.upper};
+}
+
+OwnPosterior find_own_posterior(const Study& study, const Candidate& candidate, std::size_t own_count) {
+  const Evidence::Solution solution = Evidence(study.discrepancy, candidate.fit).solve(candidate.amplitudes, true);
+  const Eigen::Index own = to_index(own_count);
+  return {candidate.fit.unknowns.head(own) + solution.step.head(own), solution.covariance.topLeftCorner(own, own)};
+}
+
+/// Which limit of its range holds a fitted parameter back.
+RangeLimit find_limit(const TruncatedNormal& posterior, double u) {
+  constexpr double kAt = 0.01;  // prior units
+  if (posterior.mean > posterior.upper || u > posterior.upper - kAt) return RangeLimit::kUpper;
+  if (posterior.mean < posterior.lower || u < posterior.lower + kAt) return RangeLimit::kLower;
+  return RangeLimit::kNone;
+}
+
+/// Seen from the value and not from the unknown: a negative sign mirrors the two.
+RangeLimit mirror(RangeLimit limit) {
+  if (limit == RangeLimit::kNone) return limit;
+  return limit == RangeLimit::kLower ? RangeLimit::kUpper : RangeLimit::kLower;
+}
+
+/// Own parameters with their intervals, which end where their ranges end. The discrepancy covers a law that is wrong
+/// here and there; that it may be wrong by a share everywhere alike widens the size.
 std::vector<ParameterEstimate> estimate_parameters(const Study& study, const Candidate& candidate) {
   const Model model = study.make_model(candidate.fit.hypothesis);
-  const Eigen::MatrixXd covariance =
-      Evidence(study.discrepancy, candidate.fit).solve(candidate.amplitudes, true).covariance;
+  const OwnPosterior posterior = find_own_posterior(study, candidate, model.own_count());
   std::vector<ParameterEstimate> estimates;
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
     const Unit unit = unit_of_key(own.declared->key);
     const double u = candidate.fit.unknowns[to_index(i)];
     const double of_law_u = own.is_size() ? study.settings.model_error.size_share * distance_from_off(own, u) : 0.0;
-    const double sd_u = std::hypot(std::sqrt(covariance(to_index(i), to_index(i))), of_law_u);
-    const auto value_at = [&](double shifted) { return own.value_at(shifted).value_SI / unit.factor; };
-    const auto [low, high] = std::minmax({value_at(u - kNormal95 * sd_u), value_at(u + kNormal95 * sd_u)});
+    TruncatedNormal within = find_own_posterior(model, candidate, posterior, i);
+    const RangeLimit limit = find_limit(within, u);
+    within.sd = std::hypot(within.sd, of_law_u);
+    const TruncatedSpread spread = find_spread(within);
+    const auto value_at = [&](double at) { return own.value_at(at).value_SI / unit.factor; };
+    const double derivative = own.value_at(u).derivative_SI / unit.factor;
+    const auto [low, high] = std::minmax({value_at(spread.low_95), value_at(spread.high_95)});
     estimates.push_back({fmt::format("{}.{}", own.term->name(), own.declared->key), value_at(u),
-                         std::abs(own.value_at(u).derivative_SI) / unit.factor * sd_u, low, high, unit.symbol});
+                         std::abs(derivative) * spread.sd, low, high, unit.symbol,
+                         derivative < 0.0 ? mirror(limit) : limit});
   }
   return estimates;
 }
@@ -79,6 +136,12 @@ bool differs_between_runs(const Study& study, const Candidate& candidate, std::s
   return !shifts.empty() && find_common_value(shifts).chance < thresholds::kRunSizeChance;
 }
 
+/// Whether the measurement asks for a value clearly beyond the range.
+bool lies_beyond_range(const Model& model, const Candidate& candidate, const OwnPosterior& posterior, std::size_t i) {
+  const TruncatedNormal of = find_own_posterior(model, candidate, posterior, i);
+  return std::max(of.mean - of.upper, of.lower - of.mean) > thresholds::kBeyondRange_sd * of.sd;
+}
+
 std::vector<std::string> find_objections(const Study& study, const Candidate& candidate) {
   std::vector<std::string> objections;
   if (candidate.discrepancy_probability > candidate.probability) {
@@ -89,6 +152,7 @@ std::vector<std::string> find_objections(const Study& study, const Candidate& ca
     objections.push_back("something else is missing: a free discrepancy on top of it is " + by);
   }
   const Model model = study.make_model(candidate.fit.hypothesis);
+  const OwnPosterior posterior = find_own_posterior(study, candidate, model.own_count());
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const Model::OwnParameter& own = model.own_parameters()[i];
     const char* key = own.declared->key;
@@ -98,10 +162,18 @@ std::vector<std::string> find_objections(const Study& study, const Candidate& ca
           fmt::format("{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", key,
                       own.term->name(), own.value_at(u).value_SI / unit_of_key(key).factor, std::abs(u)));
     }
+    if (own.is_size() && lies_beyond_range(model, candidate, posterior, i)) {
+      objections.push_back(fmt::format("{} of {} would have to lie beyond its range ({}); the best within it is {:.3g}",
+                                       key, own.term->name(), own.declared->range.to_string(),
+                                       own.value_at(u).value_SI / unit_of_key(key).factor));
+    }
     if (own.is_size() &&
         differs_between_runs(study, candidate, i, thresholds::kRunSizeShare * distance_from_off(own, u))) {
       objections.push_back(fmt::format("its size ({}) differs from run to run", key));
     }
+  }
+  if (const std::string moved = describe_far_moves(study, candidate.fit); !moved.empty()) {
+    objections.push_back("with it, numbers of the files would have to be wrong: they move by " + moved);
   }
   return objections;
 }
@@ -190,6 +262,9 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   Cause& first = causes.front();
   if (gap.worse_where_certain) {
     first.objections.push_back("it makes the runs that were left out worse, not better");
+  }
+  if (gap.shrink_percent.has_value() && !gap.held_out.empty() && gap.shrink_ci95_percent[0] <= 0.0) {
+    first.objections.push_back("the runs left out do not confirm it: the interval of what it shrinks holds 0 %");
   }
   first.adequate = first.objections.empty();
   if (first.adequate) return;

@@ -31,7 +31,9 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
 /// - a free discrepancy on top of it is likelier than it alone,
 /// - its size, estimated from each run by itself, scatters by more than noise and 30 % of the size explain (chance
 ///   below 0.001); only runs that determine the size to within 30 % count,
-/// - its size or a shape lies more than 3 standard deviations out in its prior.
+/// - its size or a shape lies more than 3 standard deviations out in its prior,
+/// - the measurement asks for a size more than 2 standard deviations beyond its range,
+/// - with it, a number of the files would have to be wrong (base_moves.h).
 std::vector<Cause> find_causes(const Study& study, const Comparison& comparison);
 
 /// Adds what the runs left out say against the first cause, and moves the probability of a cause with objections to

@@ -8,13 +8,33 @@ namespace {
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json number(const std::optional<double>& value) { return value.has_value() ? number(*value) : Json(nullptr); }
 
+/// The limit on which an estimate is: lower or upper; else null.
+Json make_limit(RangeLimit limit) {
+  if (limit == RangeLimit::kNone) return nullptr;
+  return limit == RangeLimit::kLower ? "lower" : "upper";
+}
+
 Json make_parameter(const ParameterEstimate& parameter) {
   return {{"name", parameter.name},
           {"value", number(parameter.value)},
           {"sd", number(parameter.sd)},
           {"low_95", number(parameter.low_95)},
           {"high_95", number(parameter.high_95)},
-          {"unit", parameter.unit}};
+          {"unit", parameter.unit},
+          {"on_limit", make_limit(parameter.on_limit)}};
+}
+
+Json make_base_number(const BaseNumber& base) {
+  const char* sources[] = {"file", "usual", "class"};
+  return {{"name", base.name},
+          {"unit", base.unit},
+          {"value", number(base.value)},
+          {"sd", number(base.sd)},
+          {"sd_source", sources[static_cast<int>(base.sd_source)]},
+          {"recalibrated", number(base.recalibrated)},
+          {"moved_sd", number(base.moved_sd)},
+          {"with_cause", number(base.with_cause)},
+          {"with_cause_moved_sd", number(base.with_cause_moved_sd)}};
 }
 
 Json make_cause(const Cause& cause) {
@@ -39,6 +59,7 @@ Json make_gap(const Gap& gap) {
       {"recalibration_percent", number(gap.recalibration_percent)},
       {"black_box_percent", number(gap.black_box_percent)},
       {"held_out", gap.held_out},
+      {"judged_on", gap.judged_on},
       {"unit", "noise floors"},
       {"channels", make_list(gap.channels, [](const ChannelGap& at) -> Json {
          return {
@@ -95,6 +116,7 @@ Json make_diagnosis_json(const Findings& findings) {
           {"gap", make_gap(findings.gap)},
           {"where", make_list(findings.where, make_location)},
           {"balance", make_list(findings.balance, make_balance)},
+          {"base_numbers", make_list(findings.base_numbers, make_base_number)},
           {"next_test", make_list(findings.next_tests, make_next_test)},
           {"next_sensor", make_list(findings.next_sensors, make_next_sensor)},
           {"not_excluded", findings.not_excluded},

@@ -15,6 +15,7 @@ namespace rollrig::diagnosis {
 namespace {
 
 constexpr std::size_t kLabelColumns = 12;
+constexpr int kWorthTelling_sd = 1;  // of moves of the files' numbers
 
 std::size_t text_width() { return terminal_columns() - kLabelColumns - 2; }
 
@@ -78,7 +79,8 @@ std::string describe_size(const ParameterEstimate& size) {
 std::string describe_effect(const std::string& effect, const Cause& cause) {
   const ParameterEstimate* size = find_size(cause, effect);
   if (size == nullptr) return effect;
-  return fmt::format("{}: {} (95 %: {:.3g} to {:.3g})", effect, describe_size(*size), size->low_95, size->high_95);
+  return fmt::format("{}: {} (95 %: {:.3g} to {:.3g}){}", effect, describe_size(*size), size->low_95, size->high_95,
+                     describe_limit(*size));
 }
 
 std::string cause_line(const Findings& findings) {
@@ -170,16 +172,21 @@ bool tells_torque_as_force(const Findings& findings) {
                      [&is_told](const ChannelGap& at) { return is_told(at.channel, at.unit); });
 }
 
+/// Whether runs were left out, and none of them can judge the cause.
+bool is_unjudged(const Gap& gap) { return !gap.held_out.empty() && gap.judged_on.empty(); }
+
 std::string shrinkage_line(const Findings& findings) {
   const Gap& gap = findings.gap;
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
-    const std::size_t runs = gap.held_out.size();
+    const std::size_t runs = gap.judged_on.size();
     const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held out", runs);
     parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
                                 whole(gap.shrink_ci95_percent[1]), on));
   } else if (findings.verdict == Verdict::kUnexplained && findings.causes.empty()) {
     parts.emplace_back("no cause to shrink it by");
+  } else if (findings.verdict != Verdict::kNoGap && is_unjudged(gap)) {
+    parts.emplace_back("not known: no run is predicted well by the others");
   } else {
     parts.emplace_back("nothing above the noise to shrink");
   }
@@ -188,6 +195,36 @@ std::string shrinkage_line(const Findings& findings) {
   }
   if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
   return line("Shrinks by", fmt::format("{}", fmt::join(parts, ", ")));
+}
+
+/// The numbers of the files that moved furthest: with the cause where one is shown, else in the recalibration.
+std::string moved_line(const Findings& findings) {
+  std::vector<std::string> moved;
+  const bool is_caused = !findings.base_numbers.empty() && findings.base_numbers.front().with_cause.has_value();
+  for (const BaseNumber& base : findings.base_numbers) {
+    const double by_sd = base.with_cause_moved_sd.value_or(base.moved_sd);
+    if (std::abs(by_sd) >= kWorthTelling_sd) moved.push_back(fmt::format("{} {:+.1f} sd", last_part(base.name), by_sd));
+  }
+  const std::string none = fmt::format("no number of the files by more than {} standard uncertainty", kWorthTelling_sd);
+  const std::string when = is_caused ? " with the cause" : "";
+  if (moved.empty()) return line("Moved", none + when);
+  return line("Moved", join_to_fit(moved, ", ", text_width() - when.size()) + when);
+}
+
+/// The uncertainties that are assumed, as shares of the numbers; empty where the files give them all.
+std::string assumed_line(const Findings& findings) {
+  std::vector<std::string> assumed;
+  bool is_class = false;
+  for (const BaseNumber& base : findings.base_numbers) {
+    if (base.sd_source == SdSource::kFile) continue;
+    is_class = is_class || base.sd_source == SdSource::kClass;
+    const std::string size = base.value != 0.0 ? fmt::format("{:.2g} %", 100.0 * std::abs(base.sd / base.value))
+                                               : with_unit(fmt::format("{:.2g}", base.sd), base.unit);
+    assumed.push_back(last_part(base.name) + " " + size);
+  }
+  if (assumed.empty()) return {};
+  const std::string why = is_class ? "as class values: " : "no _sd in the files: ";
+  return line("Assumed", why + join_to_fit(assumed, ", ", text_width() - why.size()));
 }
 
 std::string next_line(const Findings& findings) {
@@ -221,13 +258,13 @@ std::string format_summary(const Findings& findings) {
   text += line("Not excluded", findings.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                              : join_to_fit(findings.not_excluded, ", ", text_width()));
   text += next_line(findings);
+  if (!findings.base_numbers.empty()) text += moved_line(findings) + assumed_line(findings);
   if (tells_torque_as_force(findings)) text += line("Torque", "in N, as force at the drum's surface");
   if (!findings.causes.empty()) {
     const Cause& first = findings.causes.front();
     if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
       text += line("Or as well", describe_alternatives(first));
     }
-    if (const std::string open = describe_unconfirmed(findings); !open.empty()) text += line("But", open);
     for (const std::string& objection : findings.causes.front().objections) text += line("But", objection);
   }
   if (const auto& lone = findings.without_run) {
@@ -247,11 +284,9 @@ std::string format_summary(const Findings& findings) {
   return text;
 }
 
-std::string describe_unconfirmed(const Findings& findings) {
-  const Gap& gap = findings.gap;
-  const bool is_judged = gap.shrink_percent.has_value() && !gap.held_out.empty();
-  if (findings.verdict != Verdict::kExplained || !is_judged || gap.shrink_ci95_percent[0] > 0.0) return {};
-  return "the runs left out do not confirm it: the interval holds 0 %";
+std::string describe_limit(const ParameterEstimate& estimate) {
+  if (estimate.on_limit == RangeLimit::kNone) return {};
+  return ", on the limit of its range";
 }
 
 }  // namespace rollrig::diagnosis

@@ -17,10 +17,7 @@ std::string format_summary(const Findings& findings);
 /// "94 %"; neither 0 nor 100 while some doubt is left.
 std::string show_probability(double probability);
 
-/// Of an explained gap, that the runs left out do not confirm the cause: the interval of what it shrinks on them holds
-/// 0. Empty where they confirm it, or where none could be left out. The verdict does not follow it: it is by
-/// probability.
-/// Checked tests/diagnosis/summary_test.cpp
-std::string describe_unconfirmed(const Findings& findings);
+/// ", on the limit of its range" of an estimate that is there; else empty.
+std::string describe_limit(const ParameterEstimate& estimate);
 
 }  // namespace rollrig::diagnosis

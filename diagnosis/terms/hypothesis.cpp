@@ -91,6 +91,17 @@ PriorBounds bounds_in_prior_units(const models::EffectParameter& parameter, int 
   return {place(lower) + kInside, place(upper) - kInside};
 }
 
+std::vector<PriorBounds> list_own_bounds(const Hypothesis& hypothesis) {
+  std::vector<PriorBounds> bounds;
+  for (const auto& [term, sign] : hypothesis.terms) {
+    const std::vector<models::EffectParameter>& parameters = term->parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      bounds.push_back(bounds_in_prior_units(parameters[i], i == 0 ? sign : 1));
+    }
+  }
+  return bounds;
+}
+
 std::vector<int> possible_signs(const models::EffectParameter& size) {
   if (size.prior.either_sign) return {1, -1};
   return {1};

@@ -46,6 +46,8 @@ struct PriorBounds {
   double upper;
 };
 PriorBounds bounds_in_prior_units(const models::EffectParameter& parameter, int sign);
+/// Those of all own parameters of a hypothesis, in its order.
+std::vector<PriorBounds> list_own_bounds(const Hypothesis& hypothesis);
 
 /// Signs that a size may have: 1, or both.
 std::vector<int> possible_signs(const models::EffectParameter& size);

@@ -49,7 +49,8 @@ struct Gap {
   std::array<double, 2> shrink_ci95_percent{};
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
   std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
-  std::vector<std::string> held_out;            // runs judged on
+  std::vector<std::string> held_out;            // runs left out of a fit and predicted by it
+  std::vector<std::string> judged_on;           // of these, those on which the cause is judged
   bool worse_where_certain = false;  // the cause enlarges the gap of held-out runs that the others predict well
   std::vector<ChannelGap> channels;
 };
@@ -99,6 +100,26 @@ struct LoneRun {
   double probability = 0.0;          // of the first cause, or of "none"
 };
 
+/// Where the standard uncertainty of a number comes from.
+enum class SdSource {
+  kFile,   // key `_sd` of the file
+  kUsual,  // assumed: of a number that was identified
+  kClass   // assumed: of a value of the tire's class, or a guess
+};
+
+/// A number of a tire, rig or vehicle file that the diagnosis moves within its standard uncertainty.
+struct BaseNumber {
+  std::string name;  // as the file has it: "thermal.heat_capacity_J_per_K"
+  std::string unit;
+  double value = 0.0;  // of the file
+  double sd = 0.0;
+  SdSource sd_source = SdSource::kFile;
+  double recalibrated = 0.0;                        // without any effect
+  double moved_sd = 0.0;                            // by how many standard uncertainties
+  std::optional<double> with_cause = std::nullopt;  // the same with the first cause; none where there is none
+  std::optional<double> with_cause_moved_sd = std::nullopt;
+};
+
 /// What a diagnosis finds, as its JSON has it.
 struct Findings {
   std::string set;  // its name
@@ -108,7 +129,8 @@ struct Findings {
   Gap gap;
   std::vector<Location> where;  // the largest share first
   std::vector<BalanceShare> balance;
-  std::vector<NextTest> next_tests;  // the best first
+  std::vector<BaseNumber> base_numbers;  // that which moved furthest first
+  std::vector<NextTest> next_tests;      // the best first
   std::vector<NextSensor> next_sensors;
   std::vector<std::string> not_excluded;  // effects that this set would not show
   std::vector<std::string> warnings;      // about the data, a sentence each

@@ -28,6 +28,9 @@ struct ResultRecords {
   std::vector<std::vector<ResultValue>> records;
 };
 
+/// A limit of the range in which a number is allowed.
+enum class RangeLimit { kNone, kLower, kUpper };
+
 /// A fitted number with its interval of 95 %.
 struct ParameterEstimate {
   std::string name;  // "<effect>.<key>", or the key of a file
@@ -36,6 +39,7 @@ struct ParameterEstimate {
   double low_95 = 0.0;
   double high_95 = 0.0;
   std::string unit;
+  RangeLimit on_limit = RangeLimit::kNone;  // of an effect's parameter: the limit on which the estimate is
 };
 
 /// A recorded quantity.

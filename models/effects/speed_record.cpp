@@ -19,10 +19,11 @@ struct SpeedRecord {
     info.source =
         "the record is given and the truth follows from it; torque and force are measured by themselves, so that "
         "their channels have no error of their own from it. A slope is taken as it is recorded. Assumed: scale, 1 to "
-        "10 %; either sign; g, a diameter or a belt that grows with speed; o, a fixed speed, which is gone at rest, "
+        "10 %, at most 15 % (a radius that is wrong by more is another wheel); either sign; g, a diameter or a belt "
+        "that grows with speed; o, a fixed speed, which is gone at rest, "
         "within e";
     info.parameters = {{"error_percent",
-                        between(-50.0, 50.0),
+                        between(-15.0, 15.0),
                         {1.0, 10.0, Prior::Scale::kLog, true},
                         "s, true over recorded at 80 km/h, less one",
                         0.0},

@@ -98,6 +98,12 @@ void read_model(TableReader& file, TireFile& tire) {
   }
 }
 
+TireBasis read_basis(TableReader& file) {
+  const std::string word = file.text_or("basis", "", {"measured", "class"});
+  if (word.empty()) return TireBasis::kUnknown;
+  return word == "measured" ? TireBasis::kMeasured : TireBasis::kClass;
+}
+
 void read_validity(TableReader& file, TireFile& tire) {
   TireValidity validity;
   if (!read_group(file, "validity", validity)) return;
@@ -152,6 +158,7 @@ TireFile read_tire(const ConfigTable& config) {
   check_format(file, kTireFormat, kTireFormatVersion);
   tire.name = file.text("name");
   tire.designation = file.text_or("designation", tire.name);
+  tire.basis = read_basis(file);
   read_model(file, tire);
   if (!read_group(file, "geometry", tire.values.geometry)) throw file.problem("geometry", "missing table [geometry]");
   check_geometry(*file.table("geometry"), tire.values.geometry);
@@ -240,6 +247,17 @@ TireParameters<double> TireFile::standard_uncertainties_on(const CoolingRig& rig
         own.speed_conductance_sd_W_s_per_m_K.value_or(sd.thermal.speed_conductance_W_s_per_m_K);
   }
   return sd;
+}
+
+bool TireFile::gives_uncertainty_of(bool heat_balance) const {
+  bool is_given = false;
+  TireParameters<double>::visit_all(standard_uncertainties, [&](const std::string& table, const Field&, double sd) {
+    if ((table == "thermal") == heat_balance && sd > 0.0) is_given = true;
+  });
+  return is_given || (heat_balance && std::any_of(rig_thermal.begin(), rig_thermal.end(), [](const auto& entry) {
+                        return entry.second.rest_conductance_sd_W_per_K.has_value() ||
+                               entry.second.speed_conductance_sd_W_s_per_m_K.has_value();
+                      }));
 }
 
 std::optional<std::string> TireFile::warn_of_conductances(const CoolingRig& rig) const {

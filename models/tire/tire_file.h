@@ -105,6 +105,13 @@ enum class Baseline {
   kConstantRrc  // a constant coefficient
 };
 
+/// What the numbers of a tire file without a standard uncertainty are from (`basis`).
+enum class TireBasis {
+  kUnknown,   // the file does not say
+  kMeasured,  // identified from measurements of this tire
+  kClass      // values of the tire's class, or guesses
+};
+
 struct TireFile {
   std::string path;
   std::string content;  // as read, for the manifest's hash
@@ -112,7 +119,8 @@ struct TireFile {
   std::string designation;
   TireParameters<double> values;
   TireParameters<double> standard_uncertainties;  // 0 where none was given
-  TireCorrelation correlation;                    // of numbers with one; may be empty
+  TireBasis basis = TireBasis::kUnknown;
+  TireCorrelation correlation;  // of numbers with one; may be empty
   bool has_stiffness = false;
   bool has_rolling_resistance = false;
   bool has_thermal = false;
@@ -133,6 +141,9 @@ struct TireFile {
   /// [thermal.rig.<name>] has its own, or without one that of [thermal]; one by the rig's cooling has that of the
   /// cooling, times the outer area.
   TireParameters<double> standard_uncertainties_on(const CoolingRig& rig) const;
+  /// Whether the file gives a standard uncertainty of any number of the heat balance ([thermal], of any rig), or else
+  /// of the loss (all other tables).
+  bool gives_uncertainty_of(bool heat_balance) const;
   /// A warning where this tire names the rigs on which its conductances hold, and this rig is none of them.
   std::optional<std::string> warn_of_conductances(const CoolingRig& rig) const;
 

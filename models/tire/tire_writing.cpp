@@ -60,6 +60,9 @@ std::string write_tire(const TireFile& tire, const std::map<std::string, std::st
   out.line("designation", "\"" + tire.designation + "\"");
   const std::string& model = tire.values.model().info.id;
   if (&tire.values.model() != &default_tire_model()) out.line("model", "\"" + model + "\"");
+  if (tire.basis != TireBasis::kUnknown) {
+    out.line("basis", tire.basis == TireBasis::kMeasured ? "\"measured\"" : "\"class\"");
+  }
   const TireParameters<double>& sd = tire.standard_uncertainties;
   out.group("[geometry]", tire.values.geometry);
   if (tire.has_stiffness) out.group("[stiffness]", tire.values.stiffness);

@@ -21,9 +21,10 @@ constexpr double kSpeed_m_s = 80.0 / 3.6;
 /// A set without runs: base parameters hang on the files alone.
 measurements::MeasurementSet make_set() { return tests::make_gap_set({}, 0); }
 
-std::map<std::string, FreeParameter> find(const measurements::MeasurementSet& set) {
+std::map<std::string, FreeParameter> find(const measurements::MeasurementSet& set,
+                                          diagnosis::TireBelief belief = diagnosis::TireBelief::kIdentified) {
   std::map<std::string, FreeParameter> by_key;
-  for (const FreeParameter& parameter : diagnosis::find_base_parameters(set, measurements::make_context(set))) {
+  for (const FreeParameter& parameter : diagnosis::find_base_parameters(set, measurements::make_context(set), belief)) {
     CHECK(by_key.emplace(parameter.key, parameter).second);
     CHECK(parameter.prior_sd_SI > 0.0);
   }
@@ -130,6 +131,48 @@ TEST_CASE("a parasitic loss is uncertain by a twentieth of each of its parts, an
     CHECK(base.at(keys[i]).prior_sd_SI * power == Approx(0.05 * parts_N[i] + 0.12));
     power *= kSpeed_m_s;
   }
+}
+
+TEST_CASE("numbers of the class count as known to a tenth to a third, and measured ones to the usual", "[fast]") {
+  auto set = make_set();
+  const auto usual = find(set);
+  set.tire.basis = models::TireBasis::kClass;
+  const auto of_class = find(set);
+  REQUIRE(of_class.size() == usual.size());
+  for (const auto& [key, parameter] : of_class) {
+    INFO(key);
+    const bool is_of_tire = key.rfind("tire.", 0) == 0;
+    CHECK((parameter.prior_sd_SI > 1.9 * usual.at(key).prior_sd_SI) == is_of_tire);
+  }
+  CHECK(find_change_of_loss(set, "tire.rolling_resistance.A0_N", 273.15) == Approx(0.10).epsilon(0.01));
+  CHECK_FALSE(diagnosis::is_tire_origin_open(set));
+  set.tire.standard_uncertainties.rolling_resistance.A0_N = 0.123;
+  CHECK(find(set).at("tire.rolling_resistance.A0_N").prior_sd_SI == 0.123);
+}
+
+TEST_CASE("a file that does not say where its numbers are from leaves open how well they are known", "[fast]") {
+  using diagnosis::TireBelief;
+  auto set = make_set();
+  set.tire.basis = models::TireBasis::kUnknown;
+  CHECK(diagnosis::is_tire_origin_open(set));
+  auto of_class = set;
+  of_class.tire.basis = models::TireBasis::kClass;
+  for (const auto& [key, parameter] : find(of_class)) {
+    INFO(key);
+    CHECK(find(set, TireBelief::kClass).at(key).prior_sd_SI == parameter.prior_sd_SI);
+    CHECK(find(set, TireBelief::kIdentified).at(key).prior_sd_SI == find(make_set()).at(key).prior_sd_SI);
+  }
+  // An uncertainty of one number of the loss speaks for the other numbers of the loss, and not for the heat balance.
+  set.tire.standard_uncertainties.rolling_resistance.A0_N = 0.7;
+  CHECK(diagnosis::is_tire_origin_open(set));
+  const auto wide = find(set, TireBelief::kClass);
+  const auto usual = find(set, TireBelief::kIdentified);
+  CHECK(wide.at("tire.rolling_resistance.B0_per_degC").prior_sd_SI ==
+        usual.at("tire.rolling_resistance.B0_per_degC").prior_sd_SI);
+  CHECK(wide.at("tire.thermal.heat_capacity_J_per_K").prior_sd_SI >
+        2.0 * usual.at("tire.thermal.heat_capacity_J_per_K").prior_sd_SI);
+  set.tire.rig_thermal.begin()->second.rest_conductance_sd_W_per_K = 0.7;
+  CHECK_FALSE(diagnosis::is_tire_origin_open(set));
 }
 
 TEST_CASE("an uncertainty of the file wins over the default", "[fast]") {

@@ -57,6 +57,26 @@ TEST_CASE("every key of the contract is there, with its meaning", "[fast]") {
   CHECK(json["not_excluded"] == Json::array({"windage", "torque_gain"}));
 }
 
+TEST_CASE("limits of ranges and moves of the files' numbers are there, all of them", "[fast]") {
+  diagnosis::Diagnosis made = tests::make_explained();
+  made.causes[0].parameters[0].on_limit = RangeLimit::kLower;
+  made.base_numbers = {{"thermal.H_gas_W_per_K", "W/K", 4.0, 0.6, SdSource::kUsual, 5.2, 2.0, 4.3, 0.5},
+                       {"parasitic.c0_N", "N", 6.0, 0.3, SdSource::kFile, 6.3, 1.0}};
+  const Json json = diagnosis::make_diagnosis_json(made);
+  CHECK(json["causes"][0]["parameters"][0]["on_limit"] == "lower");
+  CHECK(json["causes"][0]["parameters"][1]["on_limit"].is_null());
+  REQUIRE(json["base_numbers"].size() == 2);
+  const Json& first = json["base_numbers"][0];
+  CHECK(first["name"] == "thermal.H_gas_W_per_K");
+  CHECK(first["sd_source"] == "usual");
+  CHECK(first["recalibrated"] == 5.2);
+  CHECK(first["moved_sd"] == 2.0);
+  CHECK(first["with_cause_moved_sd"] == 0.5);
+  CHECK(json["base_numbers"][1]["sd_source"] == "file");
+  CHECK(json["base_numbers"][1]["with_cause"].is_null());
+  CHECK(json["gap"]["judged_on"] == json["gap"]["held_out"]);
+}
+
 TEST_CASE("without a gap there is no shrinkage, and lists are empty, not absent", "[fast]") {
   const Json json = diagnosis::make_diagnosis_json(tests::make_no_gap());
   CHECK(json["verdict"] == "no_gap");

@@ -136,6 +136,29 @@ TEST_CASE("the evidence of a linear problem is the integral over its unknowns", 
   }
 }
 
+TEST_CASE("the evidence of a parameter with a range is the integral over that range", "[fast]") {
+  Problem problem(1);
+  const diagnosis::Term& term = diagnosis::find_term("load_exponent");
+  problem.fit.hypothesis = diagnosis::Hypothesis{}.with({&term, 1});
+  const auto [lower, upper] = diagnosis::list_own_bounds(problem.fit.hypothesis).front();
+  const Amplitudes amplitudes{0.3, 2.0, 0.7};
+  const Eigen::VectorXd residuals = problem.fit.residuals;
+  for (const double pull : {0.0, 30.0, 45.0, 60.0}) {  // towards the lower end of the range, and beyond
+    problem.fit.residuals = residuals + pull * problem.fit.jacobian.col(0);
+    const Density density(problem, amplitudes);
+    const Evidence::Solution solution = problem.evidence().solve(amplitudes);
+    constexpr double kStep = 1e-3;
+    double within = 0.0;  // in units of the evidence
+    double prior = 0.0;
+    for (double u = lower + 0.5 * kStep; u < std::min(upper, 12.0); u += kStep) {
+      within += kStep * std::exp(density(Eigen::VectorXd::Constant(1, u)) - solution.log_value);
+      prior += kStep * std::exp(-0.5 * u * u) * boost::math::constants::one_div_root_two_pi<double>();
+    }
+    INFO("pull " << pull << ", unbounded optimum " << problem.fit.unknowns[0] + solution.step[0]);
+    CHECK(std::log(within / prior) == Approx(0.0).margin(2e-3));
+  }
+}
+
 TEST_CASE("a discrepancy that stands on another counts both", "[fast]") {
   // The process of conditions has no size here, so that the one below is all there is.
   const Problem problem(2);

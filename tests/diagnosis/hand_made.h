@@ -24,6 +24,7 @@ inline diagnosis::Diagnosis make_explained() {
   made.gap.recalibration_percent = 62.0;
   made.gap.black_box_percent = 70.0;
   made.gap.held_out = {"warm-up-80", "warm-up-120", "transient-skim"};
+  made.gap.judged_on = made.gap.held_out;
   made.gap.channels = {{"drum_torque_Nm", "N", 1.92, 0.13},
                        {"liner_temperature_degC", "degC", 0.4, 0.1},
                        {"cavity_pressure_kPa", "kPa", 0.3, 0.1}};

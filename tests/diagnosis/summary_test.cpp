@@ -126,15 +126,45 @@ TEST_CASE("an unknown cause is said to be one", "[fast]") {
   CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalog"));
 }
 
-TEST_CASE("a cause that the runs left out do not confirm is said to be such, in one line", "[fast]") {
+TEST_CASE("where no run left out can judge the cause, that is said", "[fast]") {
   Diagnosis made = tests::make_explained();
-  const auto is_told = [&made] { return !line_of(format_summary(made), "But").empty(); };
-  CHECK_FALSE(is_told());
-  made.gap.shrink_ci95_percent = {-12.0, 60.0};
-  check_layout(format_summary(made), 14);
-  CHECK_THAT(line_of(format_summary(made), "But"), Contains("do not confirm"));
-  made.gap.held_out.clear();  // judged on what was fitted
-  CHECK_FALSE(is_told());
+  made.gap.shrink_percent.reset();
+  made.gap.judged_on.clear();
+  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("not known"));
+  check_layout(format_summary(made), 13);
+}
+
+TEST_CASE("an estimate on the limit of its range is marked", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].effects = {"brake_drag"};
+  made.causes[0].parameters = {{"brake_drag.force_N", 100.0, 9.0, 72.3, 100.0, "N"}};
+  CHECK_THAT(format_summary(made), !Contains("limit of its range"));
+  made.causes[0].parameters[0].on_limit = RangeLimit::kUpper;
+  CHECK_THAT(format_summary(made), Contains("brake_drag: force 100 N (95 %: 72.3 to 100), on the limit of its range"));
+}
+
+TEST_CASE("the numbers of the files that moved furthest are named, and the uncertainties that are assumed", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.base_numbers = {
+      {"thermal.conductance_at_rest_W_per_K", "W/K", 12.0, 1.0, SdSource::kUsual, 15.1, 3.1, 14.4, 2.4},
+      {"rolling_resistance.A0_N", "N", 36.0, 0.7, SdSource::kFile, 35.0, -1.4, 34.9, -1.6},
+      {"parasitic.c0_N", "N", 6.0, 0.3, SdSource::kUsual, 6.1, 0.3, 6.0, 0.1}};
+  const std::string text = format_summary(made);
+  check_layout(text, 15);
+  CHECK_THAT(line_of(text, "Moved"),
+             Contains("conductance_at_rest_W_per_K +2.4 sd, A0_N -1.6 sd with the cause") && !Contains("c0_N"));
+  CHECK_THAT(line_of(text, "Assumed"),
+             Contains("no _sd") && Contains("conductance_at_rest_W_per_K 8.3 %") && !Contains("A0_N"));
+  made.base_numbers[0].sd_source = SdSource::kClass;
+  CHECK_THAT(line_of(format_summary(made), "Assumed"), Contains("class values"));
+  for (BaseNumber& base : made.base_numbers) {
+    base.with_cause.reset();
+    base.with_cause_moved_sd.reset();
+    base.moved_sd *= 0.1;
+    base.sd_source = SdSource::kFile;
+  }
+  CHECK_THAT(line_of(format_summary(made), "Moved"), Contains("no number of the files by more than 1"));
+  CHECK(line_of(format_summary(made), "Assumed").empty());
 }
 
 TEST_CASE("files in doubt are told of before any physics, once", "[fast]") {

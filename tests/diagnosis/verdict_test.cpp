@@ -46,3 +46,26 @@ TEST_CASE("no gap where none is likelier than the cause, or than each effect of 
   cause.adequate = false;
   CHECK(find_verdict({{"none", 0.20}, {"unknown", 0.04}, {"a", 0.6}}, {cause}) == Verdict::kUnexplained);
 }
+
+TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[fast]") {
+  using namespace rollrig::diagnosis;
+  const auto judge = [](Gap gap) {
+    Cause cause;
+    cause.effects = {"a"};
+    cause.probability = 0.9;
+    std::vector<Cause> causes{cause};
+    std::map<std::string, double> probability{{"none", 0.05}, {"unknown", 0.05}, {"a", 0.9}};
+    weigh_objections(gap, causes, probability);
+    return find_verdict(probability, causes);
+  };
+  Gap gap;
+  gap.held_out = gap.judged_on = {"1", "2"};
+  gap.shrink_percent = 40.0;
+  gap.shrink_ci95_percent = {12.0, 60.0};
+  CHECK(judge(gap) == Verdict::kExplained);
+  gap.shrink_percent = 10.0;
+  gap.shrink_ci95_percent = {-22.0, 18.0};
+  CHECK(judge(gap) == Verdict::kUnexplained);
+  gap.shrink_percent.reset();  // no run that could judge it
+  CHECK(judge(gap) == Verdict::kExplained);
+}

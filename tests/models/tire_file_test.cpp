@@ -31,6 +31,18 @@ TEST_CASE("a tire that is written is the tire that is read", "[fast]") {
   CHECK(back.sweep_loads_N == tire.sweep_loads_N);
 }
 
+TEST_CASE("what the numbers of a tire are from is read and written, where the file says so", "[fast]") {
+  models::TireFile tire = tests::read_combined_tire();
+  CHECK(tire.basis == models::TireBasis::kMeasured);
+  for (const models::TireBasis basis : {models::TireBasis::kMeasured, models::TireBasis::kClass}) {
+    tire.basis = basis;
+    CHECK(models::read_tire(parse_config(models::write_tire(tire), "written")).basis == basis);
+  }
+  tire.basis = models::TireBasis::kUnknown;
+  CHECK_THAT(models::write_tire(tire), !Catch::Contains("basis"));
+  CHECK(models::read_tire(parse_config(models::write_tire(tire), "written")).basis == models::TireBasis::kUnknown);
+}
+
 TEST_CASE("a tire of another model is written and read with that model's own numbers", "[fast]") {
   models::TireFile tire = tests::read_combined_tire();
   CHECK(tire.values.model().info.id == "combined");
