@@ -30,7 +30,7 @@ struct Beliefs {
 /// TireBelief::kClass. The evidence of all hypotheses decides between the beliefs: wide priors cost evidence where the
 /// numbers are right.
 /// Equation  weight = q Z_class/(q Z_class + (1 - q) Z_identified), Z summed over all hypotheses with their priors
-/// Symbols   q = 0.5 (Assumed)
+/// Symbols   q = 0.99 (Assumed)
 /// Errors    RunFailure: the baseline cannot be fitted
 /// Checked   tests/diagnosis/guessed_tire_test.cpp
 Beliefs compare_beliefs(const measurements::MeasurementSet& measured, const StudySettings& settings);

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t kLabelColumns = 12;
 constexpr int kWorthTelling_sd = 1;  // of moves of the files' numbers
+constexpr std::size_t kMostMoves = 4;
 
 std::size_t text_width() { return terminal_columns() - kLabelColumns - 2; }
 
@@ -208,7 +209,10 @@ std::string moved_line(const Findings& findings) {
   const std::string none = fmt::format("no number of the files by more than {} standard uncertainty", kWorthTelling_sd);
   const std::string when = is_caused ? " with the cause" : "";
   if (moved.empty()) return line("Moved", none + when);
-  return line("Moved", join_to_fit(moved, ", ", text_width() - when.size()) + when);
+  const std::size_t told = std::min(moved.size(), kMostMoves);
+  const std::string more = told < moved.size() ? fmt::format(" and {} more", moved.size() - told) : "";
+  moved.resize(told);
+  return line("Moved", fmt::format("{}{}{}", fmt::join(moved, ", "), more, when));
 }
 
 /// The uncertainties that are assumed, as shares of the numbers; empty where the files give them all.
