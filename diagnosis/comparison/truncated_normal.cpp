@@ -77,12 +77,16 @@ double calc_log_mass(const TruncatedNormal& distribution) {
 TruncatedSpread find_spread(const TruncatedNormal& distribution) {
   const Standardized limits = standardize(distribution);
   TruncatedSpread spread = find_standard_spread(limits);
+  const bool is_cut = spread.high_95 == limits.upper;
   if (limits.is_mirrored) {
     spread.low_95 = -std::exchange(spread.high_95, -spread.low_95);
   }
   const double low = distribution.mean + distribution.sd * spread.low_95;
   const double high = distribution.mean + distribution.sd * spread.high_95;
-  return {distribution.sd * spread.sd, std::fmax(low, distribution.lower), std::fmin(high, distribution.upper)};
+  const bool ends_at_lower = is_cut && limits.is_mirrored;
+  const bool ends_at_upper = is_cut && !limits.is_mirrored;
+  return {distribution.sd * spread.sd, ends_at_lower ? distribution.lower : std::fmax(low, distribution.lower),
+          ends_at_upper ? distribution.upper : std::fmin(high, distribution.upper)};
 }
 
 }  // namespace rollrig::diagnosis

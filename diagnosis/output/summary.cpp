@@ -187,7 +187,7 @@ std::string shrinkage_line(const Findings& findings) {
   } else if (findings.verdict == Verdict::kUnexplained && findings.causes.empty()) {
     parts.emplace_back("no cause to shrink it by");
   } else if (findings.verdict != Verdict::kNoGap && is_unjudged(gap)) {
-    parts.emplace_back("not known: no run is predicted well by the others");
+    parts.emplace_back("unknown: no run can judge it");
   } else {
     parts.emplace_back("nothing above the noise to shrink");
   }

@@ -19,6 +19,7 @@ namespace {
 void put_tire(const measurements::MeasurementSet& set, const models::TireParameters<double>& best,
               const models::TireParameters<double>& uncertainty, TireFit& fit) {
   fit.tire = set.tire;
+  fit.tire.basis = models::TireBasis::kMeasured;
   models::TireParameters<double>& values = fit.tire.values;
   values.rolling_resistance = best.rolling_resistance;
   values.load_map = best.load_map;

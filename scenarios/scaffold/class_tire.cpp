@@ -302,6 +302,7 @@ ClassTire make_class_tire(const NewTireOptions& options) {
   made.notes = read_comments(read_text_file(base_file));
   made.tire.name = options.name.empty() ? make_tire_name(size, load_index) : options.name;
   made.tire.designation = size.designation;
+  made.tire.basis = models::TireBasis::kClass;
   NumberSetter numbers(made, base);
   set_geometry(size, values, made, numbers);
   set_tests(options, values, pressure_kPa, made, numbers);

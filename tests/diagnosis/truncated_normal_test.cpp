@@ -19,8 +19,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Grid {
   explicit Grid(const TruncatedNormal& of) {
     constexpr int kSteps = 200000;
-    const double lower = std::fmax(of.lower, of.mean - 12.0 * of.sd);
-    const double upper = std::fmin(of.upper, std::fmax(of.mean, lower) + 12.0 * of.sd);
+    const double likeliest = std::fmin(std::fmax(of.mean, of.lower), of.upper);
+    const double lower = std::fmax(of.lower, likeliest - 12.0 * of.sd);
+    const double upper = std::fmin(of.upper, likeliest + 12.0 * of.sd);
     const double step = (upper - lower) / kSteps;
     for (int i = 0; i < kSteps; ++i) {
       const double x = lower + (i + 0.5) * step;
