@@ -12,7 +12,7 @@ using namespace rollrig;
 namespace {
 
 /// Two runs whose tire file has another heat capacity than the tire, by that factor, and says that it knows it to 3 %.
-measurements::MeasurementSet make_set(double factor) {
+measurements::MeasurementSet make_moved_set(double factor) {
   auto set = tests::add_noise(tests::make_gap_set({}, 2), 3);
   auto& thermal = set.tire.values.thermal;
   thermal.heat_capacity_J_per_K *= factor;
@@ -23,15 +23,15 @@ measurements::MeasurementSet make_set(double factor) {
 }  // namespace
 
 TEST_CASE("a number of the files that moves far is told of, with its size; of right files none is", "[fast]") {
-  const tests::FittedBaseline wrong(make_set(0.75));
+  const tests::FittedBaseline wrong(make_moved_set(0.75));
   CHECK_THAT(diagnosis::describe_far_moves(wrong, wrong.null.fit),
              Contains("thermal.heat_capacity_J_per_K by +") && Contains("standard uncertaint"));
-  const tests::FittedBaseline right(make_set(1.0));
+  const tests::FittedBaseline right(make_moved_set(1.0));
   CHECK(diagnosis::describe_far_moves(right, right.null.fit).empty());
 }
 
 TEST_CASE("moves are listed from the largest down, with both values and where the uncertainty comes from", "[fast]") {
-  const tests::FittedBaseline fitted(make_set(0.75));
+  const tests::FittedBaseline fitted(make_moved_set(0.75));
   const std::vector<BaseNumber> numbers = diagnosis::list_base_numbers(fitted, nullptr);
   REQUIRE(numbers.size() == fitted.base.size());
   const BaseNumber& first = numbers.front();
