@@ -33,12 +33,12 @@ double calc_gas_J_per_K(const models::TireParameters<double>& tire) {
 }
 
 void add_heat_balance(const models::TireParameters<double>& tire, std::map<std::string, double>& sd) {
-  constexpr double kPerMass_J_per_kg_K = 0.3 * 1640.0;
+  constexpr double kHeatCapacityShare = 0.3;
   constexpr double kPerArea_W_per_m2_K = 0.3 * 4.1;
   constexpr double kPerArea_W_s_per_m3_K = 0.25 * 1.27;
   constexpr double kGasShare = 0.15;
   const double area_m2 = models::calc_outer_area_m2(tire.geometry);
-  sd["tire.thermal.heat_capacity_J_per_K"] = kPerMass_J_per_kg_K * tire.geometry.mass_kg;
+  sd["tire.thermal.heat_capacity_J_per_K"] = kHeatCapacityShare * find_usual_heat_capacity_J_per_K(tire);
   sd["tire.thermal.gas_heat_capacity_J_per_K"] = kGasShare * calc_gas_J_per_K(tire);
   sd["tire.thermal.H_gas_W_per_K"] = kPerArea_W_per_m2_K * area_m2;
   sd["tire.thermal.f_W_s_per_m_K"] = kPerArea_W_s_per_m3_K * area_m2;
@@ -53,21 +53,34 @@ void add_lines_of_class(const models::SpeedLines<double>& lines, double speed_m_
   sd["tire.rolling_resistance.B1_s_per_m_degC"] = kShare * fall_per_K / kReference_m_s;
 }
 
+/// Numbers of the tire's own model, by the share that the model declares of their usual size.
+void add_own_numbers(const models::TireParameters<double>& tire, std::map<std::string, double>& sd) {
+  constexpr double kUsualArea_m2 = 0.93;  // Assumed: of a passenger car's tire, 225/55 R17
+  const models::TireModelInfo& model = tire.model().info;
+  for (const models::TireModelParameter& own : model.parameters) {
+    const Unit unit = unit_of_key(own.field.key);
+    double usual_SI = std::abs(unit.factor * own.usual);
+    if (unit.symbol == "W/K") usual_SI *= models::calc_outer_area_m2(tire.geometry) / kUsualArea_m2;
+    sd.emplace("tire." + model.id + "." + own.field.output_key(), own.usual_sd * usual_SI);
+  }
+}
+
 }  // namespace
 
 std::map<std::string, double> find_class_uncertainties(const models::TireParameters<double>& tire,
                                                        double level_speed_m_s) {
   std::map<std::string, double> sd = list_bounded();
-  const models::TireModelInfo& model = tire.model().info;
-  for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-    const models::TireModelParameter& own = model.parameters[i];
-    sd.emplace("tire." + model.id + "." + own.field.output_key(), own.usual_sd * std::abs(tire.own[i]));
-  }
+  add_own_numbers(tire, sd);
   add_heat_balance(tire, sd);
-  if (model.follows_speed_lines()) add_lines_of_class(tire.rolling_resistance, level_speed_m_s, sd);
+  if (tire.model().info.follows_speed_lines()) add_lines_of_class(tire.rolling_resistance, level_speed_m_s, sd);
   constexpr double kPressureExponent = 0.06;
   sd["tire.rolling_resistance.pressure_exponent"] = kPressureExponent;
   return sd;
+}
+
+double find_usual_heat_capacity_J_per_K(const models::TireParameters<double>& tire) {
+  constexpr double kPerMass_J_per_kg_K = 1640.0;
+  return kPerMass_J_per_kg_K * tire.geometry.mass_kg;
 }
 
 }  // namespace rollrig::estimation

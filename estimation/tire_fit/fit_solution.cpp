@@ -50,8 +50,10 @@ class FollowIterations : public ceres::IterationCallback {
 
 }  // namespace
 
-std::vector<double> minimize(const DrumResiduals& residuals, const Progress& progress) {
+std::vector<double> minimize(const DrumResiduals& residuals, const std::vector<double>& first,
+                             const Progress& progress) {
   std::vector<double> found = residuals.start();
+  std::copy(first.begin(), first.end(), found.begin());
   ceres::Problem problem;
   problem.AddResidualBlock(new ResidualFunction(residuals), nullptr, found.data());
   for (std::size_t i = 0; i < residuals.parameters().size(); ++i) {

@@ -9,9 +9,11 @@
 
 namespace rollrig::estimation {
 
-/// The unknowns at the least sum of squares, within the bounds of the parameters.
+/// The unknowns at the least sum of squares, within the bounds of the parameters. The search begins at `first`, one
+/// value [SI] for each parameter.
 /// Errors  RunFailure: no convergence
-std::vector<double> minimize(const DrumResiduals& residuals, const Progress& progress);
+std::vector<double> minimize(const DrumResiduals& residuals, const std::vector<double>& first,
+                             const Progress& progress);
 
 /// Covariance of the unknowns at the optimum: the inverse of J^T J. The columns of J are scaled to unit length first:
 /// in SI units a heat capacity's is so much shorter than the others' that it would pass for a direction that the data

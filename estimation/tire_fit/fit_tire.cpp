@@ -199,7 +199,7 @@ Solution solve_within_law(const measurements::MeasurementSet& set, const TireFit
   Solution solution{std::move(unknowns), {}, {}};
   const auto solve = [&] {
     solution.residuals.emplace(set, solution.unknowns.start, solution.unknowns.parameters, options.threads);
-    solution.found = minimize(*solution.residuals, options.progress);
+    solution.found = minimize(*solution.residuals, list_first_values(solution.unknowns), options.progress);
   };
   solve();
   while (const auto mistake = find_law_mistake(solution.unknowns, solution.found)) {

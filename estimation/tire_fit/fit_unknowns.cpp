@@ -179,6 +179,19 @@ FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::
   return unknowns;
 }
 
+std::vector<double> list_first_values(const FitUnknowns& unknowns) {
+  constexpr double kFactor = 2.0;  // Assumed
+  const double usual_J_per_K = find_usual_heat_capacity_J_per_K(unknowns.start.tire);
+  std::vector<double> first;
+  for (const FreeParameter& parameter : unknowns.parameters) {
+    first.push_back(parameter.start_SI);
+    const bool guessed = unknowns.of_class.count(parameter.key) == 1;
+    if (!guessed || parameter.key != "tire.thermal.heat_capacity_J_per_K") continue;
+    first.back() = std::clamp(parameter.start_SI, usual_J_per_K / kFactor, usual_J_per_K * kFactor);
+  }
+  return first;
+}
+
 std::optional<models::TireModelMistake> find_law_mistake(const FitUnknowns& unknowns,
                                                          const std::vector<double>& found) {
   models::Context<double> at = unknowns.start;

@@ -28,6 +28,11 @@ struct FitUnknowns {
 FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::optional<TwoStepEstimate>& start,
                             bool load_map, bool free_H);
 
+/// Where the search for the optimum begins [SI], one value for each parameter: at its starting value. But a heat
+/// capacity with a class prior begins within a factor of two of the usual one: from a guess far below, the simulated
+/// tire warms up in seconds, and the search finds no way out.
+std::vector<double> list_first_values(const FitUnknowns& unknowns);
+
 /// What the tire's law finds wrong with its own numbers at these values.
 std::optional<models::TireModelMistake> find_law_mistake(const FitUnknowns& unknowns, const std::vector<double>& found);
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/drum_fixture.h"
+#include "tests/support/fit_study.h"
 
 using namespace rollrig;
 using estimation::find_class_uncertainties;
@@ -19,9 +20,27 @@ TEST_CASE("a number that is guessed too low is not known better for that", "[fas
   const auto right = find_class_uncertainties(tire, kLevelSpeed_m_s);
   tire.thermal.heat_capacity_J_per_K *= 0.5;
   tire.thermal.H_gas_W_per_K *= 0.5;
+  tests::find_own(tire.own, "tread_share_of_loss") *= 0.5;
+  tests::find_own(tire.own, "conductance_W_per_K") *= 0.5;
   const auto low = find_class_uncertainties(tire, kLevelSpeed_m_s);
   CHECK(low.at(kCapacityKey) == right.at(kCapacityKey));
   CHECK(low.at("tire.thermal.H_gas_W_per_K") == right.at("tire.thermal.H_gas_W_per_K"));
+  for (const char* key : {"tire.bounded.tread_share_of_loss", "tire.bounded.conductance_W_per_K"}) {
+    INFO(key);
+    CHECK(low.at(key) == right.at(key));
+    CHECK(low.at(key) > 0.0);
+  }
+}
+
+TEST_CASE("a conductance within the tire is known as well as the size of the tire says", "[fast]") {
+  const auto find = [](const char* name) {
+    return find_class_uncertainties(tests::read_asset_tire(name).values, kLevelSpeed_m_s);
+  };
+  const auto car = find("c1_205_55r16");
+  const auto truck = find("c3_315_80r22_5");
+  const char* const share = "tire.bounded.tread_share_of_loss";
+  CHECK(truck.at("tire.bounded.conductance_W_per_K") > 2.0 * car.at("tire.bounded.conductance_W_per_K"));
+  CHECK(truck.at(share) == car.at(share));
 }
 
 TEST_CASE("the class of a heat capacity reaches over the specific heats of tires", "[fast]") {

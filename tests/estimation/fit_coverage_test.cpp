@@ -1,12 +1,17 @@
-// 95 % intervals of `fit tire` on hundreds of sets with noise, whose tire files are guesses: how often do they hold the
-// truth? ROLLRIG_FIT_SETS sets the number of sets. A study of minutes, which runs by name alone: from one warm-up, two
-// numbers do not reach their rate yet (docs/fit_tire.md).
+// 95 % intervals of `fit tire` on sets with noise, whose tire files are guesses: how often do they hold the truth?
+// ROLLRIG_FIT_SETS sets the number of sets, 100 unless said. With 300 or more, the share of all intervals that hold the
+// truth must lie in 93 to 97 %, as the tables of docs/fit_tire.md say. The cases whose files have uncertainties of
+// their own are a study that runs by name alone.
 #include <fmt/format.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <numeric>
 
+#include "sim/core/error.h"
 #include "sim/core/parallel.h"
 #include "tests/support/fit_study.h"
 #include "tests/support/fit_study_guesses.h"
@@ -18,17 +23,25 @@ namespace {
 
 int count_sets() {
   const char* wanted = std::getenv("ROLLRIG_FIT_SETS");
-  return wanted != nullptr ? std::stoi(wanted) : 300;
+  return wanted != nullptr ? std::stoi(wanted) : 100;
 }
 
-/// Sets whose noise and guesses differ.
+/// Sets whose noise and guesses differ. A fit that fails has no estimates.
 std::vector<estimation::TireFit> fit_sets(const MeasurementSet& truth) {
   std::vector<estimation::TireFit> fits(static_cast<std::size_t>(count_sets()));
+  std::vector<std::string> failures(fits.size());
   parallel_for(fits.size(), 0, [&](std::size_t i) {
     MeasurementSet measured = tests::guess_numbers(truth, i + 1);
     measured.runs = tests::add_noise(truth, i + 1).runs;
-    fits[i] = estimation::fit_tire(measured, {"", false, false, 1});
+    try {
+      fits[i] = estimation::fit_tire(measured, {"", false, false, 1});
+    } catch (const RunFailure& failure) {  // has no estimates: no interval of it holds a truth
+      failures[i] = failure.what();
+    }
   });
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (!failures[i].empty()) std::cout << fmt::format("set {} failed: {}\n", i + 1, failures[i]);
+  }
   return fits;
 }
 
@@ -39,52 +52,78 @@ const estimation::Estimate* find_if_fitted(const estimation::TireFit& fit, const
   return nullptr;
 }
 
-/// How often the intervals of one number hold its truth; of those sets that have the number.
+/// The keys of a fit that did not fail.
+std::vector<std::string> list_keys(const std::vector<estimation::TireFit>& fits) {
+  std::vector<std::string> keys;
+  for (const estimation::TireFit& fit : fits) {
+    for (const estimation::Estimate& estimate : fit.estimates) keys.push_back(estimate.key);
+    if (!keys.empty()) return keys;
+  }
+  return keys;
+}
+
+/// In which sets the interval of one number holds its truth. A set without the number does not hold it.
 struct Coverage {
-  int held = 0;
-  int sets = 0;
+  std::vector<bool> held;
   double width = 0.0;
+  int fitted = 0;
+
+  int count() const { return static_cast<int>(std::count(held.begin(), held.end(), true)); }
 };
 
-Coverage count_held(const std::vector<estimation::TireFit>& fits, const std::string& key, double truth) {
+Coverage find_held(const std::vector<estimation::TireFit>& fits, const std::string& key, double truth) {
   Coverage coverage;
   for (const auto& fit : fits) {
     const estimation::Estimate* estimate = find_if_fitted(fit, key);
+    coverage.held.push_back(estimate != nullptr && estimate->lower_95() <= truth && truth <= estimate->upper_95());
     if (estimate == nullptr) continue;
-    ++coverage.sets;
-    if (estimate->lower_95() <= truth && truth <= estimate->upper_95()) ++coverage.held;
+    ++coverage.fitted;
     coverage.width += estimate->upper_95() - estimate->lower_95();
   }
-  coverage.width /= coverage.sets;
+  coverage.width /= coverage.fitted;
   return coverage;
 }
 
-/// Of all intervals 93 to 97 % hold the truth, and no number's are rejected by a binomial test.
+/// Share of all intervals that hold the truth: 93 to 97 %, of 300 sets or more. Of fewer the share may leave this range
+/// by what chance does at 1 %. Intervals of one set err together, so that chance is told by the scatter of the sets.
+void check_share(const std::vector<double>& share_of_set) {
+  const auto sets = static_cast<double>(share_of_set.size());
+  const double share = std::accumulate(share_of_set.begin(), share_of_set.end(), 0.0) / sets;
+  double squares = 0.0;
+  for (const double one : share_of_set) squares += (one - share) * (one - share);
+  const double chance = sets >= 300.0 ? 0.0 : 2.58 * std::sqrt(squares / (sets - 1.0) / sets);
+  std::cout << fmt::format("all: {:.1f} %, of {} sets\n", 100.0 * share, share_of_set.size());
+  CHECK(share > 0.93 - chance);
+  CHECK(share < 0.97 + chance);
+}
+
+/// No number's intervals are rejected by a binomial test of 95 %, nor is the share of all.
 void check_fit_coverage(const MeasurementSet& truth_of) {
   const std::vector<estimation::TireFit> fits = fit_sets(truth_of);
-  Coverage all;
-  for (const estimation::Estimate& estimate : fits[0].estimates) {
-    const double truth = tests::find_truth(truth_of, estimate.key);
-    const Coverage one = count_held(fits, estimate.key, truth);
-    std::cout << fmt::format("{:<42}{} truth {:>10.5g}  interval {:>10.4g} wide ({:.1f} %)  covered {} of {}\n",
-                             estimate.key, estimate.nuisance ? " *" : "  ", truth, one.width,
-                             100.0 * one.width / std::abs(truth), one.held, one.sets);
-    INFO(estimate.key << " covered " << one.held << " of " << one.sets);
-    CHECK_FALSE(tests::is_rejected(one.held, one.sets, 0.95, 0.01));
-    all.held += one.held;
-    all.sets += one.sets;
+  const std::vector<std::string> keys = list_keys(fits);
+  REQUIRE_FALSE(keys.empty());
+  std::vector<double> share_of_set(fits.size(), 0.0);
+  for (const std::string& key : keys) {
+    const double truth = tests::find_truth(truth_of, key);
+    const Coverage one = find_held(fits, key, truth);
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (one.held[i]) share_of_set[i] += 1.0 / static_cast<double>(keys.size());
+    }
+    const auto sets = static_cast<int>(fits.size());
+    std::cout << fmt::format("{:<42} truth {:>10.5g}  interval {:>10.4g} wide  covered {} of {}\n", key, truth,
+                             one.width, one.count(), sets);
+    INFO(key << " covered " << one.count() << " of " << sets);
+    CHECK_FALSE(tests::is_rejected(one.count(), sets, 0.95, 0.01));
   }
-  const double share = static_cast<double>(all.held) / all.sets;
-  std::cout << fmt::format("all: {} of {}, {:.1f} %\n", all.held, all.sets, 100.0 * share);
-  CHECK(share > 0.93);
-  CHECK(share < 0.97);
+  check_share(share_of_set);
 }
 
 }  // namespace
 
-TEST_CASE("95 % intervals cover at their rate, for each parameter", "[.study]") {
+TEST_CASE("95 % intervals cover at their rate, for each parameter", "[slow]") {
   MeasurementSet truth = tests::make_warm_up_set("a50", "source_with_gas");
   tests::forget_uncertainties(truth);
+  tests::thin(truth, 4);
   check_fit_coverage(truth);
 }
 
@@ -100,24 +139,25 @@ TEST_CASE("95 % intervals cover where the files' own numbers are off by their un
   check_fit_coverage(truth);
 }
 
-TEST_CASE("95 % intervals cover for each number of a bounded law", "[.study]") {
+TEST_CASE("95 % intervals cover for each number of a bounded law", "[slow]") {
   models::TireFile tire = tests::read_asset_tire("c1_205_55r16");
   tests::put_own(tire, "speed_rise_of_fall", 0.3);
   MeasurementSet truth = tests::make_warm_up_set(
       tire, {{60.0, 4100.0, 230.0, "slow"}, {100.0, 4100.0, 230.0, "fast"}, {100.0, 5600.0, 230.0, "loaded"}},
       "source_with_gas", "quasi_static");
   tests::forget_uncertainties(truth);
+  tests::thin(truth, 4);
   check_fit_coverage(truth);
 }
 
-TEST_CASE("95 % intervals cover from one warm-up of a tire with the combined law", "[.study]") {
+TEST_CASE("95 % intervals cover from one warm-up of a tire with the combined law", "[slow]") {
   MeasurementSet truth = tests::make_warm_up_set(tests::read_combined_tire(), {{100.0}}, "source", "quasi_static");
   tests::forget_uncertainties(truth);
   tests::thin(truth, 4);
   check_fit_coverage(truth);
 }
 
-TEST_CASE("95 % intervals cover from one warm-up of a bounded tire without uncertainties", "[.study]") {
+TEST_CASE("95 % intervals cover from one warm-up of a bounded tire without uncertainties", "[slow]") {
   MeasurementSet truth = tests::make_warm_up_set(tests::read_asset_tire("c1_205_55r16"), {{100.0, 4100.0, 230.0}},
                                                  "source", "quasi_static");
   tests::forget_uncertainties(truth);

@@ -143,6 +143,18 @@ TEST_CASE("the guess of a heat capacity does not decide what a fit says", "[fast
   }
 }
 
+TEST_CASE("a fit finds its way from a heat capacity that is guessed far off", "[fast]") {
+  MeasurementSet set = make_one_warm_up(tests::read_asset_tire("c1_205_55r16"));
+  const double truth = set.tire.values.thermal.heat_capacity_J_per_K;
+  for (const double share : {0.03, 3.0}) {
+    set.tire.values.thermal.heat_capacity_J_per_K = share * truth;
+    INFO(share);
+    const Estimate found = estimate_of(fit_tire(set, {}), kHeatCapacityOfTire);
+    CHECK(std::abs(found.value - truth) < 4.0 * found.sd);
+    CHECK(found.sd < 0.1 * truth);
+  }
+}
+
 TEST_CASE("a fit that holds a wrong heat capacity is contradicted by the two-step regression", "[fast]") {
   MeasurementSet set = make_two_warm_ups(5);
   CHECK(count_two_step_warnings(fit_tire(set, {})) == 0);
