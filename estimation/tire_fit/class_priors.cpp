@@ -54,7 +54,7 @@ void add_lines_of_class(const models::SpeedLines<double>& lines, double speed_m_
 }
 
 /// Numbers of the tire's own model, by the share that the model declares of their usual size.
-void add_own_numbers(const models::TireParameters<double>& tire, std::map<std::string, double>& sd) {
+void add_numbers_of_model(const models::TireParameters<double>& tire, std::map<std::string, double>& sd) {
   constexpr double kUsualArea_m2 = 0.93;  // Assumed: of a passenger car's tire, 225/55 R17
   const models::TireModelInfo& model = tire.model().info;
   for (const models::TireModelParameter& own : model.parameters) {
@@ -70,7 +70,7 @@ void add_own_numbers(const models::TireParameters<double>& tire, std::map<std::s
 std::map<std::string, double> find_class_uncertainties(const models::TireParameters<double>& tire,
                                                        double level_speed_m_s) {
   std::map<std::string, double> sd = list_bounded();
-  add_own_numbers(tire, sd);
+  add_numbers_of_model(tire, sd);
   add_heat_balance(tire, sd);
   if (tire.model().info.follows_speed_lines()) add_lines_of_class(tire.rolling_resistance, level_speed_m_s, sd);
   constexpr double kPressureExponent = 0.06;
