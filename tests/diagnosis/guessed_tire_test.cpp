@@ -1,6 +1,8 @@
 // Campaigns whose tire file holds guesses: neither is a cause named for what the guesses are off by, nor is a true
 // cause lost where the guesses leave it visible.
 #include <catch2/catch.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>
@@ -71,7 +73,7 @@ TEST_CASE("with a guessed tire no cause is named that does not act", "[slow]") {
     if (is_named && !(acts && tests::names(found, "bearing_warmup"))) ++wrong;
   }
   WARN(wrong << " of " << count << " guessed tires with a wrong cause named above 0.5");
-  CHECK(wrong <= count / 10);
+  CHECK(wrong <= std::max(1, count / 10));  // of few sets one: a bank of 36 had none
 }
 
 TEST_CASE("a measured tire that does not say so keeps its usual uncertainties, and its cause", "[slow]") {

