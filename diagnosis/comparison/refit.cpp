@@ -57,10 +57,11 @@ class WhitenedResiduals : public ceres::CostFunction {
   mutable Derived last_;
 };
 
-/// Whether a step of Gauss and Newton from a fit takes an own parameter beyond its range, near which it is: the fit may
-/// have stopped short of it, with all else not yet at its best.
-bool presses_on_range(const Model& model, const Discrepancy& discrepancy, const RefitStart& start, const Fit& fit) {
-  constexpr double kNear = 0.5;  // Assumed: prior units
+/// Whether a fit stopped short of its best because of a range: near the end of one, a step of Gauss and Newton goes
+/// beyond it, or promises a better fit that steps of Levenberg and Marquardt did not reach, since they ended outside.
+bool is_held_up_by_range(const Model& model, const Discrepancy& discrepancy, const RefitStart& start, const Fit& fit) {
+  constexpr double kNear = 0.5;             // Assumed: prior units
+  constexpr double kWorthGoing_nats = 0.1;  // Assumed: less decides nothing
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds bounds = model.own_parameters()[i].bounds();
@@ -73,9 +74,10 @@ bool presses_on_range(const Model& model, const Discrepancy& discrepancy, const 
   discrepancy.whiten(start.amplitudes, jacobian);
   discrepancy.whiten(start.amplitudes, residuals);
   const Eigen::Index n = jacobian.cols();
-  const Eigen::VectorXd step = (jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n))
-                                   .llt()
-                                   .solve(-(jacobian.transpose() * residuals + fit.unknowns));
+  const Eigen::VectorXd gradient = jacobian.transpose() * residuals + fit.unknowns;
+  const Eigen::VectorXd step =
+      (jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n)).llt().solve(-gradient);
+  if (-0.5 * gradient.dot(step) > kWorthGoing_nats) return true;
   return std::any_of(near.begin(), near.end(), [&](std::size_t i) {
     const PriorBounds bounds = model.own_parameters()[i].bounds();
     const double aim = fit.unknowns[to_index(i)] + step[to_index(i)];
@@ -134,7 +136,7 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   options.logging_type = ceres::SILENT;
   FLAGS_minloglevel = google::GLOG_FATAL;  // a start that cannot be simulated is an answer, not a mistake
   if (!solve(options, problem, *residuals, model, start, fit)) return fit;
-  if (presses_on_range(model, discrepancy, start, fit)) {
+  if (is_held_up_by_range(model, discrepancy, start, fit)) {
     const Fit short_of_range = fit;
     set_ranges(model, problem, fit.unknowns.data());
     if (!solve(options, problem, *residuals, model, start, fit)) fit = short_of_range;

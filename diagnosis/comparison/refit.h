@@ -26,6 +26,7 @@ struct RefitStart {
 /// Least squares of whitened residuals and priors under a discrepancy of given size, by Levenberg and Marquardt. A
 /// hypothesis that cannot be simulated anywhere near its start comes back with an infinite cost. Own parameters stay
 /// within their ranges; where one is on the limit of its range, all other unknowns are the best beside it.
+/// Checked  tests/diagnosis/refit_test.cpp
 Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& start);
 
 }  // namespace rollrig::diagnosis
