@@ -40,8 +40,8 @@ MeasuredRun read_run(const ConfigTable& table, const std::string& folder, const 
   }
   read_run_table(reader, run);
   if (reader.flag_or("reversed", false)) {
-    if (is_of_vehicle(kind.traits))
-      throw reader.problem("reversed", "only a drum is turned the other way round", "false");
+    if (!is_indoors(kind.traits))
+      throw reader.problem("reversed", "only a drum or a roller is turned the other way round", "false");
     run.reversed = true;
   }
   reader.finish();

@@ -39,7 +39,7 @@ struct LeftOutRows {
 
 struct MeasuredRun : RunTable {
   std::string file;       // path
-  bool reversed = false;  // a drum, turned the other way round
+  bool reversed = false;  // a drum or a roller, turned the other way round
   std::vector<double> time_s;
   QuantityMap<std::vector<double>> columns;  // SI; NaN where there is no sample
   LeftOutRows left_out;

@@ -13,6 +13,7 @@ inline constexpr Quantity kSurfaceTemperature{"surface_temperature", "degC"};
 inline constexpr Quantity kLongitudinalForce{"longitudinal_force", "N"};
 inline constexpr Quantity kElevation{"elevation", "m"};
 inline constexpr Quantity kHungTorque{"hung_torque", "Nm"};
+inline constexpr Quantity kHungForce{"hung_force", "N"};  // where the machine measures a force
 
 // What its sensors show.
 inline constexpr Quantity kDrumTorque{"drum_torque", "Nm"};
@@ -22,6 +23,8 @@ inline constexpr Quantity kLinerTemperature{"liner_temperature", "degC"};
 inline constexpr Quantity kCavityPressure{"cavity_pressure", "kPa"};
 inline constexpr Quantity kGasTemperature{"gas_temperature", "degC"};
 inline constexpr Quantity kRimTemperature{"rim_temperature", "degC"};
+inline constexpr Quantity kContactLoad{"contact_load", "N"};
+inline constexpr Quantity kSpeedReading{"speed_reading", "km_h"};
 
 /// Stands for the force or torque that a machine measures, whatever its name there (MachineTraits::force).
 inline constexpr Quantity kMachineForce{"machine_force", "N"};
@@ -30,7 +33,6 @@ inline constexpr Quantity kMachineForce{"machine_force", "N"};
 inline constexpr Quantity kRollingResistance{"rolling_resistance", "N"};
 inline constexpr Quantity kParasiticLoss{"parasitic", "N"};
 inline constexpr Quantity kSpindleForce{"spindle_force", "N"};
-inline constexpr Quantity kContactLoad{"contact_load", "N"};
 inline constexpr Quantity kFrictionBrake{"friction_brake", "N"};
 
 }  // namespace rollrig::models::quantities

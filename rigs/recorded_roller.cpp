@@ -12,6 +12,8 @@ std::vector<sim::Channel> make_roller_channels(bool has_rim, Detail detail) {
   std::vector<sim::Channel> channels{make_mean_channel(quantities::kLossForce, RecordedIntegral::kForce)};
   for (const models::TireChannel& tire : models::kTireChannels) channels.push_back(make_tire_channel(tire.quantity));
   if (has_rim) channels.push_back(make_mean_channel(quantities::kRimTemperature, RecordedIntegral::kRimTemperature));
+  channels.push_back(make_mean_channel(quantities::kContactLoad, RecordedIntegral::kContactLoad));
+  channels.push_back(make_mean_channel(quantities::kSpeedReading, RecordedIntegral::kSurfaceSpeed));
   if (detail == Detail::kMeasured) return channels;
   channels.push_back(make_mean_channel(quantities::kRollingResistance, RecordedIntegral::kRollingResistance));
   channels.push_back(make_mean_channel(quantities::kParasiticLoss, RecordedIntegral::kParasitic));

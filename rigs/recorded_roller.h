@@ -10,8 +10,8 @@ namespace rollrig::rigs {
 constexpr std::size_t kLongitudinalForceInput = kDrumInputCount;
 constexpr std::size_t kRollerInputCount = kDrumInputCount + 1;
 
-/// One wheel on the roller of a dynamometer. Its detail is measured: loss_force, readings of the tire, and of the rim
-/// where an effect has one.
+/// One wheel on the roller of a dynamometer. Its detail is measured: loss_force, readings of the tire, of the rim where
+/// an effect has one, load under the wheel and surface speed as they are.
 ///
 /// Equation  the wheel: models/wheel/rolling_wheel.h with X = -Fx, loss_force its calc_loss_force_N. Power of the hub
 ///           D v + X s v, of the roller (F_rr - F_rr/(1 + r_l k) + F_par + j m_r a + X) v; s left out of D

@@ -14,6 +14,8 @@ std::vector<sim::Integral> make_integrals(const std::vector<sim::Channel>& chann
   std::vector<sim::Integral> integrals{{"force"}};
   add_tire_integrals(integrals);
   const std::vector<sim::Integral> further{{"rim_temperature"},
+                                           {"contact_load"},
+                                           {"surface_speed"},
                                            {"rolling_resistance"},
                                            {"parasitic"},
                                            {"friction_brake"},
@@ -110,9 +112,13 @@ void RecordedWheel<S>::evaluate(double time_s, const S* state, S* rates, S* inte
   find_motion(time_s, state);
   for (Wheel& wheel : this->wheels_) this->calc_rates(wheel, state, rates);
   constexpr std::size_t kFirst = index_of(RecordedIntegral::kTireReadings);
-  const std::size_t count = std::min(this->integrals().size(), index_of(RecordedIntegral::kRollingResistance));
+  const std::size_t count = std::min(this->integrals().size(), index_of(RecordedIntegral::kContactLoad));
   integrands[index_of(RecordedIntegral::kForce)] = force_N_;
   if (count > kFirst) put_tire_means(&integrands[kFirst], count - kFirst);
+  if (this->integrals().size() > index_of(RecordedIntegral::kSurfaceSpeed)) {
+    integrands[index_of(RecordedIntegral::kContactLoad)] = wheel().now.acting.load_N;
+    integrands[index_of(RecordedIntegral::kSurfaceSpeed)] = wheel().now.acting.speed_m_s;
+  }
   if (detail_ == Detail::kFull) put_further(integrands);
 }
 

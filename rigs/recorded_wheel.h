@@ -13,6 +13,8 @@ enum class RecordedIntegral : std::size_t {
   kForce,
   kTireReadings,  // one each of models::kTireChannels
   kRimTemperature = kTireReadings + models::kTireChannels.size(),
+  kContactLoad,
+  kSurfaceSpeed,
   kRollingResistance,
   kParasitic,
   kFrictionBrake,

@@ -4,17 +4,28 @@
 namespace rollrig::scenarios::follow_roller {
 
 struct FollowRollerConditions : RecordedInputs {
+  Choice reads_force_at_standstill{"no", {"no", "yes"}};
+
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
     visit(Field{"program", any_number(),
                 "CSV: time_s, speed_km_h, load_N, longitudinal_force_N (positive when the wheel drives), ambient_degC, "
-                "and surface_temperature_degC where known; a load holds until the next row, all else goes straight "
+                "surface_temperature_degC where known, and hung_force_N; a load holds until the next row, all else "
+                "goes straight "
                 "from row to row. A run file of a dyno set will do: measured columns are not read"},
           p.program);
     visit_start(p, visit);
     visit(Field{"tire_state", any_number(),
                 "warm: right after another run; effects that remember, such as flat_spot, start accordingly"},
           p.tire_state);
+    visit(Field{"force_at_standstill", any_number(),
+                "yes: with --write-set, the set says that the loss force read at standstill is the sensor's zero"},
+          p.reads_force_at_standstill);
+  }
+
+  void complete(const RunSpec& spec) {
+    RecordedInputs::complete(spec);
+    run.force_at_standstill = reads_force_at_standstill.value == "yes";
   }
 };
 

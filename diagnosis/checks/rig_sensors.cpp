@@ -3,14 +3,13 @@
 #include <functional>
 #include <stdexcept>
 
-#include "rigs/trace_effects.h"
+#include "measurements/read_force.h"
 
 namespace rollrig::diagnosis {
 namespace {
 
 namespace quantities = models::quantities;
 
-constexpr Quantity kSpeedReading{"speed_reading", "km_h"};
 constexpr Quantity kAirReading{"air_reading", "degC"};
 constexpr Quantity kPressureReading{"pressure_reading", "kPa"};
 
@@ -53,40 +52,6 @@ std::vector<S> read_instants(const measurements::MeasurementSet& set, const meas
   return values;
 }
 
-/// What the effects of the port "trace" make of a true force in every row.
-template <class S>
-std::vector<S> trace_of(const measurements::MeasuredRun& run, const models::Corner<S>& corner, const Quantity& channel,
-                        const std::vector<double>& force) {
-  sim::Recording<S> recording;
-  recording.time_s = run.time_s;
-  const auto add = [&](const Quantity& quantity, std::vector<S> values) {
-    recording.channels.push_back({quantity});
-    recording.values.push_back(std::move(values));
-  };
-  add(channel, {force.begin(), force.end()});
-  for (const Quantity& quantity : {quantities::kLoad, quantities::kAmbient}) {
-    const std::vector<double>& given = run.column(quantity);
-    add(quantity, {given.begin(), given.end()});
-  }
-  rigs::apply_trace_effects(corner, recording);
-  return recording.values.front();
-}
-
-template <class S>
-std::vector<S> read_force(const measurements::MeasuredRun& run, const models::Corner<S>& corner, std::vector<S> values,
-                          const Quantity& channel) {
-  const bool hangs = run.has(quantities::kHungTorque);
-  if (!hangs && !run.reversed) return values;
-  const std::vector<double> none(values.size(), 0.0);
-  const std::vector<S> of_zero = trace_of(run, corner, channel, none);
-  const std::vector<S> of_hung = trace_of(run, corner, channel, hangs ? run.column(quantities::kHungTorque) : none);
-  for (std::size_t row = 0; row < values.size(); ++row) {
-    values[row] += of_hung[row] - of_zero[row];
-    if (run.reversed) values[row] -= S(2.0) * of_zero[row];
-  }
-  return values;
-}
-
 }  // namespace
 
 const std::vector<RigSensor>& all_rig_sensors() {
@@ -97,7 +62,7 @@ const std::vector<RigSensor>& all_rig_sensors() {
       {kAirReading, "thermometer in the air beside the tire", 0.25, {0.5, 0.1, 60.0, 0.1, 0.0}},
       {quantities::kSpindleForce, "force sensor at the wheel's spindle", 4.0, {0.5, 0.1, 60.0, 0.3, 0.0}},
       {quantities::kContactLoad, "load cell under the wheel's carriage", 1.0, {10.0, 2.0, 60.0, 5.0, 0.0}},
-      {kSpeedReading, "light barrier that counts turns of the drum", 0.25, {0.01, 0.0, 60.0, 0.01, 0.0}},
+      {quantities::kSpeedReading, "light barrier that counts turns of the drum", 0.25, {0.01, 0.0, 60.0, 0.01, 0.0}},
       {kPressureReading, "second gauge on the cavity's pressure", 0.25, {1000.0, 50.0, 120.0, 50.0, 0.0}}};
   return sensors;
 }
@@ -119,7 +84,9 @@ std::vector<S> read_channel(const PreparedSet& set, const measurements::Measured
   using Instant = models::Instant<S>;
   if (channel == kSurfaceReading) return read([](const Instant& now) { return now.boundary.surface_K; });
   if (channel == kAirReading) return read([](const Instant& now) { return now.acting.ambient_K; });
-  if (channel == kSpeedReading) return read([](const Instant& now) { return now.acting.speed_m_s; });
+  if (channel == quantities::kSpeedReading && recording.find(channel) == nullptr) {
+    return read([](const Instant& now) { return now.acting.speed_m_s; });
+  }
   if (channel == kPressureReading) return read([](const Instant& now) { return now.pressure_Pa; });
   const bool takes_heat = recording.find(channel) != nullptr;
   if (channel == quantities::kRimTemperature && !takes_heat) {  // as warm as the air
@@ -127,7 +94,7 @@ std::vector<S> read_channel(const PreparedSet& set, const measurements::Measured
     return {ambient_K.begin(), ambient_K.end()};
   }
   if (channel == set.source().kind->traits.force) {
-    return read_force(run, corner, recording.channel(channel), channel);
+    return measurements::read_force(run, corner, recording.channel(channel), channel);
   }
   return recording.channel(channel);
 }

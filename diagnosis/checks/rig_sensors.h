@@ -28,10 +28,7 @@ const std::vector<RigSensor>& all_rig_sensors();
 const RigSensor& find_rig_sensor(const Quantity& channel);
 
 /// A channel of a run as a sensor would read it, a value a row.
-/// Equation  with torque hung on it  y + trace(hung) - trace(0);  in reversed rotation  y - 2 trace(0)
-/// Symbols   y the channel as simulated, trace() what the effects of the port "trace" make of a true force
-/// Validity  while torque is hung next to nothing else turns the sensor; those effects turn over with the force but for
-///           what they make of none; sensors other than a set's channels: full detail
+/// Validity  the force as measurements::read_force() reads it; sensors other than a set's channels: full detail
 /// Checked   tests/diagnosis/next_test_test.cpp
 template <class S>
 std::vector<S> read_channel(const PreparedSet& set, const measurements::MeasuredRun& run,

@@ -40,6 +40,15 @@ PlannedTest load_sweep(const TestConditions& at) {
       1, {begin_cold(at).roll_at_loads(5.0, loads_N).roll(20.0, at.load_N).roll_at_loads(5.0, loads_N)});
 }
 
+PlannedTest load_sweep_hot(const TestConditions& at) {
+  const std::vector<double> loads_N{0.4 * at.load_N, 0.6 * at.load_N, 0.8 * at.load_N, 1.0 * at.load_N};
+  return make_test(
+      "load_sweep_hot",
+      fmt::format("load sweep at 80 km/h on the warm tire, 40 to 100 % of {:.0f} N, up and down, 5 min each",
+                  at.load_N),
+      0, {begin_warm(at).roll_at_loads(5.0, loads_N).roll_at_loads(5.0, {loads_N.rbegin(), loads_N.rend()})});
+}
+
 PlannedTest drum_alone(const TestConditions& at) {
   return make_test(
       "drum_alone",
@@ -146,17 +155,22 @@ PlannedTest reversed_rotation(const TestConditions& at) {
 }
 
 PlannedTest dead_weights(const TestConditions& at) {
-  constexpr double kWeights_h = 0.25;                // Assumed: lever mounted, weights hung
-  constexpr double kHung_Nm[] = {50.0, 100.0, 0.0};  // Assumed: about once and twice the torque of a test
+  constexpr double kWeights_h = 0.25;             // Assumed: lever mounted, weights hung
+  constexpr double kHung[] = {50.0, 100.0, 0.0};  // N m, N. Assumed: about once and twice what a test needs
   RunPlan run(at, 0.0);
   run.stand(3.0, 0.0);
-  for (const double torque_Nm : kHung_Nm) run.hang(torque_Nm).stand(3.0, 0.0);
-  PlannedTest test = make_test(
-      "dead_weights", "weights on a lever: 50 and 100 N m on the torque sensor at standstill, tire lifted", 0, {run});
+  for (const double torque_or_force : kHung) run.hang(torque_or_force).stand(3.0, 0.0);
+  const bool is_torque = at.hung == models::quantities::kHungTorque;
+  PlannedTest test =
+      make_test("dead_weights",
+                is_torque ? "weights on a lever: 50 and 100 N m on the torque sensor at standstill, tire lifted"
+                          : "weights that pull the belt with 50 and 100 N at standstill, tire lifted",
+                0, {run});
   test.hours += kWeights_h;
   test.extra.force_at_standstill = true;
   test.by_hand = {
-      "Hang 0, 50, 100 and 0 N m on the drum with a lever of known length, 3 min each, and log the torque."};
+      is_torque ? "Hang 0, 50, 100 and 0 N m on the drum with a lever of known length, 3 min each, and log the torque."
+                : "Pull the belt with weights of 0, 50, 100 and 0 N, 3 min each, and log the force."};
   return test;
 }
 
@@ -194,6 +208,7 @@ std::vector<PlannedTest> make_drum_tests(const PreparedSet& set) {
   return {skim_at_loads(at),
           skim_at_loads_hot(at),
           load_sweep(at),
+          load_sweep_hot(at),
           drum_alone(at),
           standstill_torque(at),
           load_off_and_on(at),

@@ -17,6 +17,14 @@ namespace quantities = models::quantities;
 constexpr double kSetUp_h = 0.5;
 constexpr double kAcceleration_km_h_s = 1.0;
 
+/// The column of weights on the force sensor; without a name where the kind has none.
+Quantity find_hung_column(const rigs::MachineKind& kind) {
+  for (const rigs::Column& column : kind.columns.optional_given) {
+    if (column.quantity == quantities::kHungTorque || column.quantity == quantities::kHungForce) return column.quantity;
+  }
+  return {};
+}
+
 }  // namespace
 
 TestConditions find_test_conditions(const PreparedSet& set) {
@@ -34,7 +42,8 @@ TestConditions find_test_conditions(const PreparedSet& set) {
           pressures_Pa[pressures_Pa.size() / 2],
           set.kind().usual_ambient_K(set.source()),
           set.channels(),
-          {}};
+          {},
+          find_hung_column(*set.source().kind)};
 }
 
 RunPlan::RunPlan(const TestConditions& conditions, double first_km_h)
@@ -81,8 +90,20 @@ RunPlan& RunPlan::on_surface(double surface_K) {
   return *this;
 }
 
-RunPlan& RunPlan::hang(double torque_Nm) {
-  hung_Nm_ = torque_Nm;
+RunPlan& RunPlan::hang(double torque_or_force) {
+  hung_ = torque_or_force;
+  return *this;
+}
+
+RunPlan& RunPlan::coast(double load_N, double speed_km_h,
+                        const std::function<double(double speed_m_s)>& calc_slowing_m_s2) {
+  load_N_ = load_N;
+  read_ = true;
+  while (speed_km_h_ > speed_km_h) {
+    add_row(speed_km_h_);
+    speed_km_h_ -= 3.6 * calc_slowing_m_s2(speed_km_h_ / 3.6) * kVirtualRow_s;
+  }
+  speed_km_h_ = speed_km_h;
   return *this;
 }
 
@@ -93,9 +114,8 @@ RunPlan& RunPlan::reversed() {
 
 measurements::MeasuredRun RunPlan::finish() {
   add_row(speed_km_h_);
-  const auto hangs = [](double torque_Nm) { return torque_Nm != 0.0; };
-  if (std::any_of(hung_by_row_Nm_.begin(), hung_by_row_Nm_.end(), hangs))
-    run_.columns[quantities::kHungTorque] = hung_by_row_Nm_;
+  const auto hangs = [](double torque_or_force) { return torque_or_force != 0.0; };
+  if (std::any_of(hung_by_row_.begin(), hung_by_row_.end(), hangs)) run_.columns[conditions_.hung] = hung_by_row_;
   return run_;
 }
 
@@ -105,7 +125,7 @@ void RunPlan::add_row(double speed_km_h) {
   run_.columns[quantities::kSpeed].push_back(speed_km_h / 3.6);
   run_.columns[quantities::kLoad].push_back(load_N_);
   run_.columns[quantities::kAmbient].push_back(conditions_.ambient_K);
-  hung_by_row_Nm_.push_back(hung_Nm_);
+  hung_by_row_.push_back(hung_);
   for (const auto& [column, value] : conditions_.held) run_.columns[column].push_back(value);
   if (surface_K_ > 0.0) run_.columns[quantities::kSurfaceTemperature].push_back(surface_K_);
   for (const Quantity& channel : conditions_.channels) {
@@ -117,10 +137,13 @@ RunPlan begin_warm(const TestConditions& at) { return begin_cold(at).roll(kWarmU
 
 RunPlan begin_cold(const TestConditions& at) { return {at, kUsual_km_h}; }
 
-TestConditions read_rim_too(TestConditions at) {
-  at.channels.push_back(quantities::kRimTemperature);
+TestConditions read_too(TestConditions at, const Quantity& channel) {
+  const bool is_read = std::find(at.channels.begin(), at.channels.end(), channel) != at.channels.end();
+  if (!is_read) at.channels.push_back(channel);
   return at;
 }
+
+TestConditions read_rim_too(TestConditions at) { return read_too(std::move(at), quantities::kRimTemperature); }
 
 PlannedTest fit_rim_thermocouple(PlannedTest test) {
   test.hours += find_rig_sensor(quantities::kRimTemperature).hours;

@@ -1,6 +1,7 @@
 #pragma once
 /// Runs of a menu of tests, written stage by stage.
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct TestConditions {
   double ambient_K = 0.0;
   std::vector<Quantity> channels;
   std::map<Quantity, double> held;  // further given columns, with what they hold unless a stage says otherwise
+  Quantity hung;                    // the column of what hangs on the force sensor
 };
 
 /// The set's highest load, on which the tire is known to run, its middle pressure, and its kind's usual ambient.
@@ -40,8 +42,11 @@ class RunPlan {
   RunPlan& pull(double longitudinal_force_N);
   RunPlan& at_pressure(double pressure_Pa);
   RunPlan& on_surface(double surface_K);
-  /// From now on a known torque hangs on the drum.
-  RunPlan& hang(double torque_Nm);
+  /// From now on a known torque or force, in the unit of the force channel, hangs on its sensor.
+  RunPlan& hang(double torque_or_force);
+  /// Sets the load at once, then lets the speed fall to another as the forces that `calc_slowing_m_s2` stands for
+  /// slow what turns.
+  RunPlan& coast(double load_N, double speed_km_h, const std::function<double(double speed_m_s)>& calc_slowing_m_s2);
   /// The whole run in the other direction of rotation.
   RunPlan& reversed();
 
@@ -55,8 +60,8 @@ class RunPlan {
   double speed_km_h_;
   double load_N_ = 0.0;
   double surface_K_ = 0.0;  // 0: not recorded
-  double hung_Nm_ = 0.0;
-  std::vector<double> hung_by_row_Nm_;
+  double hung_ = 0.0;
+  std::vector<double> hung_by_row_;
   bool read_ = true;
 };
 
@@ -64,6 +69,8 @@ class RunPlan {
 RunPlan begin_warm(const TestConditions& at);
 RunPlan begin_cold(const TestConditions& at);
 
+/// Conditions under which a further channel is read.
+TestConditions read_too(TestConditions at, const Quantity& channel);
 /// Conditions under which the rim's temperature is read as well, and a test that needs the thermocouple for it.
 TestConditions read_rim_too(TestConditions at);
 PlannedTest fit_rim_thermocouple(PlannedTest test);

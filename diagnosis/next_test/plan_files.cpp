@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "diagnosis/next_test/test_menu.h"
 #include "measurements/sample_selection.h"
@@ -71,22 +72,35 @@ double find_sample_interval_s(const MeasurementSet& set) {
   return std::clamp(std::round(100.0 * mean_s) / 100.0, 0.01, 60.0);
 }
 
-std::string write_run_file(const MeasurementSet& set, const ProposedTest& test, std::size_t index) {
+/// The set's sensors, and those of its kind that the test reads and the set has not.
+models::SensorSet find_sensors(const MeasurementSet& set, const ProposedTest& test) {
+  models::SensorSet sensors = set.sensors;
+  for (const auto& [channel, sensor] : set.kind->default_sensors) {
+    const bool is_read = std::any_of(test.runs.begin(), test.runs.end(),
+                                     [&channel = channel](const MeasuredRun& run) { return run.has(channel); });
+    if (is_read) sensors.emplace(channel, sensor);
+  }
+  return sensors;
+}
+
+/// `number` of `count` runs.
+std::string write_run_file(const MeasurementSet& set, const ProposedTest& test, std::size_t index, std::size_t number,
+                           std::size_t count) {
   const MeasuredRun& run = test.runs[index];
   const PlanWords words = find_words(*set.kind);
   const bool is_combined = set.baseline == models::Baseline::kCombined;
   std::string text = fmt::format(
       "# Run {0} of {1}: {2}\nformat = \"rollrig-run/1\"\nscenario = \"{3}\"\ntire = \"tire.toml\"\n{4} = "
       "\"{4}.toml\"\nbaseline = \"{5}\"\nseed = {0}\nsample_interval_s = {6:.10g}\n",
-      index + 1, test.runs.size(), test.test, set.kind->follow_scenario, words.machine,
-      is_combined ? "combined" : "constant_rrc", find_sample_interval_s(set));
+      number, count, test.test, set.kind->follow_scenario, words.machine, is_combined ? "combined" : "constant_rrc",
+      find_sample_interval_s(set));
   text += fmt::format(
       "\n[settings]\nprogram = \"{}.csv\"\npressure_kPa = {:.10g}\ninitial_tire_temperature_degC = {:.10g}\n", run.id,
       run.cold_pressure_Pa / 1e3, run.initial_tire_temperature_K - kZeroCelsius_K);
   // A run of the other kinds begins where a soak ends.
   if (!is_of_vehicle(set.kind->traits)) text += fmt::format("soak_h = {:.10g}\n", test.soaked ? kSoak_h : 0.0);
   if (test.force_at_standstill) text += "force_at_standstill = \"yes\"\n";
-  return text + measurements::write_sensors(set.sensors);
+  return text + measurements::write_sensors(find_sensors(set, test));
 }
 
 /// One stage of a run: what is held, and how long.
@@ -137,10 +151,10 @@ std::string describe_stage(const Stage& stage, const MachineKind& kind) {
   return fmt::format("     {:6.1f} min   {:<{}}{}\n", stage.duration_s / 60.0, speed, force.empty() ? 0 : 11, force);
 }
 
-std::string describe_run(const ProposedTest& test, std::size_t index, const MachineKind& kind) {
+std::string describe_run(const ProposedTest& test, std::size_t index, std::size_t number, const MachineKind& kind) {
   const MeasuredRun& run = test.runs[index];
   const double ambient_degC = run.column(quantities::kAmbient).front() - kZeroCelsius_K;
-  std::string text = fmt::format("  Run {}: run-{}.toml, {}.csv, {:.0f} min\n", index + 1, index + 1, run.id,
+  std::string text = fmt::format("  Run {0}: run-{0}.toml, {1}.csv, {2:.0f} min\n", number, run.id,
                                  (run.time_s.back() - run.time_s.front()) / 60.0);
   const std::vector<Stage> stages = find_stages(run);
   const bool is_warmed = !stages.empty() && stages.front().speed_m_s > 0.0;
@@ -151,6 +165,24 @@ std::string describe_run(const ProposedTest& test, std::size_t index, const Mach
   return text;
 }
 
+/// The table of a run in a set.toml that it is to be put into.
+std::string write_plan_run(const ProposedTest& test, const MeasuredRun& run) {
+  const char* zero = test.force_at_standstill ? "force_at_standstill = true\n" : "";
+  return fmt::format(
+      "\n[[run]]\nid = \"{0}\"\nfile = \"{0}_measured.csv\"  # what the rig recorded; {0}.csv is the program\n"
+      "session = \"{1}\"\ninitial_tire_temperature_degC = "
+      "{2:.10g}  # as it was\ncold_pressure_kPa = {3:.10g}  # as it was\n{4}{5}",
+      run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero,
+      run.reversed ? "reversed = true\n" : "");
+}
+
+std::string indent_lines(const std::string& text) {
+  std::string indented;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) indented += line.empty() ? "\n" : "  " + line + "\n";
+  return indented;
+}
+
 std::string write_plan_text(const MeasurementSet& set, const ProposedTest& test) {
   const PlanWords words = find_words(*set.kind);
   std::string text = fmt::format("Next test for the set '{}'\n\n{}\n", set.name, wrap(test.test, 2));
@@ -159,9 +191,7 @@ std::string write_plan_text(const MeasurementSet& set, const ProposedTest& test)
   text += fmt::format("  Takes {:.1f} h of {}, set-up included; expected {:.2g} bits an hour\n\n", test.hours,
                       words.occupied, test.expected_bits_per_hour);
   text += fmt::format("{}, in this order\n\n", words.place);
-  for (std::size_t i = 0; i < test.runs.size(); ++i) text += describe_run(test, i, *set.kind) + "\n";
-  for (const std::string& step : test.by_hand) text += wrap(step, 2);
-  if (!test.by_hand.empty()) text += "\n";
+  text += describe_runs(test, 0, *set.kind);
   text += "On paper first: what the simulation without any effect expects, as a set\n\n";
   for (std::size_t i = 0; i < test.runs.size(); ++i) {
     text += fmt::format("  rollrig run run-{0}.toml --write-set set-{0}\n", i + 1);
@@ -169,27 +199,30 @@ std::string write_plan_text(const MeasurementSet& set, const ProposedTest& test)
   text +=
       "\n  With --set effects.<id>.<parameter>=... the same with an effect on.\n\nAfterwards: put the runs into the "
       "set's set.toml and diagnose it again\n";
-  const char* zero = test.force_at_standstill ? "  force_at_standstill = true\n" : "";
-  for (const MeasuredRun& run : test.runs) {
-    text += fmt::format(
-        "\n  [[run]]\n  id = \"{0}\"\n  file = \"{0}_measured.csv\"  # what the rig recorded; {0}.csv is the program\n "
-        " session = \"{1}\"\n  initial_tire_temperature_degC = "
-        "{2:.10g}  # as it was\n  cold_pressure_kPa = {3:.10g}  # as it was\n{4}{5}",
-        run.id, run.session, run.initial_tire_temperature_K - kZeroCelsius_K, run.cold_pressure_Pa / 1e3, zero,
-        run.reversed ? "  reversed = true\n" : "");
-  }
+  for (const MeasuredRun& run : test.runs) text += indent_lines(write_plan_run(test, run));
   return text;
 }
 
 }  // namespace
 
-std::map<std::string, std::string> write_plan(const MeasurementSet& set, const Diagnosis& diagnosis) {
+std::string describe_runs(const ProposedTest& test, std::size_t before, const MachineKind& kind) {
+  std::string text;
+  for (std::size_t i = 0; i < test.runs.size(); ++i) text += describe_run(test, i, before + i + 1, kind) + "\n";
+  for (const std::string& step : test.by_hand) text += wrap(step, 2);
+  return test.by_hand.empty() ? text : text + "\n";
+}
+
+std::map<std::string, std::string> write_test_files(const MeasurementSet& set, const std::vector<ProposedTest>& tests) {
   std::map<std::string, std::string> files;
-  if (!diagnosis.plan.has_value()) return files;
-  const ProposedTest& test = *diagnosis.plan;
-  for (std::size_t i = 0; i < test.runs.size(); ++i) {
-    files[fmt::format("run-{}.toml", i + 1)] = write_run_file(set, test, i);
-    files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], *set.kind);
+  std::size_t count = 0;
+  for (const ProposedTest& test : tests) count += test.runs.size();
+  std::size_t number = 0;
+  for (const ProposedTest& test : tests) {
+    for (std::size_t i = 0; i < test.runs.size(); ++i) {
+      ++number;
+      files[fmt::format("run-{}.toml", number)] = write_run_file(set, test, i, number, count);
+      files[test.runs[i].id + ".csv"] = write_inputs(test.runs[i], *set.kind);
+    }
   }
   files["tire.toml"] = set.tire.content.empty() ? models::write_tire(set.tire) : set.tire.content;
   if (!set.kind->names_rig()) {
@@ -197,7 +230,29 @@ std::map<std::string, std::string> write_plan(const MeasurementSet& set, const D
   } else {
     files["rig.toml"] = set.rig->content.empty() ? rigs::write_rig(*set.rig) : set.rig->content;
   }
-  files["plan.txt"] = write_plan_text(set, test);
+  return files;
+}
+
+std::string write_set_to_fill(const MeasurementSet& set, const std::vector<ProposedTest>& tests) {
+  const bool names_rig = set.kind->names_rig();
+  std::string text = fmt::format("{}name = \"{}\"\n{}tire = \"tire.toml\"\n{}\nbaseline = \"{}\"\n",
+                                 measurements::write_set_format(*set.kind), set.name,
+                                 names_rig ? "" : fmt::format("kind = \"{}\"\n", set.kind->set_word),
+                                 names_rig ? "rig = \"rig.toml\"" : "vehicle = \"vehicle.toml\"",
+                                 set.baseline == models::Baseline::kCombined ? "combined" : "constant_rrc");
+  models::SensorSet sensors = set.sensors;
+  for (const ProposedTest& test : tests) sensors.merge(find_sensors(set, test));
+  text += measurements::write_sensors(sensors);
+  for (const ProposedTest& test : tests) {
+    for (const MeasuredRun& run : test.runs) text += write_plan_run(test, run);
+  }
+  return text;
+}
+
+std::map<std::string, std::string> write_plan(const MeasurementSet& set, const Diagnosis& diagnosis) {
+  if (!diagnosis.plan.has_value()) return {};
+  std::map<std::string, std::string> files = write_test_files(set, {*diagnosis.plan});
+  files["plan.txt"] = write_plan_text(set, *diagnosis.plan);
   return files;
 }
 

@@ -1,6 +1,7 @@
 #include "diagnosis/next_test/predicted_test.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/checks/rig_sensors.h"
@@ -14,7 +15,16 @@ double find_first_interval_s(const PreparedSet& set) {
   return measurements::calc_mean_interval_s(set.runs().front().measured);
 }
 
-/// The test's runs as a set on the same rig, with the same sensors.
+/// Drops the directions of a spread that noise hides.
+RowMatrix compress(const RowMatrix& spread) {
+  constexpr double kNegligible = 1e-3;  // of the noise's variance
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spread.transpose() * spread);
+  const Eigen::Index kept = (solver.eigenvalues().array() > kNegligible).count();
+  return spread * solver.eigenvectors().rightCols(kept);
+}
+
+}  // namespace
+
 measurements::MeasurementSet make_virtual_set(const PreparedSet& set, const PlannedTest& test) {
   measurements::MeasurementSet made = set.source();
   made.name = test.id;
@@ -31,16 +41,6 @@ RowMatrix make_offsets(const PreparedSet& set) {
     series.rows_of(offsets).col(to_index(series.offset)).setConstant(series.offset_sd);
   return offsets;
 }
-
-/// Drops the directions of a spread that noise hides.
-RowMatrix compress(const RowMatrix& spread) {
-  constexpr double kNegligible = 1e-3;  // of the noise's variance
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(spread.transpose() * spread);
-  const Eigen::Index kept = (solver.eigenvalues().array() > kNegligible).count();
-  return spread * solver.eigenvectors().rightCols(kept);
-}
-
-}  // namespace
 
 PredictedTest::PredictedTest(const Study& study, const std::vector<OpenHypothesis>& open, const PlannedTest& test) {
   const PreparedSet set(make_virtual_set(study.set, test), test.extra);
@@ -64,6 +64,7 @@ PredictedTest::PredictedTest(const Study& study, const std::vector<OpenHypothesi
     channels_.insert(channels_.end(), series.size(), set.channels()[series.channel]);
   }
   if (test.clock_pulse) add_clock_reading(study, open);
+  for (const NumberReading& number : test.numbers) add_number_reading(study, open, number);
 }
 
 bool PredictedTest::simulate(const PreparedSet& set, const Study& study, const std::vector<OpenHypothesis>& open) {
@@ -103,13 +104,9 @@ Amplitudes PredictedTest::find_model_error(const PreparedSet& set) const {
 /// The difference of the clocks as the pulse shows it, appended: each logger knows it within its sampling interval.
 void PredictedTest::add_clock_reading(const Study& study, const std::vector<OpenHypothesis>& open) {
   const double sd_s = find_first_interval_s(study.set) * std::sqrt(2.0 / 12.0);
-  const Eigen::Index row = offsets_.rows();
+  const Eigen::Index row = append_row();
   for (std::size_t h = 0; h < open.size(); ++h) {
     Prediction& prediction = predictions_[h];
-    prediction.mean.conservativeResize(row + 1);
-    prediction.spread.conservativeResize(row + 1, Eigen::NoChange);
-    prediction.mean[row] = 0.0;
-    prediction.spread.row(row).setZero();
     const Model model = study.make_model(open[h].hypothesis);
     for (std::size_t i = 0; i < model.own_count(); ++i) {
       const Model::OwnParameter& own = model.own_parameters()[i];
@@ -119,9 +116,37 @@ void PredictedTest::add_clock_reading(const Study& study, const std::vector<Open
       prediction.spread.row(row) = shift_s.derivative_SI / sd_s * open[h].spread.row(to_index(i));
     }
   }
+}
+
+/// A number of the files as the test determines it, appended. Nothing where it is not among what may move.
+void PredictedTest::add_number_reading(const Study& study, const std::vector<OpenHypothesis>& open,
+                                       const NumberReading& number) {
+  const auto is_it = [&](const estimation::FreeParameter& one) { return one.key == number.key; };
+  const auto at = std::find_if(study.base.begin(), study.base.end(), is_it);
+  if (at == study.base.end()) return;
+  const Eigen::Index row = append_row();
+  for (std::size_t h = 0; h < open.size(); ++h) {
+    const Model model = study.make_model(open[h].hypothesis);
+    const Eigen::Index base = to_index(model.own_count()) + (at - study.base.begin());
+    const Eigen::RowVectorXd moves =
+        model.moves_by_unknowns().row(base).head(open[h].parameters.size()) * at->prior_sd_SI / number.sd_SI;
+    predictions_[h].mean[row] = moves.dot(open[h].parameters);
+    predictions_[h].spread.row(row) = moves * open[h].spread;
+  }
+}
+
+Eigen::Index PredictedTest::append_row() {
+  const Eigen::Index row = offsets_.rows();
+  for (Prediction& prediction : predictions_) {
+    prediction.mean.conservativeResize(row + 1);
+    prediction.spread.conservativeResize(row + 1, Eigen::NoChange);
+    prediction.mean[row] = 0.0;
+    prediction.spread.row(row).setZero();
+  }
   channels_.emplace_back();
   offsets_.conservativeResize(row + 1, Eigen::NoChange);
   offsets_.bottomRows(1).setZero();
+  return row;
 }
 
 /// Means and covariances in coordinates of few directions; in all others every outcome is the same noise.

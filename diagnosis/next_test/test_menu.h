@@ -10,6 +10,12 @@ namespace rollrig::diagnosis {
 
 constexpr double kSoak_h = 3.0;  // Assumed: until nothing of the tire or the bearings remembers
 
+/// A number of the files that a test determines by itself, such as a mass on a scale.
+struct NumberReading {
+  std::string key;  // as of a base parameter: "vehicle.mass_kg"
+  double sd_SI = 0.0;
+};
+
 /// A test as an engineer would order it.
 struct PlannedTest {
   std::string id;
@@ -20,6 +26,7 @@ struct PlannedTest {
   bool clock_pulse = false;  // an electrical pulse on both loggers, which reads the difference of their clocks
   bool soaked = false;       // every run starts after a soak, else its first half hour warms the tire
   std::vector<std::string> by_hand = {};  // what is done at the rig beside the runs, a sentence each
+  std::vector<NumberReading> numbers = {};
 };
 
 /// As long as the blocks of a comparison (docs/how_the_diagnosis_reasons.md, "From samples to residuals").
@@ -32,10 +39,13 @@ constexpr double kVirtualRow_s = 10.0;
 /// changes go at 1 km/h a second (Assumed). Where a run need not start cold, its first half hour warms the tire and is
 /// not read.
 /// Reversed rotation: what moves the sensor's zero keeps its sign, all else turns over with the rotation; a session of
-/// its own, since the drum was stopped. Weights on a lever: torque that is known (Assumed: to much better than the
-/// sensor).
+/// its own, since the drum was stopped. Weights on a lever: torque or force that is known (Assumed: to much better than
+/// the sensor). Scale and counter of turns: columns of a dynamometer's set. A weighed vehicle: its mass and the
+/// uncertainty of that in the vehicle's file. Coastdown: forces that are nobody's, so that the loss is that of the
+/// rollers or of the wheel alone, and the traction force of a vehicle is none.
 /// Not in the menu, since nothing that is recorded would say that they were done: a fan, a coasting drum with known
-/// mass added.
+/// mass added, the wheel of another axle (the equations of one wheel know no axle), the zero of the traction force of a
+/// vehicle that stands (what holds it on a slope is not recorded).
 /// Checked   tests/diagnosis/next_test_test.cpp
 std::vector<PlannedTest> make_test_menu(const PreparedSet& set);
 

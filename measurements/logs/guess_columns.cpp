@@ -211,10 +211,7 @@ class ColumnMatcher {
   void match_units() {
     const std::vector<Quantity> open = open_;
     for (const Quantity& quantity : open) {
-      if (quantity == quantities::kHungTorque || quantity == quantities::kSurfaceTemperature ||
-          quantity == quantities::kGasTemperature) {
-        continue;  // few have it
-      }
+      if (!is_needed(quantity)) continue;  // few have it
       const auto goes = [&](const std::string& heading) {
         const HeadingParts& parts = source_.parts_of(heading);
         return parts.unit.has_value() && !parts.unit->is_rpm() && parts.unit->is_of(quantity);
@@ -230,9 +227,10 @@ class ColumnMatcher {
   const QuantityMap<std::pair<std::string, std::string>>& found() const { return found_; }
 
  private:
-  bool is_needed(const Quantity& quantity) const {
-    return quantity != quantities::kHungTorque && quantity != quantities::kSurfaceTemperature &&
-           quantity != quantities::kGasTemperature;
+  static bool is_needed(const Quantity& quantity) {
+    const Quantity rare[] = {quantities::kHungTorque,     quantities::kHungForce,   quantities::kSurfaceTemperature,
+                             quantities::kGasTemperature, quantities::kContactLoad, quantities::kSpeedReading};
+    return std::find(std::begin(rare), std::end(rare), quantity) == std::end(rare);
   }
 
   void require_single(const std::vector<std::pair<Quantity, std::string>>& pairs) const {

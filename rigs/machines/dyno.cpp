@@ -5,6 +5,7 @@ namespace rollrig::rigs {
 
 /// Sensors. Loss force: 2 N offset over a session, 1 N drift in 60 s, 2 N noise of a sample at 1 Hz, Assumed: 0.1 % of
 /// a force cell of 5 kN and what compensating inertia leaves. Liner and cavity: as assets/sensors/source.toml.
+/// Scale: 10 N offset, 2 N drift, 5 N noise; counter of turns: 0.036 km/h offset and noise, Assumed (rig_sensors.h).
 const MachineKind& machine_dyno() {
   using namespace columns;
   using namespace models;
@@ -17,15 +18,20 @@ const MachineKind& machine_dyno() {
         kLoad,
         {quantities::kLongitudinalForce, any_number(), "wheel on roller, positive when it drives"},
         kAmbient},
-       {{quantities::kSurfaceTemperature, kTemperatureRange, "roller surface"}},
+       {{quantities::kSurfaceTemperature, kTemperatureRange, "roller surface"},
+        {quantities::kHungForce, any_number(), "known force on the sensor at the surface, by weights on a lever"}},
        {{quantities::kLossForce, any_number(), "loss between hub and roller over surface speed"},
         measure(quantities::kLinerTemperature),
         measure(quantities::kCavityPressure),
-        measure(quantities::kGasTemperature)}},
+        measure(quantities::kGasTemperature),
+        {quantities::kContactLoad, any_number(), "load under the wheel, by a scale or a cell under the roller"},
+        {quantities::kSpeedReading, any_number(), "surface speed by a counter of its own"}}},
       {{quantities::kLossForce, {2.0, 1.0, 60.0, 2.0, 0.0}},
        make_usual_sensor(quantities::kLinerTemperature),
        make_usual_sensor(quantities::kGasTemperature),
-       make_usual_sensor(quantities::kCavityPressure)},
+       make_usual_sensor(quantities::kCavityPressure),
+       {quantities::kContactLoad, {10.0, 2.0, 60.0, 5.0, 0.0}},
+       {quantities::kSpeedReading, {0.01, 0.0, 60.0, 0.01, 0.0}}},
       "follow_roller",
       nullptr};
   return kind;

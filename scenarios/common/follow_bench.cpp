@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "measurements/read_force.h"
 #include "measurements/resimulation.h"
 #include "scenarios/run/fidelity.h"
 
@@ -43,6 +44,16 @@ void put_given_first(const measurements::MeasuredRun& rows, const rigs::MachineK
   recording.values = std::move(values);
 }
 
+/// Weights on the sensor of the force show in it.
+void read_hung_force(const rigs::MachineKind& kind, const measurements::MeasuredRun& rows,
+                     const models::Corner<double>& corner, sim::Recording<double>& recording) {
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    const Quantity& channel = recording.channels[i].quantity;
+    if (channel != kind.traits.force) continue;
+    recording.values[i] = measurements::read_force(rows, corner, recording.values[i], channel);
+  }
+}
+
 /// Phases are the run-up, where there is one, and the file.
 void name_phases(sim::Recording<double>& recording) {
   const std::vector<double>& time_s = recording.time_s;
@@ -68,6 +79,7 @@ void simulate_rows(const RunSpec& spec, const RecordedInputs&, const measurement
   outcome.recording = measurements::Resimulation(rows, *set.kind).simulate(set, rows, corner, rigs::Detail::kFull);
   outcome.recording.audit.require_closed(sim::kAuditLimit);
   put_given_first(rows, *set.kind, outcome.recording);
+  read_hung_force(*set.kind, rows, corner, outcome.recording);
   name_phases(outcome.recording);
   outcome.set_runs = {SetRun{rows, rows.time_s.front(), rows.time_s.back()}};
   apply_sensors(spec, outcome.recording);

@@ -82,6 +82,7 @@ measurements::MeasuredRun RecordedInputs::make_rows(const RunSpec& spec) const {
   rows.cold_pressure_Pa = *pressure_Pa;
   rows.rest_before_s = rest_before_s;
   rows.started_warm = tire_state.value == "warm";
+  rows.force_at_standstill = run.force_at_standstill;
   rows.time_s = merge_times_s(longer.time_s, spec.sample_interval_s);
   for (const auto& [quantity, values] : longer.columns) {
     rows.columns[quantity] = resample(longer.time_s, values, quantity == quantities::kLoad, rows.time_s);

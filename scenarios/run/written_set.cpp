@@ -21,10 +21,15 @@ bool holds(const std::vector<rigs::Column>& columns, const Quantity& quantity) {
 }
 
 /// Whether a set has no sample where the recording has one.
-/// Source    formats.md: the loss force is empty below 20 km/h, the traction force where friction brakes act
-bool is_left_empty(const sim::Recording<double>& recording, const Quantity& column, std::size_t row) {
+/// Source    formats.md: the loss force is empty below 20 km/h, but for a zero read at standstill, the traction force
+///           where friction brakes act
+bool is_left_empty(const sim::Recording<double>& recording, const SetRun& run, const Quantity& column,
+                   std::size_t row) {
   constexpr double kSlowest_m_s = 20.0 / 3.6;
-  if (column == quantities::kLossForce) return recording.channel(quantities::kSpeed)[row] < kSlowest_m_s;
+  if (column == quantities::kLossForce) {
+    const double speed_m_s = recording.channel(quantities::kSpeed)[row];
+    return speed_m_s < kSlowest_m_s && !(run.force_at_standstill && speed_m_s == 0.0);
+  }
   if (column == quantities::kTractionForce) return recording.channel(quantities::kFrictionBrake)[row] > 0.0;
   return false;
 }
@@ -43,7 +48,7 @@ std::string write_run_csv(const rigs::MachineKind& kind, const sim::Recording<do
     csv.add(time_s - run.start_s);
     for (const Quantity& column : columns) {
       const bool beyond = (cut_before || cut_after) && holds(kind.columns.measured, column);
-      const bool is_empty = beyond || is_left_empty(recording, column, row);
+      const bool is_empty = beyond || is_left_empty(recording, run, column, row);
       csv.add(is_empty ? std::nan("") : column.file_unit().from_si(recording.channel(column)[row]));
     }
     csv.end_row();

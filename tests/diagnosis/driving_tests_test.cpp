@@ -1,5 +1,6 @@
 // Tests that could come next on a dynamometer and on the road.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -46,6 +47,77 @@ TEST_CASE("every test of a dynamometer can be simulated, and drive and brake for
   CHECK(bits.size() >= 10);
   CHECK(bits.at("drive_and_brake") > 0.5);
   CHECK(bits.at("drive_and_brake") > bits.at("soak_with_pressure"));
+}
+
+TEST_CASE("weights on the roller's load cell tell its gain, and a scale and a counter what they are for", "[fast]") {
+  const measurements::MeasurementSet set = tests::make_dyno_set({}, 1);
+  const auto gains = judge(set, "", "torque_gain");
+  CHECK(gains.at("dead_weights") > 0.8);
+  CHECK(gains.at("dead_weights") > 2.0 * gains.at("steady_from_cold"));
+  CHECK(gains.at("wheel_scale") < 0.01);  // no force is read
+  const auto loads = judge(set, "", "load_record");
+  CHECK(loads.at("wheel_scale") > 0.8);
+  CHECK(loads.at("dead_weights") < 0.01);
+  const auto straps = judge(set, "", "tie_down_load");
+  CHECK(straps.at("wheel_scale") > 0.8);
+  const auto speeds = judge(set, "", "speed_record");
+  CHECK(speeds.at("light_barrier") > 0.8);
+  CHECK(speeds.at("wheel_scale") < 0.01);
+}
+
+TEST_CASE("rollers that coast alone show what they lose and nothing of the tire", "[fast]") {
+  const measurements::MeasurementSet set = tests::make_dyno_set({}, 1);
+  const auto windage = judge(set, "", "windage");
+  CHECK(windage.at("lifted_coastdown") > windage.at("dead_weights") + 0.05);
+  const auto tires = judge(set, "", "load_exponent");
+  CHECK(tires.at("lifted_coastdown") < 0.01);
+  CHECK(tires.at("loaded_coastdown") > tires.at("lifted_coastdown"));
+  const auto slip = judge(set, "", "slip_loss");
+  CHECK(slip.at("loaded_coastdown") < 0.5 * slip.at("drive_and_brake"));  // hardly a force at the contact
+}
+
+TEST_CASE("with the vehicle turned round what moves the zero keeps its sign", "[fast]") {
+  const measurements::MeasurementSet set = tests::make_dyno_set({}, 1);
+  const auto bits = judge(set, "toe_camber_drag", "load_cross_talk");
+  CHECK(bits.at("reversed_rotation") > 2.0 * bits.at("speed_steps_hot"));
+}
+
+TEST_CASE("a coasting vehicle has no traction force, whatever the scale of that is", "[fast]") {
+  measurements::MeasurementSet set = tests::make_road_set({}, 1, models::Baseline::kCombined);
+  set.sensors.at("traction_force_N") = {5.0, 15.0, 13.0, 20.0, 0.0};
+  for (const auto& test : diagnosis::make_road_tests(diagnosis::PreparedSet(set))) {
+    if (test.id != "coastdown") continue;
+    measurements::MeasurementSet coast = set;
+    coast.runs = test.runs;
+    const std::vector<double> planned_N = coast.runs.front().columns.at("traction_force_N");  // NaN: not read
+    tests::measure_again(coast, {});
+    const std::vector<double>& traction_N = coast.runs.front().columns.at("traction_force_N");
+    double sum_N = 0.0;
+    std::size_t count = 0;
+    for (std::size_t row = 0; row < planned_N.size(); ++row) {
+      if (std::isnan(planned_N[row])) continue;
+      sum_N += traction_N[row];
+      ++count;
+    }
+    REQUIRE(count > 60);
+    CHECK(std::abs(sum_N / static_cast<double>(count)) < 60.0);  // of 300 to 900 N that drive it at these speeds
+  }
+}
+
+TEST_CASE("a weighed vehicle tells a wrong mass from a wrong scale of the force", "[fast]") {
+  measurements::MeasurementSet set = tests::make_road_set({}, 1, models::Baseline::kCombined);
+  set.sensors.at("traction_force_N") = {5.0, 15.0, 13.0, 20.0, 0.0};
+  const diagnosis::Study study(set);
+  std::vector<OpenHypothesis> both{open(study, ""), open(study, "")};
+  for (std::size_t i = 0; i < study.base.size(); ++i) {
+    if (study.base[i].key == "vehicle.mass_kg") both[0].parameters[static_cast<Eigen::Index>(i)] = 1.0;
+  }
+  REQUIRE(both[0].parameters.norm() == 1.0);
+  for (OpenHypothesis& one : both) one.spread *= 0.3;
+  std::map<std::string, double> bits;
+  for (const diagnosis::JudgedTest& one : diagnosis::judge_tests(study, both)) bits.emplace(one.test.id, one.bits);
+  CHECK(bits.at("weighed_coastdown") > 0.9);
+  CHECK(bits.at("weighed_coastdown") > bits.at("coastdown") + 0.1);
 }
 
 TEST_CASE("every test of the road can be simulated, and a cold start shows the tire's temperature", "[fast]") {

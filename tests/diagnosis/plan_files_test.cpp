@@ -136,6 +136,13 @@ namespace {
 
 using Visit = std::function<void(const measurements::MeasurementSet& rehearsed, const scenarios::RunSpec& spec)>;
 
+/// How many of these channels the set has a sensor for.
+std::size_t count_in(const measurements::MeasurementSet& set, const std::vector<Quantity>& channels) {
+  return static_cast<std::size_t>(std::count_if(channels.begin(), channels.end(), [&](const Quantity& channel) {
+    return set.sensors.count(channel) > 0 || channel == models::quantities::kRimTemperature;
+  }));
+}
+
 /// Every run of the plan of a test, run without errors of sensors and read back as a set; `effect` as of --set.
 void visit_rehearsals(const measurements::MeasurementSet& set, const PlannedTest& test, const std::string& effect,
                       const Visit& visit) {
@@ -145,7 +152,7 @@ void visit_rehearsals(const measurements::MeasurementSet& set, const PlannedTest
     ConfigTable document = read_config(folder.file("run-" + std::to_string(i + 1) + ".toml"));
     if (!effect.empty()) scenarios::set_run_value(document, effect);
     scenarios::RunSpec spec = scenarios::read_run_spec(document, folder.path());
-    CHECK(spec.sensors->size() == set.sensors.size());
+    CHECK(spec.sensors->size() == set.sensors.size() + test.extra.sensors.size() - count_in(set, test.extra.sensors));
     for (auto& [channel, sensor] : *spec.sensors) sensor = {};  // without error
     const tests::TemporaryFolder written;
     for (const auto& [name, content] :

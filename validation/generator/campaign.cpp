@@ -55,12 +55,12 @@ bool RunPlan::is_read(double time_s) const {
                       [time_s](const auto& span) { return time_s >= span.first && time_s < span.second; });
 }
 
-double RunPlan::find_hung_torque_Nm(double time_s) const {
-  double torque_Nm = 0.0;
-  for (const auto& [from_s, torque_then_Nm] : hung_Nm) {
-    if (time_s >= from_s) torque_Nm = torque_then_Nm;
+double RunPlan::find_hung(double time_s) const {
+  double hanging = 0.0;
+  for (const auto& [from_s, hangs_then] : hung) {
+    if (time_s >= from_s) hanging = hangs_then;
   }
-  return torque_Nm;
+  return hanging;
 }
 
 namespace {

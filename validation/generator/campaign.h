@@ -74,14 +74,14 @@ struct RunPlan {
   std::vector<Leg> legs;
   std::optional<double> surface_degC;               // at which drum or roller is held, and recorded; none: as it goes
   bool reversed = false;                            // turned the other way round
-  std::vector<std::pair<double, double>> hung_Nm;   // time, and the torque hung on the force sensor from then on
+  std::vector<std::pair<double, double>> hung;      // time, and torque or force hung on the force sensor from then on
   bool reads_zero = false;                          // the force is logged while the surface stands
   std::vector<std::pair<double, double>> unread_s;  // from, to: spans in which nothing is logged
 
   std::size_t index = 0;  // in the campaign
 
   bool is_read(double time_s) const;
-  double find_hung_torque_Nm(double time_s) const;
+  double find_hung(double time_s) const;
 
   double end_s() const { return legs.back().end_s(); }
 };

@@ -124,10 +124,9 @@ RunPlan read_run(const fs::path& folder, const Json& json, const SetOrder& order
   }
   if (table.has("surface_temperature_degC")) run.surface_degC = table.read_held("surface_temperature_degC");
   const std::vector<double> time_s = table.read("time_s");
-  const std::vector<double> hung_Nm = table.read("hung_torque_Nm");
-  for (std::size_t i = 0; table.has("hung_torque_Nm") && i < time_s.size(); ++i) {
-    run.hung_Nm.emplace_back(time_s[i], hung_Nm[i]);
-  }
+  const std::string hung_column = order.machine->hung_column();
+  const std::vector<double> hung = table.read(hung_column);
+  for (std::size_t i = 0; table.has(hung_column) && i < time_s.size(); ++i) run.hung.emplace_back(time_s[i], hung[i]);
   Draws own(order.seed, "run/" + run.id);
   run.air = draw_air(own, table.read_held("ambient_degC"));
   run.initial_degC = std::round(10.0 * run.air.at(0.0)) / 10.0;

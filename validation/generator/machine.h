@@ -66,6 +66,14 @@ struct Machine {
   /// Inertia that the measured force has in it, as a mass at the surface. The load is on its way to `target_load_N`.
   double (*calc_moving_mass_kg)(const Specimen& specimen, double load_N, double target_load_N);
 
+  /// The column of weights on the sensor of the force, by its unit.
+  const char* hung_column() const {
+    const std::string unit = "_Nm";
+    const std::string force = channels.front().name;
+    const bool is_torque =
+        force.size() > unit.size() && force.compare(force.size() - unit.size(), unit.size(), unit) == 0;
+    return is_torque ? "hung_torque_Nm" : "hung_force_N";
+  }
   bool has_vehicle() const { return force_of == Measured::kVehicle; }
 };
 

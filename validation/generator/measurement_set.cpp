@@ -31,7 +31,7 @@ std::string write_header(const Machine& machine, const RunPlan& run) {
   std::string text;
   for (const GivenColumn& column : machine.given_columns) text += fmt::format("{},", column.name);
   if (run.surface_degC.has_value()) text += "surface_temperature_degC,";
-  if (!run.hung_Nm.empty()) text += "hung_torque_Nm,";
+  if (!run.hung.empty()) text += machine.hung_column() + std::string(",");
   for (const Channel& channel : machine.channels) text += fmt::format("{},", channel.name);
   text.back() = '\n';
   return text;
@@ -47,7 +47,7 @@ std::string write_run_file(const RunPlan& run, const RunRecord& record, const Co
       fmt::format_to(out, fmt::runtime(column.format), (record.*column.values)[row]);
     }
     if (run.surface_degC.has_value()) fmt::format_to(out, ",{:.10g}", *run.surface_degC);
-    if (!run.hung_Nm.empty()) fmt::format_to(out, ",{:.10g}", run.find_hung_torque_Nm(record.time_s[row]));
+    if (!run.hung.empty()) fmt::format_to(out, ",{:.10g}", run.find_hung(record.time_s[row]));
     for (const std::vector<double>& column : measured) {
       text += ',';
       if (!std::isnan(column[row])) fmt::format_to(out, "{:.{}g}", column[row], noise_free ? 9 : 6);

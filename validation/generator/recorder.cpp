@@ -230,7 +230,7 @@ RunRecord record_run(const Specimen& specimen, const Effects& effects, const Run
     const bool is_last = row + 1 == record.time_s.size();
     const double mean =
         is_first ? cells[after] : (is_last ? cells[after - 1] : 0.5 * (cells[after - 1] + cells[after]));
-    record.force.push_back(mean + run.find_hung_torque_Nm(record.time_s[row]));
+    record.force.push_back(mean + run.find_hung(record.time_s[row]));
     record.liner_degC.push_back(record.sample(record.liner, row));
     record.pressure_kPa.push_back(record.sample(record.pressure, row));
   }

@@ -37,7 +37,8 @@ bool leaves_open(const Answer& answer) {
 
 /// Why no measurement set can hold what a test reads; empty where it can.
 std::string find_obstacle(const PlannedTest& test) {
-  if (!test.extra.sensors.empty()) return "a further sensor: a set has no column for it";
+  if (!test.extra.sensors.empty()) return "a further sensor: the generator has none";
+  if (!test.numbers.empty()) return "a number of the files: the generator does not determine it again";
   if (test.clock_pulse) return "a common pulse: a set does not hold when it came";
   return "";
 }
