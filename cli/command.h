@@ -94,6 +94,7 @@ void add_run_options(CLI::App& command, RunInput& input);
 /// Below `fit`.
 void add_fit_road_load(CLI::App& fit, Action& action);
 void add_diagnose_command(CLI::App& app, Action& action);
+void add_plan_command(CLI::App& app, Action& action);
 void add_import_command(CLI::App& app, Action& action);
 void add_new_command(CLI::App& app, Action& action);
 /// What a user says of logs beside the files; the second also what a set of them needs.

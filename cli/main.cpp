@@ -44,6 +44,9 @@ void add_examples(const CLI::App& app) {
        "  rollrig diagnose campaign --json why.json --html why.html\n"
        "  rollrig diagnose campaign --plan next\n"
        "  rollrig diagnose --explain bearing_warmup\n"},
+      {"plan",
+       "  rollrig plan --rig drum --hours 8 --tire a50\n"
+       "  rollrig plan --rig rollers --hours 16 --out campaign --html campaign.html\n"},
       {"import",
        "  rollrig import logs/import.toml --out campaign\n"
        "  rollrig import --guess logs --tire a50 --rig drum_2m --out campaign\n"},
@@ -106,6 +109,7 @@ int make_and_run(int argc, char** argv) {
   add_describe_command(app, action);
   add_fit_command(app, action);
   add_diagnose_command(app, action);
+  add_plan_command(app, action);
   add_import_command(app, action);
   add_new_command(app, action);
   add_export_command(app, action);

@@ -8,6 +8,7 @@
 #include "export.h"
 #include "fit.h"
 #include "measurement_set.h"
+#include "plan.h"
 #include "progress.h"
 #include "regress.h"
 #include "result.h"

@@ -1,0 +1,70 @@
+#include "report/campaign_page.h"
+
+#include <fmt/format.h>
+
+#include "report/blocks.h"
+#include "sim/core/text.h"
+
+namespace rollrig::report {
+namespace {
+
+using diagnosis::PlannedCampaign;
+
+Block make_course(const PlannedCampaign& campaign) {
+  ChartSeries visible;
+  visible.add(0.0, 0.0);
+  for (const CampaignTest& test : campaign.ledger) {
+    visible.add(test.hours_until_end, static_cast<double>(test.visible));
+  }
+  return make_curves({"hours", "h"}, {"Visible effects", "", true}, Json::array({visible.finish("visible", "line")}),
+                     "Each point is the end of a test; set-up and soaks are counted.");
+}
+
+/// How much of each effect's prior is visible.
+Block make_shares(const PlannedCampaign& campaign) {
+  Json names = Json::array();
+  Json shares = Json::array();
+  for (const EffectVisibility& one : campaign.effects) {
+    names.push_back(one.effect);
+    shares.push_back(rounded(one.share_percent));
+  }
+  return make_bars({"Visible, of what is believed of the effect's size", "%"}, names,
+                   Json::array({{{"name", "visible"}, {"values", shares}}}),
+                   "Sizes above the smallest visible one, by what is believed before any test.");
+}
+
+Section make_hand_work(const PlannedCampaign& campaign) {
+  Section section{"By hand", "What is done beside the runs."};
+  for (const CampaignTest& test : campaign.ledger) {
+    for (const std::string& step : test.by_hand) section.blocks.push_back(make_paragraph(test.id + ": " + step));
+  }
+  return section;
+}
+
+}  // namespace
+
+Page make_campaign_page(const PlannedCampaign& campaign) {
+  Page page{"plan",
+            fmt::format("Campaign on {} with tire {}", diagnosis::name_machine(campaign.set), campaign.set.tire.name),
+            fmt::format("{:.1f} of {:g} h", campaign.hours, campaign.most_hours)};
+  Section what{"What it would show"};
+  what.blocks.push_back(make_lead(
+      "good",
+      fmt::format("{} of {} effects would be visible at their usual size.", diagnosis::count_visible(campaign),
+                  campaign.effects.size()),
+      "A visible effect changes the measurement by 5 standard deviations, whatever the numbers of the files are within "
+      "their uncertainty. It may still be taken for another effect."));
+  what.blocks.push_back(make_shares(campaign));
+  what.blocks.push_back(make_table(diagnosis::make_visibility_table(campaign)));
+  page.add(std::move(what));
+  page.add({"Tests", "", {make_course(campaign), make_table(diagnosis::make_test_table(campaign))}});
+  page.add(make_hand_work(campaign));
+  if (!campaign.left_out.empty()) {
+    page.add({"Left out",
+              "A measurement set has no place for what these tests read.",
+              {{{"type", "text"}, {"items", campaign.left_out}}}});
+  }
+  return page;
+}
+
+}  // namespace rollrig::report
