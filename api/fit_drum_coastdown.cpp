@@ -17,9 +17,12 @@ std::string format_drum_coastdown(const estimation::CoastSet& set, const estimat
 
 }  // namespace
 
-Report fit_drum_coastdown(const std::string& set_file, const std::string& data) {
-  const auto set = std::make_shared<const estimation::CoastSet>(estimation::read_coast_set(set_file, data));
-  const auto fit = std::make_shared<const estimation::DrumCoastdownFit>(estimation::fit_drum_coastdown(*set));
+Report fit_drum_coastdown(const std::string& set_file, const std::string& data, BadRows bad_rows) {
+  const auto set = std::make_shared<const estimation::CoastSet>(estimation::read_coast_set(set_file, data, bad_rows));
+  const auto fit = std::make_shared<estimation::DrumCoastdownFit>(estimation::fit_drum_coastdown(*set));
+  for (const estimation::CoastRun* run : estimation::list_runs_with_bad_rows(*set)) {
+    fit->warnings.push_back(measurements::describe_left_out(run->left_out, "", run->file, "field"));
+  }
   Report report;
   report.text = format_drum_coastdown(*set, *fit);
   report.json = to_text(estimation::make_coastdown_json(*set, *fit));

@@ -94,13 +94,16 @@ RoadLoadFit fit_file(const std::string& path, CoastdownFile& file, const RoadLoa
 }  // namespace
 
 RoadLoad fit_road_load(const std::string& path, const RoadLoadFitOptions& given,
-                       const std::vector<std::string>& sessions) {
-  const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path));
+                       const std::vector<std::string>& sessions, BadRows bad_rows) {
+  const auto file = std::make_shared<CoastdownFile>(estimation::read_coastdowns(path, bad_rows));
   const RoadLoadFitOptions options = complete_options(*file, given);
   select_sessions(sessions, *file);
   leave_out_runs(options.leave_out, *file);
   const auto fit = std::make_shared<RoadLoadFit>(fit_file(path, *file, options));
   if (file->rows_off > 0) fit->warnings.push_back(format_count(file->rows_off, "row") + " left out: use = Off");
+  if (!file->left_out.problems.empty()) {
+    fit->warnings.push_back(measurements::describe_left_out(file->left_out, "", file->path, "field"));
+  }
   const RoadLoadChecks checks = estimation::check_road_load(file->data, *fit);
   RoadLoad result;
   result.coefficients = estimation::list_coefficients(*fit);

@@ -17,6 +17,7 @@ struct FitDrumCoastdownOptions {
   std::string set;
   std::string data;
   OutputOptions output;
+  BadRows bad_rows = BadRows::kRefuse;
 };
 
 int fit_tire_command(const FitTireOptions& options) {
@@ -35,7 +36,7 @@ int fit_tire_command(const FitTireOptions& options) {
 
 int fit_drum_coastdown_command(const FitDrumCoastdownOptions& options) {
   Output output(options.output);
-  const Report fit = fit_drum_coastdown(options.set, options.data);
+  const Report fit = fit_drum_coastdown(options.set, options.data, options.bad_rows);
   output.show(fit);
   return kDone;
 }
@@ -48,6 +49,7 @@ void add_fit_drum_coastdown(CLI::App& fit, Action& action) {
   command->add_option("--data", options->data, "Folder of the set's CSV files [that of the set]");
   options->output.add_to(*command, "File for fit.json, - for standard output",
                          "Folder for fit.json, decelerations.csv, residuals.csv");
+  add_skip_bad_rows(*command, options->bad_rows);
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ struct FitRoadLoadOptions {
   double reference_pressure_kPa = 98.21;
   double rolling_fall_per_K = 8.6e-3;
   bool per_mass = false;
+  BadRows bad_rows = BadRows::kRefuse;
 };
 
 /// A coefficient by its name, with the factor of its unit.
@@ -153,7 +154,7 @@ RoadLoadFitOptions make_fit_options(const FitRoadLoadOptions& options) {
 int fit_road_load_command(const FitRoadLoadOptions& options) {
   const RoadLoadFitOptions how = make_fit_options(options);
   Output output(options.output);
-  const RoadLoad fit = fit_road_load(options.csv, how, options.sessions);
+  const RoadLoad fit = fit_road_load(options.csv, how, options.sessions, options.bad_rows);
   output.show(fit);
   return kDone;
 }
@@ -203,6 +204,7 @@ void add_fit_road_load(CLI::App& fit, Action& action) {
   add_method_options(*command, *options);
   options->output.add_to(*command, "File for road_load.json, - for standard output",
                          "Folder for road_load.json and residuals.csv");
+  add_skip_bad_rows(*command, options->bad_rows);
 }
 
 }  // namespace rollrig::cli

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "include/rollrig/bad_rows.h"
+#include "measurements/left_out_rows.h"
 #include "models/quantities.h"
 #include "models/sensor.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
-#include "sim/core/rows.h"
 
 namespace rollrig::measurements {
 
@@ -27,14 +27,6 @@ struct RunTable {
   bool started_warm = false;
   // The force read while the surface stands, nothing holding it, is the sensor's zero.
   bool force_at_standstill = false;
-};
-
-/// What was left out of a run's file, since it could not be used.
-struct LeftOutRows {
-  RowProblems problems;       // by line; empty where no row was bad
-  std::size_t file_rows = 0;  // of the file
-  std::size_t rows = 0;       // left out
-  std::size_t fields = 0;     // measured fields of other rows, left empty
 };
 
 struct MeasuredRun : RunTable {

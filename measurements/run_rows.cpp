@@ -2,27 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "sim/core/csv.h"
-#include "sim/core/text.h"
 
 namespace rollrig::measurements {
 namespace {
 
-constexpr double kMostBad = 0.05;                // Assumed: share of the rows of a file
+constexpr double kMostFar = 0.05;                // Assumed: share of the rows of a file
 constexpr double kLongestGap_s = 5.0;            // Assumed: inputs run linearly over so much, as in an import
 constexpr double kLongestGap_intervals = 2.5;    // Assumed: of a slow file, one row may be missing
 constexpr double kLongestRun_s = 3.0 * 86400.0;  // Assumed: five minutes in milliseconds are longer
 constexpr const char* kHint = "rollrig import reads logs of other forms, names and units, and writes such files";
-
-bool are_few(std::size_t bad, std::size_t rows) {
-  return static_cast<double>(bad) <= std::max(1.0, kMostBad * static_cast<double>(rows));
-}
 
 double take_middle(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -53,7 +47,7 @@ void find_far_times(const CsvTable& csv, const std::vector<double>& times, RowPr
     if (std::abs(times[row] - middle) > kLongestRun_s) far.push_back(row);
   }
   const bool are_stray =
-      !far.empty() && static_cast<double>(far.size()) <= kMostBad * static_cast<double>(times.size());
+      !far.empty() && static_cast<double>(far.size()) <= kMostFar * static_cast<double>(times.size());
   if (!are_stray) throw too_long(csv, good.back(), good_times.back());
   for (const std::size_t row : far) {
     problems.push_back(csv.cell_error(row, "time_s", "a time more than three days away from those of the other rows",
@@ -149,35 +143,6 @@ void leave_out(const rigs::RunColumns& columns, const RunFileRows& file, Measure
   for (const InputProblem& problem : file.problems) run.left_out.fields += out.count(problem.line) == 0 ? 1 : 0;
 }
 
-/// The error of all bad rows of the set.
-InputError make_refusal(const std::vector<RunFileRows>& files) {
-  RowProblems all;
-  std::size_t bad_files = 0;
-  bool can_be_left_out = true;
-  for (const RunFileRows& file : files) {
-    all.insert(all.end(), file.problems.begin(), file.problems.end());
-    bad_files += file.problems.empty() ? 0 : 1;
-    can_be_left_out = can_be_left_out && are_few(count_rows(file.problems), file.file_rows);
-  }
-  const std::string where =
-      files.size() == 1 ? "" : fmt::format(" in {} of {}", bad_files, format_count(files.size(), "file"));
-  return make_rows_error(format_count(count_rows(all), "bad row") + where, all,
-                         can_be_left_out ? "with --skip-bad-rows, bad rows are left out"
-                                         : "bad rows can be left out only if they are few: 5 % of a file",
-                         kHint);
-}
-
-std::string list_first(const RowProblems& problems) {
-  constexpr std::size_t kMost = 3;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, problems.size()); ++i) {
-    const InputProblem& problem = problems[i];
-    text += fmt::format("{}line {}: {}{}", i == 0 ? "" : "; ", problem.line,
-                        problem.key.empty() ? "" : problem.key + " ", problem.value);
-  }
-  return problems.size() <= kMost ? text : text + fmt::format("; and {} more", problems.size() - kMost);
-}
-
 }  // namespace
 
 RunFileRows read_run_columns(const rigs::RunColumns& columns, MeasuredRun& run) {
@@ -216,31 +181,19 @@ void settle_bad_rows(const rigs::RunColumns& columns, BadRows bad_rows, const st
                      std::vector<MeasuredRun>& runs) {
   const auto has_bad = [](const RunFileRows& file) { return !file.problems.empty(); };
   if (std::none_of(files.begin(), files.end(), has_bad)) return;
-  if (bad_rows == BadRows::kRefuse) throw make_refusal(files);
+  if (bad_rows == BadRows::kRefuse) throw make_bad_rows_error({files.begin(), files.end()}, kHint);
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    const RunFileRows& file = files[i];
-    if (!has_bad(file)) continue;
-    const std::size_t count = count_rows(file.problems);
-    if (!are_few(count, file.file_rows)) {
-      throw make_rows_error(fmt::format("{} of {} rows of run '{}' are bad: too many to leave them out", count,
-                                        file.file_rows, runs[i].id),
-                            file.problems, fmt::format("bad rows: at most {:.0f} % of a file", 100.0 * kMostBad),
-                            kHint);
-    }
-    leave_out(columns, file, runs[i]);
+    if (!has_bad(files[i])) continue;
+    require_few_bad_rows(files[i], fmt::format("run '{}'", runs[i].id), kHint);
+    leave_out(columns, files[i], runs[i]);
   }
 }
 
 std::vector<std::string> describe_bad_rows(const MeasurementSet& set) {
   std::vector<std::string> sentences;
   for (const MeasuredRun& run : set.runs) {
-    const LeftOutRows& out = run.left_out;
-    if (out.problems.empty()) continue;
-    const std::string fields =
-        out.fields == 0 ? "" : fmt::format(", {} of other rows left empty", format_count(out.fields, "measured field"));
-    sentences.push_back(fmt::format("bad rows of run {}: {} of {} rows left out{} ({}, {})", run.id, out.rows,
-                                    out.file_rows, fields, std::filesystem::path(run.file).filename().string(),
-                                    list_first(out.problems)));
+    if (run.left_out.problems.empty()) continue;
+    sentences.push_back(describe_left_out(run.left_out, " of run " + run.id, run.file, "measured field"));
   }
   return sentences;
 }
@@ -249,20 +202,9 @@ Json make_bad_rows_json(const MeasurementSet& set) {
   Json list = Json::array();
   for (const MeasuredRun& run : set.runs) {
     if (run.left_out.problems.empty()) continue;
-    Json rows = Json::array();
-    for (const InputProblem& problem : run.left_out.problems) {
-      rows.push_back({{"line", problem.line},
-                      {"column", problem.key},
-                      {"value", problem.value},
-                      {"problem", problem.what},
-                      {"allowed", problem.allowed}});
-    }
-    list.push_back({{"run", run.id},
-                    {"file", run.file},
-                    {"rows", run.left_out.file_rows},
-                    {"rows_left_out", run.left_out.rows},
-                    {"fields_left_empty", run.left_out.fields},
-                    {"bad", rows}});
+    Json of_run{{"run", run.id}};
+    of_run.update(make_left_out_json(run.left_out, run.file));
+    list.push_back(of_run);
   }
   return list;
 }

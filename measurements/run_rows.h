@@ -10,10 +10,8 @@
 namespace rollrig::measurements {
 
 /// What is known of a file beside the values of its rows.
-struct RunFileRows {
-  std::vector<int> lines;     // of each row of the run
-  RowProblems problems;       // bad rows; their wrong fields are NaN, and rows of another length are no rows of the run
-  std::size_t file_rows = 0;  // rows of the file, with those of another length
+struct RunFileRows : FileProblems {  // wrong fields are NaN, and rows of another length are no rows of the run
+  std::vector<int> lines;            // of each row of the run
 };
 
 /// Reads the columns of a run from its file. Throws InputError for what is wrong with the file as a whole.

@@ -4,8 +4,11 @@
 #include <boost/math/constants/constants.hpp>
 
 #include <filesystem>
+#include <map>
+#include <numeric>
+#include <set>
 
-#include "sim/core/csv.h"
+#include "estimation/run_checks/checked_rows.h"
 
 namespace fs = std::filesystem;
 
@@ -70,34 +73,47 @@ void read_analysis(TableReader& top, CoastSet& set) {
   reader.finish();
 }
 
+CoastSeries take_series(const CheckedRows& rows, const std::vector<std::size_t>& of_body,
+                        const std::vector<double>& time_s, const std::vector<double>& speed_m_s) {
+  CoastSeries series;
+  for (const std::size_t row : of_body) {
+    if (rows.is_out(row)) continue;
+    series.time_s.push_back(time_s[row]);
+    series.speed_m_s.push_back(speed_m_s[row]);
+  }
+  return series;
+}
+
 /// Columns src, t_s, speed_mps: both bodies in one file.
-void read_two_bodies(const CsvTable& csv, CoastRun& run) {
+void read_two_bodies(CheckedRows& rows, CoastRun& run) {
+  const CsvTable& csv = rows.table();
   csv.require_known({"src", "t_s", "speed_mps"});
   const std::vector<std::string> src = csv.text("src");
-  const std::vector<double> time_s = csv.numbers({"t_s", any_number(), ""});
-  const std::vector<double> speed_m_s = csv.numbers({"speed_mps", between(0.0, 120.0), ""});
+  const std::vector<double> time_s = rows.numbers({"t_s", any_number(), ""});
+  const std::vector<double> speed_m_s = rows.numbers({"speed_mps", between(0.0, 120.0), ""});
   for (std::size_t row = 0; row < src.size(); ++row) {
-    if (src[row] != "D" && src[row] != "W") {
-      throw csv.cell_error(row, "src", fmt::format("'{}' is no body", src[row]), "D (drum) or W (wheel)");
+    if (src[row] == "D" || src[row] == "W") continue;
+    rows.leave_out(csv.cell_error(row, "src", fmt::format("'{}' is no body", src[row]), "D (drum) or W (wheel)"));
+  }
+  for (const char* body : {"D", "W"}) {
+    std::vector<std::size_t> of_body;
+    for (std::size_t row = 0; row < src.size(); ++row) {
+      if (src[row] == body) of_body.push_back(row);
     }
-    std::optional<CoastSeries>& body = src[row] == "D" ? run.drum : run.wheel;
-    if (!body.has_value()) body.emplace();
-    if (!body->time_s.empty() && time_s[row] <= body->time_s.back()) {
-      throw csv.cell_error(row, "t_s",
-                           fmt::format("time does not increase: {:g} after {:g}", time_s[row], body->time_s.back()),
-                           "a later time in each row of a body");
-    }
-    body->time_s.push_back(time_s[row]);
-    body->speed_m_s.push_back(speed_m_s[row]);
+    rows.check_times("t_s", of_body, time_s, "");
+    CoastSeries series = take_series(rows, of_body, time_s, speed_m_s);
+    if (!series.time_s.empty()) (body[0] == 'D' ? run.drum : run.wheel) = std::move(series);
   }
 }
 
-void read_one_body(const CsvTable& csv, CoastBody body, CoastRun& run) {
-  csv.require_known({"time_s", "speed_km_h"});
-  CoastSeries series;
-  series.time_s = csv.increasing_times("time_s");
-  series.speed_m_s = csv.numbers({"speed_km_h", kSpeedRange, ""});
-  (body == CoastBody::kDrum ? run.drum : run.wheel) = std::move(series);
+void read_one_body(CheckedRows& rows, CoastBody body, CoastRun& run) {
+  rows.table().require_known({"time_s", "speed_km_h"});
+  const std::vector<double> time_s = rows.numbers({"time_s", any_number(), ""});
+  const std::vector<double> speed_m_s = rows.numbers({"speed_km_h", kSpeedRange, ""});
+  std::vector<std::size_t> all(rows.row_count());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  rows.check_times("time_s", all, time_s, "");
+  (body == CoastBody::kDrum ? run.drum : run.wheel) = take_series(rows, all, time_s, speed_m_s);
 }
 
 CoastRun read_run(const ConfigTable& table, const std::string& folder) {
@@ -113,13 +129,30 @@ CoastRun read_run(const ConfigTable& table, const std::string& folder) {
   run.load_N = reader.number_or_none({"load_N", positive(), ""}).value_or(0.0);
   const bool wheel = reader.text_or("body", "drum", {"drum", "wheel"}) == "wheel";
   reader.finish();
-  const CsvTable csv = CsvTable::read(run.file);
+  CheckedRows rows(run.file);
+  const CsvTable& csv = rows.table();
   if (csv.has("src") || csv.has("t_s") || csv.has("speed_mps")) {
-    read_two_bodies(csv, run);
+    read_two_bodies(rows, run);
   } else {
-    read_one_body(csv, wheel ? CoastBody::kWheel : CoastBody::kDrum, run);
+    read_one_body(rows, wheel ? CoastBody::kWheel : CoastBody::kDrum, run);
   }
+  run.left_out = rows.list_left_out();
   return run;
+}
+
+/// Refuses the bad rows of all files, or too many in one of them.
+void settle_bad_rows(const CoastSet& set, BadRows bad_rows) {
+  const std::vector<const CoastRun*> bad = list_runs_with_bad_rows(set);
+  if (bad.empty()) return;
+  if (bad_rows == BadRows::kLeaveOut) {
+    for (const CoastRun* run : bad) measurements::require_few_bad_rows(run->left_out, run->file, "");
+    return;
+  }
+  std::map<std::string, measurements::FileProblems> files;
+  for (const CoastRun& run : set.runs) files[run.file] = run.left_out;
+  std::vector<measurements::FileProblems> problems;
+  for (const auto& [file, some] : files) problems.push_back(some);
+  throw measurements::make_bad_rows_error(problems, "");
 }
 
 void require_states(const TableReader& reader, const CoastSet& set) {
@@ -175,7 +208,16 @@ double CoastSet::calc_mass_ratio() const {
 
 bool CoastSet::is_mass_ratio_known() const { return wheel_mass_ratio.has_value() || wheel_inertia_kg_m2.has_value(); }
 
-CoastSet read_coast_set(const std::string& path, const std::string& data_folder) {
+std::vector<const CoastRun*> list_runs_with_bad_rows(const CoastSet& set) {
+  std::vector<const CoastRun*> runs;
+  std::set<std::string> files;
+  for (const CoastRun& run : set.runs) {
+    if (!run.left_out.problems.empty() && files.insert(run.file).second) runs.push_back(&run);
+  }
+  return runs;
+}
+
+CoastSet read_coast_set(const std::string& path, const std::string& data_folder, BadRows bad_rows) {
   const ConfigTable config = read_config(path);
   TableReader reader(config, "");
   check_format(reader, "rollrig-drum-coastdown", 1);
@@ -188,6 +230,7 @@ CoastSet read_coast_set(const std::string& path, const std::string& data_folder)
   const std::string folder = data_folder.empty() ? fs::path(path).parent_path().string() : data_folder;
   for (const ConfigTable* table : reader.tables("run")) set.runs.push_back(read_run(*table, folder));
   reader.finish();
+  settle_bad_rows(set, bad_rows);
   require_states(reader, set);
   complete_loads(reader, set);
   return set;

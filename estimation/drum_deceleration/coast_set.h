@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/bad_rows.h"
+#include "measurements/left_out_rows.h"
 #include "sim/core/config.h"
 
 namespace rollrig::estimation {
@@ -42,6 +44,7 @@ struct CoastRun {
   std::string direction;     // empty where not said
   std::optional<CoastSeries> drum;
   std::optional<CoastSeries> wheel;
+  measurements::LeftOutRows left_out;  // bad rows of the file
 };
 
 struct CoastSet {
@@ -69,7 +72,16 @@ struct CoastSet {
   bool is_mass_ratio_known() const;
 };
 
-/// Reads a set and its files, which lie beside it or in `data_folder` where that is given. Throws InputError.
-CoastSet read_coast_set(const std::string& path, const std::string& data_folder = "");
+/// Reads a set and its files, which lie beside it or in `data_folder` where that is given.
+///
+/// A row is bad if a number of it is wrong, `src` names no body, it has too few or too many fields, or its time does
+/// not increase within its body. The bad rows of all files are refused together, or left out.
+/// Errors   InputError: bad rows, where they are refused, or too many of them; anything else that is wrong
+/// Checked  tests/estimation/coast_set_test.cpp, tests/cli/bad_input_test.cpp
+CoastSet read_coast_set(const std::string& path, const std::string& data_folder = "",
+                        BadRows bad_rows = BadRows::kRefuse);
+
+/// The files with bad rows that were left out, once each: a file may stand in several runs.
+std::vector<const CoastRun*> list_runs_with_bad_rows(const CoastSet& set);
 
 }  // namespace rollrig::estimation

@@ -85,6 +85,9 @@ Json make_coastdown_json(const CoastSet& set, const DrumCoastdownFit& fit) {
   if (fit.others != nullptr) {
     json["without_doubted_runs"] = make_list(fit.others->points, [](const SpeedPoint& at) { return to_json(at); });
   }
+  json["bad_rows"] = make_list(list_runs_with_bad_rows(set), [](const CoastRun* run) {
+    return measurements::make_left_out_json(run->left_out, run->file);
+  });
   if (!fit.warnings.empty()) json["warnings"] = fit.warnings;
   return json;
 }

@@ -1,38 +1,43 @@
 #include "estimation/road_load/coastdown_file.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
-#include <boost/math/constants/constants.hpp>
 
 #include "estimation/road_load/coastdown_recording.h"
-#include "sim/core/csv.h"
+#include "estimation/road_load/coastdown_rows.h"
 #include "sim/core/text.h"
 
 namespace rollrig::estimation {
 namespace {
 
-struct ConditionColumn {
-  Field field;
-  std::vector<double> CoastdownConditions::*values;
-};
-const std::vector<ConditionColumn> kConditionColumns{
-    {{"ambient_degC", between(-50.0, 60.0), ""}, &CoastdownConditions::ambient_K},
-    {{"ambient_pressure_kPa", between(50.0, 110.0), ""}, &CoastdownConditions::ambient_pressure_Pa},
-    {{"wind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::wind_m_s},
-    {{"crosswind_m_s", between(-40.0, 40.0), ""}, &CoastdownConditions::crosswind_m_s},
-    {{"slope", between(-0.2, 0.2), ""}, &CoastdownConditions::slope}};
 const std::vector<std::string> kTraceColumns{"time_s", "speed_km_h", "run", "session", "heading"};
 const std::vector<std::string> kBinColumns{"v_hi_kmh", "v_lo_kmh",   "dt_s",   "run",         "use",       "heading",
                                            "session",  "start_time", "dist_m", "run_total_s", "run_dist_m"};
 constexpr double kPerKmh = 1.0 / 3.6;  // "kmh" of the bins' columns is not a suffix that unit_of_key knows
+
+std::vector<std::string> add_condition_columns(std::vector<std::string> columns) {
+  for (const std::string& column : list_condition_columns()) columns.push_back(column);
+  return columns;
+}
+
+/// A run with its rows that can be used; none where it has none.
+std::optional<CoastdownRun> begin_run(const CheckedRows& rows, RowsOfRun& of_run) {
+  auto& used = of_run.rows;
+  used.erase(std::remove_if(used.begin(), used.end(), [&rows](std::size_t row) { return rows.is_out(row); }),
+             used.end());
+  if (used.empty()) return std::nullopt;
+  CoastdownRun run;
+  run.id = of_run.id;
+  run.session = of_run.session;
+  run.heading = of_run.heading;
+  return run;
+}
 
 /// "13:29:42.5" or seconds; none where the cell is empty.
 std::optional<double> read_start_s(const CsvTable& table, std::size_t row, const std::string& cell) {
@@ -53,85 +58,6 @@ std::optional<double> read_start_s(const CsvTable& table, std::size_t row, const
   return seconds;
 }
 
-/// Cells of an optional column; empty strings where it is absent.
-std::vector<std::string> text_or_empty(const CsvTable& table, const std::string& column) {
-  return table.has(column) ? table.text(column) : std::vector<std::string>(table.row_count());
-}
-
-std::vector<std::string> add_condition_columns(std::vector<std::string> columns) {
-  for (const ConditionColumn& column : kConditionColumns) columns.emplace_back(column.field.key);
-  return columns;
-}
-
-/// Of all rows of a file.
-CoastdownConditions read_conditions(const CsvTable& table) {
-  CoastdownConditions conditions;
-  for (const auto& [field, values] : kConditionColumns) {
-    if (table.has(field.key)) conditions.*values = table.numbers(field);
-  }
-  return conditions;
-}
-
-void add_conditions(const CoastdownConditions& of_rows, std::size_t row, CoastdownConditions& to) {
-  for (const auto& [field, values] : kConditionColumns) {
-    if (!(of_rows.*values).empty()) (to.*values).push_back((of_rows.*values)[row]);
-  }
-}
-
-/// Rows sorted into runs, in the order in which the runs begin.
-class RunSorter {
- public:
-  RunSorter(const CsvTable& table, CoastdownData& data) : table_(table), data_(data) {
-    runs_ = text_or_empty(table, "run");
-    headings_ = text_or_empty(table, "heading");
-    for (const char* column : {"session", "file", "test_date"}) {
-      if (!table.has(column)) continue;
-      sessions_ = table.text(column);
-      break;
-    }
-    sessions_.resize(table.row_count());
-  }
-
-  /// The run of a row; `begins` starts a new one where the file has no `run` column.
-  CoastdownRun& run_of(std::size_t row, bool begins) {
-    if (!table_.has("run") && begins) ++unnamed_;
-    const std::string id = table_.has("run") ? runs_[row] : fmt::format("{}", unnamed_);
-    const auto [it, is_new] = index_.try_emplace({sessions_[row], id}, data_.runs.size());
-    if (is_new) {
-      data_.runs.emplace_back();
-      data_.runs.back().id = id;
-      data_.runs.back().session = sessions_[row];
-    }
-    CoastdownRun& run = data_.runs[it->second];
-    if (!table_.has("heading")) return run;
-    const int heading = read_heading(row);
-    if (!is_new && heading != run.heading) {
-      throw table_.cell_error(row, "heading", fmt::format("run '{}' changes its heading", id), "one heading a run");
-    }
-    run.heading = heading;
-    return run;
-  }
-
- private:
-  /// "+" and "-" as they are; degrees against the first heading of the file.
-  int read_heading(std::size_t row) {
-    const std::string text = boost::algorithm::trim_copy(headings_[row]);
-    if (text == "+" || text == "+1") return +1;
-    if (text == "-" || text == "-1" || text == "\xE2\x88\x92") return -1;  // the last is the minus sign of typesetting
-    const std::optional<double> degrees = parse_number(text);
-    if (!degrees.has_value()) throw table_.cell_error(row, "heading", "not a heading", "+ or -, or degrees");
-    if (!first_heading_deg_.has_value()) first_heading_deg_ = *degrees;
-    return std::cos((*degrees - *first_heading_deg_) * boost::math::constants::degree<double>()) >= 0.0 ? +1 : -1;
-  }
-
-  const CsvTable& table_;
-  CoastdownData& data_;
-  std::vector<std::string> runs_, headings_, sessions_;
-  std::map<std::pair<std::string, std::string>, std::size_t> index_;
-  std::optional<double> first_heading_deg_;
-  int unnamed_ = 0;
-};
-
 void require_falling(const CsvTable& table, const CoastdownRun& run) {
   constexpr double kLeastFall_m_s = 1.0 / 3.6;
   const auto top = std::max_element(run.speed_m_s.begin(), run.speed_m_s.end());
@@ -142,23 +68,27 @@ void require_falling(const CsvTable& table, const CoastdownRun& run) {
                     "a coastdown: a speed that falls with time", ""});
 }
 
-void read_trace(const CsvTable& table, CoastdownFile& file) {
+void read_trace(CheckedRows& rows, BadRows bad_rows, CoastdownFile& file) {
+  const CsvTable& table = rows.table();
   table.require_known(add_condition_columns(kTraceColumns));
-  const std::vector<double> times = table.numbers({"time_s", any_number(), ""});
-  const std::vector<double> speeds = table.numbers({"speed_km_h", between(0.0, 500.0), ""});
-  const CoastdownConditions conditions = read_conditions(table);
-  RunSorter sorter(table, file.data);
-  for (std::size_t row = 0; row < table.row_count(); ++row) {
-    CoastdownRun& run = sorter.run_of(row, row == 0);
-    if (!run.time_s.empty() && times[row] <= run.time_s.back()) {
-      throw table.cell_error(
-          row, "time_s",
-          fmt::format("time does not increase within run '{}': {} after {}", run.id, times[row], run.time_s.back()),
-          fmt::format("more than {}", run.time_s.back()));
+  const std::vector<double> times = rows.numbers({"time_s", any_number(), ""});
+  const std::vector<double> speeds = rows.numbers({"speed_km_h", between(0.0, 500.0), ""});
+  const CoastdownConditions conditions = read_conditions(rows);
+  std::vector<bool> begins(rows.row_count(), false);
+  if (!begins.empty()) begins.front() = true;
+  std::vector<RowsOfRun> runs = sort_into_runs(rows, begins, std::vector<bool>(rows.row_count(), true));
+  for (const RowsOfRun& run : runs)
+    rows.check_times("time_s", run.rows, times, fmt::format(" within run '{}'", run.id));
+  file.left_out = rows.settle(bad_rows);
+  for (RowsOfRun& of_run : runs) {
+    std::optional<CoastdownRun> run = begin_run(rows, of_run);
+    if (!run.has_value()) continue;
+    for (const std::size_t row : of_run.rows) {
+      run->time_s.push_back(times[row]);
+      run->speed_m_s.push_back(speeds[row]);
+      add_conditions(conditions, row, run->conditions);
     }
-    run.time_s.push_back(times[row]);
-    run.speed_m_s.push_back(speeds[row]);
-    add_conditions(conditions, row, run.conditions);
+    file.data.runs.push_back(std::move(*run));
   }
   bool one_clock = true;
   for (std::size_t i = 0; i < file.data.runs.size(); ++i) {
@@ -170,33 +100,81 @@ void read_trace(const CsvTable& table, CoastdownFile& file) {
   }
 }
 
-void require_order(const CsvTable& table, std::size_t row, const CoastdownRun& run, double high, double low) {
-  if (low >= high) {
-    throw table.cell_error(row, "v_lo_kmh", "the bin does not fall: v_lo_kmh >= v_hi_kmh",
-                           fmt::format("less than v_hi_kmh = {:.6g}", high));
+/// Speeds of the bins, in km/h as they are written.
+struct BinSpeeds {
+  std::vector<double> high, low;
+};
+
+/// Notes bins that do not fall, and such that are out of the order of their run, or overlap the one before.
+void check_bins(CheckedRows& rows, const BinSpeeds& speeds, const std::vector<RowsOfRun>& runs) {
+  std::vector<double> middles(rows.row_count());
+  for (std::size_t row = 0; row < middles.size(); ++row) middles[row] = -0.5 * (speeds.high[row] + speeds.low[row]);
+  const auto overlap = [&](std::size_t row, const RowsOfRun& run, const std::string& allowed) {
+    rows.leave_out(
+        rows.table().cell_error(row, "v_hi_kmh", fmt::format("bins of run '{}' overlap or rise", run.id), allowed));
+  };
+  for (const RowsOfRun& run : runs) {
+    for (const CheckedRows::Disorder& found : rows.find_disorder(run.rows, middles)) {
+      overlap(found.row, run,
+              found.is_below ? fmt::format("at most {:.6g}, the end of the bin before", speeds.low[found.other])
+                             : fmt::format("a bin above {:.6g}, where the next one begins", speeds.high[found.other]));
+    }
+    std::optional<std::size_t> before;
+    for (const std::size_t row : run.rows) {
+      if (rows.is_out(row)) continue;
+      if (before.has_value() && speeds.high[row] > speeds.low[*before] + 3.6e-6) {
+        overlap(row, run, fmt::format("at most {:.6g}, the end of the bin before", speeds.low[*before]));
+        continue;
+      }
+      before = row;
+    }
   }
-  if (!run.bins.empty() && high * kPerKmh > run.bins.back().low_m_s + 1e-6) {
-    throw table.cell_error(row, "v_hi_kmh", fmt::format("bins of run '{}' overlap or rise", run.id),
-                           fmt::format("at most {:.6g}, the end of the bin before", 3.6 * run.bins.back().low_m_s));
+}
+
+/// Speeds at which bins end; a bin that does not fall is noted.
+BinSpeeds read_bin_speeds(CheckedRows& rows) {
+  BinSpeeds speeds{rows.numbers({"v_hi_kmh", between(0.0, 500.0), ""}),
+                   rows.numbers({"v_lo_kmh", between(0.0, 500.0), ""})};
+  for (std::size_t row = 0; row < rows.row_count(); ++row) {
+    if (rows.is_out(row) || speeds.low[row] < speeds.high[row]) continue;
+    rows.leave_out(rows.table().cell_error(row, "v_lo_kmh", "the bin does not fall: v_lo_kmh >= v_hi_kmh",
+                                           fmt::format("less than v_hi_kmh = {:.6g}", speeds.high[row])));
   }
+  return speeds;
+}
+
+/// Without a `run` column, a run begins where the speed does not fall on.
+std::vector<bool> find_begins(const CheckedRows& rows, const BinSpeeds& speeds) {
+  std::vector<bool> begins(rows.row_count(), false);
+  std::optional<double> last_high;
+  for (std::size_t row = 0; row < rows.row_count(); ++row) {
+    if (rows.is_out(row)) continue;
+    begins[row] = !last_high.has_value() || speeds.high[row] >= *last_high;
+    last_high = speeds.high[row];
+  }
+  return begins;
 }
 
 /// Totals of a run, beside its bins: of the run, or bin by bin.
 class RunTotals {
  public:
-  explicit RunTotals(const CsvTable& table) {
-    if (table.has("run_total_s")) totals_s_ = table.numbers({"run_total_s", between(0.0, 1e9), ""}, true);
-    if (table.has("run_dist_m")) distances_m_ = table.numbers({"run_dist_m", between(0.0, 1e9), ""}, true);
-    if (table.has("dist_m")) bin_distances_m_ = table.numbers({"dist_m", between(0.0, 1e9), ""}, true);
+  explicit RunTotals(CheckedRows& rows) {
+    const auto read = [&rows](const char* column) {
+      return rows.table().has(column) ? rows.spare_numbers({column, between(0.0, 1e9), ""}) : std::vector<double>();
+    };
+    totals_s_ = read("run_total_s");
+    distances_m_ = read("run_dist_m");
+    bin_distances_m_ = read("dist_m");
   }
 
-  void add(std::size_t row, CoastdownRun& run) const {
-    if (!totals_s_.empty()) put(totals_s_[row], run.total_s);
-    if (!distances_m_.empty()) {
-      put(distances_m_[row], run.distance_m);
-    } else if (!bin_distances_m_.empty()) {
-      put(run.distance_m.value_or(0.0) + bin_distances_m_[row], run.distance_m);
+  void add(const std::vector<std::size_t>& rows, CoastdownRun& run) const {
+    double sum_m = 0.0;
+    for (const std::size_t row : rows) {
+      if (!totals_s_.empty()) put(totals_s_[row], run.total_s);
+      if (!distances_m_.empty()) put(distances_m_[row], run.distance_m);
+      if (!bin_distances_m_.empty()) sum_m += bin_distances_m_[row];  // NaN, and so none, where one is not known
     }
+    if (distances_m_.empty()) put(sum_m, run.distance_m);
   }
 
  private:
@@ -207,76 +185,102 @@ class RunTotals {
   std::vector<double> totals_s_, distances_m_, bin_distances_m_;
 };
 
-bool is_on(const CsvTable& table, std::size_t row, const std::string& cell) {
-  const std::string word = boost::algorithm::to_lower_copy(boost::algorithm::trim_copy(cell));
-  if (word == "on" || word == "yes" || word == "1" || word == "true") return true;
-  if (word == "off" || word == "no" || word == "0" || word == "false") return false;
-  throw table.cell_error(row, "use", "not a value of 'use'", "On or Off");
+/// Which rows `use` leaves in; all without that column.
+std::vector<bool> read_uses(CheckedRows& rows) {
+  std::vector<bool> uses(rows.row_count(), true);
+  if (!rows.table().has("use")) return uses;
+  const std::vector<std::string> cells = rows.table().text("use");
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    const std::string word = boost::algorithm::to_lower_copy(boost::algorithm::trim_copy(cells[row]));
+    if (word == "on" || word == "yes" || word == "1" || word == "true") continue;
+    uses[row] = false;
+    if (word == "off" || word == "no" || word == "0" || word == "false") continue;
+    rows.leave_out(rows.table().cell_error(row, "use", "not a value of 'use'", "On or Off"));
+  }
+  return uses;
 }
 
-/// Totals of a run are not those of its bins where some of them are Off.
-void drop_incomplete_totals(const CsvTable& table, const std::vector<std::string>& uses, CoastdownData& data) {
-  if (!table.has("use")) return;
+/// Times of day of the rows; a wrong one counts as an empty field.
+std::vector<std::optional<double>> read_starts(CheckedRows& rows) {
+  const std::vector<std::string> cells = text_or_empty(rows.table(), "start_time");
+  std::vector<std::optional<double>> starts_s(cells.size());
+  for (std::size_t row = 0; row < cells.size(); ++row) {
+    try {
+      starts_s[row] = read_start_s(rows.table(), row, cells[row]);
+    } catch (const InputError& error) {
+      rows.leave_empty(error);
+    }
+  }
+  return starts_s;
+}
+
+/// Totals of a run are not those of its bins where some of them are left out. A row whose fields are not known may
+/// belong to any run.
+void drop_incomplete_totals(const CheckedRows& rows, const std::vector<bool>& uses, CoastdownFile& file) {
+  const CsvTable& table = rows.table();
   const std::vector<std::string> ids = text_or_empty(table, "run");
-  for (std::size_t row = 0; row < table.row_count(); ++row) {
-    if (is_on(table, row, uses[row])) continue;
-    for (CoastdownRun& run : data.runs) {
-      if (table.has("run") && run.id != ids[row]) continue;
+  const auto drop = [&file](const auto& is_of) {
+    for (CoastdownRun& run : file.data.runs) {
+      if (!is_of(run)) continue;
       run.total_s.reset();
       run.distance_m.reset();
     }
+  };
+  if (rows.has_ragged()) drop([](const CoastdownRun&) { return true; });
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    if (uses[row] && !rows.is_out(row)) continue;
+    drop([&](const CoastdownRun& run) { return !table.has("run") || run.id == ids[row]; });
   }
 }
 
-void read_bins(const CsvTable& table, CoastdownFile& file) {
-  const std::vector<double> highs = table.numbers({"v_hi_kmh", between(0.0, 500.0), ""});
-  const std::vector<double> lows = table.numbers({"v_lo_kmh", between(0.0, 500.0), ""});
-  const std::vector<double> durations = table.numbers({"dt_s", positive(), ""});
-  const std::vector<std::string> uses = text_or_empty(table, "use");
-  const std::vector<std::string> starts = text_or_empty(table, "start_time");
-  const CoastdownConditions conditions = read_conditions(table);
-  const RunTotals totals(table);
+void read_bins(CheckedRows& rows, BadRows bad_rows, CoastdownFile& file) {
+  const BinSpeeds speeds = read_bin_speeds(rows);
+  const std::vector<double> durations = rows.numbers({"dt_s", positive(), ""});
+  const std::vector<bool> uses = read_uses(rows);
+  const std::vector<std::optional<double>> starts_s = read_starts(rows);
+  const CoastdownConditions conditions = read_conditions(rows);
+  const RunTotals totals(rows);
   const std::vector<std::string> known = add_condition_columns(kBinColumns);
-  for (const std::string& column : table.columns()) {
+  for (const std::string& column : rows.table().columns()) {
     if (std::find(known.begin(), known.end(), column) == known.end()) file.ignored_columns.push_back(column);
   }
-  RunSorter sorter(table, file.data);
-  double last_high = -1.0;
-  for (std::size_t row = 0; row < table.row_count(); ++row) {
-    const bool begins = last_high < 0.0 || highs[row] >= last_high;
-    last_high = highs[row];
-    if (table.has("use") && !is_on(table, row, uses[row])) {
-      ++file.rows_off;
-      continue;
+  std::vector<RowsOfRun> runs = sort_into_runs(rows, find_begins(rows, speeds), uses);
+  check_bins(rows, speeds, runs);
+  file.left_out = rows.settle(bad_rows);
+  for (std::size_t row = 0; row < rows.row_count(); ++row) file.rows_off += uses[row] || rows.is_out(row) ? 0 : 1;
+  for (RowsOfRun& of_run : runs) {
+    std::optional<CoastdownRun> run = begin_run(rows, of_run);
+    if (!run.has_value()) continue;
+    for (const std::size_t row : of_run.rows) {
+      if (!run->start_s.has_value()) run->start_s = starts_s[row];
+      run->bins.push_back({speeds.high[row] * kPerKmh, speeds.low[row] * kPerKmh, durations[row]});
+      add_conditions(conditions, row, run->conditions);
     }
-    CoastdownRun& run = sorter.run_of(row, begins);
-    require_order(table, row, run, highs[row], lows[row]);
-    const std::optional<double> start_s = read_start_s(table, row, starts[row]);
-    if (!run.start_s.has_value()) run.start_s = start_s;
-    run.bins.push_back({highs[row] * kPerKmh, lows[row] * kPerKmh, durations[row]});
-    totals.add(row, run);
-    add_conditions(conditions, row, run.conditions);
+    totals.add(of_run.rows, *run);
+    file.data.runs.push_back(std::move(*run));
   }
-  drop_incomplete_totals(table, uses, file.data);
+  drop_incomplete_totals(rows, uses, file);
 }
 
 }  // namespace
 
-CoastdownFile read_coastdowns(const std::string& path) {
-  if (std::filesystem::is_directory(path)) return read_coastdown_recording(path);
-  const CsvTable table = CsvTable::read(path);
-  if (table.has("phase")) return read_coastdown_recording(path);
+CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows) {
+  if (std::filesystem::is_directory(path)) return read_coastdown_recording(path, bad_rows);
+  CheckedRows rows(path);
+  const CsvTable& table = rows.table();
+  if (table.has("phase")) return read_coastdown_recording(path, bad_rows);
   CoastdownFile file;
+  file.path = path;
   file.is_trace = table.has("time_s") || table.has("speed_km_h");
   if (file.is_trace) {
-    read_trace(table, file);
+    read_trace(rows, bad_rows, file);
     return file;
   }
   if (!table.has("v_hi_kmh") && !table.has("v_lo_kmh") && !table.has("dt_s")) {
     throw InputError({"neither a speed trace nor times through speed bins", path, 1, "", "",
                       "columns time_s and speed_km_h, or v_hi_kmh, v_lo_kmh and dt_s", ""});
   }
-  read_bins(table, file);
+  read_bins(rows, bad_rows, file);
   return file;
 }
 

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "include/rollrig/bad_rows.h"
+#include "measurements/left_out_rows.h"
+
 namespace rollrig::estimation {
 
 /// Time to fall from one speed to a lower one.
@@ -54,13 +57,19 @@ struct CoastdownFile {
   std::optional<RecordedVehicle> vehicle;    // of rollrig's own recording with its manifest
   std::size_t rows_off = 0;                  // left out by `use`
   std::vector<std::string> ignored_columns;  // of a bins file
+  std::string path{};                        // of the CSV
+  measurements::LeftOutRows left_out{};      // bad rows
 };
 
 /// Reads either form, told apart by its columns; or the recording of a simulated coastdown, or the folder that has it
 /// (read_coastdown_recording()).
-/// Errors   InputError: a wrong or missing column, times that do not increase within a run, a run whose speed
-///          does not fall, bins that rise or overlap, times through a bin that are not positive
+///
+/// A row is bad if a number or its heading is wrong, it has too few or too many fields, its time does not increase
+/// within its run, or its bin does not fall, rises or overlaps. Bad rows are refused together, or left out; a wrong
+/// field that the fit does not need (`start_time`, `run_total_s`, `run_dist_m`, `dist_m`) is left empty.
+/// Errors   InputError: bad rows, where they are refused, or too many of them; a wrong or missing column, a run whose
+///          speed does not fall
 /// Checked  tests/estimation/coastdown_file_test.cpp, tests/cli/bad_input_test.cpp
-CoastdownFile read_coastdowns(const std::string& path);
+CoastdownFile read_coastdowns(const std::string& path, BadRows bad_rows = BadRows::kRefuse);
 
 }  // namespace rollrig::estimation

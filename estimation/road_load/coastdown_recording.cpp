@@ -1,8 +1,11 @@
 #include "estimation/road_load/coastdown_recording.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <numeric>
+#include <utility>
 
-#include "sim/core/csv.h"
+#include "estimation/run_checks/checked_rows.h"
 #include "sim/core/file_io.h"
 #include "sim/core/json.h"
 
@@ -62,7 +65,7 @@ RecordedConditions find_conditions(const Json& manifest) {
   return conditions;
 }
 
-CoastdownRun begin_run(const std::string& phase, double time_s) {
+CoastdownRun begin_recorded_run(const std::string& phase, double time_s) {
   CoastdownRun run;
   run.id = phase.substr(std::string(kCoastdownPhase).size());
   run.session = "session";
@@ -83,10 +86,11 @@ void add_recorded_conditions(const RecordedConditions& conditions, const std::ve
 
 }  // namespace
 
-CoastdownFile read_coastdown_recording(const std::string& path) {
+CoastdownFile read_coastdown_recording(const std::string& path, BadRows bad_rows) {
   const fs::path recording = find_recording(path);
   const fs::path manifest_file = recording.parent_path() / "manifest.json";
   CoastdownFile file;
+  file.path = recording.string();
   file.is_trace = true;
   RecordedConditions conditions;
   if (fs::exists(manifest_file)) {
@@ -94,15 +98,23 @@ CoastdownFile read_coastdown_recording(const std::string& path) {
     file.vehicle = find_vehicle(manifest);
     conditions = find_conditions(manifest);
   }
-  const CsvTable table = CsvTable::read(recording.string());
-  const std::vector<double> times = table.increasing_times("time_s");
-  const std::vector<double> speeds = table.numbers({"speed_km_h", between(-500.0, 500.0), ""});
+  CheckedRows rows(recording.string());
+  const CsvTable& table = rows.table();
+  const std::vector<double> times = rows.numbers({"time_s", any_number(), ""});
+  const std::vector<double> speeds = rows.numbers({"speed_km_h", between(-500.0, 500.0), ""});
   const std::vector<std::string> phases = table.text("phase");
   const std::vector<double> ambient_K =
-      table.has("ambient_degC") ? table.numbers({"ambient_degC", between(-60.0, 80.0), ""}) : std::vector<double>();
-  for (std::size_t row = 0; row < table.row_count(); ++row) {
-    if (phases[row].rfind(kCoastdownPhase, 0) != 0) continue;
-    if (row == 0 || phases[row] != phases[row - 1]) file.data.runs.push_back(begin_run(phases[row], times[row]));
+      table.has("ambient_degC") ? rows.numbers({"ambient_degC", between(-60.0, 80.0), ""}) : std::vector<double>();
+  std::vector<std::size_t> all(rows.row_count());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  rows.check_times("time_s", all, times, "");
+  file.left_out = rows.settle(bad_rows);
+  std::string phase;  // of the row before
+  for (const std::size_t row : all) {
+    if (rows.is_out(row)) continue;
+    const bool begins = phases[row] != std::exchange(phase, phases[row]);
+    if (phase.rfind(kCoastdownPhase, 0) != 0) continue;
+    if (begins) file.data.runs.push_back(begin_recorded_run(phase, times[row]));
     CoastdownRun& run = file.data.runs.back();
     run.time_s.push_back(times[row]);
     run.speed_m_s.push_back(std::max(0.0, speeds[row]));

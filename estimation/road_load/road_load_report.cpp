@@ -247,6 +247,10 @@ Json make_road_load_json(const CoastdownFile& file, const RoadLoadFitOptions& op
   }
   put_checks(checks, json);
   json["residuals"] = points_json(file, fit);
+  json["bad_rows"] = Json::array();
+  if (!file.left_out.problems.empty()) {
+    json["bad_rows"].push_back(measurements::make_left_out_json(file.left_out, file.path));
+  }
   json["warnings"] = fit.warnings;
   return json;
 }

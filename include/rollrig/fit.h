@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bad_rows.h"
 #include "fit_options.h"
 #include "measurement_set.h"
 #include "result.h"
@@ -21,7 +22,8 @@ struct TireFit : Report {
 
 /// Method: docs/fit_tire.md.
 /// Errors  InputError: not a drum set, no speed with loss and temperature of a law with A0 to B1, a load map where it
-///         does not go with the law or of one speed; RunFailure: no convergence, or data that leave a parameter undecided
+///         does not go with the law or of one speed; RunFailure: no convergence, or data that leave a parameter
+///         undecided
 TireFit fit_tire(const MeasurementSet& set, const TireFitOptions& options = {});
 
 /// A, B, C of a vehicle. Its files: road_load.json, residuals.csv.
@@ -34,13 +36,13 @@ struct RoadLoad : Report {
 /// Errors  InputError: a wrong file, an unknown session, fewer than four bins; RunFailure: A, B, C not decided by the
 ///         speeds, no convergence
 RoadLoad fit_road_load(const std::string& file, const RoadLoadFitOptions& options,
-                       const std::vector<std::string>& sessions = {});
+                       const std::vector<std::string>& sessions = {}, BadRows bad_rows = BadRows::kRefuse);
 
 /// Rolling resistance from coast-downs of a drum, by the deceleration method of ISO 28580
 /// (docs/fit_drum_coastdown.md). `set` is a .toml file, `data` the folder of its CSV files, empty: that of the set.
 /// Files of the report: fit.json, decelerations.csv, residuals.csv.
 /// Errors  InputError: a wrong file, no coast in a run; RunFailure: no speed at which loaded and lifted runs both pass
-Report fit_drum_coastdown(const std::string& set, const std::string& data = "");
+Report fit_drum_coastdown(const std::string& set, const std::string& data = "", BadRows bad_rows = BadRows::kRefuse);
 
 }  // namespace rollrig
 #pragma GCC visibility pop
