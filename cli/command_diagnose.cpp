@@ -7,6 +7,7 @@
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/diagnose.h"
+#include "rollrig/loop.h"
 
 namespace rollrig::cli {
 namespace {
@@ -17,6 +18,9 @@ struct DiagnoseOptions {
   OutputOptions output;
   std::string plan;
   bool force = false;
+  std::string loop;
+  std::optional<double> hours;
+  bool test_failed = false;
   ComparisonOptions comparison;
   BadRows bad_rows = BadRows::kRefuse;
   int threads = 0;
@@ -31,6 +35,14 @@ void require_consistent(const DiagnoseOptions& options) {
   }
   if (!options.plan.empty() && options.set.empty()) {
     throw usage_error("there is no test to plan without a set", "--plan", options.plan, "a set beside it");
+  }
+  if (!options.loop.empty() && (options.set.empty() || !options.plan.empty())) {
+    throw usage_error("a loop plans its tests itself, for one set", "--loop", options.loop,
+                      "a set beside it, without --plan");
+  }
+  if (options.loop.empty() && (options.hours.has_value() || options.test_failed)) {
+    throw usage_error("this is of a loop of tests", options.test_failed ? "--test-failed" : "--hours", "",
+                      "--loop and its folder beside it");
   }
   options.comparison.check();
 }
@@ -65,6 +77,19 @@ std::string write_plan(const FolderFiles& files, OutputFolder& folder) {
   return fmt::format("next test written to {0}/: {0}/plan.txt says how\n", folder.path());
 }
 
+/// One step of a loop of tests.
+int advance(const DiagnoseOptions& options) {
+  Output output(options.output);
+  const Loop loop = [&] {
+    ProgressLine progress("diagnose", options.output.quiet);
+    LoopInput input{options.set, options.loop, options.hours, options.test_failed, options.bad_rows};
+    input.diagnosis = make_options(options, progress);
+    return advance_loop(input);
+  }();
+  output.show(loop);
+  return kDone;
+}
+
 int diagnose_command(const DiagnoseOptions& options) {
   require_consistent(options);
   if (!options.explain.empty()) {
@@ -73,13 +98,15 @@ int diagnose_command(const DiagnoseOptions& options) {
   }
   const std::vector<std::string> sets = find_sets(options.set);
   if (!sets.empty()) {
-    if (!options.plan.empty()) {
-      throw usage_error("a plan is made for one set", "--plan", options.plan,
+    if (!options.plan.empty() || !options.loop.empty()) {
+      throw usage_error("a plan is made for one set", options.plan.empty() ? "--loop" : "--plan",
+                        options.plan.empty() ? options.loop : options.plan,
                         "the folder of one set, without sets below it");
     }
     if (!options.output.quiet) warn_of_undescribed(options.set);
     return diagnose_all(options, sets);
   }
+  if (!options.loop.empty()) return advance(options);
   const MeasurementSet set(options.set, options.bad_rows);
   Output output(options.output);
   std::optional<OutputFolder> plan;
@@ -109,6 +136,12 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_option("--plan", options->plan,
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
+  command->add_option("--loop", options->loop,
+                      "Folder of a loop of tests: takes in what its planned test measured, diagnoses, plans the next "
+                      "test, until a cause is at 95 % or the hours are gone");
+  command->add_option("--hours", options->hours, "Hours of the machine that the loop may take [8]");
+  command->add_flag("--test-failed", options->test_failed,
+                    "The planned test of the loop could not be done; its hours are gone all the same");
   options->comparison.add_to(*command);
   add_skip_bad_rows(*command, options->bad_rows);
   add_threads(*command, options->threads);

@@ -115,7 +115,7 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   stages.begin("next test", 0.99);
   if (!checks.is_implausible()) {
     const std::vector<OpenHypothesis> open = find_open_hypotheses(study, comparison);
-    const std::vector<ProposedTest> tests = propose_tests(study, open);
+    const std::vector<ProposedTest> tests = propose_tests(study, open, options.budget);
     if (!tests.empty()) diagnosis.plan = tests.front();
     diagnosis.next_tests = {tests.begin(), tests.end()};
     diagnosis.next_sensors = propose_sensors(study, open);

@@ -15,7 +15,7 @@ namespace rollrig::diagnosis {
 using rollrig::BaseNumber, rollrig::Cause, rollrig::DiagnosisOptions, rollrig::FleetMember, rollrig::Gap,
     rollrig::GapView;
 using rollrig::Location, rollrig::NextTest, rollrig::ParameterEstimate, rollrig::RangeLimit, rollrig::SdSource,
-    rollrig::Verdict;
+    rollrig::TestBudget, rollrig::Verdict;
 
 /// The size of one of a cause's effects, the first of the parameters of that effect; nullptr where there is none.
 const ParameterEstimate* find_size(const Cause& cause, const std::string& effect);

@@ -67,6 +67,7 @@ constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes,
 constexpr double kDetectableEffect_sd = 5.0;  // named then in 19 of 20 sets, against the priors above
 constexpr std::size_t kLongSet = 3;           // effects named together; more than that name nothing, so that
 constexpr double kLeftOutOfLongSet = 0.1;     // Assumed: the unlikeliest are left out, up to this share of the set
+constexpr double kNamed = 0.95;               // Assumed: from here on a cause is named, and a loop of tests ends
 constexpr double kWorthNaming = 0.001;        // probability of a further cause
 
 }  // namespace thresholds

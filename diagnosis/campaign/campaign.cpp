@@ -205,15 +205,6 @@ TestChoice put_in_order(const JudgedEffects& effects, const std::vector<Possible
   return ordered;
 }
 
-/// Whether a set holds all that a test reads.
-bool is_held_by_sets(const PlannedTest& test, const rigs::MachineKind& kind) {
-  const std::vector<Quantity> columns = rigs::measured_channels(kind);
-  return !test.clock_pulse &&
-         std::all_of(test.extra.sensors.begin(), test.extra.sensors.end(), [&](const Quantity& sensor) {
-           return std::find(columns.begin(), columns.end(), sensor) != columns.end();
-         });
-}
-
 /// The ordinary run with the sensors that the machine has.
 std::optional<PlannedTest> make_ordinary_test(const PreparedSet& set) {
   std::optional<PlannedTest> test = set.kind().make_sensor_test(set);

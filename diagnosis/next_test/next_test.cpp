@@ -6,6 +6,7 @@
 
 #include "diagnosis/checks/rig_sensors.h"
 #include "diagnosis/kinds/measurement_kind.h"
+#include "diagnosis/next_test/naming_chance.h"
 #include "diagnosis/next_test/predicted_test.h"
 #include "diagnosis/thresholds.h"
 #include "sim/core/parallel.h"
@@ -57,18 +58,55 @@ std::vector<double> list_probabilities(const std::vector<OpenHypothesis>& open) 
 
 constexpr double kWorthwhile_bits = 0.01;
 
+ProposedTest make_proposed_test(const JudgedTest& one, std::optional<double> naming_chance) {
+  return {{one.test.description, one.splits, one.bits / one.test.hours, one.test.hours, one.test.by_hand, one.test.id,
+           naming_chance},
+          one.test.soaked,
+          one.test.extra.force_at_standstill,
+          one.test.runs};
+}
+
+/// Whether a loop may propose a test: its runs alone hold all that it tells.
+bool is_allowed(const TestBudget& budget, const rigs::MachineKind& kind, const PlannedTest& test) {
+  const bool is_left_out = std::find(budget.without.begin(), budget.without.end(), test.id) != budget.without.end();
+  return !is_left_out && test.numbers.empty() && test.hours <= budget.hours && is_held_by_sets(test, kind);
+}
+
+/// Tests of those given (that which tells most an hour first) that fit a budget, the best to begin with first.
+std::vector<ProposedTest> propose_within(const TestBudget& budget, const rigs::MachineKind& kind,
+                                         const std::vector<JudgedTest>& judged,
+                                         const std::vector<double>& probabilities) {
+  constexpr double kAsGood = 0.02;  // Assumed: chances so near each other are alike, as few draws show them
+  std::vector<const JudgedTest*> allowed;
+  std::vector<PossibleTest> possible;
+  for (const JudgedTest& one : judged) {
+    if (!is_allowed(budget, kind, one.test)) continue;
+    allowed.push_back(&one);
+    possible.push_back({one.test.hours, OutcomeDraws(one.outcomes, one.test.id)});
+  }
+  const std::vector<double> chances = find_naming_chances(probabilities, possible, budget.hours, thresholds::kNamed);
+  std::vector<ProposedTest> proposed;
+  for (std::size_t i = 0; i < allowed.size(); ++i) proposed.push_back(make_proposed_test(*allowed[i], chances[i]));
+  if (proposed.empty()) return proposed;
+  const double best = *std::max_element(chances.begin(), chances.end());
+  std::stable_partition(proposed.begin(), proposed.end(),
+                        [&](const ProposedTest& one) { return *one.naming_chance >= best - kAsGood; });
+  return proposed;
+}
+
 }  // namespace
 
 std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHypothesis>& open) {
   std::vector<JudgedTest> judged;
-  for (PlannedTest& test : make_test_menu(study.set)) judged.push_back({std::move(test), 0.0, {}, false});
+  for (PlannedTest& test : make_test_menu(study.set)) judged.push_back({std::move(test), 0.0, {}, false, {}});
   const std::vector<double> probabilities = list_probabilities(open);
   parallel_for(
       judged.size(), study.settings.threads,
       [&](std::size_t i) {
         const PredictedTest predicted(study, open, judged[i].test);
         if (!predicted.is_possible()) return;
-        const std::vector<PredictedOutcome> outcomes = predicted.find_outcomes();
+        judged[i].outcomes = predicted.find_outcomes();
+        const std::vector<PredictedOutcome>& outcomes = judged[i].outcomes;
         judged[i].bits = calc_information_bits(probabilities, outcomes);
         const Splits splits =
             find_splits(open, [&](std::size_t a, std::size_t b) { return are_told_apart(outcomes[a], outcomes[b]); });
@@ -79,22 +117,22 @@ std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHy
   return judged;
 }
 
-std::vector<ProposedTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open) {
+std::vector<ProposedTest> propose_tests(const Study& study, const std::vector<OpenHypothesis>& open,
+                                        const std::optional<TestBudget>& budget) {
   constexpr std::size_t kProposed = 3;
   if (open.size() < 2) return {};
   std::vector<JudgedTest> judged = judge_tests(study, open);
+  judged.erase(
+      std::remove_if(judged.begin(), judged.end(), [](const JudgedTest& one) { return one.bits < kWorthwhile_bits; }),
+      judged.end());
   std::stable_sort(judged.begin(), judged.end(), [](const JudgedTest& a, const JudgedTest& b) {
     if (a.splits_likeliest != b.splits_likeliest) return a.splits_likeliest;
     return a.bits / a.test.hours > b.bits / b.test.hours;
   });
+  if (budget.has_value()) return propose_within(*budget, *study.set.source().kind, judged, list_probabilities(open));
   std::vector<ProposedTest> proposed;
   for (const JudgedTest& one : judged) {
-    if (proposed.size() == kProposed) break;
-    if (one.bits < kWorthwhile_bits) continue;
-    proposed.push_back({{one.test.description, one.splits, one.bits / one.test.hours, one.test.hours, one.test.by_hand},
-                        one.test.soaked,
-                        one.test.extra.force_at_standstill,
-                        one.test.runs});
+    if (proposed.size() < kProposed) proposed.push_back(make_proposed_test(one, std::nullopt));
   }
   return proposed;
 }

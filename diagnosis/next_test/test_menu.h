@@ -49,4 +49,7 @@ constexpr double kVirtualRow_s = 10.0;
 /// Checked   tests/diagnosis/next_test_test.cpp
 std::vector<PlannedTest> make_test_menu(const PreparedSet& set);
 
+/// Whether a set holds all that a test reads.
+bool is_held_by_sets(const PlannedTest& test, const rigs::MachineKind& kind);
+
 }  // namespace rollrig::diagnosis

@@ -79,8 +79,10 @@ struct NextTest {
   std::string test;
   std::vector<std::string> splits;  // effects that it tells apart
   double expected_bits_per_hour = 0.0;
-  double hours = 0.0;                     // of the rig
-  std::vector<std::string> by_hand = {};  // what is done at the rig beside the runs, a sentence each
+  double hours = 0.0;                                  // of the rig
+  std::vector<std::string> by_hand = {};               // what is done at the rig beside the runs, a sentence each
+  std::string id = {};                                 // in the menu of tests: "load_sweep"
+  std::optional<double> naming_chance = std::nullopt;  // within the hours of a TestBudget, with the tests after it
 };
 
 /// A sensor that the rig has not, and what it would add to an ordinary run.
@@ -148,11 +150,19 @@ struct FleetMember {
   std::optional<InputProblem> problem;  // of the input, where that is why
 };
 
+/// What further tests may take. Next tests are then chosen by the chance that they, with those after them, bring a
+/// cause to 95 % within the hours.
+struct TestBudget {
+  double hours = 0.0;                     // of the machine, set-up and soaks included
+  std::vector<std::string> without = {};  // ids of tests that are not proposed
+};
+
 struct DiagnosisOptions {
   std::vector<std::string> without;  // effects left out of the comparison
   std::vector<std::string> only;     // where not empty, the effects in the comparison
   int threads = 0;                   // 0: as many as the machine has
   Progress progress = {};
+  std::optional<TestBudget> budget = std::nullopt;
 };
 
 }  // namespace rollrig

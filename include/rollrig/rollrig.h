@@ -7,6 +7,7 @@
 #include "error.h"
 #include "export.h"
 #include "fit.h"
+#include "loop.h"
 #include "measurement_set.h"
 #include "plan.h"
 #include "progress.h"

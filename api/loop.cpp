@@ -1,0 +1,30 @@
+#include "rollrig/loop.h"
+
+#include "api/data.h"
+#include "diagnosis/loop/test_loop.h"
+#include "diagnosis/output/diagnosis_json.h"
+#include "diagnosis/output/summary.h"
+#include "report/diagnosis_page.h"
+
+namespace rollrig {
+
+Loop advance_loop(const LoopInput& input) {
+  const auto step = std::make_shared<const diagnosis::LoopStep>(diagnosis::advance_loop(input));
+  Loop loop;
+  static_cast<LoopLedger&>(loop) = step->ledger;
+  loop.missing = step->missing;
+  if (step->diagnosis.has_value()) loop.text = diagnosis::format_summary(*step->diagnosis) + "\n";
+  loop.text += diagnosis::format_loop(*step, input.folder);
+  Json json = diagnosis::make_ledger_json(step->ledger);
+  json["diagnosis"] = step->diagnosis.has_value() ? diagnosis::make_diagnosis_json(*step->diagnosis) : Json(nullptr);
+  loop.json = to_text(json);
+  const DiagnosisOptions options = input.diagnosis;
+  loop.make_page = [step, options] {
+    const diagnosis::Diagnosis found =
+        step->diagnosis.has_value() ? *step->diagnosis : diagnosis::diagnose(step->set, options);
+    return report::make_html(report::make_diagnosis_page(step->set, found));
+  };
+  return loop;
+}
+
+}  // namespace rollrig
