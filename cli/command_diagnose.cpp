@@ -24,6 +24,7 @@ struct DiagnoseOptions {
   ComparisonOptions comparison;
   BadRows bad_rows = BadRows::kRefuse;
   int threads = 0;
+  double smallest_effect_percent = DiagnosisOptions{}.smallest_effect_percent;
 };
 
 void require_consistent(const DiagnoseOptions& options) {
@@ -49,7 +50,8 @@ void require_consistent(const DiagnoseOptions& options) {
 
 /// What the options ask for; `progress` shows how far it is.
 DiagnosisOptions make_options(const DiagnoseOptions& options, ProgressLine& progress) {
-  return {options.comparison.without, options.comparison.only, options.threads, progress.callback()};
+  return {options.comparison.without, options.comparison.only, options.threads, progress.callback(),
+          options.smallest_effect_percent};
 }
 
 /// A folder of sets.
@@ -143,6 +145,9 @@ void add_diagnose_command(CLI::App& app, Action& action) {
   command->add_flag("--test-failed", options->test_failed,
                     "The planned test of the loop could not be done; its hours are gone all the same");
   options->comparison.add_to(*command);
+  command->add_option("--smallest-effect", options->smallest_effect_percent,
+                      "Smallest effect of interest, 0 to 100 percent of the tire's loss or of the energy of drives; a "
+                      "smaller cause is called a trace [0.5]");
   add_skip_bad_rows(*command, options->bad_rows);
   add_threads(*command, options->threads);
 }

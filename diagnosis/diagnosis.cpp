@@ -11,6 +11,7 @@
 #include "diagnosis/findings/balance.h"
 #include "diagnosis/findings/gap.h"
 #include "diagnosis/findings/locations.h"
+#include "diagnosis/findings/materiality.h"
 #include "diagnosis/findings/open_questions.h"
 #include "diagnosis/findings/verdict.h"
 #include "diagnosis/next_test/next_test.h"
@@ -18,6 +19,14 @@
 
 namespace rollrig::diagnosis {
 namespace {
+
+/// Throws InputError for a smallest effect of interest that is no share.
+void require_smallest_effect(const DiagnosisOptions& options) {
+  const double percent = options.smallest_effect_percent;
+  if (percent >= 0.0 && percent <= 100.0) return;
+  throw InputError({"the smallest effect of interest is not a share", "command line", 0, "--smallest-effect",
+                    fmt::format("{}", percent), "0 to 100 percent", ""});
+}
 
 /// Terms in the comparison: those that can be seen on the set's machine against its baseline, less those left out.
 /// Throws InputError.
@@ -65,6 +74,19 @@ void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& di
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
 }
 
+/// A first cause that is too small to matter is set aside, before anything else is said of it.
+void weigh_materiality(const Study& study, const Comparison& comparison, double smallest_effect_percent,
+                       Diagnosis& diagnosis) {
+  if (diagnosis.verdict == Verdict::kNoGap || diagnosis.causes.empty()) return;
+  const Candidate* lead = find_lead(comparison, diagnosis.causes);
+  if (lead == nullptr) return;
+  diagnosis.causes.front().change = measure_change(study, *lead);
+  const bool is_likelier_than_unknown = diagnosis.causes.front().probability > diagnosis.probability.at("unknown");
+  if (!is_likelier_than_unknown || !is_immaterial(*diagnosis.causes.front().change, smallest_effect_percent)) return;
+  diagnosis.trace = set_aside_trace(diagnosis.causes, diagnosis.probability);
+  diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
+}
+
 void add_base_numbers(const Study& study, const Comparison& comparison, Diagnosis& diagnosis) {
   const bool is_caused = diagnosis.verdict != Verdict::kNoGap;
   diagnosis.base_numbers = list_base_numbers(study, is_caused ? find_lead(comparison, diagnosis.causes) : nullptr);
@@ -107,6 +129,7 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   for (const std::size_t r : checks.mistaken_runs) diagnosis.mistaken_runs.insert(measured.runs[r].id);
   if (checks.is_implausible()) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
+  weigh_materiality(study, comparison, options.smallest_effect_percent, diagnosis);
   const bool is_named = diagnosis.verdict != Verdict::kNoGap;
   diagnosis.not_excluded = find_not_excluded(study, comparison, is_named ? diagnosis.causes : std::vector<Cause>{});
   stages.begin("where and what", 0.76);
@@ -193,6 +216,7 @@ void require_known_effects(const DiagnosisOptions& options) {
 }
 
 Diagnosis diagnose(const measurements::MeasurementSet& set, const DiagnosisOptions& options) {
+  require_smallest_effect(options);
   Diagnosis diagnosis = diagnose_all_runs(set, options);
   diagnosis.without_run = diagnose_without_runs(set, diagnosis, options);
   return diagnosis;

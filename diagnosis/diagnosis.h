@@ -12,8 +12,8 @@
 
 namespace rollrig::diagnosis {
 
-using rollrig::BaseNumber, rollrig::Cause, rollrig::DiagnosisOptions, rollrig::FleetMember, rollrig::Gap,
-    rollrig::GapView;
+using rollrig::BaseNumber, rollrig::Cause, rollrig::CauseChange, rollrig::DiagnosisOptions, rollrig::FleetMember,
+    rollrig::Gap, rollrig::GapView, rollrig::JudgedBy, rollrig::Shrinkage, rollrig::UnjudgedRun;
 using rollrig::Location, rollrig::NextTest, rollrig::ParameterEstimate, rollrig::RangeLimit, rollrig::SdSource,
     rollrig::TestBudget, rollrig::Verdict;
 

@@ -34,8 +34,49 @@ std::string show_estimate(const ParameterEstimate& at) {
 
 std::string describe_shrinkage(const Gap& gap) {
   if (!gap.shrink_percent.has_value()) return "";
-  return fmt::format(" It takes {:.0f} % of the gap ({:.0f} to {:.0f} %) on runs that the fit did not see.",
-                     *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
+  return fmt::format(" It takes {:.0f} % of the gap ({:.0f} to {:.0f} %) on {} that the fit did not see.",
+                     *gap.shrink_percent, gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1],
+                     gap.judged_by == JudgedBy::kStretches ? "stretches" : "runs");
+}
+
+/// A cause that is too small to matter: size, what it changes, probability.
+std::string describe_trace(const Cause& trace) {
+  std::string text = fmt::format("There is a trace of {}, too small to matter", fmt::join(trace.effects, " with "));
+  if (!trace.parameters.empty()) {
+    text += fmt::format(": {} {}", plain_name(last_part(trace.parameters.front().name)),
+                        show_estimate(trace.parameters.front()));
+  }
+  if (trace.change.has_value()) {
+    text += fmt::format("; it changes the readings by {:.2f} noise floors", trace.change->floors);
+    if (trace.change->energy_percent.has_value()) {
+      text += fmt::format(" and the energy by {:.2g} %", *trace.change->energy_percent);
+    }
+  }
+  return text + fmt::format(" (probability {}).", show_probability(trace.probability));
+}
+
+/// One way of judging the cause beside the others.
+std::vector<std::string> make_shrinkage_row(const std::string& on, const std::optional<Shrinkage>& by) {
+  if (!by.has_value()) return {on, "-", "-", "cannot be judged", "-", "-"};
+  const auto show = [](double value) { return fmt::format("{:.2f}", value); };
+  const auto show_energy = [&](double GapView::*which) {
+    return by->energy_percent.has_value() ? fmt::format("{:.2g} %", (*by->energy_percent).*which) : std::string("-");
+  };
+  const std::string share = by->percent.has_value() ? fmt::format("{:.0f} % ({:.0f} to {:.0f} %)", *by->percent,
+                                                                  by->ci95_percent[0], by->ci95_percent[1])
+                                                    : std::string("not above the noise");
+  return {on,    show(by->gap.before),          show(by->gap.after),
+          share, show_energy(&GapView::before), show_energy(&GapView::after)};
+}
+
+Block make_shrinkages(const Gap& gap) {
+  Table table{"What the cause takes from the gap, by what it is judged on",
+              {"on", "before, floors", "after", "shrinks by (95 %)", "energy of a run off by", "with the cause"},
+              {}};
+  table.rows.push_back(make_shrinkage_row("the fitted data", gap.fitted));
+  table.rows.push_back(make_shrinkage_row("stretches left out of the fit", gap.stretches));
+  table.rows.push_back(make_shrinkage_row("runs left out of the fit", gap.runs));
+  return make_table(table);
 }
 
 Block make_probabilities(const Findings& findings) {
@@ -70,7 +111,7 @@ Block make_ranking(const Findings& findings) {
 }
 
 Block make_channel_gaps(const Findings& findings) {
-  Table table{"Gap of each channel, without noise, on held-out runs", {"channel", "before", "after", "unit"}, {}};
+  Table table{"Gap of each channel, without noise, on what was held out", {"channel", "before", "after", "unit"}, {}};
   for (const ChannelGap& at : findings.gap.channels) {
     table.rows.push_back(
         {plain_name(at.channel), fmt::format("{:.3f}", at.before), fmt::format("{:.3f}", at.after), at.unit});
@@ -126,6 +167,7 @@ Section make_verdict(const Findings& findings) {
   Section section{"Verdict"};
   const char* tone = findings.verdict == Verdict::kUnexplained ? "bad" : "good";
   std::string more = findings.doubt;
+  if (findings.verdict == Verdict::kNoGap && findings.trace.has_value()) more = describe_trace(*findings.trace);
   if (findings.verdict == Verdict::kExplained && !findings.causes.empty()) {
     const Cause& cause = findings.causes.front();
     std::string meaning = summary_of(cause.effects.front());
@@ -194,9 +236,9 @@ Section make_gap(const Findings& findings) {
   const auto percent = [](const std::optional<double>& value) {
     return value.has_value() ? fmt::format("{:.0f} %", *value) : std::string("not above the noise");
   };
-  const bool is_unjudged = has_cause && is_held_out && gap.judged_on.empty();
+  const bool is_unjudged = has_cause && gap.judged_by == JudgedBy::kNothing;
   std::string shrinks =
-      is_unjudged ? "not known: the other runs predict none well enough" : percent(gap.shrink_percent);
+      is_unjudged ? "not known: nothing left out is predicted well enough" : percent(gap.shrink_percent);
   if (gap.shrink_percent.has_value()) {
     shrinks += fmt::format(" ({:.0f} to {:.0f} %)", gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
   }
@@ -205,6 +247,15 @@ Section make_gap(const Findings& findings) {
                                        {{"The cause takes from the recalibrated gap", shrinks},
                                         {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
                                         {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}}));
+  if (has_cause && gap.fitted.has_value()) section.blocks.push_back(make_shrinkages(gap));
+  if (has_cause && !gap.not_judged.empty()) {
+    std::vector<std::string> runs;
+    for (const UnjudgedRun& at : gap.not_judged) {
+      runs.push_back(at.alone_in.empty() ? at.run : fmt::format("{} (alone in {})", at.run, join(at.alone_in)));
+    }
+    section.blocks.push_back(
+        make_paragraph("Cannot be judged without what they alone say, and do not count: " + join(runs) + "."));
+  }
   if (!gap.channels.empty()) section.blocks.push_back(make_channel_gaps(findings));
   return section;
 }

@@ -122,6 +122,12 @@ RowMatrix whiten_basis(const Series& series, const Eigen::MatrixXd& columns) {
   return whitened;
 }
 
+/// What Sigma^-1/2 takes from each direction of a basis, as a share.
+Eigen::VectorXd calc_taken(const Discrepancy::Basis& basis, const Amplitudes& amplitudes) {
+  const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
+  return (1.0 - (1.0 + square * basis.strengths.array()).rsqrt()).matrix();
+}
+
 }  // namespace
 
 Discrepancy::Discrepancy(const PreparedSet& set) : set_(set) {
@@ -177,11 +183,18 @@ Eigen::MatrixXd Discrepancy::gather(const Basis& basis, const Columns& columns) 
   return gathered;
 }
 
+void Discrepancy::whiten_series(const Amplitudes& amplitudes, std::size_t series, RowMatrix& columns) const {
+  set_.series()[series].whitener.apply(columns.data(), static_cast<std::size_t>(columns.cols()));
+  const Basis& basis = bases_[series];  // of time: one each
+  const Eigen::VectorXd taken = calc_taken(basis, amplitudes);
+  const Eigen::MatrixXd along = basis.directions.transpose() * columns;
+  columns -= basis.directions * (taken.asDiagonal() * along);
+}
+
 template <class Columns>
 void Discrepancy::whiten(const Amplitudes& amplitudes, Columns& columns) const {
   for (const Basis& basis : bases_) {
-    const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
-    const Eigen::VectorXd taken = (1.0 - (1.0 + square * basis.strengths.array()).rsqrt()).matrix();
+    const Eigen::VectorXd taken = calc_taken(basis, amplitudes);
     const Eigen::MatrixXd along = basis.directions.transpose() * gather(basis, columns);
     const Eigen::MatrixXd change = basis.directions * (taken.asDiagonal() * along);
     Eigen::Index next = 0;

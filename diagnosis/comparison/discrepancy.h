@@ -47,6 +47,10 @@ class Discrepancy {
   template <class Columns>
   void whiten(const Amplitudes& amplitudes, Columns& columns) const;
 
+  /// Of a discrepancy of time: whitens columns over the blocks of one series, in SI units, by its sensor and by
+  /// Sigma^-1/2, in place.
+  void whiten_series(const Amplitudes& amplitudes, std::size_t series, RowMatrix& columns) const;
+
   /// Sigma^-1/2 of the discrepancy that this one stands on, and log |Sigma| of it; without one, nothing and 0.
   template <class Columns>
   void whiten_below(Columns& columns) const;

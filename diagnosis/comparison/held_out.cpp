@@ -50,30 +50,85 @@ Eigen::VectorXd solve_within_bounds(const Model& model, const Eigen::MatrixXd& c
 
 }  // namespace
 
-Prediction predict_without(const Study& study, const Candidate& candidate, std::size_t held_out) {
-  RowMatrix jacobian = candidate.fit.jacobian;
-  Eigen::VectorXd residuals = candidate.fit.residuals;
-  study.discrepancy.whiten(candidate.amplitudes, jacobian);
-  study.discrepancy.whiten(candidate.amplitudes, residuals);
-  RowMatrix left_out = RowMatrix::Zero(jacobian.rows(), jacobian.cols());
-  for (const Series& series : study.set.series()) {
-    if (series.run != held_out) continue;
-    auto rows = series.rows_of(jacobian);
-    series.rows_of(left_out) = rows;
-    rows.setZero();
-    series.rows_of(residuals).setZero();
+LeaveOut::LeaveOut(const Study& study, const Candidate& candidate)
+    : study_(study), candidate_(candidate), model_(study.make_model(candidate.fit.hypothesis)) {
+  const Eigen::Index n = candidate.fit.jacobian.cols();
+  with_residuals_.resize(candidate.fit.jacobian.rows(), n + 1);
+  with_residuals_ << candidate.fit.jacobian, candidate.fit.residuals;
+  study.discrepancy.whiten(candidate.amplitudes, with_residuals_);
+  const auto jacobian = with_residuals_.leftCols(n);
+  curvature_ = jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n);
+  gradient_ = jacobian.transpose() * (jacobian * candidate.fit.unknowns - with_residuals_.col(n));
+}
+
+RowMatrix LeaveOut::find_own(const LeftOutPart& part, const RowMatrix& columns) const {
+  RowMatrix own(columns.rows(), columns.cols());
+  Eigen::Index next = 0;
+  for (std::size_t s = 0; s < study_.set.series().size(); ++s) {
+    const Series& series = study_.set.series()[s];
+    if (series.run != part.run) continue;
+    if (!part.phase.has_value()) {
+      own.middleRows(next, to_index(series.size())) = series.rows_of(columns);
+      next += to_index(series.size());
+      continue;
+    }
+    std::vector<Eigen::Index> blocks;
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      if (series.phase[k] == *part.phase) blocks.push_back(to_index(k));
+    }
+    if (blocks.empty()) continue;
+    const Eigen::Index count = to_index(blocks.size());
+    RowMatrix units = RowMatrix::Zero(to_index(series.size()), count);
+    for (std::size_t k = 0; k < blocks.size(); ++k) units(blocks[k], to_index(k)) = 1.0;
+    study_.discrepancy.whiten_series(candidate_.amplitudes, s, units);
+    const Eigen::LLT<Eigen::MatrixXd> factor(units.transpose() * units);
+    own.middleRows(next, count) = factor.matrixL().solve(Eigen::MatrixXd(units.transpose() * series.rows_of(columns)));
+    next += count;
   }
-  const Eigen::Index n = jacobian.cols();
-  const Eigen::LLT<Eigen::MatrixXd> curvature(jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n));
-  const Model model = study.make_model(candidate.fit.hypothesis);
-  const Eigen::VectorXd& from = candidate.fit.unknowns;
-  const Eigen::VectorXd unknowns =
-      solve_within_bounds(model, curvature.reconstructedMatrix(), jacobian.transpose() * (jacobian * from - residuals));
+  own.conservativeResize(next, Eigen::NoChange);
+  return own;
+}
+
+void LeaveOut::take_off_offsets(std::size_t run, RowMatrix& own) const {
+  Eigen::Index next = 0;
+  for (std::size_t s = 0; s < study_.set.series().size(); ++s) {
+    const Series& series = study_.set.series()[s];
+    if (series.run != run) continue;
+    RowMatrix offset = RowMatrix::Constant(to_index(series.size()), 1, series.offset_sd);
+    study_.discrepancy.whiten_series(candidate_.amplitudes, s, offset);
+    auto rows = own.middleRows(next, to_index(series.size()));
+    const Eigen::RowVectorXd best = offset.transpose() * rows / (1.0 + offset.squaredNorm());
+    rows -= offset * best;
+    next += to_index(series.size());
+  }
+}
+
+double LeaveOut::measure(const LeftOutPart& part, Eigen::VectorXd difference) const {
+  whiten(study_.set, difference);
+  study_.discrepancy.whiten(candidate_.amplitudes, difference);
+  RowMatrix own = find_own(part, difference);
+  if (!part.phase.has_value()) take_off_offsets(part.run, own);
+  return own.squaredNorm();
+}
+
+Prediction LeaveOut::predict_without(const LeftOutPart& part, Simulated which) const {
+  const RowMatrix said = find_own(part, with_residuals_);
+  const Eigen::Index n = said.cols() - 1;
+  RowMatrix jacobian = said.leftCols(n);
+  const Eigen::MatrixXd curvature = curvature_ - jacobian.transpose() * jacobian;
+  const Eigen::VectorXd aim = jacobian * candidate_.fit.unknowns - said.col(n);
   Prediction prediction;
-  const auto parameters = to_index(model.parameter_count());  // offsets are taken off anew
-  left_out.rightCols(n - parameters).setZero();
-  prediction.uncertainty = curvature.matrixL().solve(Eigen::MatrixXd(left_out.transpose())).squaredNorm();
-  if (!model.simulate(unknowns, 1, prediction.simulated, nullptr)) prediction.simulated.resize(0);
+  prediction.unknowns = solve_within_bounds(model_, curvature, gradient_ - jacobian.transpose() * aim);
+  if (!part.phase.has_value()) {
+    jacobian.rightCols(n - to_index(model_.parameter_count())).setZero();
+    take_off_offsets(part.run, jacobian);
+  }
+  const Eigen::LLT<Eigen::MatrixXd> factor(curvature);
+  prediction.uncertainty = factor.matrixL().solve(Eigen::MatrixXd(jacobian.transpose())).squaredNorm();
+  const bool was_simulated = which == Simulated::kAll
+                                 ? model_.simulate(prediction.unknowns, 1, prediction.simulated, nullptr)
+                                 : model_.simulate_one(part.run, prediction.unknowns, prediction.simulated);
+  if (!was_simulated) prediction.simulated.resize(0);
   return prediction;
 }
 

@@ -150,6 +150,12 @@ bool Model::simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::Vector
   return std::find(good.begin(), good.end(), 0) == good.end();
 }
 
+bool Model::simulate_one(std::size_t run, const Eigen::VectorXd& unknowns, Eigen::VectorXd& values) const {
+  std::vector<Parameter> parameters;
+  values.setZero(to_index(residual_count()));
+  return find_parameters(unknowns, parameters) && simulate_run<double>(run, parameters, 0, values, nullptr);
+}
+
 bool Model::derive_run(std::size_t run, const Eigen::VectorXd& unknowns, RowMatrix& derivatives) const {
   std::vector<Parameter> parameters;
   Eigen::VectorXd values(to_index(residual_count()));

@@ -50,6 +50,9 @@ class Model {
   /// shared out over threads. False where a parameter leaves its range or the simulation its domain.
   bool simulate(const Eigen::VectorXd& unknowns, int threads, Eigen::VectorXd& values, RowMatrix* derivatives) const;
 
+  /// Block means of one run alone, into its rows; zero in all others. False as simulate().
+  bool simulate_one(std::size_t run, const Eigen::VectorXd& unknowns, Eigen::VectorXd& values) const;
+
   /// Of one run's block means the derivatives by the first kJetWidth parameters, into the rows of that run.
   bool derive_run(std::size_t run, const Eigen::VectorXd& unknowns, RowMatrix& derivatives) const;
 

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "diagnosis/comparison/held_out.h"
 #include "diagnosis/comparison/report_unit.h"
+#include "diagnosis/findings/energy_scale.h"
+#include "diagnosis/findings/lone_conditions.h"
 #include "sim/core/parallel.h"
 #include "sim/core/random.h"
 
@@ -51,22 +54,40 @@ struct StretchSquares {
 struct Measure {
   std::map<std::pair<std::size_t, std::size_t>, StretchSquares> stretches;  // by run and phase
   std::vector<StretchSquares> channels;                                     // squares in SI
+  std::map<std::size_t, EnergyShare> energies;                              // by run
 };
 
-/// Adds the differences of one run (all series of it), its offsets taken off anew.
-void add_run(const PreparedSet& set, std::size_t run, const Eigen::VectorXd& difference, Measure& measure) {
-  measure.channels.resize(set.channels().size());
-  for (const Series& series : set.series()) {
+/// What differences are held against.
+struct Scale {
+  const PreparedSet& set;
+  EnergyScale energy;
+};
+
+/// Adds the differences of one run (all series of it), its offsets taken off anew; of these, all phases or `counted`.
+void add_run(const Scale& scale, std::size_t run, const Eigen::VectorXd& difference, Measure& measure,
+             const std::set<std::size_t>* counted = nullptr) {
+  measure.channels.resize(scale.set.channels().size());
+  for (const Series& series : scale.set.series()) {
     if (series.run != run) continue;
     const OffsetFit fit = fit_offset(series, difference);
     for (std::size_t k = 0; k < series.size(); ++k) {
-      const double d = difference[to_index(series.first_residual + k)] - fit.offset;
+      if (counted != nullptr && counted->count(series.phase[k]) == 0) continue;
+      const std::size_t at = series.first_residual + k;
+      const double d = difference[to_index(at)] - fit.offset;
       const double sd = series.whitener.standard_deviation(k);
       const double above = d * d - std::max(0.0, sd * sd - fit.offset_variance);
       measure.stretches[{run, series.phase[k]}].add({above / (series.floor * series.floor), 1.0});
       measure.channels[series.channel].add({above, 1.0});
+      measure.energies[run].error += scale.energy.energy_per_SI(at) * d;
+      measure.energies[run].energy += scale.energy.energy(at);
     }
   }
+}
+
+std::optional<double> find_energy_percent(const Measure& measure) {
+  std::vector<EnergyShare> runs;
+  for (const auto& [run, share] : measure.energies) runs.push_back(share);
+  return calc_rms_percent(runs);
 }
 
 double gap_of(const Measure& measure) {
@@ -75,19 +96,8 @@ double gap_of(const Measure& measure) {
   return sum.gap();
 }
 
-/// What the cause changes in a run, whitened, in squares.
-double measure_change(const Study& study, const Candidate& cause, std::size_t run) {
-  Eigen::VectorXd change = study.null.fit.residuals - cause.fit.residuals;
-  study.discrepancy.whiten(cause.amplitudes, change);
-  double sum = 0.0;
-  for (const Series& series : study.set.series()) {
-    if (series.run == run) sum += series.rows_of(change).squaredNorm();
-  }
-  return sum;
-}
-
 /// The candidate with its base parameters at the files' values: only its own parameters and offsets are fitted.
-Measure measure_as_calibrated(const Study& study, const Candidate& candidate) {
+Measure measure_as_calibrated(const Study& study, const Scale& scale, const Candidate& candidate) {
   const PreparedSet& set = study.set;
   const Model model(set, {}, candidate.fit.hypothesis);
   constexpr int kMost = 6;
@@ -99,24 +109,24 @@ Measure measure_as_calibrated(const Study& study, const Candidate& candidate) {
   Measure measure;
   if (simulated.size() == 0) return measure;
   const Eigen::VectorXd difference = set.measured() - simulated;
-  for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(set, run, difference, measure);
+  for (std::size_t run = 0; run < set.runs().size(); ++run) add_run(scale, run, difference, measure);
   return measure;
 }
 
-struct Shrinkage {
-  double percent = 0.0;
-  std::array<double, 2> ci95_percent{};
-  bool above_noise = false;
-};
-
 double shrink_percent(double before, double after) { return 100.0 * (1.0 - after / before); }
 
-/// Resamples stretches, the same ones before and after.
+/// Resamples stretches, the same ones before and after. No percentage where the gap before is not above the noise.
 Shrinkage resample(const Measure& before, const Measure& after) {
   constexpr int kResamples = 1000;
+  Shrinkage result{{gap_of(before), gap_of(after)}, std::nullopt, {}, std::nullopt};
   std::vector<std::pair<StretchSquares, StretchSquares>> stretches;
   for (const auto& [where, stretch] : before.stretches) stretches.emplace_back(stretch, after.stretches.at(where));
-  if (stretches.empty()) return {};  // no run could be simulated
+  if (stretches.empty()) return result;  // no run could be simulated
+  const std::optional<double> energy_before = find_energy_percent(before);
+  const std::optional<double> energy_after = find_energy_percent(after);
+  if (energy_before.has_value() && energy_after.has_value()) {
+    result.energy_percent = GapView{*energy_before, *energy_after};
+  }
   RandomStream random(1, "shrinkage");
   std::vector<double> percents;
   int not_above = 0;
@@ -135,84 +145,178 @@ Shrinkage resample(const Measure& before, const Measure& after) {
       ++not_above;
     }
   }
-  Shrinkage result;
   constexpr double kLow = 0.025;
-  result.above_noise = not_above < kLow * kResamples;
-  if (!result.above_noise) return result;
+  const bool is_above_noise = not_above < kLow * kResamples && result.gap.before > 0.0;
+  if (!is_above_noise) return result;
   std::sort(percents.begin(), percents.end());
   const auto quantile = [&](double p) {
     return percents[static_cast<std::size_t>(p * static_cast<double>(percents.size() - 1))];
   };
-  result.percent = shrink_percent(gap_of(before), gap_of(after));
+  result.percent = shrink_percent(result.gap.before, result.gap.after);
   result.ci95_percent = {quantile(kLow), quantile(1.0 - kLow)};
   return result;
 }
 
-/// What is left of every run by fits that did not see it.
-struct HeldOut {
+/// What is left of some data, without the cause and with it.
+struct BeforeAfter {
   Measure before;
   Measure after;
-  Measure black_box;
-  Measure certain_before;  // of runs of which the others say enough
-  Measure certain_after;
-  std::vector<std::string> runs;
-  std::vector<std::string> certain_runs;
+
+  bool is_empty() const { return before.stretches.empty(); }
 };
 
-HeldOut measure_held_out(const Study& study, const Candidate* cause, const BlackBox& black_box) {
+/// Fits of which parts are left out; `with_cause` is empty where there is no cause.
+struct Fits {
+  LeaveOut null;
+  std::optional<LeaveOut> with_cause;
+
+  Fits(const Study& study, const Candidate* cause) : null(study, study.null) {
+    if (cause != nullptr) with_cause.emplace(study, *cause);
+  }
+};
+
+/// Whether the others say enough of a part for a cause to be judged on it: without it and with it, they predict it
+/// more differently, by `change`, than the predictions are uncertain. What was measured in the part does not count
+/// here.
+bool is_certain(const Fits& fits, const LeftOutPart& part, const Prediction& before, const Prediction& after,
+                const Eigen::VectorXd& change) {
+  return std::max(before.uncertainty, after.uncertainty) <=
+         thresholds::kCertainHeldOut * fits.with_cause->measure(part, change);
+}
+
+/// What is left of every run by fits that did not see it.
+struct RunsLeftOut {
+  BeforeAfter all;
+  BeforeAfter certain;  // of runs of which the others say enough
+  Measure black_box;
+  std::vector<std::string> runs;
+  std::vector<std::string> certain_runs;
+  std::vector<UnjudgedRun> not_judged;
+};
+
+/// Of one run, none is left out: what is left by the fit to it.
+RunsLeftOut measure_runs_left_out(const Study& study, const Scale& scale, const Fits& fits, const BlackBox& black_box) {
   const PreparedSet& set = study.set;
   const std::size_t runs = set.runs().size();
   const bool can_leave_out = runs > 1;
+  const bool has_cause = fits.with_cause.has_value();
   std::vector<Prediction> before(runs);
   std::vector<Prediction> after(runs);
-  const std::size_t hypotheses = cause != nullptr ? 2 : 1;
+  const std::size_t hypotheses = has_cause ? 2 : 1;
   parallel_for(
       runs * hypotheses, study.settings.threads,
       [&](std::size_t job) {
         const std::size_t run = job / hypotheses;
         const bool is_null = job % hypotheses == 0;
-        const std::size_t held_out = can_leave_out ? run : runs;  // past the last: none
-        (is_null ? before : after)[run] = predict_without(study, is_null ? study.null : *cause, held_out);
+        const LeftOutPart part{can_leave_out ? run : runs};
+        (is_null ? before : after)[run] = (is_null ? fits.null : *fits.with_cause).predict_without(part);
       },
       study.settings.advance());
-  HeldOut all;
+  RunsLeftOut left;
   for (std::size_t run = 0; run < runs; ++run) {
-    const bool lost = before[run].simulated.size() == 0 || (cause != nullptr && after[run].simulated.size() == 0);
+    const bool lost = before[run].simulated.size() == 0 || (has_cause && after[run].simulated.size() == 0);
     if (lost) continue;  // no fit without it
     const auto of_run = [run](const Series& series) { return series.run == run; };
     if (std::none_of(set.series().begin(), set.series().end(), of_run)) continue;  // it measured nothing
     const Eigen::VectorXd difference = set.measured() - before[run].simulated;
-    const Eigen::VectorXd with_cause = set.measured() - (cause != nullptr ? after : before)[run].simulated;
-    add_run(set, run, difference, all.before);
-    add_run(set, run, with_cause, all.after);
+    const Eigen::VectorXd with_cause = set.measured() - (has_cause ? after : before)[run].simulated;
+    add_run(scale, run, difference, left.all.before);
+    add_run(scale, run, with_cause, left.all.after);
     if (!can_leave_out) continue;
-    add_run(set, run, black_box(set, difference, run), all.black_box);
-    all.runs.push_back(set.runs()[run].measured.id);
-    if (cause == nullptr) continue;
-    const double uncertainty = std::max(before[run].uncertainty, after[run].uncertainty);
-    if (uncertainty > thresholds::kCertainHeldOut * measure_change(study, *cause, run)) continue;
-    add_run(set, run, difference, all.certain_before);
-    add_run(set, run, with_cause, all.certain_after);
-    all.certain_runs.push_back(set.runs()[run].measured.id);
+    add_run(scale, run, black_box(set, difference, run), left.black_box);
+    const std::string& id = set.runs()[run].measured.id;
+    left.runs.push_back(id);
+    if (!has_cause) continue;
+    if (!is_certain(fits, {run}, before[run], after[run], with_cause - difference)) {
+      left.not_judged.push_back({id, find_lone_conditions(set, run)});
+      continue;
+    }
+    add_run(scale, run, difference, left.certain.before);
+    add_run(scale, run, with_cause, left.certain.after);
+    left.certain_runs.push_back(id);
   }
-  return all;
+  return left;
 }
 
-/// What the cause takes from the gap of the runs left out. Where that may be nothing, only runs of which the others say
-/// enough are judged on: what a prediction is uncertain by is no evidence against the cause.
-void judge_shrinkage(const HeldOut& left, Gap& gap) {
-  gap.judged_on = left.runs;
-  Shrinkage shrinkage = resample(left.before, left.after);
-  if (!shrinkage.above_noise) return;
-  const bool is_left_out = !left.runs.empty();
-  if (is_left_out && shrinkage.ci95_percent[0] <= 0.0) {
-    gap.judged_on = left.certain_runs;
-    if (gap.judged_on.empty()) return;
-    shrinkage = resample(left.certain_before, left.certain_after);
-    if (!shrinkage.above_noise) return;
+/// What a fit without a phase of a run leaves of the run, without the cause and with it, offsets as predicted.
+struct StretchPrediction {
+  std::size_t run = 0;
+  std::size_t phase = 0;
+  Eigen::VectorXd before;
+  Eigen::VectorXd after;
+  bool is_judged = false;
+};
+
+std::vector<StretchPrediction> predict_stretches(const Study& study, const Fits& fits, const Candidate& cause) {
+  std::set<std::pair<std::size_t, std::size_t>> places;
+  for (const Series& series : study.set.series()) {
+    for (const std::size_t phase : series.phase) places.emplace(series.run, phase);
   }
-  gap.shrink_percent = shrinkage.percent;
-  gap.shrink_ci95_percent = shrinkage.ci95_percent;
+  std::vector<StretchPrediction> stretches;
+  for (const auto& [run, phase] : places) stretches.push_back({run, phase, {}, {}, false});
+  const Model null_model = study.make_model({});
+  const Model cause_model = study.make_model(cause.fit.hypothesis);
+  parallel_for(stretches.size(), study.settings.threads, [&](std::size_t i) {
+    StretchPrediction& at = stretches[i];
+    const LeftOutPart part{at.run, at.phase};
+    const Prediction before = fits.null.predict_without(part, LeaveOut::Simulated::kOfPart);
+    const Prediction after = fits.with_cause->predict_without(part, LeaveOut::Simulated::kOfPart);
+    if (before.simulated.size() == 0 || after.simulated.size() == 0) return;
+    at.before = null_model.subtract_from_measured(before.unknowns, before.simulated);
+    at.after = cause_model.subtract_from_measured(after.unknowns, after.simulated);
+    at.is_judged = is_certain(fits, part, before, after, at.after - at.before);
+  });
+  return stretches;
+}
+
+/// What is left of every phase by fits that did not see it, of those phases of which the others say enough. The others
+/// stand as they were fitted.
+BeforeAfter measure_stretches_left_out(const Study& study, const Scale& scale, const Fits& fits,
+                                       const Candidate& cause) {
+  const PreparedSet& set = study.set;
+  const auto subtract = [&study](const Fit& fit) {
+    return study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
+  };
+  Eigen::VectorXd before = subtract(study.null.fit);
+  Eigen::VectorXd after = subtract(cause.fit);
+  std::map<std::size_t, std::set<std::size_t>> counted;  // phases by run
+  for (const StretchPrediction& at : predict_stretches(study, fits, cause)) {
+    if (!at.is_judged) continue;
+    counted[at.run].insert(at.phase);
+    for (const Series& series : set.series()) {
+      if (series.run != at.run) continue;
+      for (std::size_t k = 0; k < series.size(); ++k) {
+        if (series.phase[k] != at.phase) continue;
+        const auto row = to_index(series.first_residual + k);
+        before[row] = at.before[row];
+        after[row] = at.after[row];
+      }
+    }
+  }
+  BeforeAfter left;
+  for (const auto& [run, phases] : counted) {
+    add_run(scale, run, before, left.before, &phases);
+    add_run(scale, run, after, left.after, &phases);
+  }
+  return left;
+}
+
+BeforeAfter measure_fitted(const Study& study, const Scale& scale, const Candidate& cause) {
+  BeforeAfter fitted;
+  for (std::size_t run = 0; run < study.set.runs().size(); ++run) {
+    add_run(scale, run, study.set.measured() - study.null.fit.simulated, fitted.before);
+    add_run(scale, run, study.set.measured() - cause.fit.simulated, fitted.after);
+  }
+  return fitted;
+}
+
+/// What the cause is judged by: the runs that can be judged, or where there are none, or no gap above the noise in
+/// them, the stretches.
+const BeforeAfter* choose_judge(const Gap& gap, const RunsLeftOut& runs, const BeforeAfter& stretches) {
+  if (gap.runs.has_value() && gap.runs->percent.has_value()) return &runs.certain;
+  if (gap.stretches.has_value() && gap.stretches->percent.has_value()) return &stretches;
+  if (gap.runs.has_value()) return &runs.certain;
+  return gap.stretches.has_value() ? &stretches : nullptr;
 }
 
 std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& before, const Measure& after) {
@@ -232,27 +336,49 @@ std::vector<ChannelGap> list_channels(const PreparedSet& set, const Measure& bef
 
 Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_box) {
   Gap gap;
-  HeldOut left = measure_held_out(study, cause, black_box);
+  const Scale scale{study.set, EnergyScale(study.set)};
+  const Fits fits(study, cause);
+  const RunsLeftOut left = measure_runs_left_out(study, scale, fits, black_box);
   gap.held_out = left.runs;
-  if (!left.certain_before.stretches.empty()) {
-    const Shrinkage certain = resample(left.certain_before, left.certain_after);
-    gap.worse_where_certain = certain.above_noise && certain.ci95_percent[1] < 0.0;
+  gap.not_judged = left.not_judged;
+  const BeforeAfter calibrated{measure_as_calibrated(study, scale, study.null), {}};
+  gap.as_calibrated.before = gap_of(calibrated.before);
+  gap.as_calibrated.after =
+      cause != nullptr ? gap_of(measure_as_calibrated(study, scale, *cause)) : gap.as_calibrated.before;
+  if (left.all.is_empty()) {  // recalibration is not known to help
+    gap.recalibrated = {gap.as_calibrated.before, gap.as_calibrated.before};
+    gap.channels = list_channels(study.set, calibrated.before, calibrated.before);
+    return gap;
   }
-  const Measure calibrated = measure_as_calibrated(study, study.null);
-  const bool is_judged = !left.before.stretches.empty();
-  if (!is_judged) left.before = left.after = calibrated;  // recalibration is not known to help
-  gap.recalibrated = {gap_of(left.before), gap_of(left.after)};
-  gap.as_calibrated.before = gap_of(calibrated);
-  gap.as_calibrated.after = cause != nullptr ? gap_of(measure_as_calibrated(study, *cause)) : gap.as_calibrated.before;
-  gap.channels = list_channels(study.set, left.before, left.after);
-  if (!is_judged) return gap;
+  const Shrinkage recalibrated = resample(left.all.before, left.all.before);
   if (gap.as_calibrated.before > 0.0) {
-    gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, gap.recalibrated.before);
+    gap.recalibration_percent = shrink_percent(gap.as_calibrated.before, recalibrated.gap.before);
   }
-  if (cause != nullptr) judge_shrinkage(left, gap);
-  const bool is_above_noise = resample(left.before, left.before).above_noise;
-  if (is_above_noise && !left.runs.empty())
-    gap.black_box_percent = shrink_percent(gap.recalibrated.before, gap_of(left.black_box));
+  if (recalibrated.percent.has_value() && !left.runs.empty())
+    gap.black_box_percent = shrink_percent(recalibrated.gap.before, gap_of(left.black_box));
+  const BeforeAfter* shown = &left.all;
+  BeforeAfter fitted;
+  BeforeAfter stretches;
+  if (cause != nullptr) {
+    fitted = measure_fitted(study, scale, *cause);
+    stretches = measure_stretches_left_out(study, scale, fits, *cause);
+    gap.fitted = resample(fitted.before, fitted.after);
+    if (!stretches.is_empty()) gap.stretches = resample(stretches.before, stretches.after);
+    if (!left.certain.is_empty()) gap.runs = resample(left.certain.before, left.certain.after);
+    const BeforeAfter* judge = choose_judge(gap, left, stretches);
+    shown = judge != nullptr ? judge : &fitted;
+    if (judge != nullptr) {
+      const bool is_by_runs = judge == &left.certain;
+      const Shrinkage& by = is_by_runs ? *gap.runs : *gap.stretches;
+      gap.judged_by = is_by_runs ? JudgedBy::kRuns : JudgedBy::kStretches;
+      gap.shrink_percent = by.percent;
+      gap.shrink_ci95_percent = by.ci95_percent;
+      gap.worse_where_certain = by.percent.has_value() && by.ci95_percent[1] < 0.0;
+    }
+    gap.judged_on = left.certain_runs;
+  }
+  gap.recalibrated = {gap_of(shown->before), gap_of(shown->after)};
+  gap.channels = list_channels(study.set, shown->before, shown->after);
   return gap;
 }
 

@@ -257,23 +257,30 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
   return causes;
 }
 
+void move_probability(const Cause& cause, double moved, const std::string& to,
+                      std::map<std::string, double>& probability) {
+  probability[to] += moved;
+  for (const auto* ids : {&cause.effects, &cause.indistinguishable_from}) {
+    for (const std::string& id : *ids) probability[id] -= std::min(probability[id], moved);
+  }
+}
+
 void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability) {
   if (causes.empty()) return;
   Cause& first = causes.front();
+  const char* parts = gap.judged_by == JudgedBy::kStretches ? "stretches" : "runs";
   if (gap.worse_where_certain) {
-    first.objections.push_back("it makes the runs that were left out worse, not better");
+    first.objections.push_back(fmt::format("it makes the {} that were left out worse, not better", parts));
   }
-  if (gap.shrink_percent.has_value() && !gap.held_out.empty() && gap.shrink_ci95_percent[0] <= 0.0) {
-    first.objections.push_back("the runs left out do not confirm it: the interval of what it shrinks holds 0 %");
+  if (gap.shrink_percent.has_value() && gap.shrink_ci95_percent[0] <= 0.0) {
+    first.objections.push_back(
+        fmt::format("the {} left out do not confirm it: the interval of what it shrinks holds 0 %", parts));
   }
   first.adequate = first.objections.empty();
   if (first.adequate) return;
   const double moved = (1.0 - thresholds::kKeptUnderObjection) * first.probability;
   first.probability -= moved;
-  probability["unknown"] += moved;
-  for (const auto* ids : {&first.effects, &first.indistinguishable_from}) {
-    for (const std::string& id : *ids) probability[id] -= std::min(probability[id], moved);
-  }
+  move_probability(first, moved, "unknown", probability);
 }
 
 std::vector<std::string> find_not_excluded(const Study& study, const Comparison& comparison,

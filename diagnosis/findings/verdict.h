@@ -36,8 +36,13 @@ std::vector<std::string> find_named_beside(const std::vector<std::string>& lead,
 /// - with it, a number of the files would have to be wrong (base_moves.h).
 std::vector<Cause> find_causes(const Study& study, const Comparison& comparison);
 
-/// Adds what the runs left out say against the first cause, and moves the probability of a cause with objections to
-/// "unknown": a true cause fails one of the tests in 1 of 20 sets or fewer, what merely looks like one often.
+/// Moves so much of a cause's probability to "none" or "unknown".
+void move_probability(const Cause& cause, double moved, const std::string& to,
+                      std::map<std::string, double>& probability);
+
+/// Adds what the runs or stretches left out say against the first cause, and moves the probability of a cause with
+/// objections to "unknown": a true cause fails one of the tests in 1 of 20 sets or fewer, what merely looks like one
+/// often.
 void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::string, double>& probability);
 
 /// Effects that this set need not show: detectable at less than 5 standard deviations at the middle of their prior,

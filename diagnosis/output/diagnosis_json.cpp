@@ -37,29 +37,60 @@ Json make_base_number(const BaseNumber& base) {
           {"with_cause_moved_sd", number(base.with_cause_moved_sd)}};
 }
 
+Json make_change(const std::optional<CauseChange>& change) {
+  if (!change.has_value()) return nullptr;
+  return {{"floors", number(change->floors)}, {"energy_percent", number(change->energy_percent)}};
+}
+
 Json make_cause(const Cause& cause) {
   return {{"effects", cause.effects},
           {"probability", number(cause.probability)},
           {"indistinguishable_from", cause.indistinguishable_from},
           {"parameters", make_list(cause.parameters, make_parameter)},
           {"adequate", cause.adequate},
-          {"objections", cause.objections}};
+          {"objections", cause.objections},
+          {"change", make_change(cause.change)}};
 }
 
 Json make_view(const GapView& view) { return {{"before", number(view.before)}, {"after", number(view.after)}}; }
 
+Json make_interval(const std::optional<double>& percent, const std::array<double, 2>& ci95) {
+  return percent.has_value() ? Json::array({number(ci95[0]), number(ci95[1])}) : Json(nullptr);
+}
+
+Json make_shrinkage(const std::optional<Shrinkage>& shrinkage) {
+  if (!shrinkage.has_value()) return nullptr;
+  return {{"before", number(shrinkage->gap.before)},
+          {"after", number(shrinkage->gap.after)},
+          {"percent", number(shrinkage->percent)},
+          {"ci95_percent", make_interval(shrinkage->percent, shrinkage->ci95_percent)},
+          {"energy_percent", shrinkage->energy_percent.has_value() ? make_view(*shrinkage->energy_percent) : Json()}};
+}
+
+/// What the shrinkage is judged on; null where nothing can judge it.
+Json make_judge(JudgedBy by) {
+  if (by == JudgedBy::kNothing) return nullptr;
+  return by == JudgedBy::kRuns ? "runs_left_out" : "stretches_left_out";
+}
+
 Json make_gap(const Gap& gap) {
-  const auto& ci95 = gap.shrink_ci95_percent;
   return {
       {"as_calibrated", make_view(gap.as_calibrated)},
       {"recalibrated", make_view(gap.recalibrated)},
       {"shrink_percent", number(gap.shrink_percent)},
-      {"shrink_ci95_percent",
-       gap.shrink_percent.has_value() ? Json::array({number(ci95[0]), number(ci95[1])}) : Json(nullptr)},
+      {"shrink_ci95_percent", make_interval(gap.shrink_percent, gap.shrink_ci95_percent)},
+      {"judged_by", make_judge(gap.judged_by)},
+      {"fitted", make_shrinkage(gap.fitted)},
+      {"stretches_left_out", make_shrinkage(gap.stretches)},
+      {"runs_left_out", make_shrinkage(gap.runs)},
       {"recalibration_percent", number(gap.recalibration_percent)},
       {"black_box_percent", number(gap.black_box_percent)},
       {"held_out", gap.held_out},
       {"judged_on", gap.judged_on},
+      {"not_judged", make_list(gap.not_judged,
+                               [](const UnjudgedRun& at) -> Json {
+                                 return {{"run", at.run}, {"alone_in", at.alone_in}};
+                               })},
       {"unit", "noise floors"},
       {"channels", make_list(gap.channels, [](const ChannelGap& at) -> Json {
          return {
@@ -113,6 +144,7 @@ Json make_diagnosis_json(const Findings& findings) {
           {"verdict", name_of(findings.verdict)},
           {"probability", probability},
           {"causes", make_list(findings.causes, make_cause)},
+          {"trace", findings.trace.has_value() ? make_cause(*findings.trace) : Json(nullptr)},
           {"gap", make_gap(findings.gap)},
           {"where", make_list(findings.where, make_location)},
           {"balance", make_list(findings.balance, make_balance)},

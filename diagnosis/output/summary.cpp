@@ -53,7 +53,8 @@ std::string verdict_line(const Findings& findings) {
   const bool named = !findings.causes.empty();
   switch (findings.verdict) {
     case Verdict::kNoGap:
-      return line("Verdict", "no gap beyond the noise, probability " + none);
+      return line("Verdict", fmt::format("no gap {}, probability {}",
+                                         findings.trace.has_value() ? "that matters" : "beyond the noise", none));
     case Verdict::kExplained: {
       const std::string own = named ? show_probability(findings.causes.front().probability) : "0 %";
       const std::string text = fmt::format("explained, probability {} (none {}, unknown {})", own, none, unknown);
@@ -84,7 +85,28 @@ std::string describe_effect(const std::string& effect, const Cause& cause) {
                      describe_limit(*size));
 }
 
+/// What a cause changes: "0.21 % of the energy, 0.12 noise floors".
+std::string describe_change(const CauseChange& change) {
+  const std::string floors = fmt::format("{:.2f} noise floors", change.floors);
+  if (!change.energy_percent.has_value()) return floors;
+  return fmt::format("{:.2g} % of the energy, {}", *change.energy_percent, floors);
+}
+
+/// Of a cause that is too small to matter: its effects with their sizes, what they change, how likely they are.
+std::string trace_line(const Cause& trace) {
+  std::vector<std::string> effects;
+  for (const std::string& effect : trace.effects) effects.push_back(describe_effect(effect, trace));
+  std::string text = fmt::format("a trace of {}", fmt::join(effects, " with "));
+  if (!trace.indistinguishable_from.empty()) {
+    text += fmt::format(", or as well {}", fmt::join(trace.indistinguishable_from, ", "));
+  }
+  text += ", too small to matter";
+  if (trace.change.has_value()) text += fmt::format(" ({})", describe_change(*trace.change));
+  return line("Cause", fmt::format("{}; probability {}", text, show_probability(trace.probability)));
+}
+
 std::string cause_line(const Findings& findings) {
+  if (findings.trace.has_value() && findings.verdict == Verdict::kNoGap) return trace_line(*findings.trace);
   if (findings.verdict == Verdict::kNoGap) return line("Cause", "none needed");
   if (findings.causes.empty()) return line("Cause", "none of the catalog");
   const Cause& cause = findings.causes.front();
@@ -173,21 +195,60 @@ bool tells_torque_as_force(const Findings& findings) {
                      [&is_told](const ChannelGap& at) { return is_told(at.channel, at.unit); });
 }
 
-/// Whether runs were left out, and none of them can judge the cause.
-bool is_unjudged(const Gap& gap) { return !gap.held_out.empty() && gap.judged_on.empty(); }
+/// "91 % (84 to 96)"
+std::string show_share(double percent, const std::array<double, 2>& ci95_percent) {
+  return fmt::format("{} % ({} to {})", whole(percent), whole(ci95_percent[0]), whole(ci95_percent[1]));
+}
+
+/// What the cause is judged on: "3 held out".
+std::string describe_judge(const Gap& gap) {
+  if (gap.judged_by == JudgedBy::kStretches) return "stretches held out";
+  return fmt::format("{} held out", gap.judged_on.size());
+}
+
+/// The same by the other ways of judging it, and for the energy of a run.
+std::string side_by_side_lines(const Gap& gap) {
+  std::string text;
+  std::vector<std::string> parts;
+  const auto add = [&parts](const std::optional<Shrinkage>& by, const char* on) {
+    if (by.has_value() && by->percent.has_value()) {
+      parts.push_back(fmt::format("{} on {}", show_share(*by->percent, by->ci95_percent), on));
+    }
+  };
+  if (gap.judged_by != JudgedBy::kStretches) add(gap.stretches, "stretches held out");
+  add(gap.fitted, "fitted data");
+  if (!parts.empty()) text += line("  else", fmt::format("{}", fmt::join(parts, ", ")));
+  const std::optional<Shrinkage>& judge = gap.judged_by == JudgedBy::kRuns ? gap.runs : gap.stretches;
+  if (gap.judged_by != JudgedBy::kNothing && judge.has_value() && judge->energy_percent.has_value()) {
+    text += line("  energy", fmt::format("of a run is off by {:.2g} %, with the cause by {:.2g} %",
+                                         judge->energy_percent->before, judge->energy_percent->after));
+  }
+  return text;
+}
+
+/// Runs that do not count, and what they alone hold.
+std::string not_judged_line(const Gap& gap) {
+  if (gap.not_judged.empty()) return {};
+  std::vector<std::string> runs;
+  for (const UnjudgedRun& at : gap.not_judged) {
+    runs.push_back(at.alone_in.empty() ? at.run
+                                       : fmt::format("{} (alone in {})", at.run, fmt::join(at.alone_in, ", ")));
+  }
+  return line("Not judged",
+              join_to_fit(runs, ", ", 2 * text_width()) +
+                  (runs.size() == 1 ? ": cannot be judged without it" : ": cannot be judged without them"));
+}
 
 std::string shrinkage_line(const Findings& findings) {
   const Gap& gap = findings.gap;
   std::vector<std::string> parts;
   if (gap.shrink_percent.has_value()) {
-    const std::size_t runs = gap.judged_on.size();
-    const std::string on = runs == 0 ? "the fitted data" : fmt::format("{} held out", runs);
-    parts.push_back(fmt::format("{} % ({} to {}) on {}", whole(*gap.shrink_percent), whole(gap.shrink_ci95_percent[0]),
-                                whole(gap.shrink_ci95_percent[1]), on));
+    parts.push_back(
+        fmt::format("{} on {}", show_share(*gap.shrink_percent, gap.shrink_ci95_percent), describe_judge(gap)));
   } else if (findings.verdict == Verdict::kUnexplained && findings.causes.empty()) {
     parts.emplace_back("no cause to shrink it by");
-  } else if (findings.verdict != Verdict::kNoGap && is_unjudged(gap)) {
-    parts.emplace_back("unknown: no run can judge it");
+  } else if (findings.verdict != Verdict::kNoGap && gap.judged_by == JudgedBy::kNothing) {
+    parts.emplace_back("unknown: nothing left out can judge it");
   } else {
     parts.emplace_back("nothing above the noise to shrink");
   }
@@ -195,7 +256,8 @@ std::string shrinkage_line(const Findings& findings) {
     parts.push_back("recalibration " + whole(*gap.recalibration_percent) + " %");
   }
   if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
-  return line("Shrinks by", fmt::format("{}", fmt::join(parts, ", ")));
+  const bool is_caused = !findings.causes.empty() && findings.verdict != Verdict::kNoGap;
+  return line("Shrinks by", fmt::format("{}", fmt::join(parts, ", "))) + (is_caused ? side_by_side_lines(gap) : "");
 }
 
 /// The numbers of the files that moved furthest: with the cause where one is shown, else in the recalibration.
@@ -269,7 +331,8 @@ std::string format_summary(const Findings& findings) {
     if (first.effects.size() > 1 && !first.indistinguishable_from.empty()) {
       text += line("Or as well", describe_alternatives(first));
     }
-    for (const std::string& objection : findings.causes.front().objections) text += line("But", objection);
+    if (findings.verdict != Verdict::kNoGap) text += not_judged_line(findings.gap);
+    for (const std::string& objection : first.objections) text += line("But", objection);
   }
   if (const auto& lone = findings.without_run) {
     const bool several = lone->run.find(',') != std::string::npos;

@@ -16,6 +16,12 @@ namespace rollrig {
 
 enum class Verdict { kNoGap, kExplained, kUnexplained };
 
+/// What a cause changes.
+struct CauseChange {
+  double floors = 0.0;                   // of what was measured, in noise floors; the files' numbers retuned without it
+  std::optional<double> energy_percent;  // of the tire's loss, or of the energy of drives; those numbers held
+};
+
 /// An effect, a pair of them, or effects that this set cannot tell apart.
 struct Cause {
   std::vector<std::string> effects;  // of the hypothesis: one, or two that act together
@@ -23,7 +29,8 @@ struct Cause {
   std::vector<std::string> indistinguishable_from;
   std::vector<ParameterEstimate> parameters;
   bool adequate = true;
-  std::vector<std::string> objections;  // why not adequate, a sentence each
+  std::vector<std::string> objections;               // why not adequate, a sentence each
+  std::optional<CauseChange> change = std::nullopt;  // of the first cause, and of a trace
 };
 
 /// A gap in noise floors: rms of what is left without noise, in standard deviations of a mean over a
@@ -41,17 +48,43 @@ struct ChannelGap {
   double after = 0.0;
 };
 
-/// How far the gap shrinks, on runs that the fit did not see.
+/// What the first cause takes from the recalibrated gap, in one way of judging it.
+struct Shrinkage {
+  GapView gap;                    // noise floors
+  std::optional<double> percent;  // none where the gap is not above the noise
+  std::array<double, 2> ci95_percent{};
+  std::optional<GapView> energy_percent;  // by how much the energy of a run is off: rms over runs
+};
+
+/// A run of which the others say too little.
+struct UnjudgedRun {
+  std::string run;
+  std::vector<std::string> alone_in;  // conditions that it alone holds: "load", "speed"; empty where there is none
+};
+
+/// What a shrinkage is judged on.
+enum class JudgedBy {
+  kNothing,
+  kRuns,      // runs left out of the fit
+  kStretches  // stretches left out of it, where no run can be judged
+};
+
+/// How far the gap shrinks, on data that the fit did not see.
 struct Gap {
   GapView as_calibrated;                 // base parameters as the files give them
-  GapView recalibrated;                  // base parameters moved within their uncertainty; each run left out in turn
+  GapView recalibrated;                  // base parameters moved within their uncertainty; on what the cause is judged
   std::optional<double> shrink_percent;  // of the recalibrated gap; none where that is not above the noise
   std::array<double, 2> shrink_ci95_percent{};
+  JudgedBy judged_by = JudgedBy::kNothing;
+  std::optional<Shrinkage> fitted;      // of the fit to all runs, on these; this and the next two: with a cause
+  std::optional<Shrinkage> stretches;   // each phase of a run left out of the fit; none where none can be judged
+  std::optional<Shrinkage> runs;        // each run left out of the fit; likewise
+  std::vector<UnjudgedRun> not_judged;  // runs that cannot be judged without what they alone say
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
   std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
   std::vector<std::string> held_out;            // runs left out of a fit and predicted by it
   std::vector<std::string> judged_on;           // of these, those on which the cause is judged
-  bool worse_where_certain = false;  // the cause enlarges the gap of held-out runs that the others predict well
+  bool worse_where_certain = false;             // the cause enlarges the gap of what is judged
   std::vector<ChannelGap> channels;
 };
 
@@ -128,6 +161,7 @@ struct Findings {
   Verdict verdict = Verdict::kNoGap;
   std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the comparison
   std::vector<Cause> causes;                  // the likeliest first
+  std::optional<Cause> trace;                 // a cause that acts, but is too small to matter: then there is no gap
   Gap gap;
   std::vector<Location> where;  // the largest share first
   std::vector<BalanceShare> balance;
@@ -163,6 +197,7 @@ struct DiagnosisOptions {
   int threads = 0;                   // 0: as many as the machine has
   Progress progress = {};
   std::optional<TestBudget> budget = std::nullopt;
+  double smallest_effect_percent = 0.5;  // of the tire's loss or of the energy of drives; below it a cause is a trace
 };
 
 }  // namespace rollrig

@@ -77,6 +77,40 @@ TEST_CASE("limits of ranges and moves of the files' numbers are there, all of th
   CHECK(json["gap"]["judged_on"] == json["gap"]["held_out"]);
 }
 
+TEST_CASE("the ways of judging a shrinkage stand side by side, with the runs that cannot be judged", "[fast]") {
+  diagnosis::Diagnosis made = tests::make_explained();
+  made.gap.not_judged = {{"load-sweep", {"load"}}};
+  made.gap.stretches->energy_percent.reset();
+  const Json gap = diagnosis::make_diagnosis_json(made)["gap"];
+  CHECK(gap["judged_by"] == "runs_left_out");
+  CHECK(gap["runs_left_out"]["percent"] == gap["shrink_percent"]);
+  CHECK(gap["runs_left_out"]["energy_percent"]["before"] == 2.1);
+  CHECK(gap["runs_left_out"]["energy_percent"]["after"] == 0.14);
+  CHECK(gap["stretches_left_out"]["ci95_percent"] == Json::array({88.0, 97.0}));
+  CHECK(gap["stretches_left_out"]["energy_percent"].is_null());
+  CHECK(gap["fitted"]["before"] == 2.0);
+  CHECK(gap["not_judged"] == Json::array({{{"run", "load-sweep"}, {"alone_in", {"load"}}}}));
+  made.gap.runs.reset();
+  made.gap.fitted->percent.reset();
+  made.gap.judged_by = diagnosis::JudgedBy::kStretches;
+  const Json other = diagnosis::make_diagnosis_json(made)["gap"];
+  CHECK(other["judged_by"] == "stretches_left_out");
+  CHECK(other["runs_left_out"].is_null());
+  CHECK(other["fitted"]["ci95_percent"].is_null());
+}
+
+TEST_CASE("a trace has what a cause has, and what it changes", "[fast]") {
+  diagnosis::Diagnosis made = tests::make_no_gap();
+  CHECK(diagnosis::make_diagnosis_json(made)["trace"].is_null());
+  made.trace = tests::make_trace();
+  const Json trace = diagnosis::make_diagnosis_json(made)["trace"];
+  CHECK(trace["effects"] == Json::array({"torque_gain"}));
+  CHECK(trace["probability"] == 0.92);
+  CHECK(trace["change"]["floors"] == 0.12);
+  CHECK(trace["change"]["energy_percent"] == 0.07);
+  CHECK(diagnosis::make_diagnosis_json(tests::make_explained())["causes"][0]["change"].is_null());
+}
+
 TEST_CASE("without a gap there is no shrinkage, and lists are empty, not absent", "[fast]") {
   const Json json = diagnosis::make_diagnosis_json(tests::make_no_gap());
   CHECK(json["verdict"] == "no_gap");

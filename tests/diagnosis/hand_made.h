@@ -21,6 +21,10 @@ inline diagnosis::Diagnosis make_explained() {
   made.gap.recalibrated = {2.3, 0.2};
   made.gap.shrink_percent = 91.0;
   made.gap.shrink_ci95_percent = {84.0, 96.0};
+  made.gap.judged_by = diagnosis::JudgedBy::kRuns;
+  made.gap.runs = diagnosis::Shrinkage{{2.3, 0.2}, 91.0, {84.0, 96.0}, diagnosis::GapView{2.1, 0.14}};
+  made.gap.stretches = diagnosis::Shrinkage{{2.2, 0.15}, 93.0, {88.0, 97.0}, diagnosis::GapView{1.9, 0.12}};
+  made.gap.fitted = diagnosis::Shrinkage{{2.0, 0.1}, 95.0, {92.0, 98.0}, diagnosis::GapView{1.2, 0.05}};
   made.gap.recalibration_percent = 62.0;
   made.gap.black_box_percent = 70.0;
   made.gap.held_out = {"warm-up-80", "warm-up-120", "transient-skim"};
@@ -36,6 +40,16 @@ inline diagnosis::Diagnosis make_explained() {
                       0.9}};
   made.not_excluded = {"windage", "torque_gain"};
   return made;
+}
+
+/// A cause that acts and is too small to matter.
+inline diagnosis::Cause make_trace() {
+  diagnosis::Cause trace;
+  trace.effects = {"torque_gain"};
+  trace.probability = 0.92;
+  trace.parameters = {{"torque_gain.gain_percent", -0.06, 0.02, -0.1, -0.02, "%"}};
+  trace.change = diagnosis::CauseChange{0.12, 0.07};
+  return trace;
 }
 
 /// Nothing beyond the noise.

@@ -50,10 +50,10 @@ std::string line_of(const std::string& text, const std::string& label) {
 
 }  // namespace
 
-TEST_CASE("an explained gap is told in ten lines, two of them continued, and below them what N of a torque are",
+TEST_CASE("an explained gap is told in ten lines, some of them continued, and below them what N of a torque are",
           "[fast]") {
   const std::string text = format_summary(tests::make_explained());
-  check_layout(text, 13);
+  check_layout(text, 15);
   CHECK_THAT(lines_of(text).back(), Catch::StartsWith("Torque") && Contains("in N, as force at the drum's surface"));
   CHECK_THAT(line_of(text, "Verdict"), Contains("explained") && Contains("94 %") && Contains("3 %"));
   CHECK_THAT(line_of(text, "Cause"),
@@ -67,6 +67,9 @@ TEST_CASE("an explained gap is told in ten lines, two of them continued, and bel
                                               Contains("pressure 0.30->0.10 kPa"));
   CHECK_THAT(line_of(text, "Shrinks by"),
              Contains("91 %") && Contains("84 to 96") && Contains("3 held out") && Contains("black box 70 %"));
+  CHECK_THAT(line_of(text, "  else"),
+             Contains("93 % (88 to 97) on stretches held out") && Contains("95 % (92 to 98) on fitted data"));
+  CHECK_THAT(line_of(text, "  energy"), Contains("off by 2.1 %") && Contains("with the cause by 0.14 %"));
   CHECK_THAT(line_of(text, "Not excluded"), Contains("windage, torque_gain"));
   CHECK_THAT(line_of(text, "Next test"), Contains("drum alone"));
 }
@@ -80,18 +83,45 @@ TEST_CASE("no gap is ten lines too, without a cause or a shrinkage", "[fast]") {
   CHECK_THAT(line_of(text, "Shrinks by"), Contains("nothing above the noise"));
 }
 
-TEST_CASE("a shrinkage of one run alone is not called one of runs held out", "[fast]") {
+TEST_CASE("a shrinkage of one run alone is one of its stretches", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.gap.held_out.clear();
   made.gap.judged_on.clear();
-  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("on the fitted data") && !Contains("held out"));
+  made.gap.runs.reset();
+  made.gap.judged_by = diagnosis::JudgedBy::kStretches;
+  made.gap.shrink_percent = 93.0;
+  made.gap.shrink_ci95_percent = {88.0, 97.0};
+  const std::string text = format_summary(made);
+  CHECK_THAT(line_of(text, "Shrinks by"), Contains("93 % (88 to 97) on stretches held out"));
+  CHECK_THAT(line_of(text, "  else"), Contains("on fitted data") && !Contains("stretches"));
+  CHECK_THAT(line_of(text, "  energy"), Contains("1.9 %"));
+}
+
+TEST_CASE("runs that cannot be judged are named, with what they alone hold", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.gap.not_judged = {{"load-sweep", {"load", "speed"}}};
+  CHECK_THAT(join_lines(format_summary(made)),
+             Contains("Not judged load-sweep (alone in load, speed): cannot be judged without it "));
+  made.gap.not_judged.push_back({"warm-up-40", {}});
+  CHECK_THAT(join_lines(format_summary(made)),
+             Contains("load-sweep (alone in load, speed), warm-up-40: cannot be judged without them "));
+}
+
+TEST_CASE("a trace is told with its size, its probability, and that it does not matter", "[fast]") {
+  Diagnosis made = tests::make_no_gap();
+  made.trace = tests::make_trace();
+  const std::string text = format_summary(made);
+  CHECK_THAT(line_of(text, "Verdict"), Contains("no gap that matters, probability 98 %"));
+  CHECK_THAT(join_lines(text),
+             Contains("a trace of torque_gain: gain -0.06 % (95 %: -0.1 to -0.02), too small to matter "
+                      "(0.07 % of the energy, 0.12 noise floors); probability 92 %"));
 }
 
 TEST_CASE("what cannot be told apart stands beside the cause", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.causes[0].indistinguishable_from = {"tire_loss_in_skim", "torque_zero_drift"};
   const std::string text = format_summary(made);
-  check_layout(text, 12);
+  check_layout(text, 14);
   CHECK_THAT(line_of(text, "or as well"), Contains("tire_loss_in_skim, torque_zero_drift") && Contains("cannot tell"));
 }
 
@@ -102,7 +132,7 @@ TEST_CASE("two effects together both show their size", "[fast]") {
                                {"slow_leak.rate_kPa_per_h", 1.0, 0.1, 0.8, 1.2, "kPa/h"}};
   CHECK_THAT(line_of(format_summary(made), "Cause"), Contains("bearing_warmup: fall 0.02 1/K (95 %: 0.01 to 0.03)"));
   CHECK_THAT(line_of(format_summary(made), "  with"), Contains("slow_leak: rate 1 kPa/h (95 %: 0.8 to 1.2)"));
-  check_layout(format_summary(made), 12);
+  check_layout(format_summary(made), 14);
 }
 
 TEST_CASE("what cannot be told from two effects stands below", "[fast]") {
@@ -110,7 +140,7 @@ TEST_CASE("what cannot be told from two effects stands below", "[fast]") {
   made.causes[0].effects = {"bearing_warmup", "slow_leak"};
   made.causes[0].indistinguishable_from = {"rim_heat"};
   CHECK_THAT(line_of(format_summary(made), "Or as well"), Contains("rim_heat (this set cannot tell)"));
-  check_layout(format_summary(made), 13);
+  check_layout(format_summary(made), 15);
 }
 
 TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {
@@ -119,7 +149,7 @@ TEST_CASE("an inadequate cause is not sold as an explanation", "[fast]") {
   made.causes[0].adequate = false;
   made.causes[0].objections = {"the size differs from run to run: 0.01 to 0.04 1/K"};
   const std::string text = format_summary(made);
-  check_layout(text, 14);
+  check_layout(text, 16);
   CHECK_THAT(line_of(text, "Verdict"), Contains("looks like this cause, but something else is missing"));
   CHECK_THAT(line_of(text, "But"), Contains("differs from run to run"));
 }
@@ -130,17 +160,21 @@ TEST_CASE("an unknown cause is said to be one", "[fast]") {
   made.probability["unknown"] = 0.9;
   made.causes.clear();
   const std::string text = format_summary(made);
-  check_layout(text, 12);
+  check_layout(text, 14);
   CHECK_THAT(line_of(text, "Verdict"), Contains("outside the catalog") && Contains("90 %"));
   CHECK_THAT(line_of(text, "Cause"), Contains("none of the catalog"));
 }
 
-TEST_CASE("where no run left out can judge the cause, that is said", "[fast]") {
+TEST_CASE("where nothing left out can judge the cause, that is said", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.gap.shrink_percent.reset();
   made.gap.judged_on.clear();
-  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("unknown: no run can judge it"));
-  check_layout(format_summary(made), 13);
+  made.gap.runs.reset();
+  made.gap.stretches.reset();
+  made.gap.judged_by = diagnosis::JudgedBy::kNothing;
+  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("unknown: nothing left out can judge it"));
+  CHECK_THAT(line_of(format_summary(made), "  else"), Contains("95 % (92 to 98) on fitted data"));
+  check_layout(format_summary(made), 14);
 }
 
 TEST_CASE("an estimate on the limit of its range is marked", "[fast]") {
@@ -160,7 +194,7 @@ TEST_CASE("the numbers of the files that moved furthest are named, and the uncer
       {"rolling_resistance.A0_N", "N", 36.0, 0.7, SdSource::kFile, 35.0, -1.4, 34.9, -1.6},
       {"parasitic.c0_N", "N", 6.0, 0.3, SdSource::kUsual, 6.1, 0.3, 6.0, 0.1}};
   const std::string text = format_summary(made);
-  check_layout(text, 15);
+  check_layout(text, 17);
   CHECK_THAT(line_of(text, "Moved"),
              Contains("conductance_at_rest_W_per_K +2.4 sd, A0_N -1.6 sd with the cause") && !Contains("c0_N"));
   CHECK_THAT(line_of(text, "Assumed"),

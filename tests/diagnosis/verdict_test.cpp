@@ -60,12 +60,36 @@ TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[f
   };
   Gap gap;
   gap.held_out = gap.judged_on = {"1", "2"};
+  gap.judged_by = JudgedBy::kRuns;
   gap.shrink_percent = 40.0;
   gap.shrink_ci95_percent = {12.0, 60.0};
   CHECK(judge(gap) == Verdict::kExplained);
   gap.shrink_percent = 10.0;
   gap.shrink_ci95_percent = {-22.0, 18.0};
   CHECK(judge(gap) == Verdict::kUnexplained);
-  gap.shrink_percent.reset();  // no run that could judge it
+  gap.held_out = gap.judged_on = {};  // one run: its stretches are judged
+  gap.judged_by = JudgedBy::kStretches;
+  CHECK(judge(gap) == Verdict::kUnexplained);
+  gap.shrink_ci95_percent = {1.0, 18.0};
   CHECK(judge(gap) == Verdict::kExplained);
+  gap.shrink_percent.reset();  // nothing that could judge it
+  gap.judged_by = JudgedBy::kNothing;
+  CHECK(judge(gap) == Verdict::kExplained);
+}
+
+TEST_CASE("what an objection says names the parts that were left out", "[fast]") {
+  using namespace rollrig::diagnosis;
+  const auto object = [](JudgedBy by) {
+    Gap gap;
+    gap.judged_by = by;
+    gap.shrink_percent = -20.0;
+    gap.shrink_ci95_percent = {-40.0, 10.0};
+    std::vector<Cause> causes(1);
+    causes.front().effects = {"a"};
+    std::map<std::string, double> probability{{"none", 0.1}, {"unknown", 0.1}, {"a", 0.8}};
+    weigh_objections(gap, causes, probability);
+    return causes.front().objections.at(0);
+  };
+  CHECK(object(JudgedBy::kRuns).rfind("the runs left out do not confirm it", 0) == 0);
+  CHECK(object(JudgedBy::kStretches).rfind("the stretches left out do not confirm it", 0) == 0);
 }
