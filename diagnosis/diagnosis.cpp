@@ -130,8 +130,13 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   if (checks.is_implausible()) forbid_causes(diagnosis);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
   weigh_materiality(study, comparison, options.smallest_effect_percent, diagnosis);
-  const bool is_named = diagnosis.verdict != Verdict::kNoGap;
-  diagnosis.not_excluded = find_not_excluded(study, comparison, is_named ? diagnosis.causes : std::vector<Cause>{});
+  std::vector<Cause> named;
+  if (diagnosis.trace.has_value()) {
+    named = {*diagnosis.trace};
+  } else if (diagnosis.verdict != Verdict::kNoGap) {
+    named = diagnosis.causes;
+  }
+  diagnosis.not_excluded = find_not_excluded(study, comparison, named);
   stages.begin("where and what", 0.76);
   diagnosis.where = find_locations(study);
   diagnosis.balance = find_balance(study);

@@ -69,7 +69,7 @@ TEST_CASE("a trace leaves the causes, and its probability goes to none", "[fast]
   std::map<std::string, double> probability{
       {"none", 0.05}, {"unknown", 0.03}, {"torque_gain", 0.7}, {"inertia_error", 0.2}, {"slow_leak", 0.02}};
   const double before = sum_of(probability);
-  const Cause trace = set_aside_trace(causes, probability);
+  const Cause trace = diagnosis::set_aside_trace(causes, probability);
   CHECK(trace.effects == small.effects);
   CHECK(trace.probability == 0.9);
   REQUIRE(causes.size() == 1);
@@ -85,8 +85,8 @@ TEST_CASE("a gain of the torque changes the energy by its size, and a little mor
   const tests::FittedBaseline fitted(tests::add_noise(tests::make_gap_set({}, 2), 4));
   double small = 0.0;
   double large = 0.0;
-  const CauseChange by_small = measure_change(fitted, make_gain(fitted, 0.5, small));
-  const CauseChange by_large = measure_change(fitted, make_gain(fitted, 1.0, large));
+  const CauseChange by_small = diagnosis::measure_change(fitted, make_gain(fitted, 0.5, small));
+  const CauseChange by_large = diagnosis::measure_change(fitted, make_gain(fitted, 1.0, large));
   REQUIRE(large != 0.0);
   REQUIRE(by_large.energy_percent.has_value());
   CHECK(*by_large.energy_percent > 100.0 * std::abs(large));
@@ -100,15 +100,16 @@ TEST_CASE("what retuned numbers hide is nothing that is read, and its energy cou
   double gain = 0.0;
   Candidate hidden = make_gain(fitted, 1.0, gain);
   hidden.fit.simulated = fitted.null.fit.simulated;
-  CHECK(measure_change(fitted, hidden).floors == Approx(0.0).margin(1e-9));
+  CHECK(diagnosis::measure_change(fitted, hidden).floors == Approx(0.0).margin(1e-9));
   hidden = make_gain(fitted, 1.0, gain);
   const double offset_of_torque = 1.0;  // prior units; an offset that hides nothing counts as well
   hidden.fit.unknowns[diagnosis::to_index(fitted.make_model(hidden.fit.hypothesis).parameter_count())] +=
       offset_of_torque;
-  const CauseChange with_offset = measure_change(fitted, hidden);
-  CHECK(with_offset.floors != Approx(measure_change(fitted, make_gain(fitted, 1.0, gain)).floors).epsilon(0.01));
+  const CauseChange with_offset = diagnosis::measure_change(fitted, hidden);
+  CHECK(with_offset.floors !=
+        Approx(diagnosis::measure_change(fitted, make_gain(fitted, 1.0, gain)).floors).epsilon(0.01));
   CHECK(with_offset.energy_percent.value() ==
-        Approx(measure_change(fitted, make_gain(fitted, 1.0, gain)).energy_percent.value()));
+        Approx(diagnosis::measure_change(fitted, make_gain(fitted, 1.0, gain)).energy_percent.value()));
 }
 
 TEST_CASE("a cause below the smallest effect of interest is no gap, and a trace with its size and probability",
@@ -130,6 +131,7 @@ TEST_CASE("a cause below the smallest effect of interest is no gap, and a trace 
   CHECK(trace.probability.at("none") > 0.9);
   CHECK(sum_of(trace.probability) == Approx(sum_of(matters.probability)));
   for (const Cause& cause : trace.causes) CHECK(cause.effects != trace.trace->effects);
+  for (const std::string& name : trace.not_excluded) CHECK(name != trace.trace->effects.front());
 }
 
 TEST_CASE("a smallest effect that is no share is refused", "[fast]") {
