@@ -196,8 +196,8 @@ struct DiagnosisOptions {
   std::vector<std::string> only;     // where not empty, the effects in the comparison
   int threads = 0;                   // 0: as many as the machine has
   Progress progress = {};
-  std::optional<TestBudget> budget = std::nullopt;
   double smallest_effect_percent = 0.5;  // of the tire's loss or of the energy of drives; below it a cause is a trace
+  std::optional<TestBudget> budget = std::nullopt;
 };
 
 }  // namespace rollrig

@@ -40,8 +40,8 @@ TEST_CASE("on a drum the energy is the tire's under load: skim and parasitic los
   const Eigen::VectorXd whole = make_difference(set, [&](const Series& series, std::size_t k) {
     const measurements::MeasuredRun& run = set.runs()[series.run].measured;
     return series.mean_over(series.blocks[k], [&](std::size_t row) {
-      const double drum_N = models::calc_parasitic_N(rig.parasitic, run.column("speed_km_h")[row]);
-      return run.column("drum_torque_Nm")[row] - rig.lever_m() * drum_N;
+      const double drum_N = models::calc_parasitic_N(rig.parasitic, run.column(models::quantities::kSpeed)[row]);
+      return run.column(set.source().kind->traits.force)[row] - rig.lever_m() * drum_N;
     });
   });
   CHECK(scale.calc_percent(whole).value() == Approx(100.0).epsilon(1e-3));

@@ -2,6 +2,7 @@
 #include "diagnosis/comparison/held_out.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <catch2/catch.hpp>
 #include <functional>
 

@@ -28,14 +28,16 @@ double sum_of(const std::map<std::string, double>& probability) {
   return sum;
 }
 
-/// A torque gain of `u` prior units beside the numbers of the baseline's fit, and what it is as a share.
+/// A torque gain of `u` prior units beside the numbers of the baseline's fit, and what it is as a share. Its shape is
+/// that of a gain of all readings alike.
 Candidate make_gain(const tests::FittedBaseline& fitted, double u, double& gain) {
   Candidate candidate = fitted.null;
   candidate.fit.hypothesis = diagnosis::Hypothesis{}.with({&diagnosis::find_term("torque_gain"), 1});
   const diagnosis::Model model = fitted.make_model(candidate.fit.hypothesis);
-  REQUIRE(model.own_count() == 1);
-  candidate.fit.unknowns.resize(fitted.null.fit.unknowns.size() + 1);
-  candidate.fit.unknowns << u, fitted.null.fit.unknowns;
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(diagnosis::to_index(model.own_count()));
+  own[0] = u;
+  candidate.fit.unknowns.resize(own.size() + fitted.null.fit.unknowns.size());
+  candidate.fit.unknowns << own, fitted.null.fit.unknowns;
   gain = model.own_parameters().front().value_at(u).value_SI;
   REQUIRE(model.simulate(candidate.fit.unknowns, 1, candidate.fit.simulated, nullptr));
   return candidate;
