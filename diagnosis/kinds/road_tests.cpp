@@ -42,8 +42,8 @@ PlannedTest road_rests(const TestConditions& at) {
 
 /// A vehicle in neutral, which no force of its motor drives.
 PlannedTest road_coastdown(const PreparedSet& set, const TestConditions& at) {
-  constexpr int kRoadCoasts = 6;     // Assumed: three each way, as road loads are measured
-  constexpr double kRolling = 0.01;  // Assumed, as the density: near enough for how fast the speed falls
+  constexpr int kRoadCoasts = 6;      // Assumed: three each way, as road loads are measured
+  constexpr double kRolling = 0.007;  // Assumed, as the density: near enough for how fast the speed falls
   constexpr double kDensity_kg_m3 = 1.2;
   const models::VehicleBody<double>& body = set.context().vehicle;
   const auto calc_slowing_m_s2 = [&](double speed_m_s) {

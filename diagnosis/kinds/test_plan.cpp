@@ -99,9 +99,12 @@ RunPlan& RunPlan::coast(double load_N, double speed_km_h,
                         const std::function<double(double speed_m_s)>& calc_slowing_m_s2) {
   load_N_ = load_N;
   read_ = true;
+  constexpr double kStep_km_h = 0.1;  // a row, so that a program has round numbers
   while (speed_km_h_ > speed_km_h) {
     add_row(speed_km_h_);
-    speed_km_h_ -= 3.6 * calc_slowing_m_s2(speed_km_h_ / 3.6) * kVirtualRow_s;
+    const double lost_km_h = 3.6 * calc_slowing_m_s2(speed_km_h_ / 3.6) * kVirtualRow_s;
+    speed_km_h_ =
+        kStep_km_h * (std::round(speed_km_h_ / kStep_km_h) - std::max(1.0, std::round(lost_km_h / kStep_km_h)));
   }
   speed_km_h_ = speed_km_h;
   return *this;

@@ -94,6 +94,10 @@ std::string write_run_file(const MeasurementSet& set, const ProposedTest& test, 
       "\"{4}.toml\"\nbaseline = \"{5}\"\nseed = {0}\nsample_interval_s = {6:.10g}\n",
       number, count, test.test, set.kind->follow_scenario, words.machine, is_combined ? "combined" : "constant_rrc",
       find_sample_interval_s(set));
+  const std::vector<double>& speed_m_s = run.column(quantities::kSpeed);
+  const bool stands = std::all_of(speed_m_s.begin(), speed_m_s.end(), [](double speed) { return speed == 0.0; });
+  // Where nothing turns, mechanics have nothing to say, and no work of a motor to hold their audit against.
+  if (stands && !is_of_vehicle(set.kind->traits)) text += "fidelity = \"quasi_static\"\n";
   text += fmt::format(
       "\n[settings]\nprogram = \"{}.csv\"\npressure_kPa = {:.10g}\ninitial_tire_temperature_degC = {:.10g}\n", run.id,
       run.cold_pressure_Pa / 1e3, run.initial_tire_temperature_K - kZeroCelsius_K);

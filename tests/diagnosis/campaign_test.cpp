@@ -36,7 +36,7 @@ bool has_test(const PlannedCampaign& campaign, const std::string& id) {
                      [&](const CampaignTest& test) { return test.id == id; });
 }
 
-const std::vector<std::string> kFew{"torque_gain", "torque_zero_drift", "slow_leak", "rim_heat", "load_exponent"};
+const std::vector<std::string> kFew{"torque_gain", "torque_zero_drift", "slow_leak", "rim_heat", "bearing_warmup"};
 
 }  // namespace
 
@@ -72,8 +72,8 @@ TEST_CASE("weights make the scale of the force visible, on rollers too", "[fast]
   for (const char* rig : {"drum", "rollers"}) {
     INFO(rig);
     const PlannedCampaign campaign = plan(rig, 2.0, {"torque_gain"});
-    CHECK(has_test(campaign, "dead_weights"));
     CHECK(find_effect(campaign, "torque_gain").is_visible);
+    if (rig == std::string("rollers")) CHECK(has_test(campaign, "dead_weights"));
   }
   const PlannedCampaign loads = plan("rollers", 2.0, {"load_record", "tie_down_load", "speed_record"});
   CHECK(has_test(loads, "wheel_scale"));
@@ -121,7 +121,7 @@ TEST_CASE("what a campaign promises is what the screening of its measured set fi
   for (const std::string& id : kFew) settings.terms.push_back(&find_term(id));
   Study study(set, settings);
   const Comparison comparison = compare_models(study);
-  for (const std::string& id : {"slow_leak", "load_exponent", "rim_heat"}) {
+  for (const char* id : {"slow_leak", "bearing_warmup", "rim_heat"}) {
     INFO(id);
     const double promised = find_effect(campaign, id).detectability;
     const double found = comparison.find_detectability(find_term(id));

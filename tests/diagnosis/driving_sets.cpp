@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnosis/kinds/measurement_kind.h"
+#include "measurements/read_force.h"
 #include "scenarios/common/speed_trace.h"
 #include "sim/core/assets.h"
 #include "tests/support/drum_fixture.h"
@@ -94,6 +95,10 @@ void measure_again(measurements::MeasurementSet& set, const std::vector<models::
     models::Corner<double> corner(context, effects);
     const auto recording = measurements::Resimulation(run, *set.kind).simulate(set, run, corner);
     for (const auto& [channel, sensor] : set.sensors) run.columns[channel] = recording.channel(channel);
+    const Quantity force = set.kind->traits.force;
+    if (set.sensors.count(force) > 0) {
+      run.columns[force] = measurements::read_force(run, corner, recording.channel(force), force);
+    }
   }
 }
 

@@ -136,6 +136,16 @@ namespace {
 
 using Visit = std::function<void(const measurements::MeasurementSet& rehearsed, const scenarios::RunSpec& spec)>;
 
+/// Whether a tire rolls under load in a test.
+bool rolls(const PlannedTest& test) {
+  return std::any_of(test.runs.begin(), test.runs.end(), [](const measurements::MeasuredRun& run) {
+    for (std::size_t row = 0; row < run.time_s.size(); ++row) {
+      if (run.columns.at("load_N")[row] > 0.0 && run.columns.at("speed_km_h")[row] > 0.0) return true;
+    }
+    return false;
+  });
+}
+
 /// How many of these channels the set has a sensor for.
 std::size_t count_in(const measurements::MeasurementSet& set, const std::vector<Quantity>& channels) {
   return static_cast<std::size_t>(std::count_if(channels.begin(), channels.end(), [&](const Quantity& channel) {
@@ -203,7 +213,7 @@ TEST_CASE("plans of wheel and vehicle are run as a set whose resimulation is wha
                            measurements::MeasurementSet resimulated = rehearsed;
                            tests::measure_again(resimulated, spec.effects);
                            CHECK(find_worst_share(rehearsed, resimulated) < 1e-6);
-                           if (spec.effects.empty()) return;
+                           if (spec.effects.empty() || !rolls(test)) return;
                            tests::measure_again(resimulated, {});
                            CHECK(find_worst_share(rehearsed, resimulated) > 1e-2);  // the effect was there
                          });
