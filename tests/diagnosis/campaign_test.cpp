@@ -91,7 +91,7 @@ TEST_CASE("the smallest visible size has a detectability of 5 when it is simulat
   }
 }
 
-TEST_CASE("what a campaign promises is what the screening of its measured set finds", "[slow]") {
+TEST_CASE("what a campaign promises is what the screening of its measured set finds", "[fast]") {
   const PlannedCampaign campaign = plan("drum", 6.0, kFew);
   measurements::MeasurementSet set = campaign.set;
   set.runs.clear();
