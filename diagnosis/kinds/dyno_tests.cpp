@@ -100,18 +100,18 @@ PlannedTest standstill_force(const TestConditions& at) {
 
 PlannedTest dyno_dead_weights(const TestConditions& at) {
   constexpr double kWeights_h = 0.25;                // Assumed: lever mounted, weights hung
-  constexpr double kHung_N[] = {100.0, 200.0, 0.0};  // Assumed: about once and twice the loss of a wheel
+  constexpr double kHung_N[] = {200.0, 500.0, 0.0};  // Assumed: some times the loss of a wheel
   RunPlan run(at, 0.0);
   run.stand(3.0, 0.0);
   for (const double force_N : kHung_N) run.hang(force_N).stand(3.0, 0.0);
   PlannedTest test = make_test("dead_weights",
-                               "weights on a lever: 100 and 200 N at the surface of the roller on its load cell, at "
+                               "weights on a lever: 200 and 500 N at the surface of the roller on its load cell, at "
                                "standstill, nothing on the roller",
                                0, {run});
   test.hours += kWeights_h;
   test.extra.force_at_standstill = true;
   test.by_hand = {
-      "Hang 0, 100, 200 and 0 N, reckoned at the roller's surface, on the roller with a lever of known length, 3 min "
+      "Hang 0, 200, 500 and 0 N, reckoned at the roller's surface, on the roller with a lever of known length, 3 min "
       "each, and log the force."};
   return test;
 }
