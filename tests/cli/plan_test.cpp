@@ -9,7 +9,7 @@ using Catch::Contains;
 using rollrig::tests::read_file;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
-using Json = nlohmann::json;
+
 
 TEST_CASE("a plan is printed, and written as JSON, as a page and as a folder whose runs can be carried out", "[fast]") {
   const TemporaryFolder folder;
@@ -18,12 +18,12 @@ TEST_CASE("a plan is printed, and written as JSON, as a page and as a folder who
                                    folder.file("plan.json") + " --html " + folder.file("plan.html"));
   REQUIRE(planned.status == 0);
   CHECK_THAT(planned.out, Contains("Campaign on drum_2m with tire a50") && Contains("of 2 effects would be visible"));
-  const Json plan = Json::parse(read_file(folder.file("plan.json")));
+  const nlohmann::json plan = nlohmann::json::parse(read_file(folder.file("plan.json")));
   CHECK(plan["format"] == "rollrig-campaign/1");
   CHECK(plan["hours"].get<double>() <= 3.0);
   CHECK(plan["effects"].size() == 2);
   REQUIRE(!plan["tests"].empty());
-  const Json& last_test = plan["tests"].back();
+  const nlohmann::json& last_test = plan["tests"].back();
   CHECK(plan["visible"].get<int>() == last_test["visible"].get<int>());
   CHECK_THAT(read_file(folder.file("plan.html")), Contains("effects would be visible at their usual size"));
   for (const char* file : {"plan.txt", "set.toml", "tire.toml", "rig.toml", "run-1.toml"}) {
