@@ -1,12 +1,9 @@
 #pragma once
 /// How well a run agrees with its simulation, whatever it is that the simulation does not know.
 
-#include <Eigen/Core>
 #include <array>
-#include <optional>
-#include <vector>
 
-#include "diagnosis/checks/plausibility.h"
+#include "diagnosis/checks/common_parts.h"
 
 namespace rollrig::diagnosis {
 
@@ -15,39 +12,6 @@ namespace rollrig::diagnosis {
 /// sizes make 0.03 to 0.5.
 constexpr std::array<double, 7> kUnknownSizes{0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0};
 constexpr std::array<double, 7> kSizeWeights{0.2, 0.2, 0.2, 0.2, 0.13, 0.06, 0.01};
-
-/// Rows of the measured channels by which the hypotheses on a run are compared, the same for all of them.
-using ComparedRows = QuantityMap<std::vector<std::size_t>>;
-
-/// Rows of a run as it is: on a vehicle all samples, else those that a comparison uses, or all where these are fewer
-/// than half of the samples (as where the speed is not one).
-ComparedRows choose_rows(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run);
-
-/// Residual of a channel and the parts that a simulation may not know, whitened: what its likelihood is made of. Parts
-/// are in their standard deviations; those of the first `scaled` grow with the unknown size, the last is the offset of
-/// the sensor.
-struct ChannelProducts {
-  double count = 0.0;
-  double residual = 0.0;       // squared
-  Eigen::VectorXd projection;  // of the residual on the parts
-  Eigen::MatrixXd gram;        // of the parts
-  Eigen::Index scaled = 0;
-};
-
-/// By channel; in all runs in the order of the measured channels of the set's kind. None where there are no samples.
-using RunProducts = std::vector<std::optional<ChannelProducts>>;
-
-RunProducts calc_products(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
-                          const sim::Recording<double>& simulated, const ComparedRows& rows);
-
-/// The parts that all runs have in common, by channel, in their standard deviations; empty for none.
-using CommonParts = std::vector<Eigen::VectorXd>;
-
-/// Fits the common parts to all runs, and again without those that they do not describe.
-CommonParts fit_common(const std::vector<const RunProducts*>& runs);
-
-/// Logarithm of the probability of common parts before the data, for an unknown size.
-double calc_common_log_prior(const CommonParts& common, const RunProducts& products, double size);
 
 /// Logarithm of the likelihood of what a run measured, above that of residuals which are noise and no more.
 ///
