@@ -63,6 +63,7 @@ constexpr double kClassTire = 0.99;  // Assumed: that numbers are a class's wher
 constexpr double kRunSizeChance = 1e-3;       // Assumed: of the test whether the size is one in all runs ...
 constexpr double kRunSizeShare = 0.3;         // ... by which a law's idealization may change it from run to run
 constexpr double kKeptUnderObjection = 0.05;  // Assumed: of a cause's probability, the rest goes to "unknown"
+constexpr double kShownHeldOut_sd = 3.0;  // Assumed: by which a cause changes a part left out for it to be judged there
 constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a part left out is judged
 constexpr double kSmallestEffect_floors_per_percent = 0.6;  // Assumed: 0.3 noise floors matter as 0.5 % of the loss do
 constexpr double kDetectableEffect_sd = 5.0;                // named then in 19 of 20 sets, against the priors above

@@ -175,13 +175,16 @@ struct Fits {
   }
 };
 
-/// Whether the others say enough of a part for a cause to be judged on it: without it and with it, they predict it
-/// more differently, by `change`, than the predictions are uncertain. What was measured in the part does not count
-/// here.
-bool is_certain(const Fits& fits, const LeftOutPart& part, const Prediction& before, const Prediction& after,
-                const Eigen::VectorXd& change) {
-  return std::max(before.uncertainty, after.uncertainty) <=
-         thresholds::kCertainHeldOut * fits.with_cause->measure(part, change);
+/// Whether a cause is judged on a part: it changes the part by what noise does not hide, and the others say enough of
+/// it, so that with and without the cause they predict it more differently, by `change`, than the predictions are
+/// uncertain. What was measured in the part does not count here.
+enum class Judged { kYes, kUncertain, kUnchanged };
+Judged find_judged(const Fits& fits, const LeftOutPart& part, const Prediction& before, const Prediction& after,
+                   const Eigen::VectorXd& change) {
+  const double changed = fits.with_cause->measure(part, change);
+  if (changed < thresholds::kShownHeldOut_sd * thresholds::kShownHeldOut_sd) return Judged::kUnchanged;
+  const bool is_certain = std::max(before.uncertainty, after.uncertainty) <= thresholds::kCertainHeldOut * changed;
+  return is_certain ? Judged::kYes : Judged::kUncertain;
 }
 
 /// What is left of every run by fits that did not see it.
@@ -227,10 +230,9 @@ RunsLeftOut measure_runs_left_out(const Study& study, const Scale& scale, const 
     const std::string& id = set.runs()[run].measured.id;
     left.runs.push_back(id);
     if (!has_cause) continue;
-    if (!is_certain(fits, {run}, before[run], after[run], with_cause - difference)) {
-      left.not_judged.push_back({id, find_lone_conditions(set, run)});
-      continue;
-    }
+    const Judged judged = find_judged(fits, {run}, before[run], after[run], with_cause - difference);
+    if (judged == Judged::kUncertain) left.not_judged.push_back({id, find_lone_conditions(set, run)});
+    if (judged != Judged::kYes) continue;
     add_run(scale, run, difference, left.certain.before);
     add_run(scale, run, with_cause, left.certain.after);
     left.certain_runs.push_back(id);
@@ -264,7 +266,7 @@ std::vector<StretchPrediction> predict_stretches(const Study& study, const Fits&
     if (before.simulated.size() == 0 || after.simulated.size() == 0) return;
     at.before = null_model.subtract_from_measured(before.unknowns, before.simulated);
     at.after = cause_model.subtract_from_measured(after.unknowns, after.simulated);
-    at.is_judged = is_certain(fits, part, before, after, at.after - at.before);
+    at.is_judged = find_judged(fits, part, before, after, at.after - at.before) == Judged::kYes;
   });
   return stretches;
 }

@@ -17,9 +17,9 @@ using rollrig::tests::write_file;
 
 namespace {
 
-constexpr const char* kCompared = " --only bearing_warmup,torque_zero_drift,tire_loss_in_skim";
+constexpr const char* kCompared = " --only windage,torque_gain,load_exponent";
 
-/// A set of warm-ups in which bearings warm, and the loop on it.
+/// A set with a drag on the wheel that the torque sensor could show as well, and the loop on it.
 class LoopFolder {
  public:
   LoopFolder() {
@@ -58,7 +58,7 @@ class LoopFolder {
 
  private:
   TemporaryFolder folder_;
-  std::string effect_ = "effects.bearing_warmup.fall_per_K=0.005";
+  std::string effect_ = "effects.windage.force_N=5";
 };
 
 }  // namespace
@@ -87,7 +87,7 @@ TEST_CASE("a loop plans a test, waits for it, takes it in, and ends when the cau
   }
   REQUIRE(ledger["state"] == "named");
   const json& last = ledger["answers"].back();
-  CHECK(last["effects"] == json::array({"bearing_warmup"}));
+  CHECK(last["effects"] == json::array({"windage"}));
   CHECK(last["probability"].get<double>() >= 0.95);
   const std::string ended = read_file(loop.file("loop/loop.json"));
   loop.go_on();
@@ -118,9 +118,10 @@ TEST_CASE("a loop refuses another set, other effects, hours out of range and a f
   CHECK_THAT(flatten(loop.go_on(" --hours 0", 2).err), Contains("0.5 to 1000"));
   CHECK_FALSE(fs::exists(loop.file("loop")));
   loop.go_on(kCompared);
-  CHECK_THAT(flatten(loop.go_on(" --only windage", 2).err), Contains("compares other effects"));
+  CHECK_THAT(flatten(loop.go_on(" --only slow_leak", 2).err), Contains("compares other effects"));
   const std::string test = loop.file("loop/test-1/");
-  for (const auto& run : loop.ledger()["tests"][0]["runs"]) {
+  const json ledger = loop.ledger();
+  for (const json& run : ledger["tests"][0]["runs"]) {
     write_file(test + run.get<std::string>() + "_measured.csv", "time_s,speed_km_h\n0,80\n");
   }
   const std::string before = read_file(loop.file("loop/loop.json"));
