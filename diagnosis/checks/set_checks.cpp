@@ -136,9 +136,18 @@ void require_rest(const MeasurementSet& kept, const SetChecks& checks) {
                     kept.runs[first.run].file, 0, first.channel.header(), "", "samples of a sensor that works", ""});
 }
 
-/// Columns and units. A column that stands still tells nothing of them.
-void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline, const std::vector<StillInput>& still,
-                        int threads, SetChecks& checks) {
+/// Inputs that stand still once mistakes are undone: a column that moves in one run, since it is another's there, says
+/// nothing of the other runs.
+std::vector<StillInput> find_still_without(const std::vector<FoundMistake>& mistakes, MeasurementSet set) {
+  for (const FoundMistake& one : mistakes) {
+    for (const std::size_t r : one.runs) one.mistake.undo(set.runs[r]);
+  }
+  return find_still_inputs(set);
+}
+
+/// Inputs that stand still, columns and units. A column that stands still tells nothing of its unit.
+void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline, int threads, SetChecks& checks) {
+  const std::vector<StillInput> still = find_still_inputs(kept);
   const auto tells = [&still](const Mistake& mistake, std::size_t r) {
     return std::none_of(still.begin(), still.end(), [&](const StillInput& one) {
       const auto& columns = mistake.columns;
@@ -147,6 +156,7 @@ void check_plausibility(const MeasurementSet& kept, const BaselineRuns& baseline
     });
   };
   const std::vector<FoundMistake> mistakes = find_mistakes(kept, baseline, threads, tells);
+  report_still(mistakes.empty() ? still : find_still_without(mistakes, kept), checks);
   require_simulated(kept, baseline.misfits, mistakes);
   report_mistakes(kept, mistakes, checks);
   std::vector<std::size_t> others;
@@ -189,9 +199,7 @@ SetChecks check_set(const MeasurementSet& set, int threads) {
     if (simulated) baseline.misfits[r] = calc_misfit(kept, kept.runs[r], baseline.recordings[r]);
   }
   require_rest(kept, checks);
-  const std::vector<StillInput> still = find_still_inputs(kept);
-  report_still(still, checks);
-  check_plausibility(kept, baseline, still, threads, checks);
+  check_plausibility(kept, baseline, threads, checks);
   if (checks.is_implausible()) {
     const std::vector<std::string> of_conditions = check_tire_conditions(kept);
     checks.warnings.insert(checks.warnings.end(), of_conditions.begin(), of_conditions.end());

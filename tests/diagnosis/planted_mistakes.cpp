@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/split.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -59,6 +60,16 @@ std::string describe_checks(const MeasurementSet& set) {
   }
 }
 
+/// Whether a sentence that names the run has the words ahead of other likely ones.
+bool is_named(const MeasurementSet& set, const std::string& text, const std::string& id, const std::string& words) {
+  std::vector<std::string> sentences;
+  boost::algorithm::split(sentences, text, [](char c) { return c == ';' || c == '\n'; });
+  return std::any_of(sentences.begin(), sentences.end(), [&](const std::string& sentence) {
+    const std::size_t at = sentence.find(words);
+    return find_accused(set, sentence).count(id) > 0 && at != std::string::npos && at <= sentence.find(", or ");
+  });
+}
+
 }  // namespace
 
 std::vector<PlantedMistake> list_wrong_columns(const MeasurementSet& set) {
@@ -84,6 +95,45 @@ std::vector<PlantedMistake> list_wrong_columns(const MeasurementSet& set) {
     list.push_back(make_scaled("liner_temperature_degC", 1.8, 32.0, "holds degF"));
   }
   return list;
+}
+
+std::vector<PlantedMistake> list_exchanged_columns(const MeasurementSet& set) {
+  /// The numbers of one column read as another; empty where one is out of range there.
+  const auto read_as = [](const MeasuredRun& run, const rigs::Column& from, const rigs::Column& to) {
+    std::vector<double> values;
+    for (const double value : run.columns.at(from.quantity)) {
+      const double number = from.quantity.file_unit().from_si(value);
+      if (std::isnan(number) || !to.range.contains(number)) return std::vector<double>();
+      values.push_back(to.quantity.file_unit().to_si(number));
+    }
+    return values;
+  };
+  const std::vector<rigs::Column> columns = set.kind->columns.all();
+  std::vector<PlantedMistake> list;
+  for (std::size_t a = 0; a < columns.size(); ++a) {
+    for (std::size_t b = a + 1; b < columns.size(); ++b) {
+      const rigs::Column &one = columns[a], &other = columns[b];
+      const auto can_be = [&](const MeasuredRun& run) {
+        return run.has(one.quantity) && run.has(other.quantity) && !read_as(run, one, other).empty() &&
+               !read_as(run, other, one).empty();
+      };
+      if (!std::all_of(set.runs.begin(), set.runs.end(), can_be)) continue;
+      const std::string both = one.quantity.header() + " and " + other.quantity.header();
+      list.push_back(
+          {both + " exchanged", both + " are exchanged", [one, other, read_as](MeasuredRun& run, std::mt19937_64&) {
+             std::vector<double> of_one = read_as(run, other, one);
+             run.columns.at(other.quantity) = read_as(run, one, other);
+             run.columns.at(one.quantity) = std::move(of_one);
+           }});
+    }
+  }
+  return list;
+}
+
+PlantedMistake make_minutes() {
+  return {"time_s holds min", "time_s holds min", [](MeasuredRun& run, std::mt19937_64&) {
+            for (double& time_s : run.time_s) time_s /= 60.0;
+          }};
 }
 
 PlantedMistake make_still_column(const std::string& column, double number) {
@@ -138,6 +188,56 @@ PlantedScore score(const PlantedMistake& mistake, const std::vector<MeasurementS
     score.innocent += static_cast<int>(set.runs.size()) - 1;
     score.accused += static_cast<int>(accused.size()) - (found ? 1 : 0);
     if (!named || accused.size() > 1) score.misses.push_back(run.id + ": " + text);
+  }
+  return score;
+}
+
+PlantedScore score_two(const std::vector<PlantedMistake>& mistakes, const std::vector<MeasurementSet>& sets,
+                       std::uint64_t seed) {
+  PlantedScore score;
+  std::mt19937_64 random(seed);
+  for (const MeasurementSet& clean : sets) {
+    MeasurementSet set = clean;
+    const std::size_t first_run = random() % set.runs.size();
+    const std::size_t second_run = (first_run + 1 + random() % (set.runs.size() - 1)) % set.runs.size();
+    const std::size_t first = random() % mistakes.size();
+    const std::size_t second = (first + 1 + random() % (mistakes.size() - 1)) % mistakes.size();
+    const std::pair<std::size_t, std::size_t> planted[] = {{first_run, first}, {second_run, second}};
+    for (const auto& [run, mistake] : planted) mistakes[mistake].plant(set.runs[run], random);
+    const std::string text = describe_checks(set);
+    std::set<std::string> accused = find_accused(set, text);
+    bool all_named = true;
+    for (const auto& [run, mistake] : planted) {
+      const std::string& id = set.runs[run].id;
+      score.planted += 1;
+      score.found += static_cast<int>(accused.erase(id));
+      const bool named = is_named(set, text, id, mistakes[mistake].words);
+      score.named += named ? 1 : 0;
+      all_named = all_named && named;
+    }
+    score.innocent += static_cast<int>(set.runs.size()) - 2;
+    score.accused += static_cast<int>(accused.size());
+    if (!all_named || !accused.empty()) {
+      score.misses.push_back(set.runs[first_run].id + " " + mistakes[first].name + ", " + set.runs[second_run].id +
+                             " " + mistakes[second].name + ": " + text);
+    }
+  }
+  return score;
+}
+
+PlantedScore score_in_all(const PlantedMistake& mistake, const std::vector<MeasurementSet>& sets, std::uint64_t seed) {
+  PlantedScore score;
+  std::mt19937_64 random(seed);
+  for (const MeasurementSet& clean : sets) {
+    MeasurementSet set = clean;
+    for (MeasuredRun& run : set.runs) mistake.plant(run, random);
+    const std::string text = describe_checks(set);
+    const bool found = find_accused(set, text).size() == set.runs.size();
+    const bool named = found && text.find(mistake.words) != std::string::npos;
+    score.planted += 1;
+    score.found += found ? 1 : 0;
+    score.named += named ? 1 : 0;
+    if (!named) score.misses.push_back(text);
   }
   return score;
 }

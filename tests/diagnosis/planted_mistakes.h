@@ -19,6 +19,11 @@ struct PlantedMistake {
 
 /// Units, signs, levers and exchanged columns of a set's kind.
 std::vector<PlantedMistake> list_wrong_columns(const measurements::MeasurementSet& set);
+/// Pairs of columns whose numbers are within the ranges of each other in all runs, exchanged; else the reader refuses
+/// the file.
+std::vector<PlantedMistake> list_exchanged_columns(const measurements::MeasurementSet& set);
+/// Times in minutes. Milliseconds of runs of more than 260 s are refused by the reader, which names them.
+PlantedMistake make_minutes();
 /// A column of which one number fills a whole run.
 PlantedMistake make_still_column(const std::string& column, double number);
 /// A stretch of 30 to 300 s in which every column follows a straight line.
@@ -37,6 +42,14 @@ struct PlantedScore {
 /// Plants a mistake in a random run of each set and checks the set.
 PlantedScore score(const PlantedMistake& mistake, const std::vector<measurements::MeasurementSet>& sets,
                    std::uint64_t seed);
+
+/// Plants two different ones of these in two random runs of each set. Found and named count each of the two.
+PlantedScore score_two(const std::vector<PlantedMistake>& mistakes,
+                       const std::vector<measurements::MeasurementSet>& sets, std::uint64_t seed);
+
+/// Plants a mistake in all runs of each set: one planting a set.
+PlantedScore score_in_all(const PlantedMistake& mistake, const std::vector<measurements::MeasurementSet>& sets,
+                          std::uint64_t seed);
 
 /// `count` runs of a set, drawn at random.
 measurements::MeasurementSet draw_runs(const measurements::MeasurementSet& set, std::size_t count,
