@@ -22,6 +22,11 @@ struct Uncertainties {
 };
 
 /// Standard uncertainties of a tire's numbers as shares of what they change at 80 km/h.
+///
+/// A model's own numbers are shares of the file's value, as all others: a diagnosis asks how far what the file says may
+/// move. A fit replaces the number, which is a guess there, and takes a share of the usual value. Here the share of a
+/// tire of the class is three times that of an identified one, so a guess down to a third of what is true still counts
+/// as no better known than an identified number; one that is guessed lower counts as known too well.
 struct TireShares {
   double loss;               // A0, A1, of A0 + A1 v
   double fall;               // B0, B1, of B0 + B1 v

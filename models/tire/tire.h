@@ -175,8 +175,10 @@ enum class FitRole {
 /// A number that only one tire model has.
 struct TireModelParameter {
   Field field;
-  double usual = 0.0;     // of a passenger car's tire, in the unit of the key; tests take it
-  double usual_sd = 0.0;  // its standard uncertainty where a file gives none, as a share of the value
+  double usual = 0.0;  // of a passenger car's tire, in the unit of the key; tests take it
+  /// Its standard uncertainty where a file gives none, as a share: of the file's value in a diagnosis
+  /// (diagnosis/comparison/base_parameters.h), of `usual` in a fit (estimation/tire_fit/class_priors.h).
+  double usual_sd = 0.0;
   FitRole role = FitRole::kHeld;
 };
 
