@@ -10,7 +10,6 @@ using rollrig::tests::read_file;
 using rollrig::tests::run_program;
 using rollrig::tests::TemporaryFolder;
 
-
 TEST_CASE("a plan is printed, and written as JSON, as a page and as a folder whose runs can be carried out", "[fast]") {
   const TemporaryFolder folder;
   const std::string out = folder.file("campaign");
@@ -23,7 +22,7 @@ TEST_CASE("a plan is printed, and written as JSON, as a page and as a folder who
   CHECK(plan["hours"].get<double>() <= 3.0);
   CHECK(plan["effects"].size() == 2);
   REQUIRE(!plan["tests"].empty());
-  const nlohmann::json& last_test = plan["tests"].back();
+  const Json& last_test = plan["tests"].back();
   CHECK(plan["visible"].get<int>() == last_test["visible"].get<int>());
   CHECK_THAT(read_file(folder.file("plan.html")), Contains("effects would be visible at their usual size"));
   for (const char* file : {"plan.txt", "set.toml", "tire.toml", "rig.toml", "run-1.toml"}) {
