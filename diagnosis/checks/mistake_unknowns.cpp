@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnosis/checks/plausibility.h"
 #include "diagnosis/kinds/measurement_kind.h"
 
 namespace rollrig::diagnosis {
@@ -32,6 +33,9 @@ Tolerance find_tolerance(const MeasurementSet& set, const MeasuredRun& run, cons
     constexpr double kLarge = 1e6;
     const double fixed = kind.calc_force_tolerance(set, 0.0);
     return {Values(rows, 0.0), fixed, (kind.calc_force_tolerance(set, kLarge) - fixed) / kLarge};
+  }
+  if (const std::optional<ReferenceTolerance> reference = find_reference_tolerance(channel)) {
+    return {Values(rows, 0.0), reference->fixed_SI, reference->share};
   }
   const models::ChannelFamily& family = models::get_tire_channel(channel).family;
   const bool is_pressure = family.rest == models::ChannelFamily::Rest::kColdPressure;

@@ -23,6 +23,9 @@ double calc_tolerance(const MeasurementSet& set, const MeasuredRun& run, const Q
                       double simulated) {
   const MeasurementKind& kind = kind_of(set);
   if (channel == set.kind->traits.force) return kind.calc_force_tolerance(set, simulated);
+  if (const std::optional<ReferenceTolerance> reference = find_reference_tolerance(channel)) {
+    return reference->fixed_SI + reference->share * std::abs(simulated);
+  }
   const models::ChannelFamily& family = models::get_tire_channel(channel).family;
   const bool is_pressure = family.rest == models::ChannelFamily::Rest::kColdPressure;
   const double rest = is_pressure ? run.cold_pressure_Pa : run.column(models::quantities::kAmbient)[row];
@@ -74,6 +77,12 @@ RunMisfit try_baseline(const MeasurementSet& set, const MeasuredRun& run, sim::R
 }
 
 }  // namespace
+
+std::optional<ReferenceTolerance> find_reference_tolerance(const Quantity& channel) {
+  if (channel == models::quantities::kContactLoad) return ReferenceTolerance{500.0, 0.1};
+  if (channel == models::quantities::kSpeedReading) return ReferenceTolerance{0.5, 0.15};
+  return std::nullopt;
+}
 
 sim::Recording<double> resimulate_baseline(const MeasurementSet& set, const MeasuredRun& run) {
   models::Corner<double> corner(measurements::make_context(set), {});

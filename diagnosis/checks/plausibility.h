@@ -1,6 +1,7 @@
 #pragma once
 /// Whether a run can be what its set says it is: a coarse comparison with the baseline, before any diagnosis.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,15 @@ sim::Recording<double> resimulate_baseline(const measurements::MeasurementSet& s
 /// Rows of a channel that are compared, as the set's kind has it; none where the run does not have the channel.
 std::vector<std::size_t> find_compared_rows(const measurements::MeasurementSet& set,
                                             const measurements::MeasuredRun& run, const Quantity& channel);
+
+/// How far a second reading of an input, by a scale or a counter, may lie from the input: fixed and in proportion.
+struct ReferenceTolerance {
+  double fixed_SI = 0.0;
+  double share = 0.0;
+};
+/// None for a channel that is no such reading.
+/// Source  Assumed: the largest errors of load and speed in the priors of the catalog, straps of a vehicle among them
+std::optional<ReferenceTolerance> find_reference_tolerance(const Quantity& channel);
 
 struct ChannelMisfit {
   Quantity channel;

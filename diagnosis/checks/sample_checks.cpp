@@ -193,7 +193,8 @@ std::vector<std::string> find_missing_samples(const MeasurementSet& set) {
       sentences.push_back(fmt::format("{} has no sample in {}", channel.header(), name_runs(set, without)));
     }
     const models::TireChannel* of_tire = models::find_tire_channel(channel);
-    if (!anywhere && without.empty() && (of_tire == nullptr || of_tire->is_expected)) {
+    const bool is_expected = of_tire != nullptr ? of_tire->is_expected : channel == set.kind->traits.force;
+    if (!anywhere && without.empty() && is_expected) {
       sentences.push_back(
           fmt::format("{} was not measured: effects that show in it alone cannot be seen", channel.header()));
     }
