@@ -215,7 +215,7 @@ std::string side_by_side_lines(const Gap& gap) {
       parts.push_back(fmt::format("{} on {}", show_share(*by->percent, by->ci95_percent), on));
     }
   };
-  if (gap.judged_by != JudgedBy::kStretches) add(gap.stretches, "stretches held out");
+  if (gap.judged_by != JudgedBy::kStretches) add(gap.stretches, "stretches");
   add(gap.fitted, "fitted data");
   if (!parts.empty()) text += line("  else", fmt::format("{}", fmt::join(parts, ", ")));
   const std::optional<Shrinkage>& judge = gap.judged_by == JudgedBy::kRuns ? gap.runs : gap.stretches;
