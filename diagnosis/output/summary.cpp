@@ -248,7 +248,7 @@ std::string shrinkage_line(const Findings& findings) {
   } else if (findings.verdict == Verdict::kUnexplained && findings.causes.empty()) {
     parts.emplace_back("no cause to shrink it by");
   } else if (findings.verdict != Verdict::kNoGap && gap.judged_by == JudgedBy::kNothing) {
-    parts.emplace_back("unknown: nothing left out can judge it");
+    parts.emplace_back("unknown: nothing can judge it");
   } else {
     parts.emplace_back("nothing above the noise to shrink");
   }

@@ -172,7 +172,7 @@ TEST_CASE("where nothing left out can judge the cause, that is said", "[fast]") 
   made.gap.runs.reset();
   made.gap.stretches.reset();
   made.gap.judged_by = diagnosis::JudgedBy::kNothing;
-  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("unknown: nothing left out can judge it"));
+  CHECK_THAT(line_of(format_summary(made), "Shrinks by"), Contains("unknown: nothing can judge it"));
   CHECK_THAT(line_of(format_summary(made), "  else"), Contains("95 % (92 to 98) on fitted data"));
   check_layout(format_summary(made), 14);
 }
