@@ -101,36 +101,6 @@ std::vector<std::string> list_hopeless(const LoopLedger& ledger) {
   return hopeless;
 }
 
-LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found) {
-  LoopAnswer answer;
-  answer.tests = ledger.tests.size();
-  answer.hours = calc_hours_used(ledger);
-  answer.verdict = found.verdict;
-  answer.none = probability_of(found, "none");
-  answer.unknown = probability_of(found, "unknown");
-  if (found.causes.empty()) return answer;
-  const Cause& first = found.causes.front();
-  answer.effects = first.effects;
-  answer.indistinguishable_from = first.indistinguishable_from;
-  answer.probability = first.probability;
-  return answer;
-}
-
-bool is_named(const LoopAnswer& answer) {
-  return answer.verdict == Verdict::kExplained && answer.indistinguishable_from.empty() &&
-         answer.probability >= thresholds::kNamed;
-}
-
-/// A test whose runs have names that no other run of the loop has, in a session of their own.
-ProposedTest rename_runs(ProposedTest test, std::size_t number) {
-  const std::string usual = "next";
-  for (MeasuredRun& run : test.runs) {
-    run.id = fmt::format("test-{}-{}", number, run.id);
-    run.session = fmt::format("test-{}{}", number, run.session.substr(std::min(usual.size(), run.session.size())));
-  }
-  return test;
-}
-
 LoopTest make_ledger_test(const ProposedTest& test) {
   LoopTest entry{test.id,
                  test.test,
@@ -208,6 +178,35 @@ bool is_waiting(const LoopLedger& ledger) {
 }
 
 }  // namespace
+
+LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found) {
+  LoopAnswer answer;
+  answer.tests = ledger.tests.size();
+  answer.hours = calc_hours_used(ledger);
+  answer.verdict = found.verdict;
+  answer.none = probability_of(found, "none");
+  answer.unknown = probability_of(found, "unknown");
+  if (found.causes.empty()) return answer;
+  const Cause& first = found.causes.front();
+  answer.effects = first.effects;
+  answer.indistinguishable_from = first.indistinguishable_from;
+  answer.probability = first.probability;
+  return answer;
+}
+
+bool is_named(const LoopAnswer& answer) {
+  return answer.verdict == Verdict::kExplained && answer.indistinguishable_from.empty() &&
+         answer.probability >= thresholds::kNamed;
+}
+
+ProposedTest rename_runs(ProposedTest test, std::size_t number) {
+  const std::string usual = "next";
+  for (MeasuredRun& run : test.runs) {
+    run.id = fmt::format("test-{}-{}", number, run.id);
+    run.session = fmt::format("test-{}{}", number, run.session.substr(std::min(usual.size(), run.session.size())));
+  }
+  return test;
+}
 
 LoopStep advance_loop(const LoopInput& input) {
   if (input.hours.has_value()) require_loop_hours(*input.hours);

@@ -27,8 +27,15 @@ struct LoopStep {
 
 /// As rollrig::advance_loop(). The folder of a test is a measurement set of its own, whose runs join those of the first
 /// set; the test's folder is written before the ledger, so that a step that was cut short is done again.
-/// Checked  tests/diagnosis/test_loop_test.cpp
+/// Checked  tests/cli/loop_test.cpp
 LoopStep advance_loop(const LoopInput& input);
+
+/// What a diagnosis says after the tests of a ledger.
+LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found);
+/// Whether it ends the loop: explained by one cause alone, at 95 % or more.
+bool is_named(const LoopAnswer& answer);
+/// A test whose runs have names that no other run of the loop has, in a session of their own.
+ProposedTest rename_runs(ProposedTest test, std::size_t number);
 
 /// What a step says to a person: the answers so far, what is planned or why the loop has ended.
 std::string format_loop(const LoopStep& step, const std::string& folder);

@@ -106,7 +106,10 @@ measurements::MeasurementSet make_dyno_set(const std::vector<models::ActiveEffec
                                            models::Baseline baseline, double minutes) {
   measurements::MeasurementSet set = begin_set(tests::kDyno, baseline);
   set.rig = rigs::read_rig(read_config(find_asset("rigs", "dyno_1m2")));
-  set.sensors.erase(models::quantities::kGasTemperature);
+  for (const Quantity& rare :
+       {models::quantities::kGasTemperature, models::quantities::kContactLoad, models::quantities::kSpeedReading}) {
+    set.sensors.erase(rare);
+  }
   for (std::size_t i = 0; i < runs; ++i) {
     measurements::MeasuredRun run;
     run.id = "run_" + std::to_string(i + 1);

@@ -144,7 +144,7 @@ TEST_CASE("what only sensors show is the same when nothing else is integrated, o
   fixture.effects = {tests::make_effect_at("rim_heat", 0.5)};
   models::Corner<double> on_roller(fixture.context(), fixture.effects);
   rigs::RecordedRoller<double> measured(on_roller, fixture.start(), false, rigs::Detail::kMeasured);
-  CHECK(measured.integrals().size() == 5);  // with the rim
+  CHECK(measured.integrals().size() == 7);  // with the rim, the scale and the counter of turns
   compare(run(measured, make_roller_program(kDrive)), fixture.run(make_roller_program(kDrive)));
   models::Context<double> context = tests::VehicleFixture("road").context();
   context.vehicle = fixture.vehicle.body;

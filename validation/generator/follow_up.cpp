@@ -179,11 +179,18 @@ std::vector<std::string> list_plans(const FollowUpOrder& order) {
   return numbers;
 }
 
-Files follow_up_case(const FollowUpOrder& order, const std::string& number, const Json& truth) {
-  const std::string plan_folder = (fs::path(follow_up_folder(order)) / "plans" / number).string();
+}  // namespace
+
+std::string follow_up_folder(const FollowUpOrder& order) {
+  return (fs::path(order.set) / (order.drawn ? validation::kDrawnFollowUpFolder : validation::kFollowUpFolder))
+      .string();
+}
+
+Files make_follow_up(const std::string& set, const std::string& number, const Json& truth,
+                     const std::string& plan_folder) {
   const std::string plan_file = plan_folder + "/plan.json";
   const SetOrder made_by = read_order(truth);
-  const std::string folder = validation::case_folder(order.set, number);
+  const std::string folder = validation::case_folder(set, number);
   require_same_files(folder, made_by);
   const Laboratory lab = draw_laboratory(made_by);
   TestPlan plan = read_test_plan(plan_folder, made_by, lab.campaign.runs.front().legs.front().load_N);
@@ -200,13 +207,6 @@ Files follow_up_case(const FollowUpOrder& order, const std::string& number, cons
   return follow_up(made_by, std::move(plan.runs));
 }
 
-}  // namespace
-
-std::string follow_up_folder(const FollowUpOrder& order) {
-  return (fs::path(order.set) / (order.drawn ? validation::kDrawnFollowUpFolder : validation::kFollowUpFolder))
-      .string();
-}
-
 std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress) {
   const Json truths = validation::open_truth(order.set, "").cases;
   const std::vector<std::string> numbers = list_plans(order);
@@ -221,7 +221,11 @@ std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress
   std::vector<Files> made(numbers.size());
   parallel_for(
       numbers.size(), order.threads,
-      [&](std::size_t i) { made[i] = follow_up_case(order, numbers[i], truths.at(numbers[i])); }, progress);
+      [&](std::size_t i) {
+        const std::string plan = (fs::path(follow_up_folder(order)) / "plans" / numbers[i]).string();
+        made[i] = make_follow_up(order.set, numbers[i], truths.at(numbers[i]), plan);
+      },
+      progress);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (auto& [file, content] : made[i]) folder.add(numbers[i] + "/" + file, std::move(content));
   }

@@ -26,4 +26,9 @@ std::string follow_up_folder(const FollowUpOrder& order);
 /// Checked  tests/validation/generator/follow_up_test.cpp
 std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress);
 
+/// The files of one case with the runs of the plan in a folder after its own. `truth` is that of the case.
+/// Errors  InputError: as write_follow_up()
+Files make_follow_up(const std::string& set, const std::string& number, const Json& truth,
+                     const std::string& plan_folder);
+
 }  // namespace rollrig::generator

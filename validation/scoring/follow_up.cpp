@@ -35,14 +35,6 @@ bool leaves_open(const Answer& answer) {
          !said.causes.front().indistinguishable_from.empty();
 }
 
-/// Why no measurement set can hold what a test reads; empty where it can.
-std::string find_obstacle(const PlannedTest& test) {
-  if (!test.extra.sensors.empty()) return "a further sensor: the generator has none";
-  if (!test.numbers.empty()) return "a number of the files: the generator does not determine it again";
-  if (test.clock_pulse) return "a common pulse: a set does not hold when it came";
-  return "";
-}
-
 /// Spans in which nothing is to be read.
 Json list_unread_s(const MeasuredRun& run, const measurements::MachineKind& kind) {
   const std::vector<Quantity> channels = measurements::measured_channels(kind);
@@ -63,18 +55,22 @@ Json list_unread_s(const MeasuredRun& run, const measurements::MachineKind& kind
   return spans;
 }
 
+Json make_run_json(const MeasuredRun& run, bool force_at_standstill, const measurements::MachineKind& kind) {
+  return {{"id", run.id},
+          {"file", run.id + ".csv"},
+          {"session", run.session},
+          {"cold_pressure_kPa", run.cold_pressure_Pa / 1e3},
+          {"initial_tire_temperature_degC", run.initial_tire_temperature_K - kZeroCelsius_K},
+          {"force_at_standstill", force_at_standstill},
+          {"reversed", run.reversed},
+          {"not_read_s", list_unread_s(run, kind)}};
+}
+
 /// What the generator needs of a test beside the inputs of its runs.
 Json make_plan_json(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test) {
   Json runs = Json::array();
   for (const MeasuredRun& run : test.runs) {
-    runs.push_back({{"id", run.id},
-                    {"file", run.id + ".csv"},
-                    {"session", run.session},
-                    {"cold_pressure_kPa", run.cold_pressure_Pa / 1e3},
-                    {"initial_tire_temperature_degC", run.initial_tire_temperature_K - kZeroCelsius_K},
-                    {"force_at_standstill", test.extra.force_at_standstill},
-                    {"reversed", run.reversed},
-                    {"not_read_s", list_unread_s(run, *set.kind)}});
+    runs.push_back(make_run_json(run, test.extra.force_at_standstill, *set.kind));
   }
   return {{"format", kPlanFormat},
           {"set", plan.number},
@@ -178,6 +174,30 @@ bool is_for(const FollowUpPlan& plan, const Answer& answer, Choice choice) {
 }  // namespace
 
 const char* folder_of(Choice choice) { return choice == Choice::kDrawn ? kDrawnFollowUpFolder : kFollowUpFolder; }
+
+std::string find_obstacle(const PlannedTest& test) {
+  if (!test.extra.sensors.empty()) return "a further sensor: the generator has none";
+  if (!test.numbers.empty()) return "a number of the files: the generator does not determine it again";
+  if (test.clock_pulse) return "a common pulse: a set does not hold when it came";
+  return "";
+}
+
+std::map<std::string, std::string> write_generator_plan(const std::string& number, const std::string& set_sha256,
+                                                        const MeasurementSet& set,
+                                                        const std::vector<diagnosis::ProposedTest>& tests) {
+  std::map<std::string, std::string> files;
+  Json runs = Json::array();
+  for (const diagnosis::ProposedTest& test : tests) {
+    for (const MeasuredRun& run : test.runs) runs.push_back(make_run_json(run, test.force_at_standstill, *set.kind));
+  }
+  for (auto& [name, content] : diagnosis::write_test_files(set, tests)) {
+    if (fs::path(name).extension() == ".csv") files[name] = std::move(content);
+  }
+  const Json plan = {
+      {"format", kPlanFormat}, {"set", number}, {"set_sha256", set_sha256}, {"kind", set.kind->word}, {"runs", runs}};
+  files["plan.json"] = plan.dump(1) + "\n";
+  return files;
+}
 
 std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis) {
   if (diagnosis.causes.empty()) return {};

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "diagnosis/next_test/test_menu.h"
 #include "validation/scoring/answer.h"
 
 namespace rollrig::validation {
@@ -18,6 +20,14 @@ struct Case;
 enum class Choice { kProposed, kDrawn };
 /// Folder in a validation set with the plans of a choice, and then with the cases.
 const char* folder_of(Choice choice);
+
+/// Why the generator cannot do a test; empty where it can.
+std::string find_obstacle(const diagnosis::PlannedTest& test);
+
+/// Tests of a case for the generator, by file name: plan.json (rollrig-blind-plan/1) and a CSV for each of their runs.
+std::map<std::string, std::string> write_generator_plan(const std::string& number, const std::string& set_sha256,
+                                                        const measurements::MeasurementSet& set,
+                                                        const std::vector<diagnosis::ProposedTest>& tests);
 
 /// What an answer names: the first cause's effects and all that it cannot be told from.
 std::vector<std::string> list_named(const diagnosis::Diagnosis& diagnosis);

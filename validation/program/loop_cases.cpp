@@ -1,0 +1,162 @@
+#include "validation/program/loop_cases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+#include <set>
+
+#include "diagnosis/loop/test_loop.h"
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
+#include "sim/core/parallel.h"
+#include "sim/core/random.h"
+#include "validation/files.h"
+#include "validation/generator/follow_up.h"
+#include "validation/scoring/follow_up.h"
+
+namespace rollrig::validation {
+namespace {
+
+namespace fs = std::filesystem;
+using diagnosis::LoopState;
+using diagnosis::LoopTestState;
+using diagnosis::ProposedTest;
+using measurements::MeasurementSet;
+
+/// A folder for the files of one loop, which goes with the object.
+class LoopFolder {
+ public:
+  LoopFolder(const std::string& set, const std::string& number)
+      : path_((fs::temp_directory_path() / fmt::format("rollrig-loop-{}-{}", calc_sha256(set).substr(0, 12), number))
+                  .string()) {
+    fs::remove_all(path_);
+  }
+  ~LoopFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  LoopFolder(const LoopFolder&) = delete;
+  LoopFolder& operator=(const LoopFolder&) = delete;
+
+  /// Writes files into a new folder below it, and returns that folder.
+  template <class Files>
+  std::string write(const std::string& name, const Files& files) const {
+    const std::string folder = (fs::path(path_) / name).string();
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    for (const auto& [file, content] : files) write_file_atomically((fs::path(folder) / file).string(), content);
+    return folder;
+  }
+
+ private:
+  std::string path_;
+};
+
+/// Tests of the menu that the generator cannot do.
+std::vector<std::string> list_impossible(const MeasurementSet& set) {
+  std::vector<std::string> impossible;
+  for (const diagnosis::PlannedTest& test : make_test_menu(diagnosis::PreparedSet(set))) {
+    if (!find_obstacle(test).empty()) impossible.push_back(test.id);
+  }
+  return impossible;
+}
+
+/// Any of the tests that could be done, each as likely.
+ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& budget, RandomStream& random) {
+  std::vector<diagnosis::PlannedTest> possible;
+  for (diagnosis::PlannedTest& test : make_test_menu(diagnosis::PreparedSet(set))) {
+    const bool is_out = std::find(budget.without.begin(), budget.without.end(), test.id) != budget.without.end();
+    if (!is_out && test.hours <= budget.hours) possible.push_back(std::move(test));
+  }
+  if (possible.empty()) return {};
+  const auto& test = possible[static_cast<std::size_t>(random.uniform() * static_cast<double>(possible.size()))];
+  return {{test.description, {}, 0.0, test.hours, test.by_hand, test.id},
+          test.soaked,
+          test.extra.force_at_standstill,
+          test.runs};
+}
+
+void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
+  const std::string& number = loop.truth.number;
+  const std::string folder = case_folder(order.set, number);
+  const LoopFolder place(order.set, number);
+  const MeasurementSet first = measurements::read_measurement_set(folder);
+  loop.kind = first.kind->word;
+  const std::vector<std::string> impossible = list_impossible(first);
+  RandomStream random(order.seed, "loop/" + number);
+  diagnosis::LoopLedger& ledger = loop.ledger;
+  ledger.set = number;
+  ledger.hours = order.hours;
+  MeasurementSet set = first;
+  std::vector<ProposedTest> measured;
+  while (true) {
+    diagnosis::DiagnosisOptions options;
+    options.threads = 1;
+    options.budget = diagnosis::TestBudget{order.hours - diagnosis::calc_hours_used(ledger), impossible};
+    const auto start = std::chrono::steady_clock::now();
+    const diagnosis::Diagnosis found = diagnosis::diagnose(set, options);
+    loop.slowest_step_s =
+        std::max(loop.slowest_step_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    ledger.answers.push_back(diagnosis::make_answer(ledger, found));
+    if (diagnosis::is_named(ledger.answers.back())) {
+      ledger.state = LoopState::kNamed;
+      return;
+    }
+    ProposedTest test = order.drawn ? draw_test(first, *options.budget, random) : found.plan.value_or(ProposedTest{});
+    if (test.runs.empty()) {
+      ledger.state = LoopState::kNothingToTest;
+      return;
+    }
+    test = diagnosis::rename_runs(std::move(test), ledger.tests.size() + 1);
+    const bool is_failed = random.uniform() < order.failing_share;
+    ledger.tests.push_back({test.id,
+                            test.test,
+                            test.hours,
+                            test.expected_bits_per_hour,
+                            test.naming_chance.value_or(0.0),
+                            test.splits,
+                            {},
+                            is_failed ? LoopTestState::kFailed : LoopTestState::kMeasured});
+    if (is_failed) continue;
+    measured.push_back(std::move(test));
+    const std::string plan = place.write("plan", write_generator_plan(number, hash_case(folder), first, measured));
+    set = measurements::read_measurement_set(
+        place.write("set", generator::make_follow_up(order.set, number, truth, plan)));
+  }
+}
+
+}  // namespace
+
+bool LoopOfCase::is_right() const {
+  if (!is_named()) return false;
+  const std::vector<std::string>& named = ledger.answers.back().effects;
+  const std::vector<std::string> ids = truth.ids();
+  return !truth.outside &&
+         std::set<std::string>(named.begin(), named.end()) == std::set<std::string>(ids.begin(), ids.end());
+}
+
+std::vector<LoopOfCase> loop_cases(const LoopOrder& order) {
+  const Json cases = open_truth(order.set, "").cases;
+  std::vector<LoopOfCase> loops;
+  for (Truth& truth : read_truths(order.set, "")) loops.push_back({std::move(truth), "", {}, 0.0, ""});
+  std::mutex mutex;
+  std::size_t done = 0;
+  parallel_for(loops.size(), order.threads, [&](std::size_t i) {
+    try {
+      loop_case(order, cases.at(loops[i].truth.number), loops[i]);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const std::exception& error) {
+      loops[i].failure = error.what();
+    }
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (order.progress) order.progress(++done, loops.size());
+  });
+  return loops;
+}
+
+}  // namespace rollrig::validation
