@@ -14,7 +14,6 @@
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
 
-using Catch::Contains;
 using namespace rollrig;
 
 namespace {
@@ -68,12 +67,14 @@ TEST_CASE("with a guessed tire no cause is named that does not act", "[slow]") {
     guess(set.tire, random);
     const diagnosis::Diagnosis found = diagnosis::diagnose(set, {});
     INFO(i << ": " << (found.causes.empty() ? "none" : found.causes.front().effects.front()));
-    CHECK_THAT(found.warnings.back(), Contains("does not say how well its numbers are known"));
+    CHECK(std::any_of(found.warnings.begin(), found.warnings.end(), [](const std::string& warning) {
+      return warning.find("does not say how well its numbers are known") != std::string::npos;
+    }));
     const bool is_named = found.verdict == diagnosis::Verdict::kExplained && found.causes.front().probability > 0.5;
     if (is_named && !(acts && tests::names(found, "bearing_warmup"))) ++wrong;
   }
   WARN(wrong << " of " << count << " guessed tires with a wrong cause named above 0.5");
-  CHECK(wrong <= std::max(1, count / 10));  // of few sets one: a bank of 36 had none
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("a measured tire that does not say so keeps its usual uncertainties, and its cause", "[slow]") {
