@@ -17,6 +17,7 @@ bool are_few(const FileProblems& file) {
   return bad <= std::max(1.0, kMostBadRows * static_cast<double>(file.file_rows));
 }
 
+/// The first three problems, and the number of the others.
 std::string list_first(const RowProblems& problems) {
   constexpr std::size_t kMost = 3;
   std::string text;

@@ -16,11 +16,12 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// How far a size can be from its middle: an effect's size over that at which it is judged, both less the size at
-/// which it does nothing, at points of its prior that are equally likely.
+constexpr double kReach_sd = 4.0;  // of the prior, to either side
+
+/// An effect's size over that at which it is judged, both minus the size at which it does nothing, at evenly spaced
+/// points of its prior; -1 at points beyond its range.
 std::vector<double> list_ratios(const JudgedSize& judged) {
   constexpr int kPoints = 801;
-  constexpr double kReach_sd = 4.0;
   const models::EffectParameter& size = judged.term.term->parameters().front();
   const double off_SI = size.off.value_or(0.0) * unit_of_key(size.key).factor;
   const double middle_SI = from_prior_units(size, judged.u, judged.term.sign).value_SI - off_SI;
@@ -50,7 +51,7 @@ class JudgedEffects {
   const std::vector<JudgedSize>& sizes() const { return sizes_; }
   const std::vector<const Term*>& terms() const { return terms_; }
 
-  /// Of each effect the judged size that is harder to see.
+  /// Of each effect, the index of the judged size that is hardest to see.
   std::vector<std::size_t> find_hardest(const Eigen::VectorXd& detectability) const {
     std::vector<std::size_t> hardest(terms_.size(), sizes_.size());
     for (std::size_t i = 0; i < sizes_.size(); ++i) {
@@ -69,7 +70,7 @@ class JudgedEffects {
     double all = 0.0;
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       if (ratios[i] < 0.0) continue;  // beyond its range
-      const double u = 8.0 * static_cast<double>(i) / static_cast<double>(ratios.size() - 1) - 4.0;
+      const double u = 2.0 * kReach_sd * static_cast<double>(i) / static_cast<double>(ratios.size() - 1) - kReach_sd;
       const double weight = std::exp(-0.5 * u * u);
       all += weight;
       if (ratios[i] >= least) seen += weight;
@@ -115,10 +116,10 @@ struct Possible {
 /// Indices of tests, in the order in which they were chosen.
 using TestChoice = std::vector<std::size_t>;
 
-/// Puts the tests that add most an hour, one by one, while one fits and adds something.
+/// Adds to `chosen` the tests with the largest gain of value per hour, one by one, while one fits and is worthwhile.
 void fill(const JudgedEffects& effects, const std::vector<Possible>& all, double most_hours,
           const std::vector<std::size_t>& forbidden, TestInformation& known, TestChoice& chosen) {
-  constexpr double kWorthwhile = 1e-3;  // effects an hour
+  constexpr double kWorthwhile = 1e-3;  // Assumed: gain of value per hour
   constexpr double kSlack_h = 1e-9;
   double left_h = most_hours;
   for (const std::size_t i : chosen) left_h -= all[i].test.hours;
@@ -152,7 +153,7 @@ TestInformation sum_up(const std::vector<Possible>& all, const TestChoice& chose
   return sum;
 }
 
-/// The greedy choice, then better ones without one or two of its tests.
+/// The greedy choice, improved by exchanging one or two of its tests as long as this helps.
 TestChoice choose_tests(const JudgedEffects& effects, const std::vector<Possible>& all, double most_hours,
                         const TestInformation& none) {
   TestChoice best;
@@ -183,7 +184,7 @@ TestChoice choose_tests(const JudgedEffects& effects, const std::vector<Possible
   return best;
 }
 
-/// The same tests, those first that make most visible an hour.
+/// The same tests, ordered by the gain of value per hour after the tests before them.
 TestChoice put_in_order(const JudgedEffects& effects, const std::vector<Possible>& all, const TestChoice& chosen,
                         const TestInformation& none) {
   TestChoice ordered;
@@ -216,7 +217,7 @@ std::optional<PlannedTest> make_ordinary_test(const PreparedSet& set) {
   return test;
 }
 
-/// The menu, with the ordinary run before it, less what no set could hold.
+/// The ordinary run, then the menu without tests that no set could hold: their descriptions are put into `left_out`.
 std::vector<PlannedTest> list_tests(const PreparedSet& set, std::vector<std::string>& left_out) {
   std::vector<PlannedTest> tests;
   if (std::optional<PlannedTest> ordinary = make_ordinary_test(set)) tests.push_back(*std::move(ordinary));
@@ -261,7 +262,7 @@ std::vector<std::string> list_visible(const JudgedEffects& effects, const TestIn
   return visible;
 }
 
-/// What each test adds, in order; the whole is in `known` then.
+/// What each test makes visible, in order. Adds the information of all tests to `known`.
 std::vector<CampaignTest> make_ledger(const JudgedEffects& effects, const std::vector<Possible>& all,
                                       const TestChoice& ordered, TestInformation& known) {
   std::vector<CampaignTest> ledger;

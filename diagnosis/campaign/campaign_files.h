@@ -8,8 +8,8 @@
 
 namespace rollrig::diagnosis {
 
-/// By file name: run-<n>.toml (as `rollrig run` takes it) and a CSV of its inputs for each run of all tests, in order,
-/// tire.toml and rig.toml (of the road: vehicle.toml), set.toml for what is measured, plan.txt for a person.
+/// Content by file name: run-<n>.toml (for `rollrig run`) and a CSV file of its inputs for each run of all tests, in
+/// order; tire.toml; rig.toml, or on the road vehicle.toml; a set.toml for the measured files; plan.txt for a person.
 /// Checked  tests/diagnosis/campaign_test.cpp
 std::map<std::string, std::string> write_campaign(const PlannedCampaign& campaign);
 

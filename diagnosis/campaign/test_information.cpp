@@ -9,7 +9,8 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// A column for each number that a test determines by itself: the row by which base numbers change its reading.
+/// Adds what a test tells by readings that determine a base parameter directly, such as a mass on a scale: the product
+/// of the reading's derivatives by the base parameters, over its standard deviation.
 void add_numbers(const Study& study, const Model& model, const PlannedTest& test, TestInformation& information) {
   const Eigen::MatrixXd moves = model.moves_by_unknowns();
   const auto count = to_index(study.base.size());
@@ -23,7 +24,7 @@ void add_numbers(const Study& study, const Model& model, const PlannedTest& test
   }
 }
 
-/// Changes of the block means by each size, SI units; none where a size cannot be simulated.
+/// Changes of the block means by each size, in SI units; 0 if a size cannot be simulated.
 RowMatrix find_changes(const PreparedSet& set, const Study& study, const std::vector<JudgedSize>& sizes,
                        const Eigen::VectorXd& without) {
   RowMatrix changes = RowMatrix::Zero(without.size(), to_index(sizes.size()));
@@ -54,13 +55,6 @@ TestInformation& TestInformation::operator+=(const TestInformation& other) {
   base += other.base;
   through += other.through;
   squares += other.squares;
-  return *this;
-}
-
-TestInformation& TestInformation::operator-=(const TestInformation& other) {
-  base -= other.base;
-  through -= other.through;
-  squares -= other.squares;
   return *this;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a test tells of effects and of the numbers of the files, to first order.
+/// What a test tells of effects and of base parameters, to first order.
 
 #include <Eigen/Core>
 #include <optional>
@@ -16,33 +16,33 @@ struct JudgedSize {
   double u = 0.0;  // of the size, in prior units
 };
 
-/// The middle of the prior with each sign that it may have; one prior unit to either side where the term does nothing
-/// in the middle.
+/// The middle of the prior, with each sign that the size may have. If the term does nothing in the middle, one prior
+/// unit to either side.
 std::vector<JudgedSize> list_judged_sizes(const Term& term);
 
-/// What a test tells, of base numbers in prior units, and of effects in judged sizes; offsets of its sensors, which are
-/// new, are averaged over. That of several tests is the sum, since they share nothing else.
-/// Equation  base = J^T P J, through = J^T P G, squares = diag(G^T P G), P = 1 - O (1 + O^T O)^-1 O^T
-/// Symbols   J, G whitened changes of all block means by the base numbers and by each effect, O those by offsets in
-///           their standard deviations
+/// What a test tells of base parameters, in prior units, and of effects, in judged sizes. Its sensor offsets are new
+/// and are averaged over. The information of several tests is the sum of theirs, since base parameters and effects are
+/// all that they have in common.
+/// Equation  base = J^T P J, through = J^T P G, squares = diag(G^T P G), P = I - O (I + O^T O)^-1 O^T
+/// Symbols   J whitened derivatives of all block means by the base parameters; G whitened changes by each judged size;
+///           O whitened changes by the offsets, in their standard deviations; I unit matrix
 struct TestInformation {
   Eigen::MatrixXd base;
   Eigen::MatrixXd through;
   Eigen::VectorXd squares;
 
   TestInformation& operator+=(const TestInformation& other);
-  TestInformation& operator-=(const TestInformation& other);
   /// d' of each judged size.
-  /// Equation  d'^2 = g^T g - (J^T g)^T (1 + J^T J)^-1 (J^T g), as in the screening of a diagnosis
+  /// Equation  d'^2 = squares - through^T (I + base)^-1 through, as in the screening of a diagnosis
   Eigen::VectorXd calc_detectability() const;
 };
 
-/// Of no test at all.
+/// The information of no test: zeros.
 TestInformation make_no_information(const Study& study, const std::vector<JudgedSize>& sizes);
 
-/// Of a test of the menu of a study; none where it cannot be simulated without effects.
-/// Validity  linear in base numbers; the errors of the equations are those of the baseline (ModelError). A size that
-///           cannot be simulated on the test counts as not changed by it
+/// The information of a test of the menu; none if it cannot be simulated without effects.
+/// Validity  linear in base parameters; the discrepancy is that of the baseline (ModelError). A judged size that cannot
+///           be simulated on this test counts as if it changed nothing
 /// Checked   tests/diagnosis/campaign_test.cpp
 std::optional<TestInformation> predict_information(const Study& study, const std::vector<JudgedSize>& sizes,
                                                    const PlannedTest& test);

@@ -15,7 +15,7 @@ namespace {
 
 namespace quantities = models::quantities;
 
-/// What stands for a kind of machine where no rig is named, and the preset of its sensors.
+/// The rig that is taken for a kind of machine if none is named, and the preset of its sensors.
 struct UsualMachine {
   const char* word;
   const char* rig;
@@ -84,7 +84,7 @@ std::pair<double, double> find_usual_load(const measurements::MeasurementSet& se
   return {is_iso ? iso->load_N : law.reference_load_N, iso.has_value() ? iso->pressure_Pa : law.reference_pressure_Pa};
 }
 
-/// Ten minutes at the usual load and speed, as a place for the conditions of the menu and for the sensors' interval.
+/// Ten minutes at the usual load and speed. The test menu takes its conditions and the interval of samples from it.
 measurements::MeasuredRun make_usual_run(const measurements::MeasurementSet& set) {
   constexpr int kRows = 600;
   constexpr double kUsualSpeed_m_s = 80.0 / 3.6;

@@ -17,7 +17,7 @@ using Values = std::vector<double>;
 
 constexpr std::array<double, 7> kNoiseFactors{1.0, 1.5, 2.5, 5.0, 10.0, 20.0, 50.0};
 
-/// Logarithm of the likelihood for one size of the unknown parts and one factor on the noise.
+/// Logarithm of the likelihood for given sizes of the parts and a given factor on the noise.
 double calc_gaussian(const ChannelProducts& products, double scaled, double fixed, double noise) {
   Eigen::VectorXd sd = Eigen::VectorXd::Constant(products.projection.size(), fixed / noise);
   sd.head(products.scaled).setConstant(scaled / noise);
@@ -49,7 +49,7 @@ double calc_mean(const Values& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Mean height of a run against those of the others.
+/// Logarithm of the likelihood of the mean height of a run, given those of the others.
 double judge_height(const MeasurementSet& set, std::size_t r, const MeasuredRun& run) {
   constexpr std::size_t kFewest = 3;
   constexpr double kLeast_m = 100.0;
@@ -69,7 +69,7 @@ double judge_height(const MeasurementSet& set, std::size_t r, const MeasuredRun&
 
 double calc_log_likelihood(const RunProducts& products, const CommonParts& common, double size) {
   constexpr double kShareOfRun = 0.5;  // of the size, where the runs have parts in common
-  constexpr double kPower = 0.5;       // what B lacks goes through many samples, which are less independent for it
+  constexpr double kPower = 0.5;       // what B lacks makes many samples wrong alike, so that they are less independent
   double sum = 0.0;
   for (std::size_t c = 0; c < products.size(); ++c) {
     if (!products[c].has_value()) continue;

@@ -10,8 +10,8 @@
 
 namespace rollrig::diagnosis {
 
-/// Probabilities of the mistakes in each run; what is missing to 1 is that nothing was mistaken. Summed over the
-/// unknown size, and over whether the runs have parts in common. Equation: find_mistakes(). Keeps a reference to
+/// Probabilities of the mistakes in each run; the rest to 1 is the probability that nothing was mistaken. Summed over
+/// the unknown size, with and without common parts of the runs. Equation: find_mistakes(). Keeps a reference to
 /// `candidates`.
 class Posterior {
  public:
@@ -21,12 +21,13 @@ class Posterior {
   const std::map<std::size_t, double>& of_run(std::size_t r) const { return probability_[r]; }
 
  private:
-  /// Logarithms, and what gets their share.
+  /// Summands of the total probability: the logarithm of each, and a function that adds its share of the total to the
+  /// probabilities of the mistakes. (Not parts of a simulation, as CommonParts.)
   using Parts = std::vector<std::pair<double, std::function<void(double)>>>;
 
-  /// In each run nothing, one mistake or two, whatever it was in the other runs.
+  /// The hypothesis that each run has nothing, one mistake or two, independently of the other runs.
   void add_by_run(const CommonParts& common, double log, double size, Parts& parts);
-  /// The same mistake in all runs.
+  /// The hypothesis that all runs have the same mistake.
   void add_in_all(std::size_t mistake, Parts& parts);
 
   const Candidates& candidates_;

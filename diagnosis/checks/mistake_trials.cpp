@@ -16,11 +16,11 @@ using measurements::MeasurementSet;
 // Assumed.
 constexpr double kInOneRun = 1e-2;
 constexpr double kTwoInOneRun = 1e-5;
-constexpr double kPlausible = 1.0;      // tolerances
-constexpr double kOdd = 0.3;            // tolerances
-constexpr double kOddOnRollers = 0.15;  // likewise, of wrong units where all of a drive is compared
-constexpr double kHalf = 0.5;           // of the sum of squares
-constexpr double kTenth = 0.1;          // likewise, of exchanged columns and of two mistakes
+constexpr double kPlausible = 1.0;      // tolerances, within which a run can be what it says
+constexpr double kOdd = 0.3;            // tolerances, from which a run needs an explanation
+constexpr double kOddOnRollers = 0.15;  // likewise, for one wrong unit on rollers, where all of a drive is compared
+constexpr double kHalf = 0.5;           // of the sum of squares, that one wrong unit undone may leave
+constexpr double kTenth = 0.1;          // likewise, exchanged columns or two mistakes undone
 constexpr std::size_t kFirstOfTwo = 6;  // single mistakes that a second one is tried with
 
 Trial judge_run(const MeasurementSet& set, std::size_t r, const MeasuredRun& run,
@@ -44,7 +44,7 @@ bool changes_inputs(const MeasurementSet& set, const Mistake& mistake) {
   });
 }
 
-/// What the scatter of a measured column tells of its unit: numbers that are too small scatter less than their sensor.
+/// What the scatter of a measured column says about its unit: numbers that are too small scatter less than the sensor.
 /// Equation  w n ln f
 /// Symbols   n independent samples, f factor that undoes the mistake; w 0.35, Assumed: less than 1/2, as the noise of a
 ///           set may be a guess, and more than 1/4, so that no other hypothesis gains by numbers near 0

@@ -19,7 +19,7 @@ constexpr double kFades_s = 600.0;
 constexpr double kLag_s = 60.0;
 constexpr double kSpeed_m_s = 22.2;  // 80 km/h
 
-/// What a channel would show where the tire does nothing, and how its tolerance splits.
+/// What a channel shows at rest, and the two terms of its tolerance: fixed, and a share of the change from rest.
 struct Tolerance {
   Values rest;
   double fixed = 0.0;
@@ -43,7 +43,7 @@ Tolerance find_tolerance(const MeasurementSet& set, const MeasuredRun& run, cons
   return {rest, family.tolerance_SI, family.share_of_rise};
 }
 
-/// What the channel shows beyond its rest, as far as it is in proportion to h.
+/// Parts in proportion to the change of the channel from rest: as it is, fading, and with speed and load.
 void add_moved(const MeasuredRun& run, const Tolerance& tolerance, const Values& simulated,
                std::vector<Values>& unknowns) {
   const Values& speed_m_s = run.column(quantities::kSpeed);

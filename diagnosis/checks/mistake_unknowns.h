@@ -1,5 +1,5 @@
 #pragma once
-/// What a simulation may not know of a channel: the parts that tell mistakes from effects.
+/// Parts of a channel that a simulation may not know, so that effects are not taken for mistakes.
 
 #include <vector>
 
@@ -9,8 +9,8 @@ namespace rollrig::diagnosis {
 
 /// Parts that a simulation may not know (columns of B in mistake_evidence.h), values in every row of a run.
 struct Unknowns {
-  std::vector<std::vector<double>> scaled;  // their size is unknown
-  std::vector<std::vector<double>> fixed;
+  std::vector<std::vector<double>> scaled;  // in proportion to the unknown size s
+  std::vector<std::vector<double>> fixed;   // of a size of their own
 };
 
 Unknowns list_unknowns(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,

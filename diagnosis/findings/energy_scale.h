@@ -7,24 +7,26 @@
 
 namespace rollrig::diagnosis {
 
-/// The energy of each block of the channel of force, and what an error of its reading makes of it. On rigs it is what
-/// the tire takes under load: (reading less parasitic loss of the rig's file) times speed. On the road it is what the
-/// vehicle takes where it is driven: traction force times speed where the force is positive. Energy over distance is
-/// the mean rolling resistance: a share of one is a share of the other.
+/// The energy of each block of the force channel, and how an error of the reading changes it. On rigs, it is the energy
+/// that the tire takes under load: (reading minus parasitic loss of the rig's file) times speed. On the road, it is the
+/// energy that drives the vehicle: traction force times speed where the force is positive. Energy over distance is the
+/// mean rolling resistance, so a percentage of one is the same percentage of the other.
 /// Equation  share = sum F_error v n / sum F v n over the blocks of a run that count
-/// Symbols   F force in N, v speed, n samples of the block
-/// Validity  blocks that are compared; samples at equal times
+/// Symbols   F force in N, F_error its error, v speed, n number of samples of the block: energies are in J per sampling
+///           interval, which cancels in the share
+/// Validity  blocks that are compared; samples at equal intervals
 /// Checked   tests/diagnosis/energy_scale_test.cpp
 class EnergyScale {
  public:
   explicit EnergyScale(const PreparedSet& set);
 
-  /// Of the residual's block; 0 in other channels, in skim, and on the road where the vehicle is not driven.
+  /// Of the block of a residual, and its change by an error of the reading of one SI unit. Both are 0 in other
+  /// channels, in skim, and where the force is not positive.
   double energy(std::size_t residual) const { return energy_[to_index(residual)]; }
   double energy_per_SI(std::size_t residual) const { return per_SI_[to_index(residual)]; }
 
-  /// Root of the mean square, over runs, of the share of their energy that block differences in SI units are, in
-  /// percent; none where no run takes energy.
+  /// The error of the energy of a run that differences of block means, in SI units, add up to: root of the mean square
+  /// over runs, in percent of their energy. None if no run takes energy.
   std::optional<double> calc_percent(const Eigen::VectorXd& difference) const;
 
  private:
@@ -33,13 +35,14 @@ class EnergyScale {
   Eigen::VectorXd per_SI_;
 };
 
-/// What an error of a run's energy adds up from.
+/// Energy of a run and its error, in the same unit.
 struct EnergyShare {
   double error = 0.0;
   double energy = 0.0;
 };
 
-/// Root of the mean square of the shares, in percent; runs without energy do not count. None where there is none.
+/// Root of the mean square of error over energy, in percent. Runs without energy do not count; none if there is no
+/// other.
 std::optional<double> calc_rms_percent(const std::vector<EnergyShare>& runs);
 
 }  // namespace rollrig::diagnosis

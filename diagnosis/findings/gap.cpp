@@ -15,10 +15,10 @@
 namespace rollrig::diagnosis {
 namespace {
 
-/// The offset that fits a series' differences best within its sensor's.
+/// The offset that fits the differences of a series best, with the prior of its sensor.
 struct OffsetFit {
   double offset = 0.0;           // SI
-  double offset_variance = 0.0;  // of what stays of it
+  double offset_variance = 0.0;  // of the estimate
 };
 
 OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
@@ -38,10 +38,10 @@ OffsetFit fit_offset(const Series& series, const Eigen::VectorXd& difference) {
   return {offset, 1.0 / (square + prior)};
 }
 
-/// Sums of squares above the noise, in floors, by stretch: what a resample draws.
+/// Squares of the differences minus those of the noise, summed over blocks. A resample draws those of stretches.
 struct StretchSquares {
-  double above = 0.0;
-  double blocks = 0.0;
+  double above = 0.0;   // the noise
+  double blocks = 0.0;  // number of blocks
 
   void add(const StretchSquares& other) {
     above += other.above;
@@ -50,20 +50,21 @@ struct StretchSquares {
   double gap() const { return blocks > 0.0 ? std::sqrt(std::max(0.0, above / blocks)) : 0.0; }
 };
 
-/// What is left of some runs.
+/// Sums over the differences of some runs.
 struct Measure {
-  std::map<std::pair<std::size_t, std::size_t>, StretchSquares> stretches;  // by run and phase
+  std::map<std::pair<std::size_t, std::size_t>, StretchSquares> stretches;  // by run and phase, in noise floors
   std::vector<StretchSquares> channels;                                     // squares in SI
   std::map<std::size_t, EnergyShare> energies;                              // by run
 };
 
-/// What differences are held against.
+/// The set, and the energy of its blocks, by which differences are measured.
 struct Scale {
   const PreparedSet& set;
   EnergyScale energy;
 };
 
-/// Adds the differences of one run (all series of it), its offsets taken off anew; of these, all phases or `counted`.
+/// Adds the differences of one run in all channels, after their offsets have been estimated again and subtracted: of
+/// all phases, or of those in `counted`.
 void add_run(const Scale& scale, std::size_t run, const Eigen::VectorXd& difference, Measure& measure,
              const std::set<std::size_t>* counted = nullptr) {
   measure.channels.resize(scale.set.channels().size());
@@ -157,7 +158,7 @@ Shrinkage resample(const Measure& before, const Measure& after) {
   return result;
 }
 
-/// What is left of some data, without the cause and with it.
+/// Differences of some data without the cause and with it.
 struct BeforeAfter {
   Measure before;
   Measure after;
@@ -165,7 +166,7 @@ struct BeforeAfter {
   bool is_empty() const { return before.stretches.empty(); }
 };
 
-/// Fits of which parts are left out; `with_cause` is empty where there is no cause.
+/// The fits without the cause and with it, which can leave out parts; `with_cause` is empty if there is no cause.
 struct Fits {
   LeaveOut null;
   std::optional<LeaveOut> with_cause;
@@ -175,10 +176,13 @@ struct Fits {
   }
 };
 
-/// Whether a cause is judged on a part: it changes the part by what noise does not hide, and the others say enough of
-/// it, so that with and without the cause they predict it more differently, by `change`, than the predictions are
-/// uncertain. What was measured in the part does not count here.
-enum class Judged { kYes, kUncertain, kUnchanged };
+/// Whether a cause is judged on a part that was left out.
+enum class Judged {
+  kYes,
+  kUncertain,  // the other parts do not determine the two predictions well enough to tell them apart
+  kUnchanged   // noise hides what the cause changes
+};
+/// `change` is the difference of the two predictions. What was measured in the part does not count here.
 Judged find_judged(const Fits& fits, const LeftOutPart& part, const Prediction& before, const Prediction& after,
                    const Eigen::VectorXd& change) {
   const double changed = fits.with_cause->measure(part, change);
@@ -187,17 +191,17 @@ Judged find_judged(const Fits& fits, const LeftOutPart& part, const Prediction& 
   return is_certain ? Judged::kYes : Judged::kUncertain;
 }
 
-/// What is left of every run by fits that did not see it.
+/// Differences of every run from fits that did not see it.
 struct RunsLeftOut {
   BeforeAfter all;
-  BeforeAfter certain;  // of runs of which the others say enough
+  BeforeAfter certain;  // of the runs on which the cause is judged
   Measure black_box;
   std::vector<std::string> runs;
   std::vector<std::string> certain_runs;
-  std::vector<UnjudgedRun> not_judged;
+  std::vector<UnjudgedRun> not_judged;  // those that are Judged::kUncertain
 };
 
-/// Of one run, none is left out: what is left by the fit to it.
+/// A single run is not left out: its differences are those from the fit to it.
 RunsLeftOut measure_runs_left_out(const Study& study, const Scale& scale, const Fits& fits, const BlackBox& black_box) {
   const PreparedSet& set = study.set;
   const std::size_t runs = set.runs().size();
@@ -240,7 +244,8 @@ RunsLeftOut measure_runs_left_out(const Study& study, const Scale& scale, const 
   return left;
 }
 
-/// What a fit without a phase of a run leaves of the run, without the cause and with it, offsets as predicted.
+/// Differences of a run from fits that did not see one of its phases, without the cause and with it. Offsets are those
+/// of these fits.
 struct StretchPrediction {
   std::size_t run = 0;
   std::size_t phase = 0;
@@ -271,8 +276,8 @@ std::vector<StretchPrediction> predict_stretches(const Study& study, const Fits&
   return stretches;
 }
 
-/// What is left of every phase by fits that did not see it, of those phases of which the others say enough. The others
-/// stand as they were fitted.
+/// Differences of the phases on which the cause is judged, each from fits that did not see it. The offset of a run is
+/// estimated from all of its phases, of which the others have the differences from the fit to all data.
 BeforeAfter measure_stretches_left_out(const Study& study, const Scale& scale, const Fits& fits,
                                        const Candidate& cause) {
   const PreparedSet& set = study.set;
@@ -312,8 +317,8 @@ BeforeAfter measure_fitted(const Study& study, const Scale& scale, const Candida
   return fitted;
 }
 
-/// What the cause is judged by: the runs that can be judged, or where there are none, or no gap above the noise in
-/// them, the stretches.
+/// By what the cause is judged: the runs that count. If there are none, or no gap above the noise in them, the
+/// stretches that count. nullptr if there are none either.
 const BeforeAfter* choose_judge(const Gap& gap, const RunsLeftOut& runs, const BeforeAfter& stretches) {
   if (gap.runs.has_value() && gap.runs->percent.has_value()) return &runs.certain;
   if (gap.stretches.has_value() && gap.stretches->percent.has_value()) return &stretches;

@@ -16,15 +16,14 @@ using BlackBox =
 /// The gap before and after `cause` is added (null: no cause; then nothing shrinks).
 ///
 /// Equation  gap^2 = mean over blocks of (d^2 - expected noise)/floor^2, not below 0; shrinkage = 1 - after/before
-/// Symbols   d measured less simulated, less the best offset within the sensor's; floor: noise of a full block
-/// Judged    on runs, each left out of both fits in turn; on stretches (a phase of a run), likewise; on the fitted
-/// data.
-///           A run or a stretch counts where the others say enough: its prediction is uncertain by less than a quarter
-///           of what the cause changes there, in squares. The shrinkage that is stated is that of the runs that count,
-///           or where none does, of the stretches
+/// Symbols   d measured minus simulated, minus the offset that fits best under its prior; floor: noise of a full block
+/// Judged    in three ways: on runs, each left out of both fits in turn; on stretches (a phase of a run), likewise; on
+///           the fitted data. A run or a stretch counts if the cause changes its prediction by 3 sd of the noise or
+///           more, and if each prediction is uncertain by at most a quarter of this change, in squares. The shrinkage
+///           is that of the runs that count; of the stretches that count if there is no such run, or no gap above the
+///           noise in them. With one run, no run can be left out, and held_out is empty
 /// Interval  2.5 and 97.5 percentiles over 1000 seeded resamples of stretches
 /// Energy    root of the mean square, over runs, of the error of their energy (energy_scale.h), noise not subtracted
-/// With one run, no run can be left out, and held_out is empty.
 /// Black box what `black_box` leaves of each run (black_box.h)
 /// Checked   tests/diagnosis/gap_test.cpp
 Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_box = subtract_black_box);

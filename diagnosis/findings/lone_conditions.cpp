@@ -23,7 +23,7 @@ double mean_within(const std::vector<double>& values, const RunPhase& phase) {
   return std::accumulate(first, last, 0.0) / static_cast<double>(phase.last - phase.first);
 }
 
-/// Share of the rows at which the speed changes.
+/// Share of the rows in which the speed changes.
 double find_changing_share(const measurements::MeasuredRun& run) {
   std::size_t changing = 0;
   for (std::size_t row = 0; row < run.time_s.size(); ++row) {
@@ -33,7 +33,7 @@ double find_changing_share(const measurements::MeasuredRun& run) {
   return static_cast<double>(changing) / static_cast<double>(run.time_s.size());
 }
 
-/// In the same order for every run.
+/// The conditions of a run, in the same order for every run.
 std::vector<Condition> list_conditions(const PreparedRun& run) {
   const measurements::MeasuredRun& measured = run.measured;
   const auto find = [&](const Quantity& quantity) {
@@ -58,6 +58,7 @@ std::vector<Condition> list_conditions(const PreparedRun& run) {
           {"speed changes", {find_changing_share(measured) > kChangingShare ? 1.0 : 0.0}, 0.5}};
 }
 
+/// Whether a run has a value near this one.
 bool holds(const Condition& condition, double value) {
   return std::any_of(condition.values.begin(), condition.values.end(), [&](double other) {
     return std::abs(other - value) <=

@@ -94,7 +94,7 @@ double probability_of_verdict(const LoopAnswer& answer) {
   return answer.verdict == Verdict::kNoGap ? answer.none : answer.probability;
 }
 
-/// The test before an answer, or that there was none.
+/// The test before an answer; of the first answer, the set.
 std::string describe_test(const LoopLedger& ledger, const LoopAnswer& answer) {
   if (answer.tests == 0) return "the set";
   const LoopTest& test = ledger.tests[answer.tests - 1];

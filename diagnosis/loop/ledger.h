@@ -10,7 +10,7 @@ namespace rollrig::diagnosis {
 
 using rollrig::LoopAnswer, rollrig::LoopLedger, rollrig::LoopState, rollrig::LoopTest, rollrig::LoopTestState;
 
-/// Hours of the machine that the tests so far took, failed ones included.
+/// Hours of the machine that the tests so far took, with failed ones, without one that is only planned.
 double calc_hours_used(const LoopLedger& ledger);
 
 /// rollrig-loop/1
@@ -18,7 +18,7 @@ Json make_ledger_json(const LoopLedger& ledger);
 /// Throws InputError for a file that is not such a ledger.
 LoopLedger read_ledger(const std::string& file);
 
-/// For a terminal: a row each answer, what was named, what was planned.
+/// For a terminal: a table with a row for each answer: the test before it, verdict, probability and cause.
 std::string format_ledger(const LoopLedger& ledger);
 
 }  // namespace rollrig::diagnosis

@@ -26,6 +26,7 @@ std::string test_folder(const std::string& folder, std::size_t number) {
   return (fs::path(folder) / fmt::format("test-{}", number)).string();
 }
 
+/// Of set.toml and of the files of its runs. Tire, rig and vehicle files do not count.
 std::string hash_set(const MeasurementSet& set) {
   std::string all = read_text_file(set.path);
   for (const MeasuredRun& run : set.runs) all += calc_sha256(read_text_file(run.file));
@@ -48,7 +49,7 @@ LoopLedger begin_ledger(const LoopInput& input, const MeasurementSet& set) {
   return ledger;
 }
 
-/// Throws InputError where the loop in the folder is one of something else.
+/// Throws InputError if the loop in the folder began with another set, or compares other effects.
 void require_same(const LoopLedger& ledger, const LoopInput& input, const MeasurementSet& set) {
   const std::string file = ledger_file(input.folder);
   if (ledger.set_sha256 != hash_set(set)) {
@@ -67,7 +68,7 @@ void require_same(const LoopLedger& ledger, const LoopInput& input, const Measur
   require_effects("--without", ledger.without, input.diagnosis.without);
 }
 
-/// Files that the runs of a planned test are to be in and that are not there.
+/// Measured files of the planned test that are not there yet.
 std::vector<std::string> find_missing(const LoopInput& input, const LoopLedger& ledger) {
   std::vector<std::string> missing;
   for (const std::string& run : ledger.tests.back().runs) {
@@ -83,13 +84,13 @@ MeasurementSet join_tests(MeasurementSet set, const LoopLedger& ledger, const Lo
   for (std::size_t i = 0; i < ledger.tests.size(); ++i) {
     if (ledger.tests[i].state != LoopTestState::kMeasured) continue;
     MeasurementSet test = measurements::read_measurement_set(test_folder(input.folder, i + 1), input.bad_rows);
-    set.sensors.merge(test.sensors);  // of what the first set does not record
+    set.sensors.merge(test.sensors);  // those of channels that the first set does not record
     for (MeasuredRun& run : test.runs) set.runs.push_back(std::move(run));
   }
   return set;
 }
 
-/// Tests that failed twice are not worth a third time.
+/// Ids of tests that failed twice. They are not planned a third time.
 std::vector<std::string> list_hopeless(const LoopLedger& ledger) {
   constexpr std::size_t kTries = 2;
   std::map<std::string, std::size_t> failures;
@@ -140,7 +141,7 @@ std::string write_loop_plan(const LoopInput& input, const LoopLedger& ledger, co
   return text + "\n" + wrap("If the test could not be done, add --test-failed to the second command.", 2);
 }
 
-/// The next test, in its folder and in the ledger.
+/// Writes the folder of the next test, and adds the test to the ledger.
 void plan_test(const LoopInput& input, const MeasurementSet& set, const ProposedTest& proposed, LoopLedger& ledger) {
   const ProposedTest test = rename_runs(proposed, ledger.tests.size() + 1);
   OutputFolder folder(test_folder(input.folder, ledger.tests.size() + 1), true);
@@ -151,7 +152,7 @@ void plan_test(const LoopInput& input, const MeasurementSet& set, const Proposed
   ledger.tests.push_back(make_ledger_test(test));
 }
 
-/// What follows from an answer: the loop has ended, or a test is planned.
+/// What follows from the last answer: the loop ends, or the next test is planned.
 void decide(const LoopInput& input, const MeasurementSet& set, const Diagnosis& found, LoopLedger& ledger) {
   constexpr double kShortest_h = 0.6;  // set-up and a short run: nothing of any menu takes less
   if (is_named(ledger.answers.back())) {
@@ -165,7 +166,7 @@ void decide(const LoopInput& input, const MeasurementSet& set, const Diagnosis& 
   }
 }
 
-/// Takes the hours that are asked for; whether that gives an ended loop more of them.
+/// Sets the hours of the ledger to those of the input. Returns whether a loop that had too few may now go on.
 bool take_hours(const LoopInput& input, LoopLedger& ledger) {
   if (!input.hours.has_value() || *input.hours == ledger.hours) return false;
   const bool is_more = *input.hours > ledger.hours;

@@ -12,28 +12,28 @@ namespace {
 
 constexpr Eigen::Index kDraws = 64;
 
-/// What tests together tell, on average over the draws.
+/// Averages over all hypotheses, each true in turn, and over their draws.
 struct Told {
   double log_posterior = 0.0;  // of the true hypothesis
-  double chance = 0.0;         // that it has the level
+  double chance = 0.0;         // that its probability reaches the level
 };
 
-/// Log-likelihoods of tests done together, where each hypothesis in turn is true.
+/// Tests done together: sums of their log-likelihoods, with a matrix (as OutcomeDraws) for each hypothesis that is
+/// true.
 class DoneTests {
  public:
-  explicit DoneTests(std::size_t count)
-      : sums_(count, Eigen::MatrixXd::Zero(kDraws, to_index(count))), is_true_count_(count) {}
+  explicit DoneTests(std::size_t count) : sums_(count, Eigen::MatrixXd::Zero(kDraws, to_index(count))), count_(count) {}
 
   DoneTests with(const OutcomeDraws& test) const {
     DoneTests more = *this;
-    for (std::size_t i = 0; i < is_true_count_; ++i) more.sums_[i] += test.log_likelihoods(i);
+    for (std::size_t i = 0; i < count_; ++i) more.sums_[i] += test.log_likelihoods(i);
     return more;
   }
 
   Told tell(const std::vector<double>& probabilities, double level) const {
     const Eigen::Map<const Eigen::ArrayXd> w(probabilities.data(), to_index(probabilities.size()));
     Told told;
-    for (std::size_t i = 0; i < is_true_count_; ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
       const Eigen::VectorXd own = sums_[i].col(to_index(i));
       const Eigen::ArrayXXd ratios = (sums_[i].colwise() - own).array().exp().rowwise() * w.transpose();
       const Eigen::ArrayXd posterior = w[to_index(i)] / ratios.rowwise().sum();
@@ -45,7 +45,7 @@ class DoneTests {
 
  private:
   std::vector<Eigen::MatrixXd> sums_;
-  std::size_t is_true_count_;
+  std::size_t count_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// How likely tests are to name the cause that is true.
+/// The chance that tests name the true cause: that the probability of the true hypothesis reaches a level.
 
 #include <Eigen/Core>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace rollrig::diagnosis {
 
-/// Draws of what a test may measure, and how well each hypothesis predicts them.
+/// Random outcomes of a test, drawn under each hypothesis, and the likelihood of each under all hypotheses.
 class OutcomeDraws {
  public:
   /// `name` seeds the draws: those of tests with different names are independent.
   OutcomeDraws(const std::vector<PredictedOutcome>& outcomes, const std::string& name);
 
-  /// ln p of each draw (row) by each hypothesis (column), where hypothesis `is_true` is true.
+  /// ln p of each draw (row) under each hypothesis (column); the draws are those under hypothesis `is_true`.
   const Eigen::MatrixXd& log_likelihoods(std::size_t is_true) const { return log_likelihoods_[is_true]; }
   std::size_t hypothesis_count() const { return log_likelihoods_.size(); }
 
@@ -29,13 +29,17 @@ struct PossibleTest {
   OutcomeDraws draws;
 };
 
-/// For each test: the chance that the true hypothesis has at least the probability `level` once that test is done and
-/// those that tell most an hour after it, as long as they fit into the hours. 0 for a test that does not fit.
+/// For each test: the chance that the true hypothesis has at least the probability `level` after this test and the
+/// tests that follow it. They are added one by one: each time the one that raises the expected logarithm of the
+/// probability of the true hypothesis most per hour, until no test fits into the hours or helps, or the chance is above
+/// 0.999. The chance is 0 for a test that does not fit.
 ///
-/// Equation  chance = sum_i w_i P(w_i p_i(x) / sum_j w_j p_j(x) >= level | i is true), x what all these tests measure
-/// Symbols   w probabilities before the tests; p_i(x) product over the tests of the density that hypothesis i predicts
-/// Validity  given a hypothesis, tests are independent: what one tells of the parameters does not help the next. Which
-///           test follows does not wait for what the one before it measures. 64 seeded draws of each hypothesis
+/// Equation  chance = sum_i w_i P(w_i p_i(x) / sum_j w_j p_j(x) >= level | i is true)
+/// Symbols   w probabilities before the tests; x outcomes of all these tests; p_i(x) their density under hypothesis i,
+///           the product over the tests
+/// Validity  given a hypothesis, tests are independent: what one says about the parameters does not improve the
+///           prediction of the next. Which tests follow does not depend on outcomes. 64 seeded draws under each
+///           hypothesis
 /// Checked   tests/diagnosis/naming_chance_test.cpp
 std::vector<double> find_naming_chances(const std::vector<double>& probabilities,
                                         const std::vector<PossibleTest>& tests, double hours, double level);

@@ -18,8 +18,8 @@ enum class Verdict { kNoGap, kExplained, kUnexplained };
 
 /// What a cause changes.
 struct CauseChange {
-  double floors = 0.0;                   // of what was measured, in noise floors; the files' numbers retuned without it
-  std::optional<double> energy_percent;  // of the tire's loss, or of the energy of drives; those numbers held
+  double floors = 0.0;                   // of the readings, in noise floors, beyond what recalibration can imitate
+  std::optional<double> energy_percent;  // of the energy of a run, by the cause alone: base parameters held
 };
 
 /// An effect, a pair of them, or effects that this set cannot tell apart.
@@ -79,11 +79,11 @@ struct Gap {
   std::optional<Shrinkage> fitted;      // of the fit to all runs, on these; this and the next two: with a cause
   std::optional<Shrinkage> stretches;   // each phase of a run left out of the fit; none where none can be judged
   std::optional<Shrinkage> runs;        // each run left out of the fit; likewise
-  std::vector<UnjudgedRun> not_judged;  // runs that cannot be judged without what they alone say
+  std::vector<UnjudgedRun> not_judged;  // runs that the others do not predict well enough to judge the cause
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
   std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
   std::vector<std::string> held_out;            // runs left out of a fit and predicted by it
-  std::vector<std::string> judged_on;           // of these, those on which the cause is judged
+  std::vector<std::string> judged_on;           // of held_out, those on which the cause is judged
   bool worse_where_certain = false;             // the cause enlarges the gap of what is judged
   std::vector<ChannelGap> channels;
 };

@@ -46,11 +46,11 @@ struct LoopAnswer {
   double unknown = 0.0;      // of an effect that is not in the catalog
 };
 
-/// All that a loop is, as its loop.json has it (rollrig-loop/1).
+/// The record of a loop, as loop.json has it (rollrig-loop/1).
 struct LoopLedger {
   std::string set;         // folder of the set that it began with
-  std::string set_sha256;  // of that set's files
-  double hours = 0.0;      // of the machine at most
+  std::string set_sha256;  // of its set.toml and the files of its runs
+  double hours = 0.0;      // of the machine, at most
   std::vector<std::string> only;
   std::vector<std::string> without;
   std::vector<LoopTest> tests;

@@ -27,7 +27,7 @@ using diagnosis::LoopTestState;
 using diagnosis::ProposedTest;
 using measurements::MeasurementSet;
 
-/// A folder for the files of one loop, which goes with the object.
+/// A temporary folder for the files of one loop, removed with the object.
 class LoopFolder {
  public:
   LoopFolder(const std::string& set, const std::string& number)
@@ -56,7 +56,7 @@ class LoopFolder {
   std::string path_;
 };
 
-/// Tests of the menu that the generator cannot do.
+/// Ids of the tests of the menu that the generator cannot simulate.
 std::vector<std::string> list_impossible(const MeasurementSet& set) {
   std::vector<std::string> impossible;
   for (const diagnosis::PlannedTest& test : make_test_menu(diagnosis::PreparedSet(set))) {
@@ -65,7 +65,7 @@ std::vector<std::string> list_impossible(const MeasurementSet& set) {
   return impossible;
 }
 
-/// Any of the tests that could be done, each as likely.
+/// One of the tests that could be done, drawn with equal probability; no runs if there is none.
 ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& budget, RandomStream& random) {
   std::vector<diagnosis::PlannedTest> possible;
   for (diagnosis::PlannedTest& test : make_test_menu(diagnosis::PreparedSet(set))) {
@@ -80,6 +80,7 @@ ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& b
           test.runs};
 }
 
+/// Runs the loop of one case.
 void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   const std::string& number = loop.truth.number;
   const std::string folder = case_folder(order.set, number);

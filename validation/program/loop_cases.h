@@ -14,8 +14,8 @@ namespace rollrig::validation {
 struct LoopOrder {
   std::string set;
   double hours = 8.0;
-  double failing_share = 0.05;  // of tests that fail, drawn; their hours are gone
-  bool drawn = false;           // each test that could be done is as likely, instead of the best
+  double failing_share = 0.05;  // probability that a test fails; its hours count as used
+  bool drawn = false;           // tests are drawn at random from those that fit, instead of the proposed one
   std::uint64_t seed = 1;       // of failures and of drawn tests
   int threads = 0;
   std::function<void(std::size_t done, std::size_t of)> progress = {};
@@ -27,18 +27,19 @@ struct LoopOfCase {
   std::string kind;  // of its machine
   diagnosis::LoopLedger ledger;
   double slowest_step_s = 0.0;
-  std::string failure;  // why it could not go on; empty where it could
+  std::string failure;  // why the loop ended with an error; else empty
 
   bool is_named() const { return ledger.state == diagnosis::LoopState::kNamed; }
-  /// Whether what is named is what is true, nothing missing and nothing beside it.
+  /// Whether the loop named exactly the true effects.
   bool is_right() const;
-  /// The same at so many hours: of the loop, the test that ended it has been done by then.
+  /// Whether it did so within so many hours.
   bool is_right_by(double hours) const { return is_right() && ledger.answers.back().hours <= hours; }
 };
 
-/// Does the loop on every case: diagnosis, the proposed test done by the generator on the same specimen in a new
-/// session, and so on until a cause is named, the hours are gone, or nothing is left to test. The truth is opened by
-/// the generator alone, and here after a loop has ended. A function of set, truth and order.
+/// Runs the loop on every case: diagnosis, then the proposed test, simulated by the generator for the same specimen in
+/// a new session, and so on until a cause is named or no test is left that fits into the hours and would tell more (the
+/// state is then kNothingToTest). Only the generator uses the truth, and the score after a loop has ended. The result
+/// depends on set, truth and order alone.
 /// Errors  InputError: as read_truths()
 /// Checked tests/validation/loop_cases_test.cpp
 std::vector<LoopOfCase> loop_cases(const LoopOrder& order);

@@ -23,6 +23,7 @@ struct LoopCommandOptions {
   bool quiet = false;
 };
 
+/// Kind of machine, and number of true effects: "drum, single".
 std::string kind_of_case(const LoopOfCase& loop) {
   const std::size_t count = loop.truth.effects.size();
   const char* of = loop.truth.outside ? "outside" : count == 0 ? "none" : count == 1 ? "single" : "pair";
