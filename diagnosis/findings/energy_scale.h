@@ -12,8 +12,8 @@ namespace rollrig::diagnosis {
 /// energy that drives the vehicle: traction force times speed where the force is positive. Energy over distance is the
 /// mean rolling resistance, so a percentage of one is the same percentage of the other.
 /// Equation  share = sum F_error v n / sum F v n over the blocks of a run that count
-/// Symbols   F force in N, F_error its error, v speed, n number of samples of the block: energies are in J per sampling
-///           interval, which cancels in the share
+/// Symbols   F force in N, F_error its error, v speed, n number of samples of the block. Energies are in W times
+///           samples: the sampling interval cancels in the share
 /// Validity  blocks that are compared; samples at equal intervals
 /// Checked   tests/diagnosis/energy_scale_test.cpp
 class EnergyScale {
@@ -35,7 +35,7 @@ class EnergyScale {
   Eigen::VectorXd per_SI_;
 };
 
-/// Energy of a run and its error, in the same unit.
+/// Energy of a run and its error, in the unit of EnergyScale.
 struct EnergyShare {
   double error = 0.0;
   double energy = 0.0;

@@ -9,9 +9,10 @@
 namespace rollrig::diagnosis {
 
 /// Conditions of a run that no other run comes near, in words: "load", "speed", "pressure", "start temperature", "air
-/// temperature", "speed changes". Empty if the other runs have all of them. Load, speed and air temperature are means
-/// of phases. Near      load within 10 %, speed within 10 km/h, pressure within 10 kPa, temperatures within 5 K;
-/// Assumed
+/// temperature", "speed changes". Empty if the other runs have all of them.
+///
+/// Near      Assumed: load within 10 %, speed within 10 km/h, pressure within 10 kPa, temperatures within 5 K; load,
+///           speed and air temperature as means of phases
 /// Checked   tests/diagnosis/lone_conditions_test.cpp
 std::vector<std::string> find_lone_conditions(const PreparedSet& set, std::size_t run);
 
