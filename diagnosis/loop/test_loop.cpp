@@ -27,8 +27,11 @@ std::string test_folder(const std::string& folder, std::size_t number) {
 }
 
 /// Of set.toml and of the files of its runs. Tire, rig and vehicle files do not count.
+/// Over all files of a set: set.toml, tire, rig or vehicle, runs.
 std::string hash_set(const MeasurementSet& set) {
-  std::string all = read_text_file(set.path);
+  std::string all = read_text_file(set.path) + set.tire.content;
+  if (set.rig.has_value()) all += set.rig->content;
+  if (set.vehicle.has_value()) all += set.vehicle->content;
   for (const MeasuredRun& run : set.runs) all += calc_sha256(read_text_file(run.file));
   return calc_sha256(all);
 }
@@ -154,7 +157,7 @@ void plan_test(const LoopInput& input, const MeasurementSet& set, const Proposed
 
 /// What follows from the last answer: the loop ends, or the next test is planned.
 void decide(const LoopInput& input, const MeasurementSet& set, const Diagnosis& found, LoopLedger& ledger) {
-  constexpr double kShortest_h = 0.6;  // set-up and a short run: nothing of any menu takes less
+  constexpr double kShortest_h = 0.6;  // Assumed: set-up and a short run
   if (is_named(ledger.answers.back())) {
     ledger.state = LoopState::kNamed;
   } else if (found.plan.has_value()) {
@@ -172,6 +175,10 @@ bool take_hours(const LoopInput& input, LoopLedger& ledger) {
   const bool is_more = *input.hours > ledger.hours;
   ledger.hours = *input.hours;
   return is_more && ledger.state != LoopState::kNamed;
+}
+
+void save_ledger(const LoopLedger& ledger, const LoopInput& input) {
+  write_file_atomically(ledger_file(input.folder), to_text(make_ledger_json(ledger)));
 }
 
 bool is_waiting(const LoopLedger& ledger) {
@@ -217,6 +224,10 @@ LoopStep advance_loop(const LoopInput& input) {
   if (is_begun) require_same(ledger, input, first);
   const bool has_more_hours = take_hours(input, ledger);
   const bool was_waiting = is_waiting(ledger);
+  const auto wait = [&](std::vector<std::string> missing) {  // nothing new but the hours
+    if (input.hours.has_value()) save_ledger(ledger, input);
+    return LoopStep{ledger, join_tests(first, ledger, input), std::nullopt, std::move(missing)};
+  };
   if (input.test_failed && !was_waiting) {
     throw InputError({"no test is planned that could have failed", input.folder, 0, "--test-failed", "",
                       "a loop that waits for a measurement", ""});
@@ -225,10 +236,10 @@ LoopStep advance_loop(const LoopInput& input) {
     ledger.tests.back().state = LoopTestState::kFailed;
   } else if (was_waiting) {
     std::vector<std::string> missing = find_missing(input, ledger);
-    if (!missing.empty()) return {ledger, join_tests(first, ledger, input), std::nullopt, std::move(missing)};
+    if (!missing.empty()) return wait(std::move(missing));
     ledger.tests.back().state = LoopTestState::kMeasured;
   } else if (is_begun && !has_more_hours) {
-    return {ledger, join_tests(first, ledger, input), std::nullopt, {}};
+    return wait({});
   }
   MeasurementSet all = join_tests(first, ledger, input);
   DiagnosisOptions options = input.diagnosis;
@@ -239,7 +250,7 @@ LoopStep advance_loop(const LoopInput& input) {
   ledger.answers.push_back(make_answer(ledger, found));
   fs::create_directories(input.folder);
   decide(input, all, found, ledger);
-  write_file_atomically(ledger_file(input.folder), to_text(make_ledger_json(ledger)));
+  save_ledger(ledger, input);
   return {std::move(ledger), std::move(all), std::move(found), {}};
 }
 

@@ -69,6 +69,9 @@ TEST_CASE("a loop plans a test, waits for it, takes it in, and ends when the cau
   json ledger = loop.ledger();
   CHECK(ledger["format"] == "rollrig-loop/1");
   CHECK(ledger["hours"] == 8.0);
+  loop.go_on(" --hours 9");  // while it waits
+  CHECK(loop.ledger()["hours"] == 9.0);
+  loop.go_on(" --hours 8");
   REQUIRE(ledger["state"] == "waiting");
   std::size_t done = 0;
   while (ledger["state"] == "waiting") {
@@ -127,6 +130,10 @@ TEST_CASE("a loop refuses another set, other effects, hours out of range and a f
   const std::string before = read_file(loop.file("loop/loop.json"));
   CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("_measured.csv"));
   CHECK(read_file(loop.file("loop/loop.json")) == before);
+  const std::string tire = read_file(loop.file("set/tire.toml"));
+  write_file(loop.file("set/tire.toml"), tire + "\n# corrected\n");
+  CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("the loop began with other files"));
+  write_file(loop.file("set/tire.toml"), tire);
   write_file(loop.file("set/set.toml"), read_file(loop.file("set/set.toml")) + "\n# corrected\n");
   CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("the loop began with other files"));
   CHECK_THAT(flatten(loop.run("diagnose set --hours 3", 2).err), Contains("--loop"));
