@@ -245,7 +245,8 @@ EffectVisibility describe_visibility(const JudgedEffects& effects, std::size_t s
   visibility.usual = from_prior_units(declared, judged.u, judged.term.sign).value_SI / unit.factor;
   const double off = declared.off.value_or(0.0);
   if (detectability > 0.0) {
-    visibility.smallest = off + (visibility.usual - off) * thresholds::kDetectableEffect_sd / detectability;
+    const double smallest = off + (visibility.usual - off) * thresholds::kDetectableEffect_sd / detectability;
+    if (declared.range.contains(smallest)) visibility.smallest = smallest;  // else no size of the effect is visible
   }
   return visibility;
 }

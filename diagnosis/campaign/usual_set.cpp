@@ -45,7 +45,9 @@ void require_rig(const std::string& word) {
       (word.size() > ending.size() && word.compare(word.size() - ending.size(), ending.size(), ending) == 0);
   std::vector<std::string> known = list_assets("rigs");
   if (is_path || std::find(known.begin(), known.end(), find_present_name("rigs", word)) != known.end()) return;
-  for (const char* kind : {"drum", "flat_belt", "rollers", "road"}) known.emplace_back(kind);
+  for (const char* kind : {"drum", "flat_belt", "rollers", "road"}) {
+    if (std::find(known.begin(), known.end(), kind) == known.end()) known.emplace_back(kind);
+  }
   InputProblem problem = unknown_name("machine", word, known);
   problem.file = "command line";
   problem.key = "--rig";

@@ -82,11 +82,43 @@ std::vector<std::string> find_missing(const LoopInput& input, const LoopLedger& 
   return missing;
 }
 
+/// Throws InputError for a folder that holds files and no loop, unless a first step was cut short there.
+void require_own_folder(const std::string& folder) {
+  if (!fs::exists(folder)) return;
+  if (!fs::is_directory(folder)) {
+    throw InputError({"not a folder", folder, 0, "--loop", folder, "a new folder, or that of a loop", ""});
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().filename() == "test-1") continue;
+    throw InputError({"the folder holds files and no loop", folder, 0, "--loop", entry.path().filename().string(),
+                      "a new folder, or that of a loop", ""});
+  }
+}
+
+/// Throws InputError where the planned test is no longer in its folder.
+void require_test_folder(const std::string& folder) {
+  if (fs::exists(fs::path(folder) / "set.toml")) return;
+  throw InputError({"the folder of the planned test is gone", folder, 0, "", "",
+                    "its plan as it was; or --test-failed, which gives the test up", ""});
+}
+
+/// Throws InputError where what a test measured is a copy of a run that the loop has already.
+void require_new_samples(const MeasurementSet& known, const MeasurementSet& test) {
+  for (const MeasuredRun& run : test.runs) {
+    for (const MeasuredRun& other : known.runs) {
+      if (read_text_file(other.file) != read_text_file(run.file)) continue;
+      throw InputError({fmt::format("the samples are those of the run '{}'", other.id), run.file, 0, "", "",
+                        "what the rig recorded in the planned test", ""});
+    }
+  }
+}
+
 /// The set with the runs of all measured tests.
 MeasurementSet join_tests(MeasurementSet set, const LoopLedger& ledger, const LoopInput& input) {
   for (std::size_t i = 0; i < ledger.tests.size(); ++i) {
     if (ledger.tests[i].state != LoopTestState::kMeasured) continue;
     MeasurementSet test = measurements::read_measurement_set(test_folder(input.folder, i + 1), input.bad_rows);
+    require_new_samples(set, test);
     set.sensors.merge(test.sensors);  // those of channels that the first set does not record
     for (MeasuredRun& run : test.runs) set.runs.push_back(std::move(run));
   }
@@ -220,6 +252,7 @@ LoopStep advance_loop(const LoopInput& input) {
   if (input.hours.has_value()) require_loop_hours(*input.hours);
   const MeasurementSet first = measurements::read_measurement_set(input.set, input.bad_rows);
   const bool is_begun = fs::exists(ledger_file(input.folder));
+  if (!is_begun) require_own_folder(input.folder);
   LoopLedger ledger = is_begun ? read_ledger(ledger_file(input.folder)) : begin_ledger(input, first);
   if (is_begun) require_same(ledger, input, first);
   const bool has_more_hours = take_hours(input, ledger);
@@ -235,6 +268,7 @@ LoopStep advance_loop(const LoopInput& input) {
   if (was_waiting && input.test_failed) {
     ledger.tests.back().state = LoopTestState::kFailed;
   } else if (was_waiting) {
+    require_test_folder(test_folder(input.folder, ledger.tests.size()));
     std::vector<std::string> missing = find_missing(input, ledger);
     if (!missing.empty()) return wait(std::move(missing));
     ledger.tests.back().state = LoopTestState::kMeasured;

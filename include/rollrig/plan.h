@@ -32,7 +32,7 @@ struct EffectVisibility {
   std::string size;                // key of its size
   std::string unit;                // symbol
   double usual = 0.0;              // the middle of what is believed of it, in the unit of the key
-  std::optional<double> smallest;  // visible size on the same side; none where it changes nothing
+  std::optional<double> smallest;  // visible size on the same side; none within its range: nothing
 };
 
 /// A test of a campaign.

@@ -43,7 +43,8 @@ bool is_before(const std::string& a, const std::string& b) {
 /// Tables of text in a folder: the .csv files, or where there are none those with another ending of such files.
 std::vector<std::string> list_log_files(const std::string& folder) {
   if (!fs::exists(folder)) {
-    throw InputError({fmt::format("no such folder '{}'", folder), folder, 0, "", "", "a folder with CSV files", ""});
+    throw InputError(
+        {fmt::format("no such file or folder '{}'", folder), folder, 0, "", "", "a log or a folder of logs", ""});
   }
   if (!fs::is_directory(folder)) return {folder};
   std::vector<std::string> files, others;

@@ -9,6 +9,7 @@
 
 #include "models/tire/own_number.h"
 #include "scenarios/scaffold/iso_test.h"
+#include "scenarios/scaffold/new_machine.h"
 #include "scenarios/scaffold/tire_size.h"
 #include "sim/core/assets.h"
 #include "sim/core/error.h"
@@ -288,6 +289,7 @@ ClassTire make_class_tire(const NewTireOptions& options) {
     throw InputError({"the size does not tell the load index", "command line", 0, "--load-index", "",
                       "--load-index NUMBER, as on the sidewall behind the size", ""});
   }
+  require_plain_name(options.name);
   ClassTire made;
   made.load_capacity_N = find_load_capacity_N(load_index);
   made.tire_class =

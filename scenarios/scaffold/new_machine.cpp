@@ -1,5 +1,6 @@
 #include "scenarios/scaffold/new_machine.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -165,9 +166,19 @@ void write_axle(const NewVehicleOptions& options, const char* name, double posit
 
 }  // namespace
 
+void require_plain_name(const std::string& name) {
+  const bool is_plain = std::none_of(name.begin(), name.end(), [](char c) {
+    return c == '"' || c == '/' || c == '\\' || c == '\x7f' || (c >= 0 && c < ' ');
+  });
+  if (is_plain) return;
+  throw InputError({"the name has a character that it cannot have", "command line", 0, "--name", name,
+                    "a name without quotes, slashes, backslashes and control characters", ""});
+}
+
 std::string write_new_rig(const NewRigOptions& options) {
   const RigBase& base = find_base(options.kind);
   require_rig_options(options);
+  require_plain_name(options.name);
   const std::string path = find_asset("rigs", base.asset);
   const rigs::RigFile rig = rigs::read_rig(read_config(path));
   std::string toml = read_text_file(path);
@@ -189,6 +200,7 @@ std::string write_new_rig(const NewRigOptions& options) {
 
 std::string write_new_vehicle(const NewVehicleOptions& options) {
   require_vehicle_options(options);
+  require_plain_name(options.name);
   VehicleText out;
   out.text(
       "# A vehicle, made by rollrig new vehicle. Every number says \"Given\", cites its source or says "

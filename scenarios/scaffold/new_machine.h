@@ -7,6 +7,11 @@
 
 namespace rollrig::scenarios {
 
+/// Refuses a name that cannot stand in a TOML string as it is, or in the name of a file.
+/// Errors    InputError: a quote, a slash, a backslash or a control character
+/// Checked   tests/scenarios/scaffold_test.cpp
+void require_plain_name(const std::string& name);
+
 /// The TOML of a rig: that of the asset of its kind, with the given numbers. An inertia that is not given follows from
 /// the diameter.
 /// Equation  J = J_a (D/D_a)^3

@@ -120,6 +120,7 @@ TEST_CASE("a loop refuses another set, other effects, hours out of range and a f
   const LoopFolder loop;
   CHECK_THAT(flatten(loop.go_on(" --hours 0", 2).err), Contains("0.5 to 1000"));
   CHECK_FALSE(fs::exists(loop.file("loop")));
+  CHECK_THAT(flatten(loop.run("diagnose set --loop set", 2).err), Contains("the folder holds files and no loop"));
   loop.go_on(kCompared);
   CHECK_THAT(flatten(loop.go_on(" --only slow_leak", 2).err), Contains("compares other effects"));
   const std::string test = loop.file("loop/test-1/");
@@ -130,6 +131,16 @@ TEST_CASE("a loop refuses another set, other effects, hours out of range and a f
   const std::string before = read_file(loop.file("loop/loop.json"));
   CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("_measured.csv"));
   CHECK(read_file(loop.file("loop/loop.json")) == before);
+  for (const auto& entry : fs::directory_iterator(loop.file("set"))) {  // a copy of what is known
+    if (entry.path().extension() != ".csv") continue;
+    for (const json& run : ledger["tests"][0]["runs"]) {
+      write_file(test + run.get<std::string>() + "_measured.csv", read_file(entry.path().string()));
+    }
+  }
+  CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("the samples are those of the run"));
+  CHECK(read_file(loop.file("loop/loop.json")) == before);
+  fs::rename(loop.file("loop/test-1"), loop.file("elsewhere"));
+  CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("the folder of the planned test is gone"));
   const std::string tire = read_file(loop.file("set/tire.toml"));
   write_file(loop.file("set/tire.toml"), tire + "\n# corrected\n");
   CHECK_THAT(flatten(loop.go_on("", 2).err), Contains("the loop began with other files"));

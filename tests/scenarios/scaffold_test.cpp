@@ -184,3 +184,24 @@ TEST_CASE("a new vehicle coasts down as its road load says", "[fast]") {
   REQUIRE(vehicle.road_load.has_value());
   CHECK(0.5 * 1.167 * vehicle.body.drag_area_m2 == Approx(0.034 * 3.6 * 3.6).epsilon(1e-5));
 }
+
+TEST_CASE("a new file is not named what its own reader or a folder would refuse", "[fast]") {
+  for (const char* name : {"a\"b", "a/b", "a\\b", "a\nb"}) {
+    INFO(name);
+    NewTireOptions tire = make_request("205/55R16", "91", 8.2);
+    tire.name = name;
+    CHECK_THROWS_AS(scenarios::make_class_tire(tire), InputError);
+    NewRigOptions rig;
+    rig.name = name;
+    rig.diameter_m = 1.7;
+    CHECK_THROWS_WITH(scenarios::write_new_rig(rig), Catch::Contains("--name"));
+    NewVehicleOptions vehicle;
+    vehicle.mass_kg = 1900.0;
+    vehicle.drag_area_m2 = 0.7;
+    vehicle.name = name;
+    CHECK_THROWS_AS(scenarios::write_new_vehicle(vehicle), InputError);
+  }
+  NewTireOptions tire = make_request("205/55R16", "91", 8.2);
+  tire.name = "Sommer, süß #2";
+  CHECK(scenarios::make_class_tire(tire).tire.name == tire.name);
+}
