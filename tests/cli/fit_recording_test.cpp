@@ -29,7 +29,7 @@ TEST_CASE("the recording of a simulated coastdown gives the road load that the r
   }
 }
 
-TEST_CASE("f0, f1, f2 and A, B, C in lbf and mph are the same force; bounds and targets go in both", "[fast]") {
+TEST_CASE("f0, f1, f2 and A, B, C in lbf and mph are the same force, and bounds and targets go in both", "[fast]") {
   const TemporaryFolder folder;
   tests::write_file(folder.file("coast.csv"), tests::write_coastdown_csv(tests::simulate_coastdowns({}, 1)));
   const auto run = [&](const std::string& options) {

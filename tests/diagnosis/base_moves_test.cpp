@@ -22,7 +22,7 @@ measurements::MeasurementSet make_moved_set(double factor) {
 
 }  // namespace
 
-TEST_CASE("a number of the files that moves far is told of, with its size; of right files none is", "[fast]") {
+TEST_CASE("a number of the files that moves far is told of, with its size, and of right files none is", "[fast]") {
   const tests::FittedBaseline wrong(make_moved_set(0.75));
   CHECK_THAT(diagnosis::describe_far_moves(wrong, wrong.null.fit),
              Contains("thermal.heat_capacity_J_per_K by +") && Contains("standard uncertaint"));

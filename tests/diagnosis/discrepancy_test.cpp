@@ -159,7 +159,7 @@ TEST_CASE("an amplitude is a standard deviation in noise floors, the same all al
   }
 }
 
-TEST_CASE("a discrepancy of time differs from run to run; one of conditions repeats", "[fast]") {
+TEST_CASE("a discrepancy of time differs from run to run, and one of conditions repeats", "[fast]") {
   const Discrepancy of_time(twins());
   for (const Discrepancy::Basis& basis : of_time.bases()) CHECK(basis.series.size() == 1);
   const Discrepancy of_conditions(of_time, {0.0, 0.0, 0.0});

@@ -107,7 +107,7 @@ TEST_CASE("rows far apart are warned of, with the shift that they may make", "[f
   CHECK_THAT(join(check_set(set).warnings), Contains("s apart") && Contains("clock_shift"));
 }
 
-TEST_CASE("nothing measured is an error; a channel without samples a warning", "[fast]") {
+TEST_CASE("nothing measured is an error, and a channel without samples a warning", "[fast]") {
   MeasurementSet set = short_set();
   const auto clear = [](MeasuredRun& run, const char* channel) {
     std::vector<double>& values = run.columns.at(channel);

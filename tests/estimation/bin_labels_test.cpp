@@ -17,7 +17,7 @@ CoastdownData make_bins() {
 
 }  // namespace
 
-TEST_CASE("labels that go with times and distances are not doubted; nothing is said where a file has neither",
+TEST_CASE("labels that go with times and distances are not doubted, and nothing is said where a file has neither",
           "[fast]") {
   CoastdownData data = make_bins();
   CHECK(check_bin_labels(data).empty());

@@ -70,7 +70,8 @@ void check_drum_coverage(const CoastStudy& study, const std::vector<double>& lea
 
 }  // namespace
 
-TEST_CASE("the equation: a tire without loss gives none, whatever the inertias; the torque balance is kept", "[fast]") {
+TEST_CASE("the equation: a tire without loss gives none, whatever the inertias, and the torque balance is kept",
+          "[fast]") {
   // Free bodies: M a_D0 and m a_T0 are the parasitic forces, and together (M + m) a is all that slows them.
   const double drum_kg = 20.0, wheel_kg = 1.5, drum_N = 3.0, wheel_N = 0.6;
   const auto net = [&](double tire_N) {

@@ -158,7 +158,7 @@ TEST_CASE("the file of a fitted bounded tire is read and gives the measurements 
         Approx(set.tire.values.thermal.rest_conductance_W_per_K));  // other rigs keep theirs
 }
 
-TEST_CASE("one speed and load give loss, its fall and one conductance; the rest is what the file says", "[fast]") {
+TEST_CASE("one speed and load give loss, its fall and one conductance, and the rest is what the file says", "[fast]") {
   const MeasurementSet truth = make_one_speed_set();
   MeasurementSet set = truth;
   put_own(set.tire, "loss_N", 62.0);

@@ -30,7 +30,7 @@ TEST_CASE("a50 from the 2 m drum to 1.2 m gains 8.45 %, as the source applies it
   CHECK(conversion.factors[0].equation == "(3.1)");
 }
 
-TEST_CASE("there and back is one, whatever changes; a way over a third place is the straight way", "[fast]") {
+TEST_CASE("there and back is one, whatever changes, and a way over a third place is the straight way", "[fast]") {
   const LossConditions a = make(2.0, 0.7176, 250, 25, 5400);
   const LossConditions b = make(1.2, 0.63, 280, 21, 4800);
   const LossConditions flat = make(0.0, 0.68, 230, 29, 6000);

@@ -139,7 +139,8 @@ cold_pressure_kPa = 280.0
   CHECK_THROWS_WITH(read_as("rollers"), Catch::Contains("roller"));
 }
 
-TEST_CASE("runs of a drum and a roller may be reversed and have weights on their sensor; a road has no rig", "[fast]") {
+TEST_CASE("runs of a drum and a roller may be reversed and have weights on their sensor, and a road has no rig",
+          "[fast]") {
   const auto read = [](const std::string& rig, const std::string& further) {
     const tests::TemporaryFolder folder;
     tests::write_file(folder.file("set.toml"), R"(format = "rollrig-measurements/1"

@@ -8,7 +8,7 @@ using models::calc_ambient_correction;
 using models::calc_pressure_factor;
 using models::calc_tire_diameter_factor;
 
-TEST_CASE("a tire eight times as large loses half (2.1); a larger one always less", "[fast]") {
+TEST_CASE("a tire eight times as large loses half (2.1), and a larger one always less", "[fast]") {
   CHECK(calc_tire_diameter_factor(0.1, 0.8, models::kDiameterExponent) == Approx(0.5));
   CHECK(calc_tire_diameter_factor(0.6, 0.7, models::kDiameterExponent) < 1.0);
   CHECK(calc_tire_diameter_factor(0.6, 0.7, 0.62) < calc_tire_diameter_factor(0.6, 0.7, 1.0 / 3.0));

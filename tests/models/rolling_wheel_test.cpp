@@ -108,7 +108,7 @@ TEST_CASE("a dynamometer's loss force shows the inertia that it does not know of
   CHECK(loss_N(-2.0) - loss_N(0.0) == Approx(-2.0 * unknown_kg));
 }
 
-TEST_CASE("without slip the rolling speed is the surface's; a dragged wheel turns slower, a driven one faster",
+TEST_CASE("without slip the rolling speed is the surface's, and a dragged wheel turns slower, a driven one faster",
           "[fast]") {
   for (const double radius_m : kRadii_m) {
     const Surface surface(radius_m);

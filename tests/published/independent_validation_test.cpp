@@ -103,7 +103,7 @@ TEST_CASE("in the cold, at all speeds, a50, a60, C1 and C3 meet what is demanded
   }
 }
 
-TEST_CASE("in the cold a40 meets it up to 80 km/h; does not hold: at 120 km/h", "[published]") {
+TEST_CASE("in the cold a40 meets it up to 80 km/h, and does not hold: at 120 km/h", "[published]") {
   const StudyTire a40 = read_study_tire("a40");
   for (const double speed_km_h : {20.0, 50.0, 80.0}) {
     INFO(speed_km_h << " km/h");

@@ -44,7 +44,7 @@ TEST_CASE("missed: the loss at the start of a warm-up is 25 to 40 % above its en
   }
 }
 
-TEST_CASE("RRc at vehicle load is near RRc at ISO load (§4.1.2; missed by a50)", "[published]") {
+TEST_CASE("RRc at vehicle load is near RRc at ISO load (§4.1.2, missed by a50)", "[published]") {
   // within the sensor's uncertainty, 0.17 N/kN at 5400 N
   const auto difference = [](const char* tire) {
     return number("iso_28580", tire, "rrc_N_per_kN", kVehicle) - number("iso_28580", tire, "rrc_N_per_kN");
@@ -66,7 +66,7 @@ TEST_CASE("RRc is constant over the load sweep as measured (§4.1.3), by the tir
   }
 }
 
-TEST_CASE("RRc rises with speed (§4.1.5; missed by a60, against Table 4.5)", "[published]") {
+TEST_CASE("RRc rises with speed (§4.1.5, missed by a60, against Table 4.5)", "[published]") {
   const auto rise = [](const char* tire) {
     return number("speed_sweep", tire, "rrc_rise_percent", {}, "quasi_static");
   };
@@ -75,7 +75,7 @@ TEST_CASE("RRc rises with speed (§4.1.5; missed by a60, against Table 4.5)", "[
   CHECK(rise("a60") == Approx(-8.2).margin(0.5));
 }
 
-TEST_CASE("the tire warms with the air and with the road, more by the road (§2.2.2.4; the split is chosen by it)",
+TEST_CASE("the tire warms with the air and with the road, more by the road (§2.2.2.4, the split is chosen by it)",
           "[published]") {
   const auto liner = [](double air_degC, double road_degC) {
     return number("warm_up", "a50", "liner_temperature_degC",

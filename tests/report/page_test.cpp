@@ -55,7 +55,7 @@ TEST_CASE("a page asks no other place for anything, and brings its licenses", "[
   }
 }
 
-TEST_CASE("numbers on a page have six digits; what is not finite is null", "[fast]") {
+TEST_CASE("numbers on a page have six digits, and what is not finite is null", "[fast]") {
   CHECK(report::rounded(1.0 / 3.0) == Json(0.333333));
   CHECK(report::rounded(std::nan("")).is_null());
   CHECK(report::pretty_unit("1/degC") == "1/°C");

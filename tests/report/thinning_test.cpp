@@ -80,7 +80,7 @@ TEST_CASE("beside every row a row at least as high and one at least as low is ke
   }
 }
 
-TEST_CASE("a series at rest is two points, and a ramp too; what is left out lies on the lines", "[fast]") {
+TEST_CASE("a series at rest is two points, and a ramp too, and what is left out lies on the lines", "[fast]") {
   Made made;
   for (int i = 0; i < 5000; ++i) {
     made.time_s.push_back(i);

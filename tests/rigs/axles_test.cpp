@@ -114,7 +114,7 @@ TEST_CASE("a tractor coasts down alike in both fidelities, on the road and on ro
   }
 }
 
-TEST_CASE("a tractor drives the city cycle on its driven axles' rollers and on the road; energies close and agree",
+TEST_CASE("a tractor drives the city cycle on its driven axles' rollers and on the road, and energies close and agree",
           "[slow]") {
   for (const char* rig : {"road", "dyno_48in_2wd"}) {
     const VehicleFixture fixture = make_tractor(rig);

@@ -130,7 +130,8 @@ TEST_CASE("the reference tires have the RRc and the slope of their class", "[pub
   }
 }
 
-TEST_CASE("the warm-up of the standard suffices for the class of a reference tire; a truck tire needs more", "[fast]") {
+TEST_CASE("the warm-up of the standard suffices for the class of a reference tire, and a truck tire needs more",
+          "[fast]") {
   // 30 min: §3.2.3.1. 180 min: as ISO 28580 is said to have for class C3 of these loads and rims; not read.
   const auto calc_excess = [](const char* tire, double warm_up_min) {
     return measure_rrc_N_per_kN(tire, warm_up_min) / measure_steady_rrc_N_per_kN(tire) - 1.0;

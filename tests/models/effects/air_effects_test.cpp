@@ -118,7 +118,7 @@ TEST_CASE("warm air cools down at rest, and warms the surface only where that is
   CHECK(at.now.acting.ambient_K - 298.15 == Approx(3.0 * std::exp(-1.0)).epsilon(1e-6));
 }
 
-TEST_CASE("after a rest the cell's air is as warm as it left off, less what the rest took; on a road it is outside",
+TEST_CASE("after a rest the cell's air is as warm as it left off, less what the rest took, and on a road it is outside",
           "[fast]") {
   const auto effect = switch_on("cell_air_warming", {4.0, 30.0, 0.5, 0.0});
   models::InitialPort<double> initial;

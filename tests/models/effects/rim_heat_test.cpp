@@ -51,7 +51,8 @@ TEST_CASE("a rim in steady rolling passes on what its conductances in series let
   CHECK(at.temperature_K(Node::kGas) == Approx(at.temperature_K(Node::kLiner)));
 }
 
-TEST_CASE("a rim cools tire and gas, the more the better it conducts; the gas lies between rubber and rim", "[fast]") {
+TEST_CASE("a rim cools tire and gas, the more the better it conducts, and the gas lies between rubber and rim",
+          "[fast]") {
   const auto settle = [](double conductance_W_per_K) {
     HandFedCorner<double> at(make_context_on(tests::kDrum), {rim_at(conductance_W_per_K)});
     at.advance(4.0 * 3600.0, 10000);

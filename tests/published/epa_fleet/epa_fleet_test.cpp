@@ -81,7 +81,7 @@ TEST_CASE("the thinned list says of every car what the agency's own file says", 
   }
 }
 
-TEST_CASE("a list of test cars is read in pounds and miles; what is wrong is named", "[fast]") {
+TEST_CASE("a list of test cars is read in pounds and miles, and what is wrong is named", "[fast]") {
   const tests::TemporaryFolder folder;
   const std::string head =
       "Represented Test Veh Make,Represented Test Veh Model,Drive System Code,Equivalent Test Weight (lbs.),Target "

@@ -81,7 +81,7 @@ TEST_CASE("an effect is compared with all others, a pair also with its members, 
   CHECK(outside.count("identifiable") == 0);
 }
 
-TEST_CASE("under one load straps, load record and curvature scale the loss alike; a clock that is late does not",
+TEST_CASE("under one load straps, load record and curvature scale the loss alike, and a clock that is late does not",
           "[fast]") {
   const std::string dyno = "--kind dyno --runs 1 --seed 4 --effect ";
   const Json sets = find_upper_bound(

@@ -36,7 +36,7 @@ TEST_CASE("the settings hold every threshold and every effect, and do not differ
   CHECK(same.new_effects.empty());
 }
 
-TEST_CASE("a new effect is listed and no change; an effect that is gone is one", "[fast]") {
+TEST_CASE("a new effect is listed and no change, and an effect that is gone is one", "[fast]") {
   Json before = now();
   before["effects"].erase("windage");
   const auto added = compare_settings(before, now());

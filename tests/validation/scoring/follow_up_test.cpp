@@ -167,7 +167,7 @@ TEST_CASE("what stands in the way of plans is said, and nothing is written", "[f
   CHECK_THROWS_WITH(validation::plan_follow_ups(made.order()), Contains("is there already"));
 }
 
-TEST_CASE("planned, done and answered tests come to the cases; what lacks is said", "[fast]") {
+TEST_CASE("planned, done and answered tests come to the cases, and what lacks is said", "[fast]") {
   const OpenSet made(2);
   const std::string folder = made.root + "/followup";
   std::vector<validation::Case> cases{case_of("0001", made.answer("0001", {kStandstill})),
