@@ -33,7 +33,7 @@ void add_plan_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<PlanOptions>(
       app, action, "plan", "Which tests of a machine make most effects visible within so many hours", &plan_command);
   CampaignInput& input = options->campaign;
-  command->add_option("--rig", input.rig, "drum, flat_belt, rollers or road; or a rig under assets/rigs or a path")
+  command->add_option("--rig", input.rig, "drum, flat_belt, dyno or road; or a rig under assets/rigs or a path")
       ->capture_default_str();
   command->add_option("--hours", input.hours, "Hours of the machine at most: set-up, soaks and runs")
       ->capture_default_str();

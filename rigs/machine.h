@@ -39,6 +39,9 @@ inline constexpr Column kAmbient{models::quantities::kAmbient, kTemperatureRange
 /// Of a sensor in models::kTireChannels, and that sensor as it usually is.
 Column measure(const Quantity& tire_channel);
 models::SensorSet::value_type make_usual_sensor(const Quantity& tire_channel);
+/// A scale under the wheel, and a counter of turns. Assumed: 10 N offset, 2 N drift, 5 N noise; 0.036 km/h of either.
+inline constexpr models::SensorParameters kUsualScale{10.0, 2.0, 60.0, 5.0, 0.0};
+inline constexpr models::SensorParameters kUsualCounter{0.01, 0.0, 60.0, 0.01, 0.0};
 }  // namespace columns
 
 /// No member has a default, and a missing one is an error to the compiler: a kind that leaves an answer out does not
@@ -52,6 +55,8 @@ struct MachineKind {
   models::SensorSet default_sensors;  // where a set gives none; empty where it has to
   const char* follow_scenario;        // that carries out such a run as a file gives it
   RigFile (*make_rig)();              // of sets and scenarios that name a vehicle and no rig; nullptr: they name one
+  const char* usual_rig;              // asset of a plan that names the kind alone; empty where a vehicle is named
+  const char* usual_sensors;          // likewise its preset of sensors
 
   /// Whether sets and scenarios name a rig.
   bool names_rig() const { return make_rig == nullptr; }

@@ -286,12 +286,6 @@ std::vector<CampaignTest> make_ledger(const JudgedEffects& effects, const std::v
   return ledger;
 }
 
-void require_hours(double hours) {
-  if (hours >= kLeastHours && hours <= kMostHours) return;
-  throw InputError({"hours of a campaign out of range", "command line", 0, "--hours", fmt::format("{:g}", hours),
-                    fmt::format("{:g} to {:g}", kLeastHours, kMostHours), ""});
-}
-
 /// Information of every test that can be simulated.
 std::vector<Possible> judge_all(const Study& study, const std::vector<JudgedSize>& sizes,
                                 std::vector<PlannedTest> tests, const CampaignInput& input) {
@@ -312,7 +306,7 @@ std::vector<Possible> judge_all(const Study& study, const std::vector<JudgedSize
 }  // namespace
 
 PlannedCampaign plan_campaign(const CampaignInput& input) {
-  require_hours(input.hours);
+  require_machine_hours(input.hours);
   require_known_effects({input.without, input.only});
   PlannedCampaign campaign;
   campaign.set = make_usual_set(input);
@@ -328,7 +322,7 @@ PlannedCampaign plan_campaign(const CampaignInput& input) {
   const TestInformation none = make_no_information(study, effects.sizes());
   const TestChoice ordered = put_in_order(effects, all, choose_tests(effects, all, input.hours, none), none);
   if (ordered.empty()) {
-    double least_h = kMostHours;
+    double least_h = all.empty() ? 0.0 : all.front().test.hours;
     for (const Possible& one : all) least_h = std::min(least_h, one.test.hours);
     throw InputError({"no test of the machine fits into the hours", "command line", 0, "--hours",
                       fmt::format("{:g}", input.hours), fmt::format("{:.1f} or more", least_h + 0.05), ""});

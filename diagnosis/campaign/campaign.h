@@ -23,10 +23,6 @@ struct PlannedCampaign {
   std::vector<std::string> left_out;  // tests of the menu whose readings no measurement set could hold
 };
 
-/// Hours that a campaign may have.
-constexpr double kLeastHours = 0.5;
-constexpr double kMostHours = 1000.0;
-
 /// Machine, tire and sensors that an input names, under the usual conditions: the load and pressure of the tire's
 /// [iso_28580], else those to which its law refers.
 /// Errors  InputError

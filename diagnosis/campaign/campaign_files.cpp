@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "diagnosis/next_test/next_test.h"
 #include "diagnosis/next_test/plan_files.h"
 #include "sim/core/text.h"
 
 namespace rollrig::diagnosis {
 namespace {
-
-ProposedTest make_proposed(const PlannedTest& test) {
-  return {
-      {test.description, {}, 0.0, test.hours, test.by_hand}, test.soaked, test.extra.force_at_standstill, test.runs};
-}
 
 std::string write_campaign_text(const PlannedCampaign& campaign, const std::vector<ProposedTest>& tests) {
   const bool is_road = !campaign.set.kind->names_rig();
@@ -47,7 +43,7 @@ std::string write_campaign_text(const PlannedCampaign& campaign, const std::vect
 std::map<std::string, std::string> write_campaign(const PlannedCampaign& campaign) {
   std::vector<ProposedTest> tests;
   for (std::size_t i = 0; i < campaign.tests.size(); ++i) {
-    tests.push_back(make_proposed(campaign.tests[i]));
+    tests.push_back(make_proposed_test(campaign.tests[i]));
     // Sensors were zeroed before each test.
     for (measurements::MeasuredRun& run : tests.back().runs) {
       run.session = fmt::format("test {}{}", i + 1, run.session.substr(std::string("next").size()));

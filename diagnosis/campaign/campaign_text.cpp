@@ -79,6 +79,9 @@ std::string format_campaign(const PlannedCampaign& campaign) {
   text += wrap(fmt::format("{} of {} effects would be visible at their usual size (d' at least 5)",
                            count_visible(campaign), campaign.effects.size()),
                2);
+  if (count_visible(campaign) == 0) {
+    text += wrap("No effect of the catalog would be seen. More hours, or other sensors, may show more.", 2);
+  }
   text += "\n" + format_table(make_test_table(campaign)) + "\n" + format_table(make_visibility_table(campaign));
   if (!campaign.left_out.empty()) {
     text += "\n" + wrap(fmt::format("Left out, since a measurement set has no place for what they read: {}",

@@ -15,28 +15,6 @@ namespace {
 
 namespace quantities = models::quantities;
 
-/// The rig that is taken for a kind of machine if none is named, and the preset of its sensors.
-struct UsualMachine {
-  const char* word;
-  const char* rig;
-  const char* sensors;
-};
-
-constexpr UsualMachine kUsualMachines[] = {{"drum", "drum_2m", "source"},
-                                           {"flat_belt", "flat_belt", "flat_belt"},
-                                           {"dyno", "dyno_1m2", "dyno"},
-                                           {"road", "", "road"}};
-
-const UsualMachine& find_usual(const rigs::MachineKind& kind) {
-  return *std::find_if(std::begin(kUsualMachines), std::end(kUsualMachines),
-                       [&](const UsualMachine& one) { return one.word == std::string(kind.word); });
-}
-
-/// The kind that a word means; nullptr where it is the name or path of a rig.
-const rigs::MachineKind* find_kind(const std::string& word) {
-  return rigs::find_machine_kind_if_any(word == "rollers" ? "dyno" : word);
-}
-
 /// Throws InputError for a word that is neither a kind nor a rig.
 void require_rig(const std::string& word) {
   const std::string ending = ".toml";
@@ -45,8 +23,8 @@ void require_rig(const std::string& word) {
       (word.size() > ending.size() && word.compare(word.size() - ending.size(), ending.size(), ending) == 0);
   std::vector<std::string> known = list_assets("rigs");
   if (is_path || std::find(known.begin(), known.end(), find_present_name("rigs", word)) != known.end()) return;
-  for (const char* kind : {"drum", "flat_belt", "rollers", "road"}) {
-    if (std::find(known.begin(), known.end(), kind) == known.end()) known.emplace_back(kind);
+  for (const std::string& kind : rigs::machine_words()) {
+    if (std::find(known.begin(), known.end(), kind) == known.end()) known.push_back(kind);
   }
   InputProblem problem = unknown_name("machine", word, known);
   problem.file = "command line";
@@ -63,14 +41,14 @@ auto read_named(const char* folder, const std::string& name, const Read& read) {
 }
 
 void read_machine(const CampaignInput& input, measurements::MeasurementSet& set) {
-  set.kind = find_kind(input.rig);
+  set.kind = rigs::find_machine_kind_if_any(input.rig);
   if (set.kind == nullptr) require_rig(input.rig);
   if (set.kind != nullptr && !set.kind->names_rig()) {
     set.vehicle = read_named("vehicles", input.vehicle, rigs::read_vehicle);
     rigs::share_tire(set.tire, *set.vehicle);
     return;
   }
-  set.rig = read_named("rigs", set.kind != nullptr ? find_usual(*set.kind).rig : input.rig,
+  set.rig = read_named("rigs", set.kind != nullptr ? set.kind->usual_rig : input.rig,
                        [](const ConfigTable& config) { return rigs::read_rig(config); });
   set.kind = set.rig->kind;
   if (set.kind->names_rig()) return;
@@ -115,7 +93,7 @@ measurements::MeasurementSet make_usual_set(const CampaignInput& input) {
   set.name = "campaign";
   set.tire = read_named("tires", input.tire, models::read_tire);
   read_machine(input, set);
-  const std::string sensors = input.sensors.empty() ? find_usual(*set.kind).sensors : input.sensors;
+  const std::string sensors = input.sensors.empty() ? set.kind->usual_sensors : input.sensors;
   set.sensors =
       measurements::read_sensor_file(read_config(find_asset("sensors", sensors)), rigs::measured_channels(*set.kind));
   set.runs = {make_usual_run(set)};

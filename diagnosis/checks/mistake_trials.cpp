@@ -13,14 +13,14 @@ namespace {
 using measurements::MeasuredRun;
 using measurements::MeasurementSet;
 
-// Assumed.
-constexpr double kInOneRun = 1e-2;
-constexpr double kTwoInOneRun = 1e-5;
-constexpr double kPlausible = 1.0;      // tolerances, within which a run can be what it says
-constexpr double kOdd = 0.3;            // tolerances, from which a run needs an explanation
-constexpr double kOddOnRollers = 0.15;  // likewise, for one wrong unit on rollers, where all of a drive is compared
-constexpr double kHalf = 0.5;           // of the sum of squares, that one wrong unit undone may leave
-constexpr double kTenth = 0.1;          // likewise, exchanged columns or two mistakes undone
+constexpr double kInOneRun = 1e-2;      // Assumed: prior probability of a mistake in a run
+constexpr double kTwoInOneRun = 1e-5;   // Assumed: likewise, of two
+constexpr double kPlausible = 1.0;      // Assumed: tolerances, within which a run can be what it says
+constexpr double kOdd = 0.3;            // Assumed: tolerances, from which a run needs an explanation
+constexpr double kOddOnRollers = 0.15;  // Assumed: likewise, for one wrong unit on rollers, where all of a drive counts
+constexpr double kHalf = 0.5;           // Assumed: of the sum of squares, what one wrong unit undone may leave
+constexpr double kTenth = 0.1;          // Assumed: likewise, exchanged columns or two mistakes undone
+constexpr double kSize = 0.25;          // Assumed: of what is not known of a run, where trials are only compared
 constexpr std::size_t kFirstOfTwo = 6;  // single mistakes that a second one is tried with
 
 Trial judge_run(const MeasurementSet& set, std::size_t r, const MeasuredRun& run,
@@ -151,7 +151,6 @@ void Candidates::add_pairs(const std::function<bool(const Mistake&, std::size_t)
 }
 
 bool Candidates::is_explained(std::size_t r) const {
-  constexpr double kSize = 0.25;
   constexpr double kLikely = 5.0;  // natural logarithm
   const RunTrials& run = runs_[r];
   if (!models::is_on_road(set_.kind->traits)) {
@@ -164,7 +163,6 @@ bool Candidates::is_explained(std::size_t r) const {
 }
 
 std::vector<std::size_t> Candidates::find_first_of_two(std::size_t r) const {
-  constexpr double kSize = 0.25;
   std::vector<std::pair<double, std::size_t>> singles;
   for (const Trial& one : runs_[r].mistaken) singles.emplace_back(-one.calc_log_likelihood({}, kSize), one.mistake);
   std::sort(singles.begin(), singles.end());

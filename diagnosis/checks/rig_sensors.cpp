@@ -61,8 +61,8 @@ const std::vector<RigSensor>& all_rig_sensors() {
       {kSurfaceReading, "thermometer on the drum's surface", 0.25, {2.0, 0.1, 60.0, 0.2, 0.0}},
       {kAirReading, "thermometer in the air beside the tire", 0.25, {0.5, 0.1, 60.0, 0.1, 0.0}},
       {quantities::kSpindleForce, "force sensor at the wheel's spindle", 4.0, {0.5, 0.1, 60.0, 0.3, 0.0}},
-      {quantities::kContactLoad, "load cell under the wheel's carriage", 1.0, {10.0, 2.0, 60.0, 5.0, 0.0}},
-      {quantities::kSpeedReading, "light barrier that counts turns of the drum", 0.25, {0.01, 0.0, 60.0, 0.01, 0.0}},
+      {quantities::kContactLoad, "load cell under the wheel's carriage", 1.0, rigs::columns::kUsualScale},
+      {quantities::kSpeedReading, "light barrier that counts turns of the drum", 0.25, rigs::columns::kUsualCounter},
       {kPressureReading, "second gauge on the cavity's pressure", 0.25, {1000.0, 50.0, 120.0, 50.0, 0.0}}};
   return sensors;
 }

@@ -30,11 +30,11 @@ EnergyScale::EnergyScale(const PreparedSet& set)
             .value_or(std::max(0.0, newtons_per_SI * readings[row]));
       });
       if (force_N <= 0.0) continue;
-      const double distance =
+      const double speed_samples_m_s =
           static_cast<double>(block.last - block.first) * mean([&](std::size_t row) { return speed_m_s[row]; });
       const auto at = to_index(series.first_residual + k);
-      energy_[at] = force_N * distance;
-      per_SI_[at] = newtons_per_SI * distance;
+      energy_[at] = force_N * speed_samples_m_s;
+      per_SI_[at] = newtons_per_SI * speed_samples_m_s;
     }
   }
 }

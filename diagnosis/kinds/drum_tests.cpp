@@ -31,8 +31,12 @@ PlannedTest skim_at_loads_hot(const TestConditions& at) {
                    {begin_warm(at).roll_at_loads(3.0, kSkimLoads_N)});
 }
 
+std::vector<double> list_sweep_loads(const TestConditions& at) {
+  return {0.4 * at.load_N, 0.6 * at.load_N, 0.8 * at.load_N, at.load_N};
+}
+
 PlannedTest load_sweep(const TestConditions& at) {
-  const std::vector<double> loads_N{0.4 * at.load_N, 0.6 * at.load_N, 0.8 * at.load_N, 1.0 * at.load_N};
+  const std::vector<double> loads_N = list_sweep_loads(at);
   return make_test(
       "load_sweep",
       fmt::format("load sweep at 80 km/h, 40 to 100 % of {:.0f} N, on the cold tire and again on the hot one",
@@ -41,7 +45,7 @@ PlannedTest load_sweep(const TestConditions& at) {
 }
 
 PlannedTest load_sweep_hot(const TestConditions& at) {
-  const std::vector<double> loads_N{0.4 * at.load_N, 0.6 * at.load_N, 0.8 * at.load_N, 1.0 * at.load_N};
+  const std::vector<double> loads_N = list_sweep_loads(at);
   return make_test(
       "load_sweep_hot",
       fmt::format("load sweep at 80 km/h on the warm tire, 40 to 100 % of {:.0f} N, up and down, 5 min each",

@@ -19,9 +19,6 @@ const std::vector<std::pair<LoopState, std::string>> kStates{{LoopState::kWaitin
                                                              {LoopState::kNothingToTest, "nothing_to_test"}};
 const std::vector<std::pair<LoopTestState, std::string>> kTestStates{
     {LoopTestState::kPlanned, "planned"}, {LoopTestState::kMeasured, "measured"}, {LoopTestState::kFailed, "failed"}};
-const std::vector<std::pair<Verdict, std::string>> kVerdicts{{Verdict::kNoGap, name_of(Verdict::kNoGap)},
-                                                             {Verdict::kExplained, name_of(Verdict::kExplained)},
-                                                             {Verdict::kUnexplained, name_of(Verdict::kUnexplained)}};
 
 template <class Value>
 std::string loop_word_of(const std::vector<std::pair<Value, std::string>>& words, Value value) {
@@ -64,7 +61,7 @@ LoopTest read_loop_test(const Json& json) {
 Json make_answer_json(const LoopAnswer& answer) {
   return {{"tests", answer.tests},
           {"hours", answer.hours},
-          {"verdict", loop_word_of(kVerdicts, answer.verdict)},
+          {"verdict", name_of(answer.verdict)},
           {"effects", answer.effects},
           {"indistinguishable_from", answer.indistinguishable_from},
           {"probability", answer.probability},
@@ -75,7 +72,7 @@ Json make_answer_json(const LoopAnswer& answer) {
 LoopAnswer read_answer(const Json& json) {
   return {json.at("tests"),
           json.at("hours"),
-          value_of(kVerdicts, json.at("verdict").get<std::string>()),
+          read_verdict(json.at("verdict").get<std::string>()),
           json.at("effects"),
           json.at("indistinguishable_from"),
           json.at("probability"),

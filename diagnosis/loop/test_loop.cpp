@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "diagnosis/next_test/plan_files.h"
+#include "diagnosis/next_test/test_menu.h"
 #include "diagnosis/thresholds.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -34,12 +35,6 @@ std::string hash_set(const MeasurementSet& set) {
   if (set.vehicle.has_value()) all += set.vehicle->content;
   for (const MeasuredRun& run : set.runs) all += calc_sha256(read_text_file(run.file));
   return calc_sha256(all);
-}
-
-void require_loop_hours(double hours) {
-  if (hours >= kLeastLoop_h && hours <= kMostLoop_h) return;
-  throw InputError({"hours out of range", "", 0, "--hours", fmt::format("{:g}", hours),
-                    fmt::format("{:g} to {:g}", kLeastLoop_h, kMostLoop_h), ""});
 }
 
 LoopLedger begin_ledger(const LoopInput& input, const MeasurementSet& set) {
@@ -189,15 +184,13 @@ void plan_test(const LoopInput& input, const MeasurementSet& set, const Proposed
 
 /// What follows from the last answer: the loop ends, or the next test is planned.
 void decide(const LoopInput& input, const MeasurementSet& set, const Diagnosis& found, LoopLedger& ledger) {
-  constexpr double kShortest_h = 0.6;  // Assumed: set-up and a short run
   if (is_named(ledger.answers.back())) {
     ledger.state = LoopState::kNamed;
   } else if (found.plan.has_value()) {
     ledger.state = LoopState::kWaiting;
     plan_test(input, set, *found.plan, ledger);
   } else {
-    const bool is_time_left = ledger.hours - calc_hours_used(ledger) > kShortest_h;
-    ledger.state = is_time_left ? LoopState::kNothingToTest : LoopState::kHoursGone;
+    ledger.state = find_end_without_test(ledger);
   }
 }
 
@@ -248,8 +241,13 @@ ProposedTest rename_runs(ProposedTest test, std::size_t number) {
   return test;
 }
 
+LoopState find_end_without_test(const LoopLedger& ledger) {
+  constexpr double kShortest_h = 0.6;  // Assumed: set-up and a short run
+  return ledger.hours - calc_hours_used(ledger) > kShortest_h ? LoopState::kNothingToTest : LoopState::kHoursGone;
+}
+
 LoopStep advance_loop(const LoopInput& input) {
-  if (input.hours.has_value()) require_loop_hours(*input.hours);
+  if (input.hours.has_value()) require_machine_hours(*input.hours);
   const MeasurementSet first = measurements::read_measurement_set(input.set, input.bad_rows);
   const bool is_begun = fs::exists(ledger_file(input.folder));
   if (!is_begun) require_own_folder(input.folder);

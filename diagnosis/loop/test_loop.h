@@ -13,9 +13,7 @@ namespace rollrig::diagnosis {
 
 using rollrig::LoopInput;
 
-/// Hours that a loop may have: least, most, and the default.
-constexpr double kLeastLoop_h = 0.5;
-constexpr double kMostLoop_h = 1000.0;
+/// Hours of a loop, unless told otherwise.
 constexpr double kUsualLoop_h = 8.0;
 
 struct LoopStep {
@@ -34,6 +32,8 @@ LoopStep advance_loop(const LoopInput& input);
 LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found);
 /// Whether it ends the loop: explained by one cause alone, at 95 % or more.
 bool is_named(const LoopAnswer& answer);
+/// How a loop ends for which no test is found: whether hours are left.
+LoopState find_end_without_test(const LoopLedger& ledger);
 /// The same test with run ids and sessions that no other test of the loop has: "test-<number>-...".
 ProposedTest rename_runs(ProposedTest test, std::size_t number);
 

@@ -58,12 +58,12 @@ std::vector<double> list_probabilities(const std::vector<OpenHypothesis>& open) 
 
 constexpr double kWorthwhile_bits = 0.01;
 
-ProposedTest make_proposed_test(const JudgedTest& one, std::optional<double> naming_chance) {
-  return {{one.test.description, one.splits, one.bits / one.test.hours, one.test.hours, one.test.by_hand, one.test.id,
-           naming_chance},
-          one.test.soaked,
-          one.test.extra.force_at_standstill,
-          one.test.runs};
+ProposedTest describe_judged(const JudgedTest& one, std::optional<double> naming_chance) {
+  ProposedTest proposed = make_proposed_test(one.test);
+  proposed.splits = one.splits;
+  proposed.expected_bits_per_hour = one.bits / one.test.hours;
+  proposed.naming_chance = naming_chance;
+  return proposed;
 }
 
 /// Whether a loop may propose a test: its runs alone hold all that it tells.
@@ -86,7 +86,7 @@ std::vector<ProposedTest> propose_within(const TestBudget& budget, const rigs::M
   }
   const std::vector<double> chances = find_naming_chances(probabilities, possible, budget.hours, thresholds::kNamed);
   std::vector<ProposedTest> proposed;
-  for (std::size_t i = 0; i < allowed.size(); ++i) proposed.push_back(make_proposed_test(*allowed[i], chances[i]));
+  for (std::size_t i = 0; i < allowed.size(); ++i) proposed.push_back(describe_judged(*allowed[i], chances[i]));
   if (proposed.empty()) return proposed;
   const double best = *std::max_element(chances.begin(), chances.end());
   std::stable_partition(proposed.begin(), proposed.end(),
@@ -95,6 +95,13 @@ std::vector<ProposedTest> propose_within(const TestBudget& budget, const rigs::M
 }
 
 }  // namespace
+
+ProposedTest make_proposed_test(const PlannedTest& test) {
+  return {{test.description, {}, 0.0, test.hours, test.by_hand, test.id},
+          test.soaked,
+          test.extra.force_at_standstill,
+          test.runs};
+}
 
 std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHypothesis>& open) {
   std::vector<JudgedTest> judged;
@@ -132,7 +139,7 @@ std::vector<ProposedTest> propose_tests(const Study& study, const std::vector<Op
   if (budget.has_value()) return propose_within(*budget, *study.set.source().kind, judged, list_probabilities(open));
   std::vector<ProposedTest> proposed;
   for (const JudgedTest& one : judged) {
-    if (proposed.size() < kProposed) proposed.push_back(make_proposed_test(one, std::nullopt));
+    if (proposed.size() < kProposed) proposed.push_back(describe_judged(one, std::nullopt));
   }
   return proposed;
 }

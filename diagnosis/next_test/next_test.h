@@ -22,6 +22,9 @@ struct JudgedTest {
 };
 std::vector<JudgedTest> judge_tests(const Study& study, const std::vector<OpenHypothesis>& open);
 
+/// A test of the menu with what its files need; nothing is said of what it tells.
+ProposedTest make_proposed_test(const PlannedTest& test);
+
 /// The three tests that tell most an hour. Where the set leaves several causes equally likely, tests that tell any two
 /// of those apart come before all others. None where nothing is open.
 /// With a budget, tests that fit into its hours and that a set can hold, by the chance that they and the tests after

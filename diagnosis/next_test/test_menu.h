@@ -49,6 +49,9 @@ constexpr double kVirtualRow_s = 10.0;
 /// Checked   tests/diagnosis/next_test_test.cpp
 std::vector<PlannedTest> make_test_menu(const PreparedSet& set);
 
+/// Throws InputError unless a machine can be had for so many hours: 0.5 to 1000.
+void require_machine_hours(double hours);
+
 /// Whether a set holds all that a test reads.
 bool is_held_by_sets(const PlannedTest& test, const rigs::MachineKind& kind);
 

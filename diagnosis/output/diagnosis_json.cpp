@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/core/error.h"
+
 namespace rollrig::diagnosis {
 namespace {
 
@@ -119,6 +121,13 @@ Json make_lone_run(const std::optional<LoneRun>& lone) {
 const char* name_of(Verdict verdict) {
   if (verdict == Verdict::kNoGap) return "no_gap";
   return verdict == Verdict::kExplained ? "explained" : "unexplained";
+}
+
+Verdict read_verdict(const std::string& word) {
+  for (const Verdict verdict : {Verdict::kNoGap, Verdict::kExplained, Verdict::kUnexplained}) {
+    if (word == name_of(verdict)) return verdict;
+  }
+  throw InputError({"unknown verdict", "", 0, "verdict", word, "no_gap, explained, unexplained", ""});
 }
 
 Json make_diagnosis_json(const Findings& findings) {

@@ -8,6 +8,8 @@ namespace rollrig::diagnosis {
 
 /// The word of a verdict in files: no_gap, explained, unexplained.
 const char* name_of(Verdict verdict);
+/// The verdict of such a word. Throws InputError.
+Verdict read_verdict(const std::string& word);
 
 /// A diagnosis as formats.md has it (rollrig-diagnosis/1). What does not exist is null: the shrinkage of a
 /// gap that is not above the noise, a number that is not finite.

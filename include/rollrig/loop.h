@@ -49,7 +49,7 @@ struct LoopAnswer {
 /// The record of a loop, as loop.json has it (rollrig-loop/1).
 struct LoopLedger {
   std::string set;         // folder of the set that it began with
-  std::string set_sha256;  // of its set.toml and the files of its runs
+  std::string set_sha256;  // of its files, with tire and machine
   double hours = 0.0;      // of the machine, at most
   std::vector<std::string> only;
   std::vector<std::string> without;

@@ -12,7 +12,7 @@
 namespace rollrig {
 
 struct CampaignInput {
-  std::string rig = "drum";  // a kind of machine ("drum", "flat_belt", "rollers", "road"), or a rig by name or path
+  std::string rig = "drum";  // a kind of machine ("drum", "flat_belt", "dyno", "road"), or a rig by name or path
   std::string tire = "a50";  // by name or path
   std::string vehicle = "source_car";  // by name or path; of the road
   std::string sensors;                 // a preset by name or path; empty: the usual ones of the machine

@@ -20,7 +20,9 @@ const MachineKind& machine_drum() {
         measure(quantities::kGasTemperature)}},
       {},
       "follow_drum",
-      nullptr};
+      nullptr,
+      "drum_2m",
+      "source"};
   return kind;
 }
 

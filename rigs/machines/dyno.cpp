@@ -5,7 +5,6 @@ namespace rollrig::rigs {
 
 /// Sensors. Loss force: 2 N offset over a session, 1 N drift in 60 s, 2 N noise of a sample at 1 Hz, Assumed: 0.1 % of
 /// a force cell of 5 kN and what compensating inertia leaves. Liner and cavity: as assets/sensors/source.toml.
-/// Scale: 10 N offset, 2 N drift, 5 N noise; counter of turns: 0.036 km/h offset and noise, Assumed (rig_sensors.h).
 const MachineKind& machine_dyno() {
   using namespace columns;
   using namespace models;
@@ -30,10 +29,12 @@ const MachineKind& machine_dyno() {
        make_usual_sensor(quantities::kLinerTemperature),
        make_usual_sensor(quantities::kGasTemperature),
        make_usual_sensor(quantities::kCavityPressure),
-       {quantities::kContactLoad, {10.0, 2.0, 60.0, 5.0, 0.0}},
-       {quantities::kSpeedReading, {0.01, 0.0, 60.0, 0.01, 0.0}}},
+       {quantities::kContactLoad, kUsualScale},
+       {quantities::kSpeedReading, kUsualCounter}},
       "follow_roller",
-      nullptr};
+      nullptr,
+      "dyno_1m2",
+      "dyno"};
   return kind;
 }
 

@@ -27,7 +27,9 @@ const MachineKind& machine_flat_belt() {
                                  make_usual_sensor(quantities::kLinerTemperature),
                                  make_usual_sensor(quantities::kCavityPressure)},
                                 "follow_drum",
-                                nullptr};
+                                nullptr,
+                                "flat_belt",
+                                "flat_belt"};
   return kind;
 }
 

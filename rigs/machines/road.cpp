@@ -37,7 +37,9 @@ const MachineKind& machine_road() {
                                  {{quantities::kTractionForce, any_number(), "force at the wheels"}}},
                                 {{quantities::kTractionForce, {10.0, 215.0, 13.0, 140.0, 0.0}}},
                                 "follow_road",
-                                &make_road};
+                                &make_road,
+                                "",
+                                "road"};
   return kind;
 }
 

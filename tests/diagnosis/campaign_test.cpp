@@ -69,13 +69,13 @@ TEST_CASE("a campaign keeps to its hours, and more hours show no less", "[fast]"
 }
 
 TEST_CASE("weights make the scale of the force visible, on rollers too", "[fast]") {
-  for (const char* rig : {"drum", "rollers"}) {
+  for (const char* rig : {"drum", "dyno"}) {
     INFO(rig);
     const PlannedCampaign campaign = plan(rig, 2.0, {"torque_gain"});
     CHECK(find_effect(campaign, "torque_gain").is_visible);
-    if (rig == std::string("rollers")) CHECK(has_test(campaign, "dead_weights"));
+    if (rig == std::string("dyno")) CHECK(has_test(campaign, "dead_weights"));
   }
-  const PlannedCampaign loads = plan("rollers", 2.0, {"load_record", "tie_down_load", "speed_record"});
+  const PlannedCampaign loads = plan("dyno", 2.0, {"load_record", "tie_down_load", "speed_record"});
   CHECK(has_test(loads, "wheel_scale"));
   CHECK(find_effect(loads, "load_record").is_visible);
 }
@@ -130,7 +130,7 @@ TEST_CASE("what a campaign promises is what the screening of its measured set fi
 }
 
 TEST_CASE("a campaign's files are run files, a set to fill and a plan", "[fast]") {
-  for (const char* rig : {"drum", "rollers", "road"}) {
+  for (const char* rig : {"drum", "dyno", "road"}) {
     INFO(rig);
     const PlannedCampaign campaign = plan(rig, 5.0, {"torque_gain", "load_exponent", "inertia_error"});
     const tests::TemporaryFolder folder;

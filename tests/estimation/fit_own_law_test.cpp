@@ -163,7 +163,7 @@ TEST_CASE("one speed and load give loss, its fall and one conductance, and the r
   MeasurementSet set = truth;
   put_own(set.tire, "loss_N", 62.0);
   put_own(set.tire, "fall_per_degC", 0.0085);
-  set.tire.values.thermal.rest_conductance_W_per_K *= 1.5;
+  set.rig->tire_cooling.at_rest_W_per_m2_K *= 1.5;  // z is that of the rig's cooling, f likewise
   const TireFit fit = fit_tire(set, {});
   REQUIRE(count_asked_for(fit) == 3);
   for (const char* key : {"tire.bounded.loss_N", "tire.bounded.fall_per_degC", "tire.thermal.z_W_per_K"}) {
@@ -173,8 +173,13 @@ TEST_CASE("one speed and load give loss, its fall and one conductance, and the r
   const models::TireFile back = read_back(fit);
   const models::RigThermal& on_rig = back.rig_thermal.at("drum_2m");
   CHECK(on_rig.rest_conductance_sd_W_per_K.has_value());
-  CHECK(*on_rig.speed_conductance_W_s_per_m_K == Approx(set.tire.values.thermal.speed_conductance_W_s_per_m_K));
-  CHECK_FALSE(on_rig.speed_conductance_sd_W_s_per_m_K.has_value());
+  // f is not decided: it stays what the rig's file says, and as uncertain.
+  const double area_m2 = models::calc_outer_area_m2(set.tire.values.geometry);
+  CHECK(estimate_of(fit, "tire.thermal.f_W_s_per_m_K").nuisance);
+  CHECK(*on_rig.speed_conductance_W_s_per_m_K ==
+        Approx(measurements::make_context(set).tire.thermal.speed_conductance_W_s_per_m_K).epsilon(1e-3));
+  CHECK(*on_rig.speed_conductance_sd_W_s_per_m_K ==
+        Approx(area_m2 * set.rig->tire_cooling_uncertainties.per_speed_W_s_per_m3_K).epsilon(0.05));
   CHECK(calc_rms(set, back) < 0.01);
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <stdlib.h>
+
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -9,6 +11,7 @@
 #include <set>
 
 #include "diagnosis/loop/test_loop.h"
+#include "diagnosis/next_test/next_test.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
@@ -27,13 +30,16 @@ using diagnosis::LoopTestState;
 using diagnosis::ProposedTest;
 using measurements::MeasurementSet;
 
-/// A temporary folder for the files of one loop, removed with the object.
+/// A folder for the files of one loop, which is removed with the object.
 class LoopFolder {
  public:
-  LoopFolder(const std::string& set, const std::string& number)
-      : path_((fs::temp_directory_path() / fmt::format("rollrig-loop-{}-{}", calc_sha256(set).substr(0, 12), number))
-                  .string()) {
-    fs::remove_all(path_);
+  LoopFolder() {
+    std::string path = (fs::temp_directory_path() / "rollrig-loop-XXXXXX").string();
+    if (::mkdtemp(path.data()) == nullptr) {
+      throw InputError({"no folder can be made there", fs::temp_directory_path().string(), 0, "", "",
+                        "a folder for temporary files that can be written (TMPDIR)", ""});
+    }
+    path_ = path;
   }
   ~LoopFolder() {
     std::error_code ignored;
@@ -73,18 +79,15 @@ ProposedTest draw_test(const MeasurementSet& set, const diagnosis::TestBudget& b
     if (!is_out && test.hours <= budget.hours) possible.push_back(std::move(test));
   }
   if (possible.empty()) return {};
-  const auto& test = possible[static_cast<std::size_t>(random.uniform() * static_cast<double>(possible.size()))];
-  return {{test.description, {}, 0.0, test.hours, test.by_hand, test.id},
-          test.soaked,
-          test.extra.force_at_standstill,
-          test.runs};
+  return diagnosis::make_proposed_test(
+      possible[static_cast<std::size_t>(random.uniform() * static_cast<double>(possible.size()))]);
 }
 
 /// Runs the loop of one case.
 void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
   const std::string& number = loop.truth.number;
   const std::string folder = case_folder(order.set, number);
-  const LoopFolder place(order.set, number);
+  const LoopFolder place;
   const MeasurementSet first = measurements::read_measurement_set(folder);
   loop.kind = first.kind->word;
   const std::vector<std::string> impossible = list_impossible(first);
@@ -109,7 +112,7 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
     }
     ProposedTest test = order.drawn ? draw_test(first, *options.budget, random) : found.plan.value_or(ProposedTest{});
     if (test.runs.empty()) {
-      ledger.state = LoopState::kNothingToTest;
+      ledger.state = diagnosis::find_end_without_test(ledger);
       return;
     }
     test = diagnosis::rename_runs(std::move(test), ledger.tests.size() + 1);

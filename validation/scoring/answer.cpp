@@ -21,14 +21,6 @@ double read_number(const Json& json) {
   return json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-diagnosis::Verdict read_verdict(const std::string& name) {
-  for (const auto verdict :
-       {diagnosis::Verdict::kNoGap, diagnosis::Verdict::kExplained, diagnosis::Verdict::kUnexplained}) {
-    if (name == diagnosis::name_of(verdict)) return verdict;
-  }
-  throw InputError({"unknown verdict '" + name + "'", "", 0, "verdict", name, "no_gap, explained, unexplained", ""});
-}
-
 diagnosis::Cause read_cause(const Json& json) {
   diagnosis::Cause cause;
   cause.effects = json.at("effects").get<std::vector<std::string>>();
@@ -47,7 +39,7 @@ diagnosis::Cause read_cause(const Json& json) {
 diagnosis::Diagnosis read_diagnosis(const Json& json) {
   diagnosis::Diagnosis read;
   read.set = json.at("set").get<std::string>();
-  read.verdict = read_verdict(json.at("verdict").get<std::string>());
+  read.verdict = diagnosis::read_verdict(json.at("verdict").get<std::string>());
   for (const auto& [name, value] : json.at("probability").items()) read.probability[name] = read_number(value);
   for (const Json& cause : json.at("causes")) read.causes.push_back(read_cause(cause));
   const Json& gap = json.at("gap");

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "diagnosis/next_test/next_test.h"
 #include "diagnosis/next_test/plan_files.h"
 #include "diagnosis/next_test/test_menu.h"
 #include "sim/core/error.h"
@@ -113,8 +114,7 @@ std::vector<Answer> read_answers(const PlanOrder& order) {
 
 void write_test(const FollowUpPlan& plan, const MeasurementSet& set, const PlannedTest& test, OutputFolder& out) {
   diagnosis::Diagnosis of;
-  of.plan = {
-      {test.description, {}, 0.0, test.hours, test.by_hand}, test.soaked, test.extra.force_at_standstill, test.runs};
+  of.plan = diagnosis::make_proposed_test(test);
   const std::string folder = "plans/" + plan.number + "/";
   for (auto& [name, content] : diagnosis::write_plan(set, of)) {
     if (fs::path(name).extension() == ".csv") out.add(folder + name, content);
