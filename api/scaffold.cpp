@@ -108,7 +108,8 @@ std::string name_of_file(const std::string& name) { return name + ".toml"; }
 NewFiles make_new_tire(const NewTireOptions& options) {
   const scenarios::ClassTire made = scenarios::make_class_tire(options);
   const double rrc_N_per_kN = 1e3 * scenarios::simulate_iso_rrc(made.tire);
-  return make_files_report(format_new_tire(made, rrc_N_per_kN), make_tire_json(made, rrc_N_per_kN),
+  return make_files_report(format_new_tire(made, rrc_N_per_kN) + format_warnings(made.warnings),
+                           make_tire_json(made, rrc_N_per_kN),
                            {{name_of_file(made.tire.name), scenarios::write_class_tire(made)}});
 }
 
@@ -126,7 +127,8 @@ NewFiles make_new_tire(const NewTireOptions& options, const GuessOptions& log, c
   const TireFit fit = fit_tire(make_set(mapping, imported), how);
   put_fit(fit, made);
   const double rrc_N_per_kN = 1e3 * scenarios::simulate_iso_rrc(made.tire);
-  std::vector<std::string> warnings = imported.warnings;
+  std::vector<std::string> warnings = made.warnings;
+  warnings.insert(warnings.end(), imported.warnings.begin(), imported.warnings.end());
   if (const auto warning = scenarios::check_iso_rrc(made.tire)) warnings.push_back(*warning);
   Json json = make_tire_json(made, rrc_N_per_kN);
   json["guesses"] = make_guess_json(guess)["guesses"];

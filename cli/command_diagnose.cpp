@@ -42,7 +42,7 @@ void require_consistent(const DiagnoseOptions& options) {
                       "a set beside it, without --plan");
   }
   if (options.loop.empty() && (options.hours.has_value() || options.test_failed)) {
-    throw usage_error("this is of a loop of tests", options.test_failed ? "--test-failed" : "--hours", "",
+    throw usage_error("only a loop of tests takes this option", options.test_failed ? "--test-failed" : "--hours", "",
                       "--loop and its folder beside it");
   }
   options.comparison.check();
@@ -139,11 +139,11 @@ void add_diagnose_command(CLI::App& app, Action& action) {
                       "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
   command->add_option("--loop", options->loop,
-                      "Folder of a loop of tests: takes in what its planned test measured, diagnoses, plans the next "
+                      "Folder of a loop of tests: reads what its planned test measured, diagnoses, plans the next "
                       "test, until a cause is at 95 % or the hours are gone");
   command->add_option("--hours", options->hours, "Hours of the machine that the loop may take [8]");
   command->add_flag("--test-failed", options->test_failed,
-                    "The planned test of the loop could not be done; its hours are gone all the same");
+                    "The planned test of the loop could not be done; its hours count all the same");
   options->comparison.add_to(*command);
   command->add_option("--smallest-effect", options->smallest_effect_percent,
                       "Smallest effect of interest, 0 to 100 percent of the tire's loss or of the energy of drives; a "

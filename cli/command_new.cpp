@@ -75,12 +75,14 @@ int new_tire_command(const NewTireCommand& options) {
 
 void add_new_tire(CLI::App& parent, Action& action) {
   const auto [command, options] = add_command<NewTireCommand>(
-      parent, action, "tire", "A tire from its size, load index and RRc, with the values of its class",
+      parent, action, "tire", "A tire from its size, load index and RRc, or a .tir file, with the values of its class",
       &new_tire_command);
   NewTireOptions& tire = options->tire;
   command->add_option("--size", tire.size, "Size, such as 205/55R16; a load index may follow")->required();
   command->add_option("--load-index", tire.load_index, "Load index, such as 91");
-  command->add_option("--rrc", tire.rrc_N_per_kN, "RRc of ISO 28580 in N/kN")->required();
+  auto* rrc = command->add_option("--rrc", tire.rrc_N_per_kN, "RRc of ISO 28580 in N/kN");
+  auto* tir = command->add_option("--tir", tire.tir, "Tire property file (.tir) whose coefficients give the RRc");
+  tir->excludes(rrc);
   command->add_option("--rrc-sd", tire.rrc_sd_N_per_kN, "Its standard uncertainty in N/kN [0.15]");
   command->add_option("--pressure", tire.pressure_kPa, "Gauge pressure of that test in kPa [of class C1 210 or 250]");
   command->add_option("--class", tire.tire_class, "Class [by size and load index]")

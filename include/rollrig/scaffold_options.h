@@ -29,7 +29,8 @@ struct NewTireOptions {
   std::string load_index;                 // "91"; of "156/150" the first
   std::string tire_class;                 // "C1", "C2", "C3"; empty: by size and load index
   bool is_reinforced = false;             // extra load; sets the pressure of the test
-  double rrc_N_per_kN = 0.0;              // of ISO 28580, at 25 degC on the 2 m drum
+  double rrc_N_per_kN = 0.0;              // of ISO 28580, at 25 degC on the 2 m drum; 0: by the property file
+  std::string tir;                        // path of a tire property file (.tir) whose coefficients give the RRc
   std::optional<double> rrc_sd_N_per_kN;  // its standard uncertainty; absent: 0.15
   std::optional<double> pressure_kPa;     // of the test, gauge; absent: by class
 };

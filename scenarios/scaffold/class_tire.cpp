@@ -2,11 +2,13 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/trim.hpp>
 
+#include "estimation/loss_conversion.h"
 #include "models/tire/own_number.h"
 #include "scenarios/scaffold/iso_test.h"
 #include "scenarios/scaffold/new_machine.h"
@@ -15,6 +17,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
+#include "tables/tir_file.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -211,6 +214,12 @@ double find_K_t_per_K(const std::string& tire_class, bool is_heavy) {
   return is_heavy ? 0.006 : 0.010;
 }
 
+std::string rrc_note(const NewTireOptions& options) {
+  if (options.tir.empty()) return "Given";
+  return fmt::format("Rolling coefficients of {}, at 80 km/h, from flat to the 2 m drum by (3.1)",
+                     std::filesystem::path(options.tir).filename().string());
+}
+
 void set_tests(const NewTireOptions& options, const ClassValues& values, double pressure_kPa, ClassTire& made,
                NumberSetter& numbers) {
   models::TireFile& tire = made.tire;
@@ -220,7 +229,7 @@ void set_tests(const NewTireOptions& options, const ClassValues& values, double 
       options.pressure_kPa.has_value()
           ? "Given"
           : fmt::format("§3.2.3.1 step 2: {} tires", options.is_reinforced ? "reinforced" : "standard");
-  numbers.set("iso_28580.rrc_N_per_kN", iso.rrc, options.rrc_N_per_kN * 1e-3, "Given");
+  numbers.set("iso_28580.rrc_N_per_kN", iso.rrc, options.rrc_N_per_kN * 1e-3, rrc_note(options));
   numbers.set("iso_28580.load_N", iso.load_N, std::round(values.iso_load_share * capacity_N), values.iso_load_note);
   numbers.set("iso_28580.pressure_kPa", iso.pressure_Pa, pressure_kPa * 1e3, pressure_note);
   const bool is_heavy = capacity_N > find_load_capacity_N("121");
@@ -255,10 +264,37 @@ std::string make_tire_name(const TireSize& size, const std::string& load_index) 
 }
 
 void require_options(const NewTireOptions& options) {
-  require_number(options.rrc_N_per_kN, between(2.0, 30.0), "--rrc", "N/kN");
+  if (options.tir.empty()) {
+    if (options.rrc_N_per_kN == 0.0) {
+      throw InputError({"the RRc is missing or 0", "command line", 0, "--rrc", "",
+                        fmt::format("{} N/kN; or --tir with a tire property file", between(2.0, 30.0).to_string()),
+                        ""});
+    }
+    require_number(options.rrc_N_per_kN, between(2.0, 30.0), "--rrc", "N/kN");
+  } else if (options.rrc_N_per_kN != 0.0) {
+    throw InputError({"the property file gives the RRc", "command line", 0, "--rrc",
+                      fmt::format("{:g}", options.rrc_N_per_kN), "--rrc or --tir, not both", ""});
+  }
   if (options.rrc_sd_N_per_kN.has_value()) {
     require_number(*options.rrc_sd_N_per_kN, Range{0.0, 5.0, true, false}, "--rrc-sd", "N/kN");
   }
+}
+
+/// RRc of the standard's test by the coefficients of a property file, rounded to 0.001 N/kN.
+double find_tir_rrc_N_per_kN(const tables::TirFile& tir, double load_N, double pressure_kPa) {
+  constexpr double kIsoSpeed_m_s = 80.0 / kKmhPerMs;  // ISO 28580
+  constexpr double kIsoCurvature_per_m = 1.0;         // of the 2 m drum
+  const double flat_N = tables::calc_rolling_resistance_N(tir, load_N, 1e3 * pressure_kPa, kIsoSpeed_m_s);
+  LossConditions flat, drum;
+  flat.drum_curvature_per_m = 0.0;
+  drum.drum_curvature_per_m = kIsoCurvature_per_m;
+  flat.tire_diameter_m = drum.tire_diameter_m = 2.0 * tir.radius_m;
+  const double rrc_N_per_kN = 1e3 * flat_N * estimation::convert_loss(flat, drum).force_factor / load_N;
+  const Range allowed = between(2.0, 30.0);
+  if (allowed.contains(rrc_N_per_kN)) return std::round(1e3 * rrc_N_per_kN) / 1e3;
+  throw InputError({"the property file has the rolling resistance of no tire", tir.path, 0, "QSY1",
+                    fmt::format("RRc {:.3g} N/kN in the test of ISO 28580", rrc_N_per_kN),
+                    fmt::format("{} N/kN; or --rrc in place of --tir", allowed.to_string()), ""});
 }
 
 }  // namespace
@@ -281,7 +317,8 @@ std::map<std::string, std::string> read_comments(const std::string& toml) {
   return comments;
 }
 
-ClassTire make_class_tire(const NewTireOptions& options) {
+ClassTire make_class_tire(const NewTireOptions& given) {
+  NewTireOptions options = given;
   require_options(options);
   const TireSize size = parse_tire_size(options.size);
   const std::string load_index = options.load_index.empty() ? size.load_index : options.load_index;
@@ -297,6 +334,12 @@ ClassTire make_class_tire(const NewTireOptions& options) {
   made.class_reason = options.tire_class.empty() ? "guessed from size and load index" : "given";
   const ClassValues& values = find_class(made.tire_class);
   const double pressure_kPa = find_iso_pressure_kPa(options, made.tire_class);
+  if (!options.tir.empty()) {
+    const tables::TirFile tir = tables::read_tir(options.tir);
+    made.warnings = tir.warnings;
+    options.rrc_N_per_kN =
+        find_tir_rrc_N_per_kN(tir, std::round(values.iso_load_share * made.load_capacity_N), pressure_kPa);
+  }
   made.base = values.base;
   const std::string base_file = find_asset("tires", values.base);
   const models::TireFile base = models::read_tire(read_config(base_file));

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "include/rollrig/scaffold_options.h"
 #include "models/tire/tire_file.h"
@@ -16,6 +17,7 @@ struct ClassTire {
   std::string class_reason;
   std::string base;  // name of the asset that gives the values of the class
   double load_capacity_N = 0.0;
+  std::vector<std::string> warnings = {};  // of the tire property file
 };
 
 /// Values of the reference tires of the assets, in proportion to size and load where that is usual; bounded.loss_N is
@@ -24,7 +26,11 @@ struct ClassTire {
 ///           C1, §3.2.3.1 of Kolekar and Narasimhan (2024); 85 % and the pressure of the maximum load of C2 and C3,
 ///           Assumed: the standard was not read. Fall with temperature: K_t of UN Regulation No. 117, Annex 6, 6.2.
 ///           Else see the notes
-/// Errors    InputError: a size, load index, class or number that cannot be; no pressure of class C2 or C3
+/// RRc       without options.rrc_N_per_kN: that of the tire property file at 80 km/h and the load and pressure of the
+///           test, carried from its flat surface to the 2 m drum by (3.1). Assumed: it is of a warm tire in air of
+///           25 degC, and its pressures are gauge, since the file says neither
+/// Errors    InputError: a size, load index, class or number that cannot be; no pressure of class C2 or C3; not one of
+///           RRc and property file; a file without rolling resistance
 /// Checked   tests/scenarios/scaffold_test.cpp
 ClassTire make_class_tire(const NewTireOptions& options);
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include "models/tire/own_number.h"
 #include "rigs/rig_file.h"
 #include "rigs/vehicle_file.h"
@@ -13,6 +15,7 @@
 #include "sim/core/assets.h"
 #include "sim/core/error.h"
 #include "tests/support/drum_fixture.h"
+#include "tests/support/run_program.h"
 
 using namespace rollrig;
 using scenarios::ClassTire;
@@ -75,6 +78,34 @@ TEST_CASE("load indices give the loads of the regulation", "[fast]") {
   for (const char* wrong : {"", "59", "180", "ninety", "9"}) {
     CHECK_THROWS_AS(scenarios::find_load_capacity_N(wrong), InputError);
   }
+}
+
+TEST_CASE("a tire property file gives the RRc of a new tire, on the 2 m drum more than on its flat surface", "[fast]") {
+  const tests::TemporaryFolder folder;
+  const std::string path = folder.file("a.tir");
+  const std::string text =
+      "[UNITS]\nLENGTH = 'meter'\nFORCE = 'newton'\nTIME = 'second'\n[MODEL]\nFITTYP = 62\nLONGVL = 16.7\n"
+      "[DIMENSION]\nUNLOADED_RADIUS = 0.32\n[VERTICAL]\nFNOMIN = 4000\n[OPERATING_CONDITIONS]\nNOMPRES = 210000\n"
+      "[ROLLING_COEFFICIENTS]\nQSY1 = 0.008\nQSY3 = 0\nQSY4 = 0\nQSY7 = 0.85\nQSY8 = -0.4\n";
+  tests::write_file(path, text);
+  NewTireOptions request = make_request("205/55R16", "91", 0.0);
+  request.tir = path;
+  const ClassTire made = scenarios::make_class_tire(request);
+  const double load_N = made.tire.iso_28580->load_N;
+  // (3.1) between a flat surface and a drum of radius 1 m is the root of 1 + tire radius
+  const double expected = 0.008 * std::pow(load_N / 4000.0, -0.15) * std::sqrt(1.32);
+  CHECK(made.tire.iso_28580->rrc == Approx(expected).epsilon(1e-4));
+  CHECK(scenarios::simulate_iso_rrc(made.tire) == Approx(expected).epsilon(3e-4));
+  CHECK(made.warnings.empty());
+
+  request.pressure_kPa = 250.0;  // loses less at more pressure
+  CHECK(scenarios::make_class_tire(request).tire.iso_28580->rrc / made.tire.iso_28580->rrc ==
+        Approx(std::pow(250.0 / 210.0, -0.4)).epsilon(1e-3));
+  request.rrc_N_per_kN = 8.0;
+  CHECK_THROWS_AS(scenarios::make_class_tire(request), InputError);
+  request.rrc_N_per_kN = 0.0;
+  tests::write_file(path, boost::algorithm::replace_all_copy(text, "QSY1 = 0.008", "QSY1 = 0"));
+  CHECK_THROWS_AS(scenarios::make_class_tire(request), InputError);
 }
 
 TEST_CASE("a new tire has its RRc in the simulated test of ISO 28580, in both fidelities", "[fast]") {
