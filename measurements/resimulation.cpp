@@ -121,7 +121,7 @@ std::vector<rigs::RoadTireGroup<S>> find_groups(const MeasurementSet& set, const
 template <class S>
 void apply_trace_beside_given(const MeasuredRun& run, const models::Corner<S>& corner, sim::Recording<S>& recording) {
   if (!rigs::has_trace_effects(corner)) return;
-  for (const Quantity& quantity : {quantities::kLoad, quantities::kAmbient}) {
+  for (const Quantity& quantity : {quantities::kSpeed, quantities::kLoad, quantities::kAmbient}) {
     if (!run.has(quantity)) continue;
     const std::vector<double>& given = run.column(quantity);
     recording.channels.push_back({quantity});

@@ -17,6 +17,8 @@ constexpr Quantity kTorque = models::quantities::kDrumTorque;
 constexpr Quantity kLoss = models::quantities::kLossForce;
 constexpr Quantity kLiner = models::quantities::kLinerTemperature;
 constexpr Quantity kPressure = models::quantities::kCavityPressure;
+constexpr Quantity kSpeed = models::quantities::kSpeed;
+constexpr Quantity kLoad = models::quantities::kLoad;
 constexpr Quantity kAmbient = models::quantities::kAmbient;
 
 /// Rows at one interval.
@@ -235,6 +237,47 @@ TEST_CASE("the derivative by the shift is that from either side, at no shift and
       CHECK(port.channels[0].values[k].v[0] == Approx((here[k] - less[k]) / h).margin(1e-3));
     }
   }
+}
+
+TEST_CASE("the pressure follows a load step with the time constant of the load, and nothing is lost after it",
+          "[fast]") {
+  const std::vector<double> time_s = rows_every(1.0, 60.0);
+  std::vector<double> load_N(time_s.size(), 500.0);
+  for (std::size_t row = 20; row < load_N.size(); ++row) load_N[row] = 5400.0;
+  const std::vector<double> speed_m_s(time_s.size(), 20.0);
+  const std::vector<double> pressure_Pa(time_s.size(), 280e3);
+  const auto lacking_Pa_s = [&](double contraction_percent, double settling_s) {
+    const auto read_Pa = tests::apply_trace(
+        switch_on("cavity_volume", {contraction_percent, 1.0, 0.0, 0.0, settling_s}), time_s,
+        {kPressure.header(), pressure_Pa}, tests::kDrum, {{kLoad.header(), load_N}, {kSpeed.header(), speed_m_s}});
+    CHECK(read_Pa[18] == 280e3);  // as long as nothing has changed
+    CHECK(read_Pa.back() == Approx(280e3).epsilon(1e-6));
+    double sum = 0.0;
+    for (std::size_t row = 0; row < read_Pa.size(); ++row) sum += 280e3 - read_Pa[row];
+    return sum;  // rows of 1 s
+  };
+  // The area between a step and a first-order answer to it is the step times the time constant, whatever the rows.
+  const double step_Pa = 1.4 * 0.01 * (5400.0 - 500.0) / 5400.0 * (280e3 + 101325.0);  // adiabatic, to first order
+  CHECK(lacking_Pa_s(1.0, 0.7) == Approx(0.7 * step_Pa).epsilon(1e-6));
+  CHECK(lacking_Pa_s(1.0, 0.2) == Approx(0.2 * step_Pa).epsilon(1e-6));
+  CHECK(lacking_Pa_s(1.0, 3.0) == Approx(3.0 * step_Pa).epsilon(1e-5));
+  CHECK(lacking_Pa_s(-0.5, 0.7) == Approx(-0.35 * step_Pa).epsilon(1e-6));
+}
+
+TEST_CASE("while the speed rises, the pressure is late by the time constant of the cavity", "[fast]") {
+  const std::vector<double> time_s = rows_every(1.0, 80.0);
+  const std::vector<double> load_N(time_s.size(), 5400.0);
+  std::vector<double> speed_m_s;
+  for (const double at_s : time_s) speed_m_s.push_back(10.0 + 0.2 * at_s);
+  const std::vector<double> pressure_Pa(time_s.size(), 280e3);
+  const auto read_Pa = tests::apply_trace(switch_on("cavity_volume", {1.0, 1.0, 0.4, 0.0, 0.8}), time_s,
+                                          {kPressure.header(), pressure_Pa}, tests::kDrum,
+                                          {{kLoad.header(), load_N}, {kSpeed.header(), speed_m_s}});
+  // A larger cavity has less pressure: what lags behind is still higher, by slope times time constant, less what the
+  // slope has grown by meanwhile.
+  const auto slope_per_s = [](double speed) { return 0.004 * 2.0 * speed * 0.2 / std::pow(120.0 / 3.6, 2); };
+  const double late = 0.8 * (slope_per_s(speed_m_s[60]) - 0.8 * slope_per_s(0.2));
+  CHECK((read_Pa[60] - 280e3) / (280e3 + 101325.0) == Approx(1.4 * late).epsilon(2e-3));
 }
 
 TEST_CASE("trace effects keep the dimensions of the channels", "[fast]") {
