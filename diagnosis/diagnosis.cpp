@@ -209,6 +209,13 @@ const ParameterEstimate* find_size(const Cause& cause, const std::string& effect
   return size == cause.parameters.end() ? nullptr : &*size;
 }
 
+void scale_probability(double factor, Cause& cause) {
+  cause.probability *= factor;
+  if (cause.acts.has_value()) *cause.acts *= factor;
+  if (cause.alone.has_value()) *cause.alone *= factor;
+  for (Partner& partner : cause.partners) partner.probability *= factor;
+}
+
 double probability_of(const Findings& findings, const std::string& name) {
   const auto at = findings.probability.find(name);
   return at == findings.probability.end() ? 0.0 : at->second;

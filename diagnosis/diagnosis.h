@@ -14,8 +14,8 @@ namespace rollrig::diagnosis {
 
 using rollrig::BaseNumber, rollrig::Cause, rollrig::CauseChange, rollrig::DiagnosisOptions, rollrig::FleetMember,
     rollrig::Gap, rollrig::GapView, rollrig::JudgedBy, rollrig::Shrinkage, rollrig::UnjudgedRun;
-using rollrig::Location, rollrig::NextTest, rollrig::ParameterEstimate, rollrig::RangeLimit, rollrig::SdSource,
-    rollrig::TestBudget, rollrig::Verdict;
+using rollrig::Location, rollrig::NextTest, rollrig::ParameterEstimate, rollrig::Partner, rollrig::RangeLimit,
+    rollrig::SdSource, rollrig::TestBudget, rollrig::Verdict;
 
 /// The size of one of a cause's effects, the first of the parameters of that effect; nullptr where there is none.
 const ParameterEstimate* find_size(const Cause& cause, const std::string& effect);
@@ -40,6 +40,9 @@ struct Diagnosis : Findings {
   FittedSet fitted;
   std::set<std::string> mistaken_runs;  // that cannot be what the set says they are, by its checks
 };
+
+/// Multiplies all probabilities of a cause.
+void scale_probability(double factor, Cause& cause);
 
 /// Probability of "none", "unknown" or an effect; 0 where it was not in the comparison.
 double probability_of(const Findings& findings, const std::string& name);

@@ -160,7 +160,14 @@ std::string describe_verdict(const Findings& findings) {
   const Cause& cause = findings.causes.front();
   std::string text = fmt::format("Explained: the gap is {}", fmt::join(cause.effects, " with "));
   if (!cause.indistinguishable_from.empty()) text += " or, as well, " + join(cause.indistinguishable_from);
-  return fmt::format("{} (probability {}).", text, show_probability(cause.probability));
+  text = fmt::format("{} (probability {}).", text, show_probability(cause.probability));
+  if (!cause.alone.has_value() || cause.partners.empty()) return text;
+  std::vector<std::string> partners;
+  for (const Partner& partner : cause.partners) {
+    partners.push_back(fmt::format("{} ({})", partner.effect, show_probability(partner.probability)));
+  }
+  return text + fmt::format(" It acts with a probability of {}, alone with {}; else most likely with {}.",
+                            show_probability(*cause.acts), show_probability(*cause.alone), join(partners));
 }
 
 Section make_verdict(const Findings& findings) {

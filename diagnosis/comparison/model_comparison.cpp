@@ -45,17 +45,11 @@ double sign_share(const Hypothesis& hypothesis) {
 
 void assign_probabilities(Study& study, Comparison& comparison) {
   const ComparisonPriors& priors = study.settings.priors;
-  const auto n = static_cast<double>(study.settings.terms.size());
-  const auto prior_of = [&](std::size_t terms) {  // of each of its kind
-    if (terms == 1) return priors.singles / n;
-    if (terms == 2) return priors.pairs / std::max(1.0, n * (n - 1.0) / 2.0);
-    return priors.triples / std::max(1.0, n * (n - 1.0) * (n - 2.0) / 6.0);
-  };
   std::vector<double> logs{std::log(priors.none) + study.null.log_evidence,
                            std::log(priors.unknown) + study.null.log_discrepancy};
   for (const Candidate& candidate : comparison.candidates) {
     const double share = sign_share(candidate.fit.hypothesis);
-    const double prior = prior_of(candidate.fit.hypothesis.terms.size());
+    const double prior = find_prior(study.settings, candidate.fit.hypothesis.terms.size());
     logs.push_back(std::log(share * prior) + candidate.log_evidence);
     const double look_alike = prior * priors.look_alike / priors.singles;
     logs.push_back(std::log(share * look_alike) + candidate.log_discrepancy);
@@ -97,6 +91,7 @@ void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& 
       if (!first.fit.hypothesis.contains(*term)) others.push_back(term);
     }
     std::vector<Screened> screened = screen(study, first, others);
+    comparison.on_top.push_back({first.fit.hypothesis, screened});
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < thresholds::kWorthAdding_nats; }),
                    screened.end());
@@ -114,6 +109,14 @@ bool asks_for(const Comparison& comparison, std::size_t terms) {
 }
 
 }  // namespace
+
+double find_prior(const StudySettings& settings, std::size_t terms) {
+  const ComparisonPriors& priors = settings.priors;
+  const auto n = static_cast<double>(settings.terms.size());
+  if (terms == 1) return priors.singles / n;
+  if (terms == 2) return priors.pairs / std::max(1.0, n * (n - 1.0) / 2.0);
+  return priors.triples / std::max(1.0, n * (n - 1.0) * (n - 2.0) / 6.0);
+}
 
 double Comparison::find_detectability(const Term& term) const {
   double detectability = 0.0;

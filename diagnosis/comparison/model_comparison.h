@@ -7,8 +7,17 @@
 
 namespace rollrig::diagnosis {
 
+constexpr std::size_t kMostTerms = 3;  // of a hypothesis
+
+/// Terms that were screened on top of a hypothesis.
+struct ScreenedOnTop {
+  Hypothesis hypothesis;
+  std::vector<Screened> screened;
+};
+
 struct Comparison {
   std::vector<Screened> screened;     // on top of the null
+  std::vector<ScreenedOnTop> on_top;  // on top of others
   std::vector<Candidate> candidates;  // of a term, pairs and triples, the likeliest first
   double log_evidence = 0.0;          // of all hypotheses together, with their prior probabilities
   double unknown_probability = 0.0;   // all hypotheses with a free discrepancy
@@ -17,6 +26,9 @@ struct Comparison {
   /// changes anything.
   double find_detectability(const Term& term) const;
 };
+
+/// Probability before the measurement of each hypothesis with so many terms, one to three.
+double find_prior(const StudySettings& settings, std::size_t terms);
 
 /// Fits the baseline (study.null), screens, refits every term that could matter from its best start, then pairs on
 /// top of the best, then triples on top of the best pair where two terms are asked for, and weighs all.

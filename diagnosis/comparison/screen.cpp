@@ -80,10 +80,10 @@ std::optional<Screened> try_shapes(const Study& study, const LinearFit& linear, 
     if (!(variance > 0.0)) continue;
     const double score = along > 0.0 ? 0.5 * along * along / variance : 0.0;
     if (best.has_value() && !(score > best->score)) continue;
-    best = Screened{tried, own, score, std::sqrt(variance)};
+    best = Screened{tried, own, score, std::sqrt(variance), size.u, along};
     best->own[0] = scale_size(term.parameters().front(), size, along / variance);
   }
-  if (!was_simulated) best = Screened{tried, trials.front(), 0.0, 0.0, false};
+  if (!was_simulated) best = Screened{tried, trials.front(), 0.0, 0.0, size.u, 0.0, false};
   return best;
 }
 

@@ -11,6 +11,8 @@ struct Screened {
   Eigen::VectorXd own;         // prior units: where a refit should start
   double score = 0.0;          // gain in -chi2/2 for the best size of the right sign
   double detectability = 0.0;  // d': size of the signature at the middle of its prior, in standard deviations
+  double tried_u = 0.0;        // size that was tried, in prior units,
+  double along = 0.0;          // and the score s of its signature
   bool was_simulated = true;   // not where the fit, which makes up for it, leaves no room: nothing is known of it then
 };
 

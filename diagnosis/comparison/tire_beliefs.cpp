@@ -101,7 +101,8 @@ void average_over_beliefs(const Beliefs& beliefs, std::map<std::string, double>&
   for (rollrig::Cause& cause : causes) {
     std::vector<std::string> effects = cause.effects;
     effects.insert(effects.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
-    cause.probability = average(cause.probability, sum_within(other.comparison, effects));
+    const double averaged = average(cause.probability, sum_within(other.comparison, effects));
+    if (cause.probability > 0.0) scale_probability(averaged / cause.probability, cause);
   }
   std::stable_sort(causes.begin(), causes.end(),
                    [](const auto& a, const auto& b) { return a.probability > b.probability; });

@@ -12,6 +12,7 @@
 #include "diagnosis/comparison/evidence.h"
 #include "diagnosis/comparison/truncated_normal.h"
 #include "diagnosis/findings/common_value.h"
+#include "diagnosis/findings/partners.h"
 #include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
@@ -142,14 +143,22 @@ bool lies_beyond_range(const Model& model, const Candidate& candidate, const Own
   return std::max(of.mean - of.upper, of.lower - of.mean) > thresholds::kBeyondRange_sd * of.sd;
 }
 
-std::vector<std::string> find_objections(const Study& study, const Candidate& candidate) {
-  std::vector<std::string> objections;
+/// What speaks against a candidate.
+struct Objection {
+  std::string text;
+  double kept = 1.0;              // share of truths among causes with it
+  const Term* unusual = nullptr;  // term with a parameter far out in its prior
+};
+
+std::vector<Objection> find_objections(const Study& study, const Candidate& candidate) {
+  std::vector<Objection> objections;
   if (candidate.discrepancy_probability > candidate.probability) {
     constexpr double kBeyondDoubt_nats = 50.0;
     const double gain_nats = candidate.log_discrepancy - candidate.log_evidence;
     const std::string by =
         gain_nats < kBeyondDoubt_nats ? fmt::format("{:.0f} nats likelier", gain_nats) : "likelier beyond all doubt";
-    objections.push_back("something else is missing: a free discrepancy on top of it is " + by);
+    objections.push_back(
+        {"something else is missing: a free discrepancy on top of it is " + by, thresholds::kKeptRemainder});
   }
   const Model model = study.make_model(candidate.fit.hypothesis);
   const OwnPosterior posterior = find_own_posterior(study, candidate, model.own_count());
@@ -159,23 +168,59 @@ std::vector<std::string> find_objections(const Study& study, const Candidate& ca
     const double u = candidate.fit.unknowns[to_index(i)];
     if (std::abs(u) > thresholds::kTail_sd) {
       objections.push_back(
-          fmt::format("{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", key,
-                      own.term->name(), own.value_at(u).value_SI / unit_of_key(key).factor, std::abs(u)));
+          {fmt::format("{} of {} would have to be {:.3g}, {:.1f} standard deviations from what is usual", key,
+                       own.term->name(), own.value_at(u).value_SI / unit_of_key(key).factor, std::abs(u)),
+           thresholds::kKeptUnusual, own.term});
     }
     if (own.is_size() && lies_beyond_range(model, candidate, posterior, i)) {
-      objections.push_back(fmt::format("{} of {} would have to lie beyond its range ({}); the best within it is {:.3g}",
-                                       key, own.term->name(), own.declared->range.to_string(),
-                                       own.value_at(u).value_SI / unit_of_key(key).factor));
+      objections.push_back(
+          {fmt::format("{} of {} would have to lie beyond its range ({}); the best within it is {:.3g}", key,
+                       own.term->name(), own.declared->range.to_string(),
+                       own.value_at(u).value_SI / unit_of_key(key).factor),
+           thresholds::kKeptBeyondRange});
     }
     if (own.is_size() &&
         differs_between_runs(study, candidate, i, thresholds::kRunSizeShare * distance_from_off(own, u))) {
-      objections.push_back(fmt::format("its size ({}) differs from run to run", key));
+      objections.push_back({fmt::format("its size ({}) differs from run to run", key), thresholds::kKeptRunSize});
     }
   }
   if (const std::string moved = describe_far_moves(study, candidate.fit); !moved.empty()) {
-    objections.push_back("with it, numbers of the files would have to be wrong: they move by " + moved);
+    objections.push_back(
+        {"with it, numbers of the files would have to be wrong: they move by " + moved, thresholds::kKeptWrongFiles});
   }
   return objections;
+}
+
+/// Terms of a candidate of several that are far out in their priors, where nothing else speaks against it and another
+/// term is left: they are not named, the others are. Empty where that is not so.
+std::set<const Term*> find_unusual_companions(const Candidate& candidate, const std::vector<Objection>& objections) {
+  std::set<const Term*> unusual;
+  for (const Objection& objection : objections) {
+    if (objection.unusual == nullptr) return {};
+    unusual.insert(objection.unusual);
+  }
+  return unusual.size() < candidate.fit.hypothesis.terms.size() ? unusual : std::set<const Term*>{};
+}
+
+void put_objections(const Study& study, const Candidate& lead, Cause& cause) {
+  const std::vector<Objection> objections = find_objections(study, lead);
+  const std::set<const Term*> companions = find_unusual_companions(lead, objections);
+  for (const Objection& objection : objections) {
+    if (companions.empty()) {
+      cause.objections.push_back(objection.text);
+      cause.kept = std::min(cause.kept, objection.kept);
+    } else {
+      cause.companions.push_back(objection.text);
+      cause.kept = thresholds::kKeptWithoutCompanion;
+    }
+  }
+  for (const Term* companion : companions) {
+    const std::string& name = companion->name();
+    cause.effects.erase(std::remove(cause.effects.begin(), cause.effects.end(), name), cause.effects.end());
+    const auto is_of_companion = [&name](const ParameterEstimate& one) { return one.name.rfind(name + ".", 0) == 0; };
+    cause.parameters.erase(std::remove_if(cause.parameters.begin(), cause.parameters.end(), is_of_companion),
+                           cause.parameters.end());
+  }
 }
 
 /// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
@@ -248,7 +293,10 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     }
     cause.indistinguishable_from = find_named_beside(cause.effects, lead->posterior(), std::move(beside));
     cause.parameters = estimate_parameters(study, *lead);
-    if (causes.empty()) cause.objections = find_objections(study, *lead);
+    if (causes.empty()) {
+      find_partners(study, comparison, *lead, cause);
+      put_objections(study, *lead, cause);
+    }
     cause.adequate = cause.objections.empty();
     causes.push_back(std::move(cause));
   }
@@ -271,15 +319,16 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   const char* parts = gap.judged_by == JudgedBy::kStretches ? "stretches" : "runs";
   if (gap.worse_where_certain) {
     first.objections.push_back(fmt::format("it makes the {} that were left out worse, not better", parts));
+    first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
   }
   if (gap.shrink_percent.has_value() && gap.shrink_ci95_percent[0] <= 0.0) {
     first.objections.push_back(
         fmt::format("the {} left out do not confirm it: the interval of what it shrinks holds 0 %", parts));
+    first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
   }
   first.adequate = first.objections.empty();
-  if (first.adequate) return;
-  const double moved = (1.0 - thresholds::kKeptUnderObjection) * first.probability;
-  first.probability -= moved;
+  const double moved = (1.0 - first.kept) * first.probability;
+  scale_probability(first.kept, first);
   move_probability(first, moved, "unknown", probability);
 }
 
@@ -311,7 +360,7 @@ Verdict find_verdict(const std::map<std::string, double>& probability, const std
   const bool beats_each =
       std::all_of(probability.begin(), probability.end(), [none](const auto& entry) { return none >= entry.second; });
   if (none >= unknown && (none >= named || (is_long && beats_each))) return Verdict::kNoGap;
-  if (unknown >= named || !causes.front().adequate) return Verdict::kUnexplained;
+  if (unknown >= named) return Verdict::kUnexplained;
   return Verdict::kExplained;
 }
 

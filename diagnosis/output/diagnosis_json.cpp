@@ -44,13 +44,21 @@ Json make_change(const std::optional<CauseChange>& change) {
   return {{"floors", number(change->floors)}, {"energy_percent", number(change->energy_percent)}};
 }
 
+Json make_partner(const Partner& partner) {
+  return {{"effect", partner.effect}, {"probability", number(partner.probability)}};
+}
+
 Json make_cause(const Cause& cause) {
   return {{"effects", cause.effects},
           {"probability", number(cause.probability)},
           {"indistinguishable_from", cause.indistinguishable_from},
           {"parameters", make_list(cause.parameters, make_parameter)},
+          {"acts", number(cause.acts)},
+          {"alone", number(cause.alone)},
+          {"partners", make_list(cause.partners, make_partner)},
           {"adequate", cause.adequate},
           {"objections", cause.objections},
+          {"companions", cause.companions},
           {"change", make_change(cause.change)}};
 }
 

@@ -140,6 +140,21 @@ std::string second_line(const Findings& findings) {
   return line("", term != nullptr ? term->info().summary : cause.effects.front());
 }
 
+/// "acts 98 %, alone 90 %; else most likely with load_exponent 3 %, slip_loss 2 %"; empty where it acts alone.
+std::string alone_line(const Findings& findings) {
+  if (findings.verdict == Verdict::kNoGap || findings.causes.empty()) return {};
+  const Cause& cause = findings.causes.front();
+  if (!cause.alone.has_value() || cause.partners.empty()) return {};
+  std::vector<std::string> partners;
+  for (const Partner& partner : cause.partners) {
+    partners.push_back(fmt::format("{} {}", partner.effect, show_probability(partner.probability)));
+  }
+  const std::string text =
+      fmt::format("acts {}, alone {}", show_probability(*cause.acts), show_probability(*cause.alone));
+  return line(cause.effects.size() == 1 ? "  alone" : "  these alone",
+              text + "; else with " + join_to_fit(partners, ", ", text_width() - 8));
+}
+
 std::string where_line(const Findings& findings) {
   if (findings.where.empty()) {
     return line("Where", findings.verdict == Verdict::kNoGap ? "nowhere above the noise" : "no stretch stands out");
@@ -318,9 +333,10 @@ std::string show_probability(double probability) {
 
 std::string format_summary(const Findings& findings) {
   const bool in_doubt = !findings.doubt.empty();
-  std::string text = verdict_line(findings) +
-                     (in_doubt ? doubt_lines(findings) : cause_line(findings) + second_line(findings)) +
-                     where_line(findings) + equation_line(findings) + gap_lines(findings) + shrinkage_line(findings);
+  std::string text =
+      verdict_line(findings) +
+      (in_doubt ? doubt_lines(findings) : cause_line(findings) + second_line(findings) + alone_line(findings)) +
+      where_line(findings) + equation_line(findings) + gap_lines(findings) + shrinkage_line(findings);
   text += line("Not excluded", findings.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                              : join_to_fit(findings.not_excluded, ", ", text_width()));
   text += next_line(findings);
@@ -333,6 +349,9 @@ std::string format_summary(const Findings& findings) {
     }
     if (findings.verdict != Verdict::kNoGap) text += not_judged_line(findings.gap);
     for (const std::string& objection : first.objections) text += line("But", objection);
+    for (const std::string& companion : first.companions) {
+      text += line("Beside it", "something that looks like one more effect, but hardly is: " + companion);
+    }
   }
   if (const auto& lone = findings.without_run) {
     const bool several = lone->run.find(',') != std::string::npos;

@@ -22,6 +22,12 @@ struct CauseChange {
   std::optional<double> energy_percent;  // of the energy of a run, by the cause alone: base parameters held
 };
 
+/// An effect that may act beside a cause.
+struct Partner {
+  std::string effect;
+  double probability = 0.0;  // that it acts together with the cause
+};
+
 /// An effect, a pair of them, or effects that this set cannot tell apart.
 struct Cause {
   std::vector<std::string> effects;  // of the hypothesis: one, or two that act together
@@ -30,7 +36,12 @@ struct Cause {
   std::vector<ParameterEstimate> parameters;
   bool adequate = true;
   std::vector<std::string> objections;               // why not adequate, a sentence each
+  double kept = 1.0;                                 // share of its probability that the objections leave
+  std::vector<std::string> companions = {};          // of the best fit, not named since they would be most unusual: why
   std::optional<CauseChange> change = std::nullopt;  // of the first cause, and of a trace
+  std::optional<double> acts = std::nullopt;         // of the first cause: that all its effects act, alone or not;
+  std::optional<double> alone = std::nullopt;        // that they act and nothing else of the catalog does
+  std::vector<Partner> partners = {};                // what may act beside them, the likeliest first
 };
 
 /// A gap in noise floors: rms of what is left without noise, in standard deviations of a mean over a

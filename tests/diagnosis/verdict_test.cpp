@@ -43,8 +43,30 @@ TEST_CASE("no gap where none is likelier than the cause, or than each effect of 
   cause.indistinguishable_from = {"b", "c"};
   CHECK(find_verdict({{"none", 0.40}, {"unknown", 0.04}, {"a", 0.2}, {"b", 0.2}, {"c", 0.1}}, {cause}) ==
         Verdict::kExplained);
-  cause.adequate = false;
-  CHECK(find_verdict({{"none", 0.20}, {"unknown", 0.04}, {"a", 0.6}}, {cause}) == Verdict::kUnexplained);
+}
+
+TEST_CASE("what speaks against a cause leaves it the share of truths with that objection, the rest is unknown",
+          "[fast]") {
+  using namespace rollrig::diagnosis;
+  const auto judge = [](double kept) {
+    Cause cause;
+    cause.effects = {"a"};
+    cause.probability = 0.9;
+    cause.acts = 0.9;
+    cause.alone = 0.8;
+    cause.kept = kept;
+    std::vector<Cause> causes{cause};
+    std::map<std::string, double> probability{{"none", 0.05}, {"unknown", 0.05}, {"a", 0.9}};
+    weigh_objections({}, causes, probability);
+    CHECK(causes.front().probability == Approx(0.9 * kept));
+    CHECK(*causes.front().alone == Approx(0.8 * kept));
+    CHECK(probability.at("unknown") == Approx(0.05 + 0.9 * (1.0 - kept)));
+    CHECK(probability.at("a") == Approx(0.9 * kept));
+    return find_verdict(probability, causes);
+  };
+  CHECK(judge(1.0) == Verdict::kExplained);
+  CHECK(judge(0.65) == Verdict::kExplained);
+  CHECK(judge(0.1) == Verdict::kUnexplained);
 }
 
 TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[fast]") {

@@ -31,6 +31,11 @@ diagnosis::Cause read_cause(const Json& json) {
                                 read_number(of.at("low_95")), read_number(of.at("high_95")),
                                 of.at("unit").get<std::string>()});
   }
+  const auto read_optional = [&json](const char* key) -> std::optional<double> {
+    return json.contains(key) && json[key].is_number() ? std::optional<double>(json[key].get<double>()) : std::nullopt;
+  };
+  cause.acts = read_optional("acts");
+  cause.alone = read_optional("alone");
   cause.adequate = json.at("adequate").get<bool>();
   cause.objections = json.at("objections").get<std::vector<std::string>>();
   return cause;

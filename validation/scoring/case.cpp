@@ -55,6 +55,28 @@ bool Case::is_exact() const {
          truth.is_within(cause().effects);
 }
 
+std::vector<std::string> Case::claims_above(double probability) const {
+  std::vector<std::string> claims;
+  if (!is(Verdict::kExplained)) return claims;
+  for (const auto& [name, stated] : answer.diagnosis.probability) {
+    if (name != "none" && name != "unknown" && stated > probability) claims.push_back(name);
+  }
+  return claims;
+}
+
+std::vector<std::string> Case::false_claims_above(double probability) const {
+  std::vector<std::string> claims = claims_above(probability);
+  const std::vector<std::string> ids = truth.ids();
+  const auto acts = [&](const std::string& name) { return std::count(ids.begin(), ids.end(), name) > 0; };
+  claims.erase(std::remove_if(claims.begin(), claims.end(), acts), claims.end());
+  return claims;
+}
+
+std::optional<Stated> Case::stated_alone() const {
+  if (!is(Verdict::kExplained) || !has_cause() || !cause().alone.has_value()) return std::nullopt;
+  return Stated{*cause().alone, is_exact()};
+}
+
 bool Case::names_one_of_two() const {
   if (!is_pair() || !has_cause() || cause().effects.size() != 1) return false;
   return std::any_of(truth.effects.begin(), truth.effects.end(),

@@ -41,6 +41,15 @@ struct Case {
   /// Likewise, and the verdict is that the gap is explained.
   bool is_named() const { return is(diagnosis::Verdict::kExplained) && names_truth(); }
   bool is_exact() const;
+  /// Likewise named, and the first cause has no more effects than there are.
+  bool is_named_strictly() const { return is_named() && cause().effects.size() <= truth.effects.size(); }
+  /// Effects that are said to act with more than that, where the verdict is that the gap is explained: all, and those
+  /// of them that do not.
+  std::vector<std::string> claims_above(double probability) const;
+  std::vector<std::string> false_claims_above(double probability) const;
+  /// Whether the first cause acts, and nothing else does, with the probability stated for that; none where it is not
+  /// stated.
+  std::optional<Stated> stated_alone() const;
   /// Whether the first cause is one effect, which is one of the two true ones.
   bool names_one_of_two() const;
   bool is_wrong_above(double probability) const;

@@ -85,6 +85,10 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   figures.push_back(
       at_least(0.97, make_share("top1_set_aware", "top-1 set-aware, detectable", detectable, is_named), 0.92));
   figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_small_set);
+  figures.push_back(at_least(0.93, make_share("top1_strict", "  and nothing beside it that is not there", detectable,
+                                              [](const Case& one) { return one.is_named_strictly(); })));
+  figures.push_back(at_most(0.02, make_share("refused", "  unexplained, though in the catalog", detectable,
+                                             [](const Case& one) { return one.is(Verdict::kUnexplained); })));
   figures.push_back(at_least(0.95, make_share("top1_exact", "top-1 exact, identifiable", identifiable,
                                               [](const Case& one) { return one.is_exact(); })));
   figures.push_back(
@@ -104,6 +108,30 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
       at_least(0.90, make_share("pairs_identifiable", "  of those that can be told", identifiable_pairs, is_named)));
 }
 
+/// Of the effects that are said to act with more than 0.9, those that do not.
+Figure find_false_claims(const Cases& cases) {
+  Figure figure{"false_claims", "effects said to act above 0.9 that do not"};
+  for (const Case& one : cases) {
+    figure.n += one.claims_above(kConfident).size();
+    figure.k += one.false_claims_above(kConfident).size();
+  }
+  if (figure.n == 0) {
+    figure.note = "no such claim";
+    return figure;
+  }
+  figure.value = static_cast<double>(figure.k) / static_cast<double>(figure.n);
+  figure.interval = calc_wilson_95(figure.k, figure.n);
+  return figure;
+}
+
+std::vector<Stated> list_stated_alone(const Cases& cases) {
+  std::vector<Stated> stated;
+  for (const Case& one : cases) {
+    if (const auto alone = one.stated_alone()) stated.push_back(*alone);
+  }
+  return stated;
+}
+
 std::optional<double> calc_ece_of(const Cases& cases) {
   const std::vector<Stated> stated = list_stated(cases);
   return stated.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(stated)));
@@ -120,6 +148,7 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
   figures.back().more_is_better = false;
   const Cases calls = only(inside, [&](const Case& one) { return wrong(one) || one.is_right_above(kConfident); });
   figures.push_back(at_most(0.01, make_share("wrong_above_of_calls", "  of what is stated above 0.9", calls, wrong)));
+  figures.push_back(at_most(0.02, find_false_claims(inside)));
   figures.push_back(
       at_most(0.05, make_share("wrong_above_outside", "wrong above 0.9, outside of it", outside, wrong), 0.08));
   figures.push_back(at_least(0.90, make_share("abstention", "abstention, outside of it", outside, [](const Case& one) {
@@ -128,6 +157,16 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
   const std::vector<Stated> stated = list_stated(cases);
   figures.push_back(
       at_most(0.02, make_number("ece", "calibration, ECE", calc_ece_of(cases), stated.size(), Unit::kNumber)));
+  const auto floor_of = [](const std::vector<Stated>& all) {
+    return all.empty() ? std::nullopt : std::optional<double>(calc_ece_noise_floor(all));
+  };
+  figures.push_back(
+      make_number("ece_floor", "  if all were right by chance alone", floor_of(stated), stated.size(), Unit::kNumber));
+  const std::vector<Stated> alone = list_stated_alone(cases);
+  const auto ece_alone = alone.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(alone)));
+  figures.push_back(make_number("ece_alone", "  of the cause acting alone", ece_alone, alone.size(), Unit::kNumber));
+  figures.push_back(
+      make_number("ece_alone_floor", "  likewise by chance alone", floor_of(alone), alone.size(), Unit::kNumber));
   const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
   figures.push_back(
       make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(), Unit::kNumber));

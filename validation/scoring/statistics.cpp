@@ -4,6 +4,8 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
+#include "sim/core/random.h"
+
 namespace rollrig::validation {
 
 Interval calc_wilson_95(std::size_t k, std::size_t n) {
@@ -39,6 +41,18 @@ double calc_ece(const Reliability& reliability) {
     cases += in_bin;
   }
   return cases > 0.0 ? sum / cases : 0.0;
+}
+
+double calc_ece_noise_floor(const std::vector<Stated>& stated) {
+  constexpr int kDraws = 400;
+  RandomStream draws(1, "ece noise floor");
+  double sum = 0.0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<Stated> drawn = stated;
+    for (Stated& one : drawn) one.right = draws.uniform() < one.probability;
+    sum += calc_ece(find_reliability(drawn));
+  }
+  return sum / kDraws;
 }
 
 double calc_brier(const std::vector<Stated>& stated) {

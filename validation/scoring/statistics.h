@@ -45,6 +45,12 @@ Reliability find_reliability(const std::vector<Stated>& stated);
 /// Checked   tests/validation/scoring/statistics_test.cpp
 double calc_ece(const Reliability& reliability);
 
+/// ECE that a forecaster has on average whose probabilities are right, of so many cases: what is below it says nothing.
+/// Equation  mean over draws of calc_ece, each outcome right with the probability that was stated
+/// Validity  400 draws: the mean is known to a few percent; the same seed each time
+/// Checked   tests/validation/scoring/statistics_test.cpp
+double calc_ece_noise_floor(const std::vector<Stated>& stated);
+
 /// Brier score of the stated probabilities.
 /// Equation  mean of (p - o)^2, o = 1 where right, else 0
 /// Source    G. W. Brier, Mon. Weather Rev. 78 (1950) 1, for one event

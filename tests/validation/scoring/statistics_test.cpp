@@ -52,6 +52,16 @@ TEST_CASE("what comes true as often as stated is calibrated, what never does is 
   CHECK(calc_ece(find_reliability({})) == 0.0);
 }
 
+TEST_CASE("few cases have a calibration error even where all that is stated is right, many have none", "[fast]") {
+  const auto repeat = [](double probability, std::size_t count) {
+    return calc_ece_noise_floor(std::vector<Stated>(count, {probability, true}));
+  };
+  CHECK(repeat(1.0, 10) == 0.0);  // what is certain does not scatter
+  // One bin: the mean distance of a share from its expectation, sqrt(2 p (1 - p)/(pi n)) for many cases.
+  CHECK(repeat(0.5, 400) == Approx(std::sqrt(0.5 / (3.14159265 * 400.0))).epsilon(0.1));
+  CHECK(repeat(0.55, 100) / repeat(0.55, 1600) == Approx(4.0).epsilon(0.2));
+}
+
 TEST_CASE("bins of the reliability table are weighted by their cases", "[fast]") {
   // 0.5 to 0.6: mean 0.54, one of two right; 0.9 to 1: mean 0.97, two of three right.
   const std::vector<Stated> stated{{0.5, true}, {0.58, false}, {0.95, true}, {0.96, false}, {1.0, true}};
