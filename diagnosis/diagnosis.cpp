@@ -68,8 +68,8 @@ void forbid_causes(Diagnosis& diagnosis) {
 void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& diagnosis) {
   const Candidate* lead = diagnosis.verdict == Verdict::kNoGap ? nullptr : find_lead(comparison, diagnosis.causes);
   diagnosis.gap = find_gap(study, lead);
-  if (lead == nullptr) return;
-  diagnosis.fitted.with_cause = find_fitted(study, lead->fit);
+  if (diagnosis.verdict == Verdict::kNoGap) return;
+  if (lead != nullptr) diagnosis.fitted.with_cause = find_fitted(study, lead->fit);
   weigh_objections(diagnosis.gap, diagnosis.causes, diagnosis.probability);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
 }

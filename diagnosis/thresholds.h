@@ -13,12 +13,12 @@ namespace rollrig::diagnosis {
 /// Assumed: without a cause as likely as with one; one effect likelier than two; 9 % for a cause outside the catalog.
 struct ComparisonPriors {
   double none = 0.50;
-  double singles = 0.35;
-  double pairs = 0.05;
+  double singles = 0.40;
+  double pairs = 0.06;
   double triples = 0.01;
-  double unknown = 0.03;  // on top of the baseline
+  double unknown = 0.01;  // on top of the baseline
   double look_alike =
-      0.06;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
+      0.02;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
 };
 
 /// Sizes of model error, in noise floors and relative.
@@ -70,7 +70,6 @@ constexpr double kKeptRemainder = 0.1;     // of 35 with something else missing 
 constexpr double kKeptBeyondRange = 0.05;  // Assumed, as of those that follow: no such truth was seen
 constexpr double kKeptWrongFiles = 0.05;
 constexpr double kKeptUnconfirmed = 0.05;
-constexpr double kKeptWithoutCompanion = 0.75;  // Assumed: of a cause whose companion is far out in its prior
 constexpr double kShownHeldOut_sd = 3.0;  // Assumed: by which a cause changes a part left out for it to be judged there
 constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a part left out is judged
 constexpr double kSmallestEffect_floors_per_percent = 0.6;  // Assumed: 0.3 noise floors matter as 0.5 % of the loss do

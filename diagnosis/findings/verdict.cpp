@@ -191,36 +191,29 @@ std::vector<Objection> find_objections(const Study& study, const Candidate& cand
   return objections;
 }
 
-/// Terms of a candidate of several that are far out in their priors, where nothing else speaks against it and another
-/// term is left: they are not named, the others are. Empty where that is not so.
-std::set<const Term*> find_unusual_companions(const Candidate& candidate, const std::vector<Objection>& objections) {
-  std::set<const Term*> unusual;
-  for (const Objection& objection : objections) {
-    if (objection.unusual == nullptr) return {};
-    unusual.insert(objection.unusual);
-  }
-  return unusual.size() < candidate.fit.hypothesis.terms.size() ? unusual : std::set<const Term*>{};
+/// Of a pair the effect that is far out in its prior, where nothing else speaks against the pair: it is not named, the
+/// other is. Else nullptr.
+const Term* find_unusual_companion(const Candidate& pair, const std::vector<Objection>& objections) {
+  if (pair.fit.hypothesis.terms.size() != 2 || objections.empty()) return nullptr;
+  const Term* unusual = objections.front().unusual;
+  const bool is_one = std::all_of(objections.begin(), objections.end(),
+                                  [unusual](const Objection& objection) { return objection.unusual == unusual; });
+  return is_one ? unusual : nullptr;
 }
 
 void put_objections(const Study& study, const Candidate& lead, Cause& cause) {
   const std::vector<Objection> objections = find_objections(study, lead);
-  const std::set<const Term*> companions = find_unusual_companions(lead, objections);
+  const Term* companion = find_unusual_companion(lead, objections);
   for (const Objection& objection : objections) {
-    if (companions.empty()) {
-      cause.objections.push_back(objection.text);
-      cause.kept = std::min(cause.kept, objection.kept);
-    } else {
-      cause.companions.push_back(objection.text);
-      cause.kept = thresholds::kKeptWithoutCompanion;
-    }
+    (companion != nullptr ? cause.companions : cause.objections).push_back(objection.text);
+    cause.kept = std::min(cause.kept, objection.kept);
   }
-  for (const Term* companion : companions) {
-    const std::string& name = companion->name();
-    cause.effects.erase(std::remove(cause.effects.begin(), cause.effects.end(), name), cause.effects.end());
-    const auto is_of_companion = [&name](const ParameterEstimate& one) { return one.name.rfind(name + ".", 0) == 0; };
-    cause.parameters.erase(std::remove_if(cause.parameters.begin(), cause.parameters.end(), is_of_companion),
-                           cause.parameters.end());
-  }
+  if (companion == nullptr) return;
+  const std::string& name = companion->name();
+  cause.effects.erase(std::remove(cause.effects.begin(), cause.effects.end(), name), cause.effects.end());
+  const auto is_of_companion = [&name](const ParameterEstimate& one) { return one.name.rfind(name + ".", 0) == 0; };
+  cause.parameters.erase(std::remove_if(cause.parameters.begin(), cause.parameters.end(), is_of_companion),
+                         cause.parameters.end());
 }
 
 /// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters

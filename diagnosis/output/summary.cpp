@@ -63,7 +63,7 @@ std::string verdict_line(const Findings& findings) {
     }
     case Verdict::kUnexplained:
       if (!findings.doubt.empty()) return line("Verdict", "unexplained: the files are in doubt, before any physics");
-      if (named && !findings.causes.front().adequate) {
+      if (named && (!findings.causes.front().adequate || !findings.causes.front().companions.empty())) {
         return line("Verdict", "unexplained: looks like this cause, but something else is missing");
       }
       return line("Verdict", fmt::format("unexplained: outside the catalog, probability {}", unknown));

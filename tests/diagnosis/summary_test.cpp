@@ -117,6 +117,28 @@ TEST_CASE("a trace is told with its size, its probability, and that it does not 
                       "(0.07 % of the energy, 0.12 noise floors); probability 92 %"));
 }
 
+TEST_CASE("the summary says how likely the cause acts alone, and what else may act", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.causes[0].acts = 0.98;
+  made.causes[0].alone = 0.9;
+  CHECK(format_summary(made).find("alone") == std::string::npos);  // no partner is worth telling
+  made.causes[0].partners = {{"slow_leak", 0.05}, {"rim_heat", 0.03}};
+  CHECK_THAT(join_lines(format_summary(made)),
+             Contains("alone acts 98 %, alone 90 %; else with slow_leak 5 %, rim_heat 3 %"));
+  check_layout(format_summary(made), 15);
+  made.verdict = diagnosis::Verdict::kNoGap;
+  CHECK(format_summary(made).find("acts 98 %") == std::string::npos);
+}
+
+TEST_CASE("an unusual companion is told beside the cause that it leaves", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.verdict = diagnosis::Verdict::kUnexplained;
+  made.causes[0].companions = {"power of slip_loss would have to be 4, 3.2 standard deviations from what is usual"};
+  const std::string text = join_lines(format_summary(made));
+  CHECK_THAT(text, Contains("looks like this cause, but something else is missing"));
+  CHECK_THAT(text, Contains("power of slip_loss would have to be 4"));
+}
+
 TEST_CASE("what cannot be told apart stands beside the cause", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.causes[0].indistinguishable_from = {"tire_loss_in_skim", "torque_zero_drift"};

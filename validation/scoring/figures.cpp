@@ -85,9 +85,9 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
   figures.push_back(
       at_least(0.97, make_share("top1_set_aware", "top-1 set-aware, detectable", detectable, is_named), 0.92));
   figures.back().upper_bound = find_mean_chance(detectable, find_chance_of_small_set);
-  figures.push_back(at_least(0.93, make_share("top1_strict", "  and nothing beside it that is not there", detectable,
+  figures.push_back(at_least(0.93, make_share("top1_strict", "  without a false companion", detectable,
                                               [](const Case& one) { return one.is_named_strictly(); })));
-  figures.push_back(at_most(0.02, make_share("refused", "  unexplained, though in the catalog", detectable,
+  figures.push_back(at_most(0.02, make_share("refused", "  unexplained", detectable,
                                              [](const Case& one) { return one.is(Verdict::kUnexplained); })));
   figures.push_back(at_least(0.95, make_share("top1_exact", "top-1 exact, identifiable", identifiable,
                                               [](const Case& one) { return one.is_exact(); })));
@@ -110,7 +110,7 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
 
 /// Of the effects that are said to act with more than 0.9, those that do not.
 Figure find_false_claims(const Cases& cases) {
-  Figure figure{"false_claims", "effects said to act above 0.9 that do not"};
+  Figure figure{"false_claims", "false claims above 0.9"};
   for (const Case& one : cases) {
     figure.n += one.claims_above(kConfident).size();
     figure.k += one.false_claims_above(kConfident).size();
@@ -160,13 +160,11 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
   const auto floor_of = [](const std::vector<Stated>& all) {
     return all.empty() ? std::nullopt : std::optional<double>(calc_ece_noise_floor(all));
   };
-  figures.push_back(
-      make_number("ece_floor", "  if all were right by chance alone", floor_of(stated), stated.size(), Unit::kNumber));
+  figures.push_back(make_number("ece_floor", "  its noise floor", floor_of(stated), stated.size(), Unit::kNumber));
   const std::vector<Stated> alone = list_stated_alone(cases);
   const auto ece_alone = alone.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(alone)));
   figures.push_back(make_number("ece_alone", "  of the cause acting alone", ece_alone, alone.size(), Unit::kNumber));
-  figures.push_back(
-      make_number("ece_alone_floor", "  likewise by chance alone", floor_of(alone), alone.size(), Unit::kNumber));
+  figures.push_back(make_number("ece_alone_floor", "  its noise floor", floor_of(alone), alone.size(), Unit::kNumber));
   const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
   figures.push_back(
       make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(), Unit::kNumber));

@@ -62,10 +62,13 @@ TEST_CASE("the figures of a validation set are those counted by hand", "[fast]")
   check_share(score, "detection", 4, 5);
   check_share(score, "false_alarms", 1, 2);
   check_share(score, "top1_set_aware", 2, 5);
+  check_share(score, "top1_strict", 2, 5);
+  check_share(score, "refused", 1, 5);  // 0006
   check_share(score, "top1_exact", 1, 5);
   check_share(score, "pairs", 1, 2);
   check_share(score, "wrong_above_inside", 1, 8);
   check_share(score, "wrong_above_of_calls", 1, 3);  // 0001 and 0007 right, 0003 wrong
+  check_share(score, "false_claims", 1, 4);          // 0001 and both of 0007 right, 0003 wrong
   check_share(score, "wrong_above_outside", 1, 2);
   check_share(score, "abstention", 1, 2);
   check_share(score, "size_coverage", 1, 1);
@@ -90,6 +93,33 @@ TEST_CASE("one of two causes, named alone, is told from another cause", "[fast]"
   seen.identifiable = false;  // the second effect cannot be seen beside the first
   told.identifiable = true;
   check_share(validation::score_cases({seen, told, other, single}, {}), "pairs_identifiable", 1, 1);
+}
+
+TEST_CASE("a companion that is not there counts against a named cause, and so does its claim", "[fast]") {
+  const Case one = make_case("0001", {"rim_heat"});
+  const Case with_companion = say_cause(one, {"rim_heat", "windage"}, 0.95);
+  CHECK(with_companion.is_named());
+  CHECK_FALSE(with_companion.is_named_strictly());
+  CHECK(with_companion.false_claims_above(0.9) == std::vector<std::string>{"windage"});
+  CHECK(with_companion.false_claims_above(0.96).empty());
+  CHECK(say_cause(one, {"rim_heat"}, 0.9, {"windage"}).is_named_strictly());  // it is said that it cannot be told
+  CHECK(say_unexplained(with_companion).claims_above(0.9).empty());
+  const validation::Score score = validation::score_cases({with_companion, say_cause(one, {"rim_heat"}, 0.95)}, {});
+  check_share(score, "top1_set_aware", 2, 2);
+  check_share(score, "top1_strict", 1, 2);
+  check_share(score, "false_claims", 1, 3);
+}
+
+TEST_CASE("the probability of acting alone is right where the first cause is the truth and no more", "[fast]") {
+  Case single = say_cause(make_case("0001", {"rim_heat"}), {"rim_heat"}, 0.95);
+  Case pair = say_cause(make_case("0002", {"rim_heat", "windage"}), {"rim_heat"}, 0.95);
+  CHECK_FALSE(single.stated_alone().has_value());
+  CHECK_FALSE(figure_of(validation::score_cases({single, pair}, {}), "ece_alone").value.has_value());
+  single.answer.diagnosis.causes.front().alone = 0.85;
+  pair.answer.diagnosis.causes.front().alone = 0.85;
+  CHECK(single.stated_alone()->right);
+  CHECK_FALSE(pair.stated_alone()->right);
+  CHECK(figure_of(validation::score_cases({single, pair}, {}), "ece_alone").value.value() == Approx(0.35));
 }
 
 TEST_CASE("top-3 counts who is as likely as the truth against it", "[fast]") {
