@@ -18,12 +18,14 @@ using measurements::MeasurementSet;
 
 using Values = std::vector<double>;
 
-constexpr double kAverage_s = 20.0;
-
-/// Blocks of the samples in these rows: each of its own on the road, where every change of speed tells.
+/// Blocks of the samples at these times: each of its own on the road, where every change of speed tells; else of 20 s,
+/// or shorter in a run of less than ten minutes, whose times may be in minutes.
 std::vector<measurements::Block> make_averages(const MeasurementSet& set, const Values& times_s) {
+  constexpr double kAverage_s = 20.0;
+  constexpr double kFewest = 30.0;
   std::vector<measurements::Block> blocks;
-  const double length_s = models::is_on_road(set.kind->traits) ? 0.0 : kAverage_s;
+  const double usual_s = std::min(kAverage_s, (times_s.back() - times_s.front()) / kFewest);
+  const double length_s = models::is_on_road(set.kind->traits) ? 0.0 : usual_s;
   for (std::size_t first = 0, last = 0; first < times_s.size(); first = last) {
     for (last = first + 1; last < times_s.size() && times_s[last] - times_s[first] < length_s;) ++last;
     blocks.push_back({first, last});
@@ -47,14 +49,15 @@ std::vector<std::size_t> drop_spikes(const Values& measured, const Values& simul
 }
 
 ChannelProducts calc_channel_products(const MeasurementSet& set, const MeasuredRun& run, const Quantity& channel,
-                                      const Values& simulated, const std::vector<std::size_t>& rows) {
+                                      const Values& simulated, const std::vector<std::size_t>& rows,
+                                      const Values& times_of_file_s) {
   const Unknowns unknowns = list_unknowns(set, run, channel, simulated);
   std::vector<const Values*> parts;
   for (const Values& part : unknowns.scaled) parts.push_back(&part);
   for (const Values& part : unknowns.fixed) parts.push_back(&part);
   const Values& measured = run.column(channel);
   const Values times_s = measurements::find_times(run, rows);
-  const std::vector<measurements::Block> blocks = make_averages(set, times_s);
+  const std::vector<measurements::Block> blocks = make_averages(set, times_of_file_s);
   const models::SensorParameters& sensor = set.sensors.at(channel);
   const std::size_t columns = parts.size() + 2;
   Values values(blocks.size() * columns, 0.0);
@@ -101,7 +104,7 @@ ComparedRows choose_rows(const MeasurementSet& set, const MeasuredRun& run) {
 }
 
 RunProducts calc_products(const MeasurementSet& set, const MeasuredRun& run, const sim::Recording<double>& simulated,
-                          const ComparedRows& rows) {
+                          const ComparedRows& rows, const Values& times_s) {
   RunProducts products;
   for (const Quantity& channel : measurements::measured_channels(*set.kind)) {
     products.emplace_back();
@@ -113,7 +116,9 @@ RunProducts calc_products(const MeasurementSet& set, const MeasuredRun& run, con
     if (there.empty()) continue;
     const Values& expected = simulated.channel(channel);
     there = drop_spikes(run.column(channel), expected, set.sensors.at(channel).noise_sd, std::move(there));
-    products.back() = calc_channel_products(set, run, channel, expected, there);
+    Values times_of_file_s;
+    for (const std::size_t row : there) times_of_file_s.push_back(times_s[row]);
+    products.back() = calc_channel_products(set, run, channel, expected, there, times_of_file_s);
   }
   return products;
 }

@@ -30,7 +30,10 @@ struct ChannelProducts {
 /// By channel; in all runs in the order of the measured channels of the set's kind. None where there are no samples.
 using RunProducts = std::vector<std::optional<ChannelProducts>>;
 
+/// `times_s` are those of the file, by which samples are averaged: a hypothesis on the unit of time must not change how
+/// many averages it is judged by.
 RunProducts calc_products(const measurements::MeasurementSet& set, const measurements::MeasuredRun& run,
-                          const sim::Recording<double>& simulated, const ComparedRows& rows);
+                          const sim::Recording<double>& simulated, const ComparedRows& rows,
+                          const std::vector<double>& times_s);
 
 }  // namespace rollrig::diagnosis

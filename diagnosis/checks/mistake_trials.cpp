@@ -27,7 +27,7 @@ Trial judge_run(const MeasurementSet& set, std::size_t r, const MeasuredRun& run
                 const sim::Recording<double>& simulated) {
   Trial trial;
   const ComparedRows rows = choose_rows(set, set.runs[r]);
-  trial.products = calc_products(set, run, simulated, rows);
+  trial.products = calc_products(set, run, simulated, rows, set.runs[r].time_s);
   trial.of_given = calc_given_log_likelihood(set, r, run);
   const RunMisfit misfit = calc_misfit(set, run, simulated, rows);
   trial.worst = misfit.worst();

@@ -59,7 +59,8 @@ std::string describe(const MeasurementSet& set, const FoundMistake& found) {
   for (const auto& [other, probability] : found.instead) {
     others.push_back(fmt::format("{} ({})", other, show_percent(probability)));
   }
-  return text + ", or " + fmt::format("{}", fmt::join(others, ", or "));
+  text += ", or " + fmt::format("{}", fmt::join(others, ", or "));
+  return found.probability < kNamed ? text + ", which this set cannot tell apart" : text;
 }
 
 }  // namespace rollrig::diagnosis

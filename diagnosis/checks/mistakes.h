@@ -38,7 +38,8 @@ struct FoundMistake {
 std::vector<FoundMistake> find_mistakes(const measurements::MeasurementSet& set, const BaselineRuns& baseline,
                                         int threads, const std::function<bool(const Mistake&, std::size_t run)>& tells);
 
-/// "in run a it looks as if speed_km_h holds mph (probability 97 %)", for messages.
+/// "in run a it looks as if speed_km_h holds mph (probability 97 %)", for messages. Of a mistake below 90 % that may be
+/// another, it says that the set cannot tell them apart.
 std::string describe(const measurements::MeasurementSet& set, const FoundMistake& found);
 
 }  // namespace rollrig::diagnosis

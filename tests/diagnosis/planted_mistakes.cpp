@@ -60,13 +60,28 @@ std::string describe_checks(const MeasurementSet& set) {
   }
 }
 
-/// Whether a sentence that names the run has the words ahead of other likely ones.
-bool is_named(const MeasurementSet& set, const std::string& text, const std::string& id, const std::string& words) {
+/// Whether there is a sentence that names the run, and for which `has_words` holds.
+bool any_sentence(const MeasurementSet& set, const std::string& text, const std::string& id,
+                  const std::function<bool(const std::string&)>& has_words) {
   std::vector<std::string> sentences;
   boost::algorithm::split(sentences, text, [](char c) { return c == ';' || c == '\n'; });
   return std::any_of(sentences.begin(), sentences.end(), [&](const std::string& sentence) {
+    return find_accused(set, sentence).count(id) > 0 && has_words(sentence);
+  });
+}
+
+/// Whether a sentence that names the run has the words ahead of other likely ones.
+bool is_named(const MeasurementSet& set, const std::string& text, const std::string& id, const std::string& words) {
+  return any_sentence(set, text, id, [&words](const std::string& sentence) {
     const std::size_t at = sentence.find(words);
-    return find_accused(set, sentence).count(id) > 0 && at != std::string::npos && at <= sentence.find(", or ");
+    return at != std::string::npos && at <= sentence.find(", or ");
+  });
+}
+
+/// Whether a sentence that names the run has the words among those that cannot be told apart.
+bool is_untold(const MeasurementSet& set, const std::string& text, const std::string& id, const std::string& words) {
+  return any_sentence(set, text, id, [&words](const std::string& sentence) {
+    return sentence.find(words) != std::string::npos && sentence.find("cannot tell apart") != std::string::npos;
   });
 }
 
@@ -185,6 +200,7 @@ PlantedScore score(const PlantedMistake& mistake, const std::vector<MeasurementS
     score.planted += 1;
     score.found += found ? 1 : 0;
     score.named += named ? 1 : 0;
+    score.untold += !named && is_untold(set, text, run.id, mistake.words) ? 1 : 0;
     score.innocent += static_cast<int>(set.runs.size()) - 1;
     score.accused += static_cast<int>(accused.size()) - (found ? 1 : 0);
     if (!named || accused.size() > 1) score.misses.push_back(run.id + ": " + text);

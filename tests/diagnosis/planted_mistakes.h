@@ -34,6 +34,7 @@ struct PlantedScore {
   int planted = 0;
   int found = 0;
   int named = 0;                    // rightly
+  int untold = 0;                   // not named, but among those of which it is said that they cannot be told apart
   int innocent = 0;                 // runs beside the mistaken one
   int accused = 0;                  // of these
   std::vector<std::string> misses;  // what was said instead

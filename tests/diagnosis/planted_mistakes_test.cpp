@@ -1,6 +1,6 @@
 // How often mistakes that are planted in measured and in made sets are found, rightly named, and laid on innocent runs.
-// The bars: 90 % rightly named (knots: found), at most 1 % of innocent runs accused. ROLLRIG_PLANTINGS sets the number
-// of each.
+// The bars: 90 % rightly named, or among those of which it is said that they cannot be told apart (knots on
+// rollers: found); at most 1 % of innocent runs accused. ROLLRIG_PLANTINGS sets the number of each.
 #include "tests/diagnosis/planted_mistakes.h"
 
 #include <fmt/format.h>
@@ -47,22 +47,24 @@ std::vector<MeasurementSet> draw_sets(const MeasurementSet& set, int count, std:
   return sets;
 }
 
-/// Which of the bars hold for a mistake.
-enum class Bar { kNamed, kFound, kInnocent };
+/// Told: rightly named, or said that it cannot be told apart from another.
+enum class Bar { kTold, kFound };
 
-void require_score(const std::string& of, const std::string& name, const PlantedScore& score, Bar bar = Bar::kNamed) {
-  std::cout << fmt::format("{:10} {:45} planted {:3} found {:3} named {:3}, of {:4} innocent runs accused {}\n", of,
-                           name, score.planted, score.found, score.named, score.innocent, score.accused)
+void require_score(const std::string& of, const std::string& name, const PlantedScore& score, Bar bar = Bar::kTold) {
+  std::cout << fmt::format(
+                   "{:10} {:45} planted {:3} found {:3} named {:3} untold {:3}, of {:4} innocent runs accused {}\n", of,
+                   name, score.planted, score.found, score.named, score.untold, score.innocent, score.accused)
             << std::flush;
   INFO(of << " " << name << "\n" << tests::join(score.misses));
-  if (bar != Bar::kInnocent) CHECK(10 * (bar == Bar::kFound ? score.found : score.named) >= 9 * score.planted);
+  CHECK(10 * (bar == Bar::kFound ? score.found : score.named + score.untold) >= 9 * score.planted);
   CHECK(100 * score.accused <= score.innocent);
 }
 
 void require_bars(const std::string& of, const PlantedMistake& mistake, const std::vector<MeasurementSet>& sets) {
-  // Knots are 15 % more than mph, which an effect may be as well, and cars and rigs are hardly measured in knots.
-  require_score(of, mistake.name, tests::score(mistake, sets, 5),
-                mistake.words == "holds knots" ? Bar::kFound : Bar::kNamed);
+  // On rollers, knots fall short (docs/diagnosis.md): 15 % more speed than of mph is little beside a tire that warms as
+  // the simulation has it but roughly.
+  const bool falls_short = of == "dyno" && mistake.words == "holds knots";
+  require_score(of, mistake.name, tests::score(mistake, sets, 5), falls_short ? Bar::kFound : Bar::kTold);
 }
 
 void require_bars_of_two(const std::string& of, const std::vector<MeasurementSet>& sets) {
@@ -154,10 +156,7 @@ TEST_CASE("exchanged columns, times in minutes, still air and two mistakes, plan
     const std::vector<MeasurementSet> sets = draw_sets(made.set, count, made.runs);
     for (const PlantedMistake& mistake : tests::list_exchanged_columns(made.set))
       require_bars(made.name, mistake, sets);
-    // On drum and dyno, minutes fall short of the bars (docs/diagnosis.md): there innocent runs alone are held to them.
-    const PlantedMistake minutes = tests::make_minutes();
-    const PlantedScore score = tests::score(minutes, sets, 5);
-    require_score(made.name, minutes.name, score, made.name == std::string("road") ? Bar::kNamed : Bar::kInnocent);
+    require_bars(made.name, tests::make_minutes(), sets);
     require_bars_of_two(made.name, sets);
     if (made.name != std::string("road")) continue;
     for (const double degC : {20.0, 25.0}) {
