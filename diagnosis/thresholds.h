@@ -10,7 +10,8 @@ namespace rollrig::diagnosis {
 
 /// Probabilities before the measurement (docs/how_the_diagnosis_reasons.md, "Which hypotheses are compared");
 /// what a kind has is shared evenly.
-/// Assumed: without a cause as likely as with one; one effect likelier than two; 9 % for a cause outside the catalog.
+/// Assumed: without a cause as likely as with one; one effect likelier than two; 3 % for a cause outside the catalog, a
+/// third of what it was while single causes that were right in 98 % of 864 answers were stated with 90 %.
 struct ComparisonPriors {
   double none = 0.50;
   double singles = 0.40;
