@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kCompared = " --only windage,torque_gain,load_exponent";
 
-/// A set with a drag on the wheel that the torque sensor could show as well, and the loop on it.
+/// A set with a drag on the wheel that is too small to be certain of, and the loop on it.
 class LoopFolder {
  public:
   LoopFolder() {
@@ -58,7 +58,7 @@ class LoopFolder {
 
  private:
   TemporaryFolder folder_;
-  std::string effect_ = "effects.windage.force_N=5";
+  std::string effect_ = "effects.windage.force_N=0.8";
 };
 
 }  // namespace
