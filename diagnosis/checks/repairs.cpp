@@ -93,10 +93,11 @@ std::vector<WrongUnit> list_common_wrong_units() {
   constexpr double kBar_kPa = 100.0;
   constexpr double kNauticalMile_km = 1.852;  // exact
   constexpr double kRare = 0.2;               // Assumed
+  constexpr double kVeryRare = 0.02;          // Assumed: units that ships and aircraft use, and few others
   return {{quantities::kSpeed, 3.6, 0.0, "holds m/s"},
           {quantities::kSpeed, 1.0 / 3.6, 0.0, "was multiplied by 3.6 once too often", kRare},
           {quantities::kSpeed, kMile_m / 1e3, 0.0, "holds mph"},
-          {quantities::kSpeed, kNauticalMile_km, 0.0, "holds knots", kRare},  // as NMEA 0183 has it
+          {quantities::kSpeed, kNauticalMile_km, 0.0, "holds knots", kVeryRare},  // as NMEA 0183 has it
           {quantities::kLoad, kStandardGravity_m_s2, 0.0, "holds kgf"},
           {quantities::kLoad, 1e3, 0.0, "holds kN"},
           {quantities::kLoad, kPoundForce_N, 0.0, "holds lbf"},
