@@ -160,15 +160,26 @@ std::string describe_verdict(const Findings& findings) {
   const Cause& cause = findings.causes.front();
   std::string text = fmt::format("Explained: the gap is {}", fmt::join(cause.effects, " with "));
   if (!cause.indistinguishable_from.empty()) text += " or, as well, " + join(cause.indistinguishable_from);
-  text = fmt::format("{} (probability {}).", text, show_probability(cause.probability));
-  if (!cause.alone.has_value() || cause.partners.empty()) return text;
+  return fmt::format("{} (probability {}).", text, show_probability(cause.probability));
+}
+
+namespace {
+
+/// " It acts with a probability of 98 %, alone with 90 %; else most likely with rim_heat (3 %)."; empty where nothing
+/// is likely to act beside it.
+std::string describe_alone(const Cause& cause) {
+  constexpr std::size_t kMost = 3;
+  if (!cause.alone.has_value() || cause.partners.empty()) return {};
   std::vector<std::string> partners;
   for (const Partner& partner : cause.partners) {
+    if (partners.size() == kMost) break;
     partners.push_back(fmt::format("{} ({})", partner.effect, show_probability(partner.probability)));
   }
-  return text + fmt::format(" It acts with a probability of {}, alone with {}; else most likely with {}.",
-                            show_probability(*cause.acts), show_probability(*cause.alone), join(partners));
+  return fmt::format(" It acts with a probability of {}, alone with {}; else most likely with {}.",
+                     show_probability(*cause.acts), show_probability(*cause.alone), join(partners));
 }
+
+}  // namespace
 
 Section make_verdict(const Findings& findings) {
   Section section{"Verdict"};
@@ -182,7 +193,7 @@ Section make_verdict(const Findings& findings) {
       meaning += fmt::format("; {} {}", plain_name(last_part(cause.parameters.front().name)),
                              show_estimate(cause.parameters.front()));
     }
-    more = meaning + "." + describe_shrinkage(findings.gap);
+    more = meaning + "." + describe_shrinkage(findings.gap) + describe_alone(cause);
   }
   section.blocks.push_back(make_lead(tone, describe_verdict(findings), more));
   if (!findings.warnings.empty()) section.blocks.push_back(make_warnings(findings.warnings));
