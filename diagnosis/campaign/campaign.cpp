@@ -16,24 +16,6 @@
 namespace rollrig::diagnosis {
 namespace {
 
-constexpr double kReach_sd = 4.0;  // of the prior, to either side
-
-/// An effect's size over that at which it is judged, both minus the size at which it does nothing, at evenly spaced
-/// points of its prior; -1 at points beyond its range.
-std::vector<double> list_ratios(const JudgedSize& judged) {
-  constexpr int kPoints = 801;
-  const models::EffectParameter& size = judged.term.term->parameters().front();
-  const double off_SI = size.off.value_or(0.0) * unit_of_key(size.key).factor;
-  const double middle_SI = from_prior_units(size, judged.u, judged.term.sign).value_SI - off_SI;
-  std::vector<double> ratios;
-  for (int i = 0; i < kPoints; ++i) {
-    const double u = kReach_sd * (2.0 * i / (kPoints - 1) - 1.0);
-    const PriorUnits at = from_prior_units(size, u, judged.term.sign);
-    ratios.push_back(at.allowed ? std::abs((at.value_SI - off_SI) / middle_SI) : -1.0);
-  }
-  return ratios;
-}
-
 /// The effects that count, each with the sizes at which it is judged.
 class JudgedEffects {
  public:
@@ -42,7 +24,7 @@ class JudgedEffects {
       for (const JudgedSize& size : list_judged_sizes(*term)) {
         effect_.push_back(terms_.size());
         sizes_.push_back(size);
-        ratios_.push_back(list_ratios(size));
+        points_.push_back(list_size_points(size.term.term->parameters().front(), size.term.sign, size.u));
       }
       terms_.push_back(term);
     }
@@ -65,24 +47,18 @@ class JudgedEffects {
   double calc_share(std::size_t size, double detectability) const {
     if (!(detectability > 0.0)) return 0.0;
     const double least = thresholds::kDetectableEffect_sd / detectability;
-    const std::vector<double>& ratios = ratios_[size];
     double seen = 0.0;
-    double all = 0.0;
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-      if (ratios[i] < 0.0) continue;  // beyond its range
-      const double u = 2.0 * kReach_sd * static_cast<double>(i) / static_cast<double>(ratios.size() - 1) - kReach_sd;
-      const double weight = std::exp(-0.5 * u * u);
-      all += weight;
-      if (ratios[i] >= least) seen += weight;
+    for (const SizePoint& point : points_[size]) {
+      if (std::abs(point.ratio) >= least) seen += point.weight;
     }
-    return seen / all;
+    return seen;
   }
 
  private:
   std::vector<const Term*> terms_;
   std::vector<JudgedSize> sizes_;
-  std::vector<std::size_t> effect_;  // of each size
-  std::vector<std::vector<double>> ratios_;
+  std::vector<std::size_t> effect_;             // of each size
+  std::vector<std::vector<SizePoint>> points_;  // likewise, of its prior
 };
 
 /// What some tests together are worth.

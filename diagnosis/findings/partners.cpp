@@ -5,7 +5,6 @@
 #include <map>
 
 #include "diagnosis/thresholds.h"
-#include "sim/core/units.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -51,22 +50,13 @@ std::map<std::string, double> find_bayes_factors(const std::vector<Screened>& sc
 double calc_bayes_factor(const Screened& screened) {
   if (!screened.was_simulated || !(screened.detectability > 0.0)) return 1.0;
   const models::EffectParameter& size = screened.term.term->parameters().front();
-  const double off_SI = size.off.value_or(0.0) * unit_of_key(size.key).factor;
-  const auto change_at = [&](double u) { return from_prior_units(size, u, screened.term.sign).value_SI - off_SI; };
-  const double tried = change_at(screened.tried_u);
   const double variance = screened.detectability * screened.detectability;
-  constexpr double kFarthest_u = 4.0;
-  constexpr double kStep_u = 0.02;
-  double sum = 0.0;
-  double weights = 0.0;
-  for (double u = -kFarthest_u; u <= kFarthest_u; u += kStep_u) {
-    if (!from_prior_units(size, u, screened.term.sign).allowed) continue;
-    const double x = change_at(u) / tried;
-    const double weight = std::exp(-0.5 * u * u);
-    weights += weight;
-    sum += weight * std::exp(x * screened.along - 0.5 * x * x * variance);
+  double mean = 0.0;
+  for (const SizePoint& point : list_size_points(size, screened.term.sign, screened.tried_u)) {
+    const double x = point.ratio;
+    mean += point.weight * std::exp(x * screened.along - 0.5 * x * x * variance);
   }
-  return weights > 0.0 ? sum / weights : 1.0;
+  return mean;
 }
 
 void find_partners(const Study& study, const Comparison& comparison, const Candidate& lead, rollrig::Cause& cause) {

@@ -350,7 +350,7 @@ std::string format_summary(const Findings& findings) {
     if (findings.verdict != Verdict::kNoGap) text += not_judged_line(findings.gap);
     for (const std::string& objection : first.objections) text += line("But", objection);
     for (const std::string& companion : first.companions) {
-      text += line("Beside it", "something that looks like one more effect, but hardly is: " + companion);
+      text += line("Beside it", "the best fit adds an effect that is not named: " + companion);
     }
   }
   if (const auto& lone = findings.without_run) {

@@ -78,6 +78,24 @@ double to_prior_units(const models::EffectParameter& parameter, double value_SI)
   return std::clamp((value - form.middle) / form.half_width, -kFarthest, kFarthest);
 }
 
+std::vector<SizePoint> list_size_points(const models::EffectParameter& size, int sign, double judged_u) {
+  constexpr int kPoints = 801;
+  constexpr double kReach_sd = 4.0;
+  const double off_SI = size.off.value_or(0.0) * unit_of_key(size.key).factor;
+  const double judged_SI = from_prior_units(size, judged_u, sign).value_SI - off_SI;
+  std::vector<SizePoint> points;
+  double sum = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double u = kReach_sd * (2.0 * i / (kPoints - 1) - 1.0);
+    const PriorUnits at = from_prior_units(size, u, sign);
+    if (!at.allowed) continue;
+    points.push_back({std::exp(-0.5 * u * u), (at.value_SI - off_SI) / judged_SI});
+    sum += points.back().weight;
+  }
+  for (SizePoint& point : points) point.weight /= sum;
+  return points;
+}
+
 PriorBounds bounds_in_prior_units(const models::EffectParameter& parameter, int sign) {
   const NormalForm form = normal_form_of(parameter.prior);
   const bool is_log = parameter.prior.scale == Prior::Scale::kLog;

@@ -40,6 +40,14 @@ PriorUnits from_prior_units(const models::EffectParameter& parameter, double u, 
 /// The u of a value in SI units, held to 3 on either side.
 double to_prior_units(const models::EffectParameter& parameter, double value_SI);
 
+/// A point of the prior of an effect's size.
+struct SizePoint {
+  double weight = 0.0;  // probability of the prior; those of all points add to 1
+  double ratio = 0.0;   // size there over the size at `judged_u`, both minus the size at which the effect does nothing
+};
+/// 801 points of the prior, evenly spaced from -4 to 4 in prior units, without those beyond the range of the size.
+std::vector<SizePoint> list_size_points(const models::EffectParameter& size, int sign, double judged_u);
+
 /// The u between which a parameter stays within its range.
 struct PriorBounds {
   double lower;

@@ -18,9 +18,8 @@ struct CavityVolume {
     info.equation =
         "V/V_0 = w = 1 - e ((Fz/Fz_ref)^m - l - q (v/v_1)^2), v_1 = 120 km/h; a change of volume warms or cools the "
         "gas by dT/T = -(kappa - 1) dw, which goes into the rubber: p ~ T_gas (1 - (kappa - 1) (w - w_f))/w, dw_f/dt "
-        "= (w - w_f) H/C_gas. The cavity follows the recorded load and speed with the time constant t_l: what is read "
-        "of "
-        "p lacks dp = p kappa d, dd/dt = -dw/dt - d/t_l";
+        "= (w - w_f) H/C_gas. The cavity follows the recorded load and speed with the time constant t_l: the "
+        "reading of p is lower by p kappa d, dd/dt = -dw/dt - d/t_l";
     info.source =
         "Assumed: e up to 1 %, as the contact presses in some 0.4 l of 40 l; m about 1, q up to 1, the square "
         "(centrifugal force), l from 0 (pressure set on the lifted wheel) to 1 (on the loaded one). Heat of "

@@ -9,6 +9,7 @@
 #include <boost/algorithm/string/trim.hpp>
 
 #include "estimation/loss_conversion.h"
+#include "models/reference_conditions.h"
 #include "models/tire/own_number.h"
 #include "scenarios/scaffold/iso_test.h"
 #include "scenarios/scaffold/new_machine.h"
@@ -263,14 +264,15 @@ std::string make_tire_name(const TireSize& size, const std::string& load_index) 
   return name;
 }
 
+const Range kRrcs_N_per_kN = between(2.0, 30.0);  // Assumed: of any tire
+
 void require_options(const NewTireOptions& options) {
   if (options.tir.empty()) {
     if (options.rrc_N_per_kN == 0.0) {
       throw InputError({"the RRc is missing or 0", "command line", 0, "--rrc", "",
-                        fmt::format("{} N/kN; or --tir with a tire property file", between(2.0, 30.0).to_string()),
-                        ""});
+                        fmt::format("{} N/kN; or --tir with a tire property file", kRrcs_N_per_kN.to_string()), ""});
     }
-    require_number(options.rrc_N_per_kN, between(2.0, 30.0), "--rrc", "N/kN");
+    require_number(options.rrc_N_per_kN, kRrcs_N_per_kN, "--rrc", "N/kN");
   } else if (options.rrc_N_per_kN != 0.0) {
     throw InputError({"the property file gives the RRc", "command line", 0, "--rrc",
                       fmt::format("{:g}", options.rrc_N_per_kN), "--rrc or --tir, not both", ""});
@@ -282,19 +284,18 @@ void require_options(const NewTireOptions& options) {
 
 /// RRc of the standard's test by the coefficients of a property file, rounded to 0.001 N/kN.
 double find_tir_rrc_N_per_kN(const tables::TirFile& tir, double load_N, double pressure_kPa) {
-  constexpr double kIsoSpeed_m_s = 80.0 / kKmhPerMs;  // ISO 28580
-  constexpr double kIsoCurvature_per_m = 1.0;         // of the 2 m drum
-  const double flat_N = tables::calc_rolling_resistance_N(tir, load_N, 1e3 * pressure_kPa, kIsoSpeed_m_s);
+  constexpr double kIsoCurvature_per_m = 1.0;  // of the 2 m drum
+  const double flat_N =
+      tables::calc_rolling_resistance_N(tir, load_N, 1e3 * pressure_kPa, models::get_reference_speed_m_s<double>());
   LossConditions flat, drum;
   flat.drum_curvature_per_m = 0.0;
   drum.drum_curvature_per_m = kIsoCurvature_per_m;
   flat.tire_diameter_m = drum.tire_diameter_m = 2.0 * tir.radius_m;
   const double rrc_N_per_kN = 1e3 * flat_N * estimation::convert_loss(flat, drum).force_factor / load_N;
-  const Range allowed = between(2.0, 30.0);
-  if (allowed.contains(rrc_N_per_kN)) return std::round(1e3 * rrc_N_per_kN) / 1e3;
+  if (kRrcs_N_per_kN.contains(rrc_N_per_kN)) return std::round(1e3 * rrc_N_per_kN) / 1e3;
   throw InputError({"the property file has the rolling resistance of no tire", tir.path, 0, "QSY1",
                     fmt::format("RRc {:.3g} N/kN in the test of ISO 28580", rrc_N_per_kN),
-                    fmt::format("{} N/kN; or --rrc in place of --tir", allowed.to_string()), ""});
+                    fmt::format("{} N/kN; or --rrc in place of --tir", kRrcs_N_per_kN.to_string()), ""});
 }
 
 }  // namespace
