@@ -10,9 +10,11 @@
 #include "diagnosis/comparison/tire_beliefs.h"
 #include "diagnosis/findings/balance.h"
 #include "diagnosis/findings/gap.h"
+#include "diagnosis/findings/likeness.h"
 #include "diagnosis/findings/locations.h"
 #include "diagnosis/findings/materiality.h"
 #include "diagnosis/findings/open_questions.h"
+#include "diagnosis/findings/undetected.h"
 #include "diagnosis/findings/verdict.h"
 #include "diagnosis/next_test/next_test.h"
 #include "sim/core/error.h"
@@ -114,6 +116,8 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   stages.begin("checks", 0.015);
   const SetChecks checks = check_set(measured, options.threads);
   settings.terms = find_terms(measured, options);
+  settings.unknown_terms =
+      choose_unknown_terms(measured.kind->traits, measured.tire.model(measured.baseline));
   settings.threads = options.threads;
   const Beliefs beliefs = compare_beliefs(leave_out(measured, checks.left_out), settings);
   const Study& study = *beliefs.likelier.study;
@@ -135,6 +139,10 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
     named = {*diagnosis.trace};
   } else if (diagnosis.verdict != Verdict::kNoGap) {
     named = diagnosis.causes;
+  }
+  diagnosis.unknown_like = find_likeness(study, comparison);
+  if (diagnosis.verdict == Verdict::kNoGap && !diagnosis.trace.has_value()) {
+    diagnosis.nothing_detectable = calc_nothing_detectable(study, comparison);
   }
   diagnosis.not_excluded = find_not_excluded(study, comparison, named);
   stages.begin("where and what", 0.76);

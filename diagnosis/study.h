@@ -33,7 +33,8 @@ struct Stages {
 };
 
 struct StudySettings {
-  std::vector<const Term*> terms;  // in the comparison
+  std::vector<const Term*> terms;          // in the comparison
+  std::vector<const Term*> unknown_terms;  // likewise: families of unknown effects
   ComparisonPriors priors;
   ModelError model_error;
   TireBelief belief = TireBelief::kIdentified;

@@ -17,7 +17,9 @@ struct ComparisonPriors {
   double singles = 0.40;
   double pairs = 0.06;
   double triples = 0.01;
-  double unknown = 0.01;  // on top of the baseline
+  double unknown = 0.01;        // on top of the baseline, of any form
+  double families = 0.01;       // a family of unknown effects (terms/unknown_terms.h), alone
+  double family_beside = 0.03;  // odds of one beside a named cause, over that cause alone
   double look_alike =
       0.02;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
 };
@@ -71,6 +73,7 @@ constexpr double kKeptRemainder = 0.1;     // of 35 with something else missing 
 constexpr double kKeptBeyondRange = 0.05;  // Assumed, as of those that follow: no such truth was seen
 constexpr double kKeptWrongFiles = 0.05;
 constexpr double kKeptUnconfirmed = 0.05;
+constexpr double kConfirmed_nats = 3.0;   // Assumed: odds of 20 for what was left out; less does not confirm a cause
 constexpr double kShownHeldOut_sd = 3.0;  // Assumed: by which a cause changes a part left out for it to be judged there
 constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a part left out is judged
 constexpr double kSmallestEffect_floors_per_percent = 0.6;  // Assumed: 0.3 noise floors matter as 0.5 % of the loss do
@@ -78,8 +81,10 @@ constexpr double kDetectableEffect_sd = 5.0;                // named then in 19 
 constexpr std::size_t kLongSet = 3;        // effects named together; more than that name nothing, so that
 constexpr double kLeftOutOfLongSet = 0.1;  // Assumed: the unlikeliest are left out, up to this share of the set
 constexpr double kNamed = 0.95;            // Assumed: from here on a cause is named, and a loop of tests ends
-constexpr double kWorthNaming = 0.001;     // probability of a further cause
-constexpr double kWorthPartner = 0.005;    // Assumed: probability of an effect that is listed as acting beside a cause
+constexpr double kNamedAlone = 0.9;  // Assumed: from here on it counts as acting alone, and a loop of tests ends early
+constexpr double kWorthNaming = 0.001;   // probability of a further cause
+constexpr double kLikeFamily = 0.5;      // Assumed: share of "unknown" from which a family tells what it is like
+constexpr double kWorthPartner = 0.005;  // Assumed: probability of an effect that is listed as acting beside a cause
 
 }  // namespace thresholds
 }  // namespace rollrig::diagnosis

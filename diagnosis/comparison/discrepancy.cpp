@@ -211,13 +211,16 @@ void Discrepancy::whiten_below(Columns& columns) const {
   if (below_ != nullptr) below_->whiten(below_amplitudes_, columns);
 }
 
+double Discrepancy::calc_log_determinant(const Amplitudes& amplitudes, std::size_t series) const {
+  const Basis& basis = bases_[series];  // of time: one each
+  const double square = amplitudes[basis.channel] * amplitudes[basis.channel];
+  return (1.0 + square * basis.strengths.array()).log().sum();
+}
+
 double Discrepancy::log_determinant_below() const {
   double sum = 0.0;
   if (below_ == nullptr) return sum;
-  for (const Basis& basis : below_->bases()) {
-    const double square = below_amplitudes_[basis.channel] * below_amplitudes_[basis.channel];
-    sum += (1.0 + square * basis.strengths.array()).log().sum();
-  }
+  for (std::size_t s = 0; s < below_->bases().size(); ++s) sum += below_->calc_log_determinant(below_amplitudes_, s);
   return sum;
 }
 

@@ -51,6 +51,9 @@ class Discrepancy {
   /// Sigma^-1/2, in place.
   void whiten_series(const Amplitudes& amplitudes, std::size_t series, RowMatrix& columns) const;
 
+  /// Of a discrepancy of time: ln |Sigma| over the blocks of one series, sensor noise taken out.
+  double calc_log_determinant(const Amplitudes& amplitudes, std::size_t series) const;
+
   /// Sigma^-1/2 of the discrepancy that this one stands on, and log |Sigma| of it; without one, nothing and 0.
   template <class Columns>
   void whiten_below(Columns& columns) const;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnosis/comparison/bounded_step.h"
+#include "diagnosis/comparison/log_determinant.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -61,8 +62,9 @@ LeaveOut::LeaveOut(const Study& study, const Candidate& candidate)
   gradient_ = jacobian.transpose() * (jacobian * candidate.fit.unknowns - with_residuals_.col(n));
 }
 
-RowMatrix LeaveOut::find_own(const LeftOutPart& part, const RowMatrix& columns) const {
+LeaveOut::OwnRows LeaveOut::find_own_rows(const LeftOutPart& part, const RowMatrix& columns) const {
   RowMatrix own(columns.rows(), columns.cols());
+  double log_scale = 0.0;
   Eigen::Index next = 0;
   for (std::size_t s = 0; s < study_.set.series().size(); ++s) {
     const Series& series = study_.set.series()[s];
@@ -70,6 +72,7 @@ RowMatrix LeaveOut::find_own(const LeftOutPart& part, const RowMatrix& columns) 
     if (!part.phase.has_value()) {
       own.middleRows(next, to_index(series.size())) = series.rows_of(columns);
       next += to_index(series.size());
+      log_scale -= 0.5 * study_.discrepancy.calc_log_determinant(candidate_.amplitudes, s);
       continue;
     }
     std::vector<Eigen::Index> blocks;
@@ -84,9 +87,10 @@ RowMatrix LeaveOut::find_own(const LeftOutPart& part, const RowMatrix& columns) 
     const Eigen::LLT<Eigen::MatrixXd> factor(units.transpose() * units);
     own.middleRows(next, count) = factor.matrixL().solve(Eigen::MatrixXd(units.transpose() * series.rows_of(columns)));
     next += count;
+    log_scale += 0.5 * calc_log_determinant(factor);
   }
   own.conservativeResize(next, Eigen::NoChange);
-  return own;
+  return {own, log_scale};
 }
 
 void LeaveOut::take_off_offsets(std::size_t run, RowMatrix& own) const {
@@ -130,6 +134,35 @@ Prediction LeaveOut::predict_without(const LeftOutPart& part, Simulated which) c
                                  : model_.simulate_one(part.run, prediction.unknowns, prediction.simulated);
   if (!was_simulated) prediction.simulated.resize(0);
   return prediction;
+}
+
+double LeaveOut::calc_log_likelihood(const LeftOutPart& part) const {
+  const OwnRows own = find_own_rows(part, with_residuals_);
+  const Eigen::Index n = own.rows.cols() - 1;
+  return own.log_scale + calc_log_density(own.rows.leftCols(n), own.rows.col(n));
+}
+
+double LeaveOut::calc_log_likelihood_of_files() const {
+  const Eigen::Index first = to_index(model_.own_count());
+  const Eigen::Index count = to_index(model_.parameter_count()) - first;
+  RowMatrix stated = RowMatrix::Zero(count, curvature_.cols());
+  // A little of the files is left, for what no run determines.
+  constexpr double kLeft = 1e-3;
+  stated.middleCols(first, count).diagonal().setConstant(std::sqrt(1.0 - kLeft));
+  return calc_log_density(stated, stated * candidate_.fit.unknowns);
+}
+
+double LeaveOut::calc_log_density(const RowMatrix& jacobian, const Eigen::VectorXd& residuals) const {
+  const Eigen::MatrixXd curvature = curvature_ - jacobian.transpose() * jacobian;
+  const Eigen::VectorXd aim = jacobian * candidate_.fit.unknowns - residuals;
+  const Eigen::VectorXd unknowns = solve_within_bounds(model_, curvature, gradient_ - jacobian.transpose() * aim);
+  const Eigen::VectorXd error = residuals + jacobian * (unknowns - candidate_.fit.unknowns);
+  // S^-1 and |S| by the curvatures with the rows and without them.
+  const Eigen::LLT<Eigen::MatrixXd> with(curvature_);
+  const Eigen::LLT<Eigen::MatrixXd> without(curvature);
+  const Eigen::VectorXd along = jacobian.transpose() * error;
+  const double square = error.squaredNorm() - along.dot(with.solve(along));
+  return -0.5 * (square + calc_log_determinant(with) - calc_log_determinant(without));
 }
 
 }  // namespace rollrig::diagnosis

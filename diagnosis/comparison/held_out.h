@@ -38,13 +38,31 @@ class LeaveOut {
   enum class Simulated { kAll, kOfPart };
   Prediction predict_without(const LeftOutPart& part, Simulated simulated = Simulated::kAll) const;
 
+  /// How likely the hypothesis, fitted without a part, makes what was measured in the part: the logarithm of a density,
+  /// up to a number that is the same for all hypotheses.
+  /// Equation  -(e^T S^-1 e + ln |S|)/2 + ln |W|;  e = r + J (u - u_0), S = 1 + J C^-1 J^T
+  /// Symbols   r, J of the part, whitened by W; u the unknowns of the fit without the part, C^-1 their covariance
+  double calc_log_likelihood(const LeftOutPart& part) const;
+  /// Likewise of the base parameters as the files state them, where all runs and no file count.
+  double calc_log_likelihood_of_files() const;
+
   /// How clearly a part shows a difference of block means in SI units: sum of squares, whitened as the uncertainty of a
   /// prediction is; of a run, without what its offsets take.
   double measure(const LeftOutPart& part, Eigen::VectorXd difference) const;
 
  private:
   /// Of whitened columns what a part has that does not follow from the other parts, in independent rows.
-  RowMatrix find_own(const LeftOutPart& part, const RowMatrix& columns) const;
+  RowMatrix find_own(const LeftOutPart& part, const RowMatrix& columns) const {
+    return find_own_rows(part, columns).rows;
+  }
+  struct OwnRows {
+    RowMatrix rows;
+    double log_scale = 0.0;  // ln of the determinant by which block means in SI units become these rows; sensor noise
+                             // alone is left out where the part is a run
+  };
+  OwnRows find_own_rows(const LeftOutPart& part, const RowMatrix& columns) const;
+  /// Of independent rows with unit noise, predicted by all that is not in them.
+  double calc_log_density(const RowMatrix& jacobian, const Eigen::VectorXd& residuals) const;
   /// Of the rows of a run what its offsets leave at their best.
   void take_off_offsets(std::size_t run, RowMatrix& own) const;
 

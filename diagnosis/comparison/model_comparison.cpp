@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnosis/comparison/evaluator.h"
 #include "diagnosis/comparison/evidence.h"
@@ -49,7 +50,7 @@ void assign_probabilities(Study& study, Comparison& comparison) {
                            std::log(priors.unknown) + study.null.log_discrepancy};
   for (const Candidate& candidate : comparison.candidates) {
     const double share = sign_share(candidate.fit.hypothesis);
-    const double prior = find_prior(study.settings, candidate.fit.hypothesis.terms.size());
+    const double prior = find_prior(study.settings, candidate.fit.hypothesis);
     logs.push_back(std::log(share * prior) + candidate.log_evidence);
     const double look_alike = prior * priors.look_alike / priors.singles;
     logs.push_back(std::log(share * look_alike) + candidate.log_discrepancy);
@@ -60,10 +61,31 @@ void assign_probabilities(Study& study, Comparison& comparison) {
   for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
     comparison.candidates[i].probability = std::exp(logs[2 + 2 * i] - total);
     comparison.candidates[i].discrepancy_probability = std::exp(logs[3 + 2 * i] - total);
-    comparison.unknown_probability += comparison.candidates[i].discrepancy_probability;
+    Candidate& candidate = comparison.candidates[i];
+    if (candidate.fit.hypothesis.has_unknown()) {
+      candidate.discrepancy_probability += std::exchange(candidate.probability, 0.0);
+    }
+    comparison.unknown_probability += candidate.discrepancy_probability;
   }
   std::stable_sort(comparison.candidates.begin(), comparison.candidates.end(),
                    [](const auto& a, const auto& b) { return a.log_evidence > b.log_evidence; });
+}
+
+/// Whether a family of unknown effects changes so little beside a named effect that it may be an error of that effect's
+/// law: less than a distorted look-alike would (ModelError::look_alike_share).
+bool is_distortion(const Study& study, const Candidate& named, const Candidate& with_unknown) {
+  if (!with_unknown.fit.hypothesis.has_unknown() || !std::isfinite(with_unknown.fit.cost)) return false;
+  const auto measure = [&study](const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+    double sum = 0.0;
+    for (const Series& series : study.set.series()) {
+      const Eigen::VectorXd change = series.rows_of(to) - series.rows_of(from);
+      sum += change.squaredNorm() / (series.floor * series.floor);
+    }
+    return std::sqrt(sum);
+  };
+  const double of_named = measure(study.null.fit.simulated, named.fit.simulated);
+  const double of_unknown = measure(named.fit.simulated, with_unknown.fit.simulated);
+  return of_unknown < study.settings.model_error.look_alike_share * of_named;
 }
 
 /// On top of the best `firsts` hypotheses of so many terms the `seconds` terms that gain most: those whose score
@@ -79,7 +101,9 @@ struct Addition {
 void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& how, Comparison& comparison) {
   std::vector<Candidate> lower;
   for (const Candidate& candidate : comparison.candidates) {
-    if (candidate.fit.hypothesis.terms.size() == how.terms && lower.size() < how.firsts) lower.push_back(candidate);
+    const Hypothesis& hypothesis = candidate.fit.hypothesis;
+    const bool is_first = hypothesis.terms.size() == how.terms && !hypothesis.has_unknown();
+    if (is_first && lower.size() < how.firsts) lower.push_back(candidate);
   }
   Stages& stages = *study.settings.stages;
   const double step = (how.until - stages.to) / static_cast<double>(std::max<std::size_t>(1, lower.size()));
@@ -90,13 +114,27 @@ void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& 
     for (const Term* term : study.settings.terms) {
       if (!first.fit.hypothesis.contains(*term)) others.push_back(term);
     }
+    others.insert(others.end(), study.settings.unknown_terms.begin(), study.settings.unknown_terms.end());
     std::vector<Screened> screened = screen(study, first, others);
     comparison.on_top.push_back({first.fit.hypothesis, screened});
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < thresholds::kWorthAdding_nats; }),
                    screened.end());
     if (screened.empty()) continue;
-    add_candidates(evaluator.refit_all(first, choose(screened, how.seconds, 0.0)), comparison.candidates);
+    if (how.terms > 1) {  // beside several named effects an unknown one could be anything
+      screened.erase(std::remove_if(screened.begin(), screened.end(),
+                                    [](const Screened& one) { return one.term.term->is_unknown(); }),
+                     screened.end());
+    }
+    const auto unknown = std::stable_partition(screened.begin(), screened.end(),
+                                               [](const Screened& one) { return !one.term.term->is_unknown(); });
+    std::vector<Screened> chosen = choose({screened.begin(), unknown}, how.seconds, 0.0);
+    for (Screened& one : choose({unknown, screened.end()}, 1, 0.0)) chosen.push_back(std::move(one));
+    std::vector<Candidate> refitted = evaluator.refit_all(first, chosen);
+    refitted.erase(std::remove_if(refitted.begin(), refitted.end(),
+                                  [&](const Candidate& one) { return is_distortion(study, first, one); }),
+                   refitted.end());
+    add_candidates(std::move(refitted), comparison.candidates);
   }
 }
 
@@ -118,6 +156,13 @@ double find_prior(const StudySettings& settings, std::size_t terms) {
   return priors.triples / std::max(1.0, n * (n - 1.0) * (n - 2.0) / 6.0);
 }
 
+double find_prior(const StudySettings& settings, const Hypothesis& hypothesis) {
+  if (!hypothesis.has_unknown()) return find_prior(settings, hypothesis.terms.size());
+  const auto families = static_cast<double>(settings.unknown_terms.size());
+  if (hypothesis.terms.size() == 1) return settings.priors.families / families;
+  return settings.priors.family_beside / families * find_prior(settings, hypothesis.terms.size() - 1);
+}
+
 double Comparison::find_detectability(const Term& term) const {
   double detectability = 0.0;
   for (const Screened& one : screened) {
@@ -133,7 +178,9 @@ Comparison compare_models(Study& study) {
   stages.begin("baseline", 0.04);
   study.null = evaluator.fit_null();
   stages.begin("screening", 0.1);
-  comparison.screened = screen(study, study.null, study.settings.terms);
+  std::vector<const Term*> terms = study.settings.terms;
+  terms.insert(terms.end(), study.settings.unknown_terms.begin(), study.settings.unknown_terms.end());
+  comparison.screened = screen(study, study.null, terms);
   stages.begin("refit of effects", 0.45);
   add_candidates(evaluator.refit_all(
                      study.null, choose(comparison.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats)),

@@ -29,6 +29,8 @@ struct Comparison {
 
 /// Probability before the measurement of each hypothesis with so many terms, one to three.
 double find_prior(const StudySettings& settings, std::size_t terms);
+/// Of one hypothesis, one of whose terms may be a family of unknown effects.
+double find_prior(const StudySettings& settings, const Hypothesis& hypothesis);
 
 /// Fits the baseline (study.null), screens, refits every term that could matter from its best start, then pairs on
 /// top of the best, then triples on top of the best pair where two terms are asked for, and weighs all.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "diagnosis/comparison/held_out.h"
@@ -254,13 +255,18 @@ struct StretchPrediction {
   bool is_judged = false;
 };
 
-std::vector<StretchPrediction> predict_stretches(const Study& study, const Fits& fits, const Candidate& cause) {
-  std::set<std::pair<std::size_t, std::size_t>> places;
-  for (const Series& series : study.set.series()) {
-    for (const std::size_t phase : series.phase) places.emplace(series.run, phase);
+/// Run and phase of every stretch with a reading.
+std::set<std::pair<std::size_t, std::size_t>> list_stretches(const PreparedSet& set) {
+  std::set<std::pair<std::size_t, std::size_t>> stretches;
+  for (const Series& series : set.series()) {
+    for (const std::size_t phase : series.phase) stretches.emplace(series.run, phase);
   }
+  return stretches;
+}
+
+std::vector<StretchPrediction> predict_stretches(const Study& study, const Fits& fits, const Candidate& cause) {
   std::vector<StretchPrediction> stretches;
-  for (const auto& [run, phase] : places) stretches.push_back({run, phase, {}, {}, false});
+  for (const auto& [run, phase] : list_stretches(study.set)) stretches.push_back({run, phase, {}, {}, false});
   const Model null_model = study.make_model({});
   const Model cause_model = study.make_model(cause.fit.hypothesis);
   parallel_for(stretches.size(), study.settings.threads, [&](std::size_t i) {
@@ -317,11 +323,33 @@ BeforeAfter measure_fitted(const Study& study, const Scale& scale, const Candida
   return fitted;
 }
 
+/// Sum over all that can be left out, one at a time: by how much the cause makes it likelier, in nats. These are the
+/// runs, or with a single run its stretches; and the numbers of the files.
+double calc_left_out_nats(const Study& study, const Fits& fits) {
+  const bool by_runs = study.set.runs().size() > 1;
+  std::vector<LeftOutPart> parts;
+  for (const auto& [run, phase] : list_stretches(study.set)) {
+    if (!by_runs) parts.push_back({run, phase});
+    if (by_runs && (parts.empty() || parts.back().run != run)) parts.push_back({run});
+  }
+  std::vector<double> ratios(parts.size());
+  parallel_for(parts.size(), study.settings.threads, [&](std::size_t i) {
+    ratios[i] = fits.with_cause->calc_log_likelihood(parts[i]) - fits.null.calc_log_likelihood(parts[i]);
+  });
+  const double of_files = fits.with_cause->calc_log_likelihood_of_files() - fits.null.calc_log_likelihood_of_files();
+  return std::accumulate(ratios.begin(), ratios.end(), of_files);
+}
+
 /// By what the cause is judged: the runs that count. If there are none, or no gap above the noise in them, the
-/// stretches that count. nullptr if there are none either.
-const BeforeAfter* choose_judge(const Gap& gap, const RunsLeftOut& runs, const BeforeAfter& stretches) {
-  if (gap.runs.has_value() && gap.runs->percent.has_value()) return &runs.certain;
-  if (gap.stretches.has_value() && gap.stretches->percent.has_value()) return &stretches;
+/// stretches that count; also if the runs do not decide about a single effect (their interval holds 0 %) and the
+/// stretches confirm it. nullptr if there are none either.
+const BeforeAfter* choose_judge(const Gap& gap, bool is_single, const RunsLeftOut& runs, const BeforeAfter& stretches) {
+  const bool by_runs = gap.runs.has_value() && gap.runs->percent.has_value();
+  const bool by_stretches = gap.stretches.has_value() && gap.stretches->percent.has_value();
+  const bool is_open = by_runs && gap.runs->ci95_percent[0] <= 0.0 && gap.runs->ci95_percent[1] > 0.0;
+  const bool is_confirmed = by_stretches && gap.stretches->ci95_percent[0] > 0.0;
+  if (by_runs && !(is_single && is_open && is_confirmed)) return &runs.certain;
+  if (by_stretches) return &stretches;
   if (gap.runs.has_value()) return &runs.certain;
   return gap.stretches.has_value() ? &stretches : nullptr;
 }
@@ -372,7 +400,9 @@ Gap find_gap(const Study& study, const Candidate* cause, const BlackBox& black_b
     gap.fitted = resample(fitted.before, fitted.after);
     if (!stretches.is_empty()) gap.stretches = resample(stretches.before, stretches.after);
     if (!left.certain.is_empty()) gap.runs = resample(left.certain.before, left.certain.after);
-    const BeforeAfter* judge = choose_judge(gap, left, stretches);
+    gap.left_out_nats = calc_left_out_nats(study, fits);
+    const bool is_single = cause->fit.hypothesis.terms.size() == 1;
+    const BeforeAfter* judge = choose_judge(gap, is_single, left, stretches);
     shown = judge != nullptr ? judge : &fitted;
     if (judge != nullptr) {
       const bool is_by_runs = judge == &left.certain;

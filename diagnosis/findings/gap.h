@@ -22,6 +22,10 @@ using BlackBox =
 ///           more, and if each prediction is uncertain by at most a quarter of this change, in squares. The shrinkage
 ///           is that of the runs that count; of the stretches that count if there is no such run, or no gap above the
 ///           noise in them. With one run, no run can be left out, and held_out is empty
+///           Where the runs do not decide about a single effect (their interval holds 0 %) and the stretches confirm
+///           it, it is that of the stretches
+/// Left out  left_out_nats: sum over the runs (with one run: its stretches), and over the numbers of the files taken
+///           together, each left out of both fits in turn, of the logarithm of how much likelier the cause makes it
 /// Interval  2.5 and 97.5 percentiles over 1000 seeded resamples of stretches
 /// Energy    root of the mean square, over runs, of the error of their energy (energy_scale.h), noise not subtracted
 /// Black box what `black_box` leaves of each run (black_box.h)

@@ -32,6 +32,7 @@ std::map<std::string, double> find_bayes_factors(const std::vector<Screened>& sc
   std::map<std::string, double> factors;
   std::map<std::string, double> best_score;
   for (const Screened& one : screened) {
+    if (one.term.term->is_unknown()) continue;
     const models::EffectParameter& size = one.term.term->parameters().front();
     const std::string& name = one.term.term->name();
     const double factor = calc_bayes_factor(one);

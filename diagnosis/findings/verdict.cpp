@@ -263,7 +263,7 @@ std::map<std::string, double> find_probabilities(const Study& study, const Compa
 std::vector<Cause> find_causes(const Study& study, const Comparison& comparison) {
   std::vector<const Candidate*> left;
   for (const Candidate& candidate : comparison.candidates) {
-    if (was_fitted(candidate)) left.push_back(&candidate);
+    if (was_fitted(candidate) && !candidate.fit.hypothesis.has_unknown()) left.push_back(&candidate);
   }
   std::stable_sort(left.begin(), left.end(),
                    [](const Candidate* a, const Candidate* b) { return a->posterior() > b->posterior(); });
@@ -317,6 +317,12 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
   if (gap.shrink_percent.has_value() && gap.shrink_ci95_percent[0] <= 0.0) {
     first.objections.push_back(
         fmt::format("the {} left out do not confirm it: the interval of what it shrinks holds 0 %", parts));
+    first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
+  }
+  if (gap.left_out_nats.has_value() && *gap.left_out_nats < thresholds::kConfirmed_nats) {
+    first.objections.push_back(
+        "nothing that was left out confirms it: runs and numbers of the files, each predicted by the rest, are hardly "
+        "likelier with it");
     first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
   }
   first.adequate = first.objections.empty();

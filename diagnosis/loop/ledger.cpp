@@ -66,23 +66,29 @@ Json make_answer_json(const LoopAnswer& answer) {
           {"indistinguishable_from", answer.indistinguishable_from},
           {"probability", answer.probability},
           {"none", answer.none},
-          {"unknown", answer.unknown}};
+          {"unknown", answer.unknown},
+          {"alone", answer.alone.has_value() ? Json(*answer.alone) : Json(nullptr)},
+          {"is_trace", answer.is_trace}};
 }
 
 LoopAnswer read_answer(const Json& json) {
-  return {json.at("tests"),
-          json.at("hours"),
-          read_verdict(json.at("verdict").get<std::string>()),
-          json.at("effects"),
-          json.at("indistinguishable_from"),
-          json.at("probability"),
-          json.at("none"),
-          json.at("unknown")};
+  LoopAnswer answer{json.at("tests"),
+                    json.at("hours"),
+                    read_verdict(json.at("verdict").get<std::string>()),
+                    json.at("effects"),
+                    json.at("indistinguishable_from"),
+                    json.at("probability"),
+                    json.at("none"),
+                    json.at("unknown")};
+  const Json alone = json.value("alone", Json(nullptr));  // earlier ledgers have neither of these
+  if (alone.is_number()) answer.alone = alone.get<double>();
+  answer.is_trace = json.value("is_trace", false);
+  return answer;
 }
 
 std::string describe_cause(const LoopAnswer& answer) {
-  if (answer.effects.empty() || answer.verdict == Verdict::kNoGap) return "-";
-  std::string text = fmt::format("{}", fmt::join(answer.effects, " with "));
+  if (answer.effects.empty() || (answer.verdict == Verdict::kNoGap && !answer.is_trace)) return "-";
+  std::string text = fmt::format("{}{}", answer.is_trace ? "a trace of " : "", fmt::join(answer.effects, " with "));
   for (const std::string& other : answer.indistinguishable_from) text += " or " + other;
   return text;
 }

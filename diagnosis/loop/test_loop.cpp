@@ -184,7 +184,7 @@ void plan_test(const LoopInput& input, const MeasurementSet& set, const Proposed
 
 /// What follows from the last answer: the loop ends, or the next test is planned.
 void decide(const LoopInput& input, const MeasurementSet& set, const Diagnosis& found, LoopLedger& ledger) {
-  if (is_named(ledger.answers.back())) {
+  if (is_settled(ledger.answers.back())) {
     ledger.state = LoopState::kNamed;
   } else if (found.plan.has_value()) {
     ledger.state = LoopState::kWaiting;
@@ -219,8 +219,10 @@ LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found) {
   answer.verdict = found.verdict;
   answer.none = probability_of(found, "none");
   answer.unknown = probability_of(found, "unknown");
-  if (found.causes.empty()) return answer;
-  const Cause& first = found.causes.front();
+  answer.is_trace = found.verdict == Verdict::kNoGap && found.trace.has_value();
+  if (!answer.is_trace && found.causes.empty()) return answer;
+  const Cause& first = answer.is_trace ? *found.trace : found.causes.front();
+  answer.alone = first.alone;
   answer.effects = first.effects;
   answer.indistinguishable_from = first.indistinguishable_from;
   answer.probability = first.probability;
@@ -228,8 +230,12 @@ LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found) {
 }
 
 bool is_named(const LoopAnswer& answer) {
-  return answer.verdict == Verdict::kExplained && answer.indistinguishable_from.empty() &&
+  return (answer.verdict == Verdict::kExplained || answer.is_trace) && answer.indistinguishable_from.empty() &&
          answer.probability >= thresholds::kNamed;
+}
+
+bool is_settled(const LoopAnswer& answer) {
+  return is_named(answer) && (answer.is_trace || answer.alone.value_or(1.0) >= thresholds::kNamedAlone);
 }
 
 ProposedTest rename_runs(ProposedTest test, std::size_t number) {
@@ -242,6 +248,7 @@ ProposedTest rename_runs(ProposedTest test, std::size_t number) {
 }
 
 LoopState find_end_without_test(const LoopLedger& ledger) {
+  if (is_named(ledger.answers.back())) return LoopState::kNamed;
   constexpr double kShortest_h = 0.6;  // Assumed: set-up and a short run
   return ledger.hours - calc_hours_used(ledger) > kShortest_h ? LoopState::kNothingToTest : LoopState::kHoursGone;
 }

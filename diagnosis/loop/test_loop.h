@@ -30,8 +30,11 @@ LoopStep advance_loop(const LoopInput& input);
 
 /// The entry of the ledger for a diagnosis after all of its tests so far.
 LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found);
-/// Whether it ends the loop: explained by one cause alone, at 95 % or more.
+/// Whether one cause is at 95 % or more, and cannot be mistaken for another; of a trace (a cause that is too small to
+/// matter) as well.
 bool is_named(const LoopAnswer& answer);
+/// Whether a named cause ends the loop while there are hours left: it acts alone at 90 % or more, or is a trace.
+bool is_settled(const LoopAnswer& answer);
 /// How a loop ends for which no test is found: whether hours are left.
 LoopState find_end_without_test(const LoopLedger& ledger);
 /// The same test with run ids and sessions that no other test of the loop has: "test-<number>-...".

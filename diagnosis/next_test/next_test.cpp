@@ -27,13 +27,13 @@ struct Splits {
 };
 
 /// Effects in one hypothesis of a pair and not in the other, of all pairs of a likeliest hypothesis and any other that
-/// are told apart.
+/// are told apart; "unknown" for families of unknown effects.
 Splits find_splits(const std::vector<OpenHypothesis>& open,
                    const std::function<bool(std::size_t, std::size_t)>& are_apart) {
   Splits splits;
   const auto add = [&](const Hypothesis& in, const Hypothesis& not_in) {
     for (const SignedTerm& one : in.terms) {
-      const std::string& name = one.term->name();
+      const std::string name = one.term->is_unknown() ? "unknown" : one.term->name();
       const bool known = std::find(splits.effects.begin(), splits.effects.end(), name) != splits.effects.end();
       if (!known && !not_in.contains(*one.term)) splits.effects.push_back(name);
     }

@@ -93,6 +93,7 @@ Json make_gap(const Gap& gap) {
       {"fitted", make_shrinkage(gap.fitted)},
       {"stretches_left_out", make_shrinkage(gap.stretches)},
       {"runs_left_out", make_shrinkage(gap.runs)},
+      {"left_out_nats", number(gap.left_out_nats)},
       {"recalibration_percent", number(gap.recalibration_percent)},
       {"black_box_percent", number(gap.black_box_percent)},
       {"held_out", gap.held_out},
@@ -113,6 +114,11 @@ Json make_location(const Location& at) {
       {"channel", at.channel},    {"run", at.run},   {"phase", at.phase}, {"share_percent", number(at.share_percent)},
       {"size", number(at.size)},  {"unit", at.unit}, {"z", number(at.z)}, {"start_s", number(at.start_s)},
       {"end_s", number(at.end_s)}};
+}
+
+Json make_likeness(const std::optional<Likeness>& like) {
+  if (!like.has_value()) return nullptr;
+  return {{"text", like->text}, {"probability", number(like->probability)}, {"beside", like->beside}};
 }
 
 Json make_lone_run(const std::optional<LoneRun>& lone) {
@@ -160,8 +166,10 @@ Json make_diagnosis_json(const Findings& findings) {
           {"set", findings.set},
           {"verdict", name_of(findings.verdict)},
           {"probability", probability},
+          {"nothing_detectable", number(findings.nothing_detectable)},
           {"causes", make_list(findings.causes, make_cause)},
           {"trace", findings.trace.has_value() ? make_cause(*findings.trace) : Json(nullptr)},
+          {"unknown_like", make_likeness(findings.unknown_like)},
           {"gap", make_gap(findings.gap)},
           {"where", make_list(findings.where, make_location)},
           {"balance", make_list(findings.balance, make_balance)},

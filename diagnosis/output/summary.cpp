@@ -53,6 +53,10 @@ std::string verdict_line(const Findings& findings) {
   const bool named = !findings.causes.empty();
   switch (findings.verdict) {
     case Verdict::kNoGap:
+      if (findings.nothing_detectable.has_value()) {
+        return line("Verdict", fmt::format("no gap beyond the noise, probability {} (no effect at all {})",
+                                           show_probability(*findings.nothing_detectable), none));
+      }
       return line("Verdict", fmt::format("no gap {}, probability {}",
                                          findings.trace.has_value() ? "that matters" : "beyond the noise", none));
     case Verdict::kExplained: {
@@ -121,6 +125,14 @@ std::string describe_alternatives(const Cause& cause) {
 /// Why the files cannot be right, in full.
 std::string doubt_lines(const Findings& findings) {
   return line("Cause", "none is named until this is mended:") + line("", findings.doubt);
+}
+
+/// What an effect outside of the catalog is like; empty where that is not known, or nothing is unexplained.
+std::string likeness_line(const Findings& findings) {
+  if (findings.verdict != Verdict::kUnexplained || !findings.unknown_like.has_value()) return {};
+  const Likeness& like = *findings.unknown_like;
+  const std::string beside = like.beside.empty() ? "" : fmt::format(", beside {}", fmt::join(like.beside, " and "));
+  return line("It is like", fmt::format("{}{} ({})", like.text, beside, show_probability(like.probability)));
 }
 
 /// What acts beside the first effect; else what may act in its place; else what it is.
@@ -241,6 +253,18 @@ std::string side_by_side_lines(const Gap& gap) {
   return text;
 }
 
+/// How much likelier the cause makes what was left out.
+std::string likelier_line(const Gap& gap) {
+  if (!gap.left_out_nats.has_value()) return {};
+  constexpr double kMost_nats = 13.8;  // a million
+  if (*gap.left_out_nats > kMost_nats)
+    return line("  likelier", "over a million times, what was left out, by the cause");
+  const double factor = std::exp(*gap.left_out_nats);
+  const std::string times = factor >= 10.0 ? fmt::format("{:.2g}", factor) : fmt::format("{:.1f}", factor);
+  const std::string shown = factor >= 100.0 ? fmt::format("{:.0f}", factor) : times;
+  return line("  likelier", fmt::format("{} times, what was left out, by the cause", shown));
+}
+
 /// Runs that do not count, and what they alone hold.
 std::string not_judged_line(const Gap& gap) {
   if (gap.not_judged.empty()) return {};
@@ -272,7 +296,8 @@ std::string shrinkage_line(const Findings& findings) {
   }
   if (gap.black_box_percent.has_value()) parts.push_back("black box " + whole(*gap.black_box_percent) + " %");
   const bool is_caused = !findings.causes.empty() && findings.verdict != Verdict::kNoGap;
-  return line("Shrinks by", fmt::format("{}", fmt::join(parts, ", "))) + (is_caused ? side_by_side_lines(gap) : "");
+  return line("Shrinks by", fmt::format("{}", fmt::join(parts, ", "))) +
+         (is_caused ? side_by_side_lines(gap) + likelier_line(gap) : "");
 }
 
 /// The numbers of the files that moved furthest: with the cause where one is shown, else in the recalibration.
@@ -335,7 +360,8 @@ std::string format_summary(const Findings& findings) {
   const bool in_doubt = !findings.doubt.empty();
   std::string text =
       verdict_line(findings) +
-      (in_doubt ? doubt_lines(findings) : cause_line(findings) + second_line(findings) + alone_line(findings)) +
+      (in_doubt ? doubt_lines(findings)
+                : cause_line(findings) + second_line(findings) + alone_line(findings) + likeness_line(findings)) +
       where_line(findings) + equation_line(findings) + gap_lines(findings) + shrinkage_line(findings);
   text += line("Not excluded", findings.not_excluded.empty() ? "nothing: each effect at its usual size would have shown"
                                                              : join_to_fit(findings.not_excluded, ", ", text_width()));

@@ -43,6 +43,10 @@ bool Hypothesis::contains(const Term& term) const {
   return std::any_of(terms.begin(), terms.end(), [&](const SignedTerm& one) { return one.term == &term; });
 }
 
+bool Hypothesis::has_unknown() const {
+  return std::any_of(terms.begin(), terms.end(), [](const SignedTerm& one) { return one.term->is_unknown(); });
+}
+
 Hypothesis Hypothesis::with(const SignedTerm& added) const {
   Hypothesis more = *this;
   more.terms.push_back(added);

@@ -24,6 +24,7 @@ struct Hypothesis {
   std::string name() const;  // "bearing_warmup", "load_exponent + slow_leak", "none"
   bool operator==(const Hypothesis& other) const { return terms == other.terms; }
   bool contains(const Term& term) const;
+  bool has_unknown() const;  // whether one of the terms is an unknown effect
   /// With one more term, in its place.
   Hypothesis with(const SignedTerm& added) const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/terms/unknown_terms.h"
 #include "sim/core/error.h"
 
 namespace rollrig::diagnosis {
@@ -12,7 +13,7 @@ std::vector<const Term*> list_effect_terms();
 const std::vector<const Term*>& all_terms() {
   static const std::vector<const Term*> all = [] {
     std::vector<const Term*> terms;
-    for (const auto list_kind : {list_effect_terms}) {
+    for (const auto list_kind : {list_effect_terms, list_unknown_terms}) {
       for (const Term* term : list_kind()) terms.push_back(term);
     }
     return terms;
@@ -27,6 +28,7 @@ std::vector<const Term*> choose_terms(const models::MachineTraits& machine, cons
   };
   std::vector<const Term*> terms;
   for (const Term* term : all_terms()) {
+    if (term->is_unknown()) continue;
     const bool is_seen = models::acts_in(term->info(), machine, tire) && models::is_seen_on(term->info(), machine);
     const bool is_wanted = (only.empty() || holds(only, term->name())) && !holds(without, term->name());
     if (is_seen && is_wanted) terms.push_back(term);
@@ -34,15 +36,28 @@ std::vector<const Term*> choose_terms(const models::MachineTraits& machine, cons
   return terms;
 }
 
+std::vector<const Term*> choose_unknown_terms(const models::MachineTraits& machine, const models::TireModel& tire) {
+  std::vector<const Term*> terms;
+  for (const Term* term : all_terms()) {
+    const models::EffectInfo& info = term->info();
+    if (term->is_unknown() && models::acts_in(info, machine, tire) && models::is_seen_on(info, machine)) {
+      terms.push_back(term);
+    }
+  }
+  return terms;
+}
+
 std::vector<std::string> term_names() {
   std::vector<std::string> names;
-  for (const Term* term : all_terms()) names.push_back(term->name());
+  for (const Term* term : all_terms()) {
+    if (!term->is_unknown()) names.push_back(term->name());
+  }
   return names;
 }
 
 const Term* look_up_term(const std::string& name) {
-  const auto of_name =
-      std::find_if(all_terms().begin(), all_terms().end(), [&](const Term* term) { return term->name() == name; });
+  const auto of_name = std::find_if(all_terms().begin(), all_terms().end(),
+                                    [&](const Term* term) { return !term->is_unknown() && term->name() == name; });
   return of_name == all_terms().end() ? nullptr : *of_name;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Terms of hypotheses: what may be added to the baseline.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,21 +26,31 @@ class Term {
   /// The known numbers in a run, SI units.
   virtual std::vector<double> list_known(const PreparedRun& /*run*/) const { return {}; }
 
+  /// Of a family of unknown effects: what it is like with these own parameters, SI units: "a force of ... that ...".
+  /// Nothing for a named effect.
+  virtual std::optional<std::string> describe(const std::vector<double>& /*own_SI*/) const { return std::nullopt; }
+  /// Whether it stands for effects outside of the catalog.
+  virtual bool is_unknown() const { return false; }
+
   const std::string& name() const { return info().id; }
   const std::vector<models::EffectParameter>& parameters() const { return info().parameters; }
   std::size_t known_count() const { return effect().info.parameters.size() - parameters().size(); }
 };
 
-/// Every term that a comparison may try, in the order in which a hypothesis lists them.
+/// Every term that a comparison may try, in the order in which a hypothesis lists them, unknown effects last.
 const std::vector<const Term*>& all_terms();
+/// Names of those that are no unknown effects.
 std::vector<std::string> term_names();
 
-/// Those that act on such a machine with such a tire and can be seen there: of these the ones in `only` (all
+/// Named ones that act on such a machine with such a tire and can be seen there: of these the ones in `only` (all
 /// where it is empty), less those in `without`.
 std::vector<const Term*> choose_terms(const models::MachineTraits& machine, const models::TireModel& tire,
                                       const std::vector<std::string>& only, const std::vector<std::string>& without);
 
-/// The term of that name, or nullptr.
+/// The families of unknown effects that act there.
+std::vector<const Term*> choose_unknown_terms(const models::MachineTraits& machine, const models::TireModel& tire);
+
+/// The named term of that name, or nullptr.
 const Term* look_up_term(const std::string& name);
 /// Throws InputError with the nearest known name.
 const Term& find_term(const std::string& name);

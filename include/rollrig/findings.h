@@ -90,6 +90,7 @@ struct Gap {
   std::optional<Shrinkage> fitted;      // of the fit to all runs, on these; this and the next two: with a cause
   std::optional<Shrinkage> stretches;   // each phase of a run left out of the fit; none where none can be judged
   std::optional<Shrinkage> runs;        // each run left out of the fit; likewise
+  std::optional<double> left_out_nats;  // ln of how much likelier the cause makes what was left out; with a cause
   std::vector<UnjudgedRun> not_judged;  // runs that the others do not predict well enough to judge the cause
   std::optional<double> recalibration_percent;  // what recalibration alone takes from the gap as calibrated
   std::optional<double> black_box_percent;      // what a smooth function of the inputs takes from it
@@ -166,13 +167,22 @@ struct BaseNumber {
   std::optional<double> with_cause_moved_sd = std::nullopt;
 };
 
+/// What an unknown effect is like.
+struct Likeness {
+  std::string text;  // "a force of +3.1 N that acts between 40 and 55 km/h"
+  double probability = 0.0;
+  std::vector<std::string> beside;  // named effects that act together with it; usually none
+};
+
 /// What a diagnosis finds, as its JSON has it.
 struct Findings {
   std::string set;  // its name
   Verdict verdict = Verdict::kNoGap;
   std::map<std::string, double> probability;  // of "none", "unknown" and every effect in the comparison
+  std::optional<double> nothing_detectable;   // without a gap: that no effect acts which the set would show
   std::vector<Cause> causes;                  // the likeliest first
   std::optional<Cause> trace;                 // a cause that acts, but is too small to matter: then there is no gap
+  std::optional<Likeness> unknown_like;       // what an effect outside of the catalog is like, where that is known
   Gap gap;
   std::vector<Location> where;  // the largest share first
   std::vector<BalanceShare> balance;

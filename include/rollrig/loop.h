@@ -41,9 +41,11 @@ struct LoopAnswer {
   Verdict verdict = Verdict::kNoGap;
   std::vector<std::string> effects;  // of the first cause; empty where there is none
   std::vector<std::string> indistinguishable_from;
-  double probability = 0.0;  // of the first cause
-  double none = 0.0;         // of no effect
-  double unknown = 0.0;      // of an effect that is not in the catalog
+  double probability = 0.0;                    // of the first cause
+  double none = 0.0;                           // of no effect
+  double unknown = 0.0;                        // of an effect that is not in the catalog
+  std::optional<double> alone = std::nullopt;  // that the first cause acts and nothing else of the catalog does
+  bool is_trace = false;                       // the first cause is too small to matter: there is no gap
 };
 
 /// The record of a loop, as loop.json has it (rollrig-loop/1).

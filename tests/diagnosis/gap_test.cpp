@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "diagnosis/thresholds.h"
 #include "tests/diagnosis/gap_sets.h"
 #include "tests/support/drum_fixture.h"
 #include "tests/support/fit_study.h"
@@ -148,6 +149,22 @@ TEST_CASE("the true effect shrinks the gap by all of it, on runs that the fit di
   CHECK(gap.channels[kTorque].after < 0.15 * gap.channels[kTorque].before);
   CHECK(gap.judged_by == diagnosis::JudgedBy::kRuns);
   CHECK(gap.judged_on.size() + gap.not_judged.size() == gap.held_out.size());
+  REQUIRE(gap.left_out_nats.has_value());
+  CHECK(*gap.left_out_nats > 10.0);
+}
+
+TEST_CASE(
+    "what is left out is likelier with the true effect than with another, and no likelier with one that does not act",
+    "[fast]") {
+  const FittedBaseline fitted(tests::add_noise(tests::make_gap_set(warming_bearings(), 4), 5));
+  const auto nats_of = [](const FittedBaseline& of, const char* id) {
+    const Candidate cause = fit_effect(of, id);
+    return find(of, &cause).left_out_nats.value();
+  };
+  CHECK(nats_of(fitted, "bearing_warmup") > nats_of(fitted, "torque_zero_drift") + 3.0);
+  const FittedBaseline clean(tests::add_noise(tests::make_gap_set({}, 4), 5));
+  CHECK(nats_of(clean, "bearing_warmup") < diagnosis::thresholds::kConfirmed_nats);
+  CHECK_FALSE(find(clean).left_out_nats.has_value());
 }
 
 TEST_CASE("the true effect shrinks the gap in whatever way it is judged, and the energy that runs are off by",

@@ -121,3 +121,71 @@ TEST_CASE("what an offset takes does not count as a difference of a run, and cou
   CHECK(of_phase > 1.0);
   CHECK(leave_out.measure({1}, shift) == Approx(0.0).margin(1e-9));
 }
+
+namespace {
+
+/// ln of the density of the block means that are kept, to first order about the fit: normal, with what the unknowns and
+/// the noise make of their covariance.
+double calc_log_density(const FittedBaseline& fitted, const Kept& keep) {
+  const diagnosis::Fit& fit = fitted.null.fit;
+  const Eigen::Index n = fit.jacobian.cols();
+  const Eigen::Index all = to_index(fitted.set.residual_count());
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(all, all);
+  Eigen::MatrixXd values(all, n + 1);
+  std::vector<Eigen::Index> rows;
+  for (std::size_t s = 0; s < fitted.set.series().size(); ++s) {
+    const Series& series = fitted.set.series()[s];
+    const Eigen::Index size = to_index(series.size());
+    const Eigen::Index first = to_index(series.first_residual);
+    diagnosis::RowMatrix units = diagnosis::RowMatrix::Identity(size, size);
+    fitted.discrepancy.whiten_series(fitted.null.amplitudes, s, units);
+    noise.block(first, first, size, size) = (units.transpose() * units).inverse();
+    diagnosis::RowMatrix whitened = series.rows_of(fit.jacobian);
+    Eigen::VectorXd residuals = series.rows_of(fit.residuals);
+    series.whitener.undo(whitened.data(), static_cast<std::size_t>(n));
+    series.whitener.undo(residuals.data(), 1);
+    values.middleRows(first, size) << whitened, whitened * fit.unknowns - residuals;
+    for (std::size_t k = 0; k < series.size(); ++k) {
+      if (keep(series, k)) rows.push_back(first + to_index(k));
+    }
+  }
+  const Eigen::MatrixXd kept = values(rows, Eigen::all);
+  const Eigen::MatrixXd covariance =
+      Eigen::MatrixXd(noise(rows, rows)) + kept.leftCols(n) * kept.leftCols(n).transpose();
+  const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+  const double log_determinant = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  return -0.5 * (kept.col(n).dot(factor.solve(kept.col(n))) + log_determinant);
+}
+
+}  // namespace
+
+TEST_CASE("the likelihood of a part that was left out is that of all over that of the rest", "[fast]") {
+  const FittedBaseline& fitted = two_runs();
+  const LeaveOut leave_out(fitted, fitted.null);
+  const double all = calc_log_density(fitted, [](const Series&, std::size_t) { return true; });
+  const double rest = calc_log_density(
+      fitted, [](const Series& series, std::size_t block) { return series.run != 1 || series.phase[block] != 1; });
+  CHECK(leave_out.calc_log_likelihood({1, 1}) == Approx(all - rest).epsilon(1e-6));
+  // Of a run, the sensors' own part is left out: it is the same for all hypotheses.
+  const double without_run =
+      calc_log_density(fitted, [](const Series& series, std::size_t) { return series.run != 1; });
+  double of_sensors = 0.0;
+  for (const Series& series : fitted.set.series()) {
+    if (series.run != 1) continue;
+    diagnosis::RowMatrix units = diagnosis::RowMatrix::Identity(to_index(series.size()), to_index(series.size()));
+    series.whitener.apply(units.data(), series.size());
+    const Eigen::LLT<Eigen::MatrixXd> factor(units.transpose() * units);
+    of_sensors += factor.matrixLLT().diagonal().array().log().sum();
+  }
+  CHECK(leave_out.calc_log_likelihood({1}) == Approx(all - without_run - of_sensors).epsilon(1e-6));
+}
+
+TEST_CASE("numbers of the files that the runs speak against are unlikely once they are left out", "[fast]") {
+  const auto measure = [](double factor) {
+    auto set = tests::make_gap_set({}, 2);
+    set.rig->parasitic.c0_N *= factor;  // of the file; the rig that was measured keeps its own
+    const FittedBaseline fitted(tests::add_noise(set, 3));
+    return LeaveOut(fitted, fitted.null).calc_log_likelihood_of_files();
+  };
+  CHECK(measure(1.0) > measure(1.5) + 3.0);
+}

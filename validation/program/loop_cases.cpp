@@ -106,7 +106,7 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
     loop.slowest_step_s =
         std::max(loop.slowest_step_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     ledger.answers.push_back(diagnosis::make_answer(ledger, found));
-    if (diagnosis::is_named(ledger.answers.back())) {
+    if (diagnosis::is_settled(ledger.answers.back())) {
       ledger.state = LoopState::kNamed;
       return;
     }
@@ -135,12 +135,21 @@ void loop_case(const LoopOrder& order, const Json& truth, LoopOfCase& loop) {
 
 }  // namespace
 
-bool LoopOfCase::is_right() const {
-  if (!is_named()) return false;
-  const std::vector<std::string>& named = ledger.answers.back().effects;
+bool LoopOfCase::names_truth(const diagnosis::LoopAnswer& answer) const {
+  const std::vector<std::string>& named = answer.effects;
   const std::vector<std::string> ids = truth.ids();
-  return !truth.outside &&
+  return diagnosis::is_named(answer) && !truth.outside &&
          std::set<std::string>(named.begin(), named.end()) == std::set<std::string>(ids.begin(), ids.end());
+}
+
+bool LoopOfCase::is_right() const { return is_named() && names_truth(ledger.answers.back()); }
+
+bool LoopOfCase::is_right_by(double hours) const {
+  const diagnosis::LoopAnswer* last = nullptr;
+  for (const diagnosis::LoopAnswer& answer : ledger.answers) {
+    if (answer.hours <= hours) last = &answer;
+  }
+  return last != nullptr && names_truth(*last);
 }
 
 std::vector<LoopOfCase> loop_cases(const LoopOrder& order) {

@@ -29,11 +29,12 @@ struct LoopOfCase {
   double slowest_step_s = 0.0;
   std::string failure;  // why the loop ended with an error; else empty
 
+  bool names_truth(const diagnosis::LoopAnswer& answer) const;
   bool is_named() const { return ledger.state == diagnosis::LoopState::kNamed; }
   /// Whether the loop named exactly the true effects.
   bool is_right() const;
-  /// Whether it did so within so many hours.
-  bool is_right_by(double hours) const { return is_right() && ledger.answers.back().hours <= hours; }
+  /// Whether the last answer within these hours of the machine named the true effects and no other.
+  bool is_right_by(double hours) const;
 };
 
 /// Runs the loop on every case: diagnosis, then the proposed test, simulated by the generator for the same specimen in
