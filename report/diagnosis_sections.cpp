@@ -147,7 +147,7 @@ std::string describe_verdict(const Findings& findings) {
     return fmt::format(
         "No gap: the simulation meets the measurement within noise and the files' uncertainties "
         "(probability {}).",
-        show_probability(diagnosis::probability_of(findings, "none")));
+        show_probability(findings.nothing_detectable.value_or(diagnosis::probability_of(findings, "none"))));
   }
   if (!findings.doubt.empty()) return "Unexplained: the files are in doubt, before any physics.";
   if (findings.verdict == Verdict::kUnexplained || !has_cause) {
@@ -186,6 +186,12 @@ Section make_verdict(const Findings& findings) {
   const char* tone = findings.verdict == Verdict::kUnexplained ? "bad" : "good";
   std::string more = findings.doubt;
   if (findings.verdict == Verdict::kNoGap && findings.trace.has_value()) more = describe_trace(*findings.trace);
+  if (findings.verdict == Verdict::kUnexplained && findings.doubt.empty() && findings.unknown_like.has_value()) {
+    const Likeness& like = *findings.unknown_like;
+    const std::string beside =
+        like.beside.empty() ? "" : ", beside " + fmt::format("{}", fmt::join(like.beside, " and "));
+    more = fmt::format("It is like {}{} (probability {}).", like.text, beside, show_probability(like.probability));
+  }
   if (findings.verdict == Verdict::kExplained && !findings.causes.empty()) {
     const Cause& cause = findings.causes.front();
     std::string meaning = summary_of(cause.effects.front());
@@ -260,11 +266,15 @@ Section make_gap(const Findings& findings) {
   if (gap.shrink_percent.has_value()) {
     shrinks += fmt::format(" ({:.0f} to {:.0f} %)", gap.shrink_ci95_percent[0], gap.shrink_ci95_percent[1]);
   }
-  section.blocks.push_back(make_table({"",
-                                       {},
-                                       {{"The cause takes from the recalibrated gap", shrinks},
-                                        {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
-                                        {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}}));
+  Table shares{"",
+               {},
+               {{"The cause takes from the recalibrated gap", shrinks},
+                {"Recalibration alone takes from the gap", percent(gap.recalibration_percent)},
+                {"A smooth function of the inputs takes", percent(gap.black_box_percent)}}};
+  if (has_cause && gap.left_out_nats.has_value()) {
+    shares.rows.push_back({"What was left out is likelier with the cause", diagnosis::show_factor(*gap.left_out_nats)});
+  }
+  section.blocks.push_back(make_table(shares));
   if (has_cause && gap.fitted.has_value()) section.blocks.push_back(make_shrinkages(gap));
   if (has_cause && !gap.not_judged.empty()) {
     std::vector<std::string> runs;

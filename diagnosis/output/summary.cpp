@@ -256,13 +256,9 @@ std::string side_by_side_lines(const Gap& gap) {
 /// How much likelier the cause makes what was left out.
 std::string likelier_line(const Gap& gap) {
   if (!gap.left_out_nats.has_value()) return {};
-  constexpr double kMost_nats = 13.8;  // a million
-  if (*gap.left_out_nats > kMost_nats)
-    return line("  likelier", "over a million times, what was left out, by the cause");
-  const double factor = std::exp(*gap.left_out_nats);
-  const std::string times = factor >= 10.0 ? fmt::format("{:.2g}", factor) : fmt::format("{:.1f}", factor);
-  const std::string shown = factor >= 100.0 ? fmt::format("{:.0f}", factor) : times;
-  return line("  likelier", fmt::format("{} times, what was left out, by the cause", shown));
+  return line("  left out", fmt::format("{} likelier with the cause: runs, or numbers of the files, each predicted by "
+                                        "the rest",
+                                        show_factor(*gap.left_out_nats)));
 }
 
 /// Runs that do not count, and what they alone hold.
@@ -354,6 +350,12 @@ std::string show_probability(double probability) {
   if (probability > 0.99 && probability < 1.0) return "over 99 %";
   if (probability < 0.01 && probability > 0.0) return "under 1 %";
   return fmt::format("{:.0f} %", 100.0 * probability);
+}
+
+std::string show_factor(double nats) {
+  const double factor = std::exp(nats);
+  if (factor > 1e6) return "over a million times";
+  return factor >= 10.0 ? fmt::format("{:.0f} times", factor) : fmt::format("{:.2g} times", factor);
 }
 
 std::string format_summary(const Findings& findings) {

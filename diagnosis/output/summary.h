@@ -17,6 +17,9 @@ std::string format_summary(const Findings& findings);
 /// "94 %"; neither 0 nor 100 while some doubt is left.
 std::string show_probability(double probability);
 
+/// "40 times", of a logarithm of 3.69.
+std::string show_factor(double nats);
+
 /// ", on the limit of its range" of an estimate that is there; else empty.
 std::string describe_limit(const ParameterEstimate& estimate);
 
