@@ -108,13 +108,15 @@ Candidate Evaluator::fit_once(const Model& model, const RefitStart& start) const
   return candidate;
 }
 
-/// Fits a hypothesis from `start`, under model error in proportion to what it changes against the null: twice, since
-/// that change is known after the first fit only.
-Candidate Evaluator::fit_to_end(const Model& model, const Eigen::VectorXd& start) const {
-  const Candidate first = fit_once(model, {study_.null.amplitudes, start, 1, thresholds::kMostSteps});
+/// Fits a hypothesis from a fit to it, under model error in proportion to what it changes against the null: twice,
+/// since that change is known after the first fit only.
+Candidate Evaluator::fit_to_end(const Model& model, const Fit& start) const {
+  const int threads = study_.settings.threads;
+  const Candidate first =
+      fit_once(model, {study_.null.amplitudes, start.unknowns, threads, thresholds::kMostSteps, &start});
   if (!std::isfinite(first.fit.cost)) return first;
   const Amplitudes expected = expect_model_error(study_.settings.model_error, first);
-  return fit_once(model, {expected, first.fit.unknowns, 1, thresholds::kMostSteps});
+  return fit_once(model, {expected, first.fit.unknowns, threads, thresholds::kMostSteps, &first.fit});
 }
 
 Candidate Evaluator::fit_null() const {
@@ -142,11 +144,11 @@ std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::ve
     const bool is_faint = chosen[i].was_simulated && chosen[i].score < thresholds::kFaint_nats;
     const int steps = is_faint ? 1 : thresholds::kFirstSteps;
     const Eigen::VectorXd start = insert_own(model, from.fit, *chosen[i].term.term, chosen[i].own);
-    candidates[i] = fit_once(model, {from.amplitudes, start, 1, steps});
+    candidates[i] = fit_once(model, {from.amplitudes, start, study_.settings.threads, steps});
     if (std::isfinite(candidates[i].fit.cost)) return;
     // Where it cannot be simulated with what makes up for its absence: from the middle of all priors.
     const Eigen::VectorXd middle = Eigen::VectorXd::Zero(to_index(model.unknown_count()));
-    candidates[i] = fit_once(model, {from.amplitudes, middle, 1, steps});
+    candidates[i] = fit_once(model, {from.amplitudes, middle, study_.settings.threads, steps});
   };
   parallel_for(chosen.size(), study_.settings.threads, fit_first,
                [&](double share) { stages.advance(kFirstShare * share); });
@@ -158,7 +160,7 @@ std::vector<Candidate> Evaluator::refit_all(const Candidate& from, const std::ve
   const auto finish = [&](std::size_t i) {
     const bool is_hopeless = gain_of(candidates[i]) < far_behind;
     const bool is_faint = candidates[i].log_evidence < study_.null.log_evidence + thresholds::kWorthFinishing_nats;
-    if (!is_hopeless && !is_faint) candidates[i] = fit_to_end(model_of(i), candidates[i].fit.unknowns);
+    if (!is_hopeless && !is_faint) candidates[i] = fit_to_end(model_of(i), candidates[i].fit);
   };
   parallel_for(chosen.size(), study_.settings.threads, finish,
                [&](double share) { stages.advance(kFirstShare + (1.0 - kFirstShare) * share); });

@@ -18,7 +18,7 @@ class Evaluator {
  private:
   void weigh(Candidate& candidate) const;
   Candidate fit_once(const Model& model, const RefitStart& start) const;
-  Candidate fit_to_end(const Model& model, const Eigen::VectorXd& start) const;
+  Candidate fit_to_end(const Model& model, const Fit& start) const;
 
   const Study& study_;
   Discrepancy of_conditions_;  // an unknown effect that repeats from run to run

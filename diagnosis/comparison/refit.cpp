@@ -7,14 +7,36 @@
 #include <cmath>
 #include <limits>
 
+#include "diagnosis/comparison/bounded_step.h"
+
 namespace rollrig::diagnosis {
 namespace {
+
+constexpr double kFunctionTolerance = 1e-6;  // of a chi2 of thousands: far below what decides between hypotheses
+
+/// Residuals whitened by the sensors, and their derivatives.
+struct Derived {
+  Eigen::VectorXd unknowns;
+  Eigen::VectorXd residuals;
+  RowMatrix jacobian;
+
+  bool is_at(const Eigen::VectorXd& u) const { return unknowns.size() == u.size() && unknowns == u; }
+};
+
+Derived find_known(const RefitStart& start) {
+  if (start.known == nullptr) return {};
+  return {start.known->unknowns, start.known->residuals, start.known->jacobian};
+}
 
 /// Whitened residuals, then the unknowns themselves, whose priors are standard normal.
 class WhitenedResiduals : public ceres::CostFunction {
  public:
   WhitenedResiduals(const Model& model, const Discrepancy& discrepancy, const RefitStart& start)
-      : model_(model), discrepancy_(discrepancy), amplitudes_(start.amplitudes), threads_(start.threads) {
+      : model_(model),
+        discrepancy_(discrepancy),
+        amplitudes_(start.amplitudes),
+        threads_(start.threads),
+        last_(find_known(start)) {
     set_num_residuals(static_cast<int>(model.residual_count() + model.unknown_count()));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(model.unknown_count()));
   }
@@ -26,7 +48,12 @@ class WhitenedResiduals : public ceres::CostFunction {
     const bool derive = jacobians != nullptr && jacobians[0] != nullptr;
     Eigen::VectorXd residuals;
     RowMatrix jacobian;
-    if (!model_.evaluate(u, threads_, residuals, derive ? &jacobian : nullptr)) return false;
+    if (derive && last_.is_at(u)) {
+      residuals = last_.residuals;
+      jacobian = last_.jacobian;
+    } else if (!model_.evaluate(u, threads_, residuals, derive ? &jacobian : nullptr)) {
+      return false;
+    }
     const Eigen::VectorXd whitened = residuals;
     discrepancy_.whiten(amplitudes_, residuals);
     Eigen::Map<Eigen::VectorXd>(out, rows) = residuals;
@@ -41,12 +68,7 @@ class WhitenedResiduals : public ceres::CostFunction {
     return true;
   }
 
-  /// Whitened residuals and their derivatives where they were last derived.
-  struct Derived {
-    Eigen::VectorXd unknowns;
-    Eigen::VectorXd residuals;
-    RowMatrix jacobian;
-  };
+  /// Where they were last derived.
   const Derived& last() const { return last_; }
 
  private:
@@ -85,14 +107,107 @@ bool is_held_up_by_range(const Model& model, const Discrepancy& discrepancy, con
   });
 }
 
-void set_ranges(const Model& model, ceres::Problem& problem, double* unknowns) {
+/// The unknowns' distances to the ends of their ranges; only own parameters have ranges.
+struct Room {
+  Eigen::VectorXd lower;
+  Eigen::VectorXd upper;
+};
+
+Room find_room(const Model& model, const Eigen::VectorXd& unknowns) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Room room{Eigen::VectorXd::Constant(unknowns.size(), -infinity),
+            Eigen::VectorXd::Constant(unknowns.size(), infinity)};
   for (std::size_t i = 0; i < model.own_count(); ++i) {
     const PriorBounds bounds = model.own_parameters()[i].bounds();
-    const auto index = static_cast<int>(i);
-    if (std::isfinite(bounds.lower)) problem.SetParameterLowerBound(unknowns, index, bounds.lower);
-    if (std::isfinite(bounds.upper)) problem.SetParameterUpperBound(unknowns, index, bounds.upper);
+    room.lower[to_index(i)] = bounds.lower - unknowns[to_index(i)];
+    room.upper[to_index(i)] = bounds.upper - unknowns[to_index(i)];
+  }
+  return room;
+}
+
+/// Puts own parameters that rounding has moved out of their ranges back.
+void keep_in_ranges(const Model& model, Eigen::VectorXd& unknowns) {
+  for (std::size_t i = 0; i < model.own_count(); ++i) {
+    const PriorBounds bounds = model.own_parameters()[i].bounds();
+    unknowns[to_index(i)] = std::clamp(unknowns[to_index(i)], bounds.lower, bounds.upper);
   }
 }
+
+/// Levenberg and Marquardt within the ranges, from a fit: each step is the best one within them of the linearized
+/// residuals. A step costs one simulation and, where it is taken, one with derivatives; ceres' line search along the
+/// ranges costs three of these.
+class FitWithinRanges {
+ public:
+  FitWithinRanges(const Model& model, const Discrepancy& discrepancy, const RefitStart& start, Fit& fit)
+      : model_(model), discrepancy_(discrepancy), start_(start), fit_(fit) {}
+
+  /// Moves the fit to its best, and keeps it where nothing better is found.
+  void solve() {
+    linearize();
+    double damping = 1e-4;  // as ceres begins
+    double growth = 2.0;
+    for (int i = 0; i < start_.most_iterations; ++i) {
+      Eigen::MatrixXd damped = curvature_;
+      damped.diagonal() *= 1.0 + damping;
+      const Room room = find_room(model_, fit_.unknowns);
+      const Eigen::VectorXd step = solve_within(damped, -gradient_, room.lower, room.upper);
+      const double promised = -gradient_.dot(step) - 0.5 * step.dot(curvature_ * step);
+      if (!(promised > kFunctionTolerance * cost_)) return;
+      Eigen::VectorXd unknowns = fit_.unknowns + step;
+      keep_in_ranges(model_, unknowns);
+      const double gained = cost_ - calc_cost(unknowns);
+      if (!(gained > 0.0)) {
+        damping *= growth;
+        growth *= 2.0;
+        continue;
+      }
+      const bool is_last = gained < kFunctionTolerance * cost_;
+      if (!move_to(unknowns)) return;
+      if (is_last) return;
+      damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * gained / promised - 1.0, 3));
+      growth = 2.0;
+    }
+  }
+
+ private:
+  /// Infinite where it cannot be simulated.
+  double calc_cost(const Eigen::VectorXd& unknowns) const {
+    Eigen::VectorXd residuals;
+    if (!model_.evaluate(unknowns, start_.threads, residuals, nullptr)) return std::numeric_limits<double>::infinity();
+    discrepancy_.whiten(start_.amplitudes, residuals);
+    return 0.5 * (residuals.squaredNorm() + unknowns.squaredNorm());
+  }
+
+  bool move_to(const Eigen::VectorXd& unknowns) {
+    Eigen::VectorXd residuals;
+    RowMatrix jacobian;
+    if (!model_.evaluate(unknowns, start_.threads, residuals, &jacobian)) return false;
+    fit_.unknowns = unknowns;
+    fit_.residuals = std::move(residuals);
+    fit_.jacobian = std::move(jacobian);
+    linearize();
+    return true;
+  }
+
+  void linearize() {
+    RowMatrix jacobian = fit_.jacobian;
+    Eigen::VectorXd residuals = fit_.residuals;
+    discrepancy_.whiten(start_.amplitudes, jacobian);
+    discrepancy_.whiten(start_.amplitudes, residuals);
+    const Eigen::Index n = jacobian.cols();
+    curvature_ = jacobian.transpose() * jacobian + Eigen::MatrixXd::Identity(n, n);
+    gradient_ = jacobian.transpose() * residuals + fit_.unknowns;
+    cost_ = fit_.cost = 0.5 * (residuals.squaredNorm() + fit_.unknowns.squaredNorm());
+  }
+
+  const Model& model_;
+  const Discrepancy& discrepancy_;
+  const RefitStart& start_;
+  Fit& fit_;
+  Eigen::MatrixXd curvature_;
+  Eigen::VectorXd gradient_;
+  double cost_ = 0.0;
+};
 
 /// Minimizes, and derives the residuals where it stops. False where that is no solution; then the cost is infinite.
 bool solve(const ceres::Solver::Options& options, ceres::Problem& problem, const WhitenedResiduals& residuals,
@@ -101,7 +216,7 @@ bool solve(const ceres::Solver::Options& options, ceres::Problem& problem, const
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
-  if (residuals.last().unknowns.size() > 0 && residuals.last().unknowns == fit.unknowns) {
+  if (residuals.last().is_at(fit.unknowns)) {
     fit.residuals = residuals.last().residuals;
     fit.jacobian = residuals.last().jacobian;
   } else if (!model.evaluate(fit.unknowns, start.threads, fit.residuals, &fit.jacobian)) {
@@ -121,26 +236,18 @@ Fit refit(const Model& model, const Discrepancy& discrepancy, const RefitStart& 
   ceres::Problem problem;
   auto* residuals = new WhitenedResiduals(model, discrepancy, start);  // the problem's own
   problem.AddResidualBlock(residuals, nullptr, fit.unknowns.data());
-  for (std::size_t i = 0; i < model.own_count(); ++i) {
-    const PriorBounds bounds = model.own_parameters()[i].bounds();
-    double& u = fit.unknowns[to_index(i)];
-    u = std::clamp(u, bounds.lower, bounds.upper);
-  }
+  keep_in_ranges(model, fit.unknowns);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   options.max_num_iterations = start.most_iterations;
-  options.function_tolerance = 1e-6;  // of a chi2 of thousands: far below what decides between hypotheses
+  options.function_tolerance = kFunctionTolerance;
   options.parameter_tolerance = 1e-4;
   options.max_num_consecutive_invalid_steps = 20;  // each twice, four, eight times ... shorter than the one before
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   FLAGS_minloglevel = google::GLOG_FATAL;  // a start that cannot be simulated is an answer, not a mistake
   if (!solve(options, problem, *residuals, model, start, fit)) return fit;
-  if (is_held_up_by_range(model, discrepancy, start, fit)) {
-    const Fit short_of_range = fit;
-    set_ranges(model, problem, fit.unknowns.data());
-    if (!solve(options, problem, *residuals, model, start, fit)) fit = short_of_range;
-  }
+  if (is_held_up_by_range(model, discrepancy, start, fit)) FitWithinRanges(model, discrepancy, start, fit).solve();
   if (!model.simulate(fit.unknowns, start.threads, fit.simulated, nullptr)) {
     fit.cost = std::numeric_limits<double>::infinity();
   }

@@ -21,6 +21,7 @@ struct RefitStart {
   Eigen::VectorXd unknowns;
   int threads = 1;  // that share the runs of one evaluation
   int most_iterations = 50;
+  const Fit* known = nullptr;  // of the same hypothesis: where it lies is not simulated again
 };
 
 /// Least squares of whitened residuals and priors under a discrepancy of given size, by Levenberg and Marquardt. A

@@ -4,10 +4,26 @@
 #include <tbb/task_arena.h>
 
 #include <mutex>
+#include <utility>
 
 #include "sim/core/interrupt.h"
 
 namespace rollrig {
+namespace {
+
+/// Whether this thread does the work of a parallel_for.
+thread_local bool is_at_work = false;
+
+struct AtWork {
+  AtWork() : before(std::exchange(is_at_work, true)) {}
+  ~AtWork() { is_at_work = before; }
+  AtWork(const AtWork&) = delete;
+  AtWork& operator=(const AtWork&) = delete;
+
+  bool before;
+};
+
+}  // namespace
 
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                   const std::function<void(double)>& advance) {
@@ -15,13 +31,21 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   std::size_t done = 0;
   const auto work_and_tell = [&](std::size_t i) {
     throw_if_interrupted();
-    work(i);
+    {
+      const AtWork at_work;
+      work(i);
+    }
     if (!advance) return;
     const std::lock_guard<std::mutex> lock(mutex);
     advance(static_cast<double>(++done) / static_cast<double>(count));
   };
+  const auto share_out = [&] { tbb::parallel_for(std::size_t{0}, count, work_and_tell, tbb::simple_partitioner()); };
+  if (is_at_work && threads != 1) {
+    tbb::this_task_arena::isolate(share_out);  // else a thread that waits for its part would begin with another's
+    return;
+  }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work_and_tell, tbb::simple_partitioner()); });
+  arena.execute(share_out);
 }
 
 }  // namespace rollrig
