@@ -47,15 +47,24 @@ void add_stretches(const PreparedSet& set, const Series& series, std::vector<Pha
   }
 }
 
-/// Information matrix of the sizes of all stretches, and their score: size = information^-1 score.
-struct Scores {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd score;
-  Eigen::VectorXd without_null;  // the information's diagonal, were base parameters and offsets known
-  Eigen::MatrixXd null_steps;    // of base parameters and offsets beside a stretch of size 1
+std::vector<PhaseOfSeries> cut_into_stretches(const PreparedSet& set) {
+  std::vector<PhaseOfSeries> stretches;
+  for (const Series& series : set.series()) add_stretches(set, series, stretches);
+  return stretches;
+}
+
+/// Products of the templates of stretches, of the null's derivatives and of its residual at the priors' middles.
+struct Products {
+  Eigen::MatrixXd templates;   // T^T T
+  Eigen::MatrixXd through;     // J^T T
+  Eigen::MatrixXd null;        // J^T J
+  Eigen::VectorXd along;       // T^T r
+  Eigen::VectorXd along_null;  // J^T r
+  double along_itself = 0.0;   // r^T r
+  double count = 0.0;          // of residuals
 };
 
-Scores calc_scores(const LinearFit& null, const std::vector<PhaseOfSeries>& stretches) {
+Products calc_products(const LinearFit& null, const std::vector<PhaseOfSeries>& stretches) {
   // A stretch's template is 0 outside its series: templates of different series share a column.
   std::vector<Eigen::Index> column;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -69,51 +78,49 @@ Scores calc_scores(const LinearFit& null, const std::vector<PhaseOfSeries>& stre
       templates(to_index(stretches[i].series->first_residual + k), column[i]) = 1;
   }
   null.whiten(templates);
+  const Eigen::VectorXd prior_residual = null.residual - null.jacobian * null.unknowns;
   const Eigen::Index count = to_index(stretches.size());
-  const auto rows_of = [&](std::size_t i, const auto& matrix) {
-    return matrix.middleRows(to_index(stretches[i].series->first_residual), to_index(stretches[i].series->size()));
-  };
-  Scores scores{Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd(count), Eigen::VectorXd(count), {}};
-  Eigen::MatrixXd through_null(null.jacobian.cols(), count);
+  Products products;
+  products.templates = Eigen::MatrixXd::Zero(count, count);
+  products.through.resize(null.jacobian.cols(), count);
+  products.along.resize(count);
+  products.null = null.jacobian.transpose() * null.jacobian;
+  products.along_null = null.jacobian.transpose() * prior_residual;
+  products.along_itself = prior_residual.squaredNorm();
+  products.count = static_cast<double>(prior_residual.size());
   for (std::size_t i = 0; i < stretches.size(); ++i) {
-    const Eigen::VectorXd one = rows_of(i, templates).col(column[i]);
-    through_null.col(to_index(i)) = rows_of(i, null.jacobian).transpose() * one;
-    scores.score[to_index(i)] = one.dot(rows_of(i, null.residual));
-    scores.without_null[to_index(i)] = one.squaredNorm();
+    const Series& series = *stretches[i].series;
+    const Eigen::VectorXd one = series.rows_of(templates).col(column[i]);
+    products.through.col(to_index(i)) = series.rows_of(null.jacobian).transpose() * one;
+    products.along[to_index(i)] = one.dot(series.rows_of(prior_residual));
     for (std::size_t j = 0; j < stretches.size(); ++j) {
       if (stretches[j].series != stretches[i].series) continue;
-      scores.information(to_index(i), to_index(j)) = one.dot(rows_of(j, templates).col(column[j]));
+      products.templates(to_index(i), to_index(j)) = one.dot(series.rows_of(templates).col(column[j]));
     }
   }
-  scores.null_steps = null.factor.solve(through_null);
-  scores.information -= through_null.transpose() * scores.null_steps;
-  return scores;
+  return products;
 }
 
-/// Stretches put in one by one; `critical` of |z|.
-std::vector<std::size_t> select_forward(const Scores& scores, double critical) {
-  Eigen::MatrixXd information = scores.information;
-  Eigen::VectorXd score = scores.score;
-  constexpr double kResolvable = 1e-6;  // of its information, were all else known
-  std::vector<std::size_t> selected;
-  while (true) {
-    Eigen::Index best = -1;
-    double best_z = critical;
-    for (Eigen::Index i = 0; i < score.size(); ++i) {
-      if (!(information(i, i) > kResolvable * scores.without_null[i])) continue;
-      const double z = std::abs(score[i]) / std::sqrt(information(i, i));
-      if (z > best_z) {
-        best = i;
-        best_z = z;
-      }
-    }
-    if (best < 0) return selected;
-    selected.push_back(static_cast<std::size_t>(best));
-    const Eigen::VectorXd along = information.col(best) / information(best, best);
-    score -= along * score[best];
-    information -= along * information.row(best).eval();
-    score[best] = information(best, best) = 0.0;
-  }
+/// Information matrix of the sizes of all stretches, and their score: size = information^-1 score; where what is left
+/// has a variance of its own.
+struct Scores {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd score;
+  Eigen::VectorXd without_null;  // the information's diagonal, were base parameters and offsets known
+  Eigen::VectorXd null;          // base parameters and offsets without stretches
+  Eigen::MatrixXd null_steps;    // beside a stretch of size 1
+};
+
+Scores calc_scores(const Products& products, double variance) {
+  const Eigen::Index n = products.null.rows();
+  const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + products.null / variance);
+  Scores scores;
+  scores.null_steps = factor.solve(products.through) / variance;
+  scores.null = -factor.solve(products.along_null) / variance;
+  scores.information = (products.templates - products.through.transpose() * scores.null_steps) / variance;
+  scores.score = (products.along + products.through.transpose() * scores.null) / variance;
+  scores.without_null = products.templates.diagonal() / variance;
+  return scores;
 }
 
 struct Sized {
@@ -122,22 +129,97 @@ struct Sized {
   double z = 0.0;
 };
 
-/// Sizes beside each other; those that the others have made insignificant are taken out again, the faintest first.
-std::vector<Sized> size_jointly(const Scores& scores, std::vector<std::size_t> selected, double critical) {
-  while (true) {
-    std::vector<Sized> sized;
-    const Eigen::Index n = to_index(selected.size());
-    const Eigen::MatrixXd information = scores.information(selected, selected);
-    const Eigen::VectorXd score = scores.score(selected);
-    const Eigen::MatrixXd covariance = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
-    const Eigen::VectorXd size = covariance * score;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      sized.push_back({selected[static_cast<std::size_t>(i)], size[i], size[i] / std::sqrt(covariance(i, i))});
+/// Sizes of the selected beside each other.
+std::vector<Sized> size_jointly(const Scores& scores, const std::vector<std::size_t>& selected) {
+  std::vector<Sized> sized;
+  const Eigen::Index n = to_index(selected.size());
+  if (n == 0) return sized;
+  const Eigen::MatrixXd information = scores.information(selected, selected);
+  const Eigen::VectorXd score = scores.score(selected);
+  const Eigen::MatrixXd covariance = information.llt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd size = covariance * score;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    sized.push_back({selected[static_cast<std::size_t>(i)], size[i], size[i] / std::sqrt(covariance(i, i))});
+  }
+  return sized;
+}
+
+/// Base parameters and offsets as they fit best beside these.
+Eigen::VectorXd find_unknowns(const Scores& scores, const std::vector<Sized>& sized) {
+  Eigen::VectorXd unknowns = scores.null;
+  for (const Sized& one : sized) unknowns += scores.null_steps.col(to_index(one.stretch)) * one.size;
+  return unknowns;
+}
+
+/// Mean square of what is left beside these, whitened, and at least the 1 that noise gives.
+double calc_variance(const Products& products, const Scores& scores, const std::vector<Sized>& sized) {
+  const Eigen::VectorXd u = find_unknowns(scores, sized);
+  Eigen::VectorXd s = Eigen::VectorXd::Zero(products.along.size());
+  for (const Sized& one : sized) s[to_index(one.stretch)] = one.size;
+  const double sum = products.along_itself + u.dot(products.null * u) + s.dot(products.templates * s) +
+                     2.0 * u.dot(products.along_null) - 2.0 * s.dot(products.along) - 2.0 * u.dot(products.through * s);
+  return std::max(1.0, sum / products.count);
+}
+
+/// The variance with which a fit leaves that variance.
+double settle_variance(const Products& products, const std::vector<std::size_t>& selected, double variance) {
+  constexpr int kIterations = 5;  // Assumed: it settles to a percent or so
+  for (int i = 0; i < kIterations; ++i) {
+    const Scores scores = calc_scores(products, variance);
+    variance = calc_variance(products, scores, size_jointly(scores, selected));
+  }
+  return variance;
+}
+
+/// The clearest stretch beside those selected, above a `critical` |z|; -1 where there is none.
+Eigen::Index find_clearest(const Scores& scores, const std::vector<std::size_t>& selected, double critical) {
+  Eigen::MatrixXd information = scores.information;
+  Eigen::VectorXd score = scores.score;
+  for (const std::size_t one : selected) {
+    const Eigen::Index at = to_index(one);
+    const Eigen::VectorXd along = information.col(at) / information(at, at);
+    score -= along * score[at];
+    information -= along * information.row(at).eval();
+    score[at] = information(at, at) = 0.0;
+  }
+  constexpr double kResolvable = 1e-6;  // of its information, were all else known
+  Eigen::Index best = -1;
+  double best_z = critical;
+  for (Eigen::Index i = 0; i < score.size(); ++i) {
+    if (!(information(i, i) > kResolvable * scores.without_null[i])) continue;
+    const double z = std::abs(score[i]) / std::sqrt(information(i, i));
+    if (z > best_z) {
+      best = i;
+      best_z = z;
     }
+  }
+  return best;
+}
+
+struct Located {
+  std::vector<Sized> sized;
+  Eigen::VectorXd unknowns;  // of the null, beside them
+};
+
+/// Puts stretches in one by one; then those that the others have made insignificant are taken out again, the faintest
+/// first.
+Located select_stretches(const Products& products, double critical) {
+  std::vector<std::size_t> selected;
+  double variance = settle_variance(products, selected, 1.0);
+  while (true) {
+    const Eigen::Index next = find_clearest(calc_scores(products, variance), selected, critical);
+    if (next < 0) break;
+    selected.push_back(static_cast<std::size_t>(next));
+    variance = settle_variance(products, selected, variance);
+  }
+  while (true) {
+    const Scores scores = calc_scores(products, variance);
+    const std::vector<Sized> sized = size_jointly(scores, selected);
     const auto faintest = std::min_element(
         sized.begin(), sized.end(), [](const Sized& a, const Sized& b) { return std::abs(a.z) < std::abs(b.z); });
-    if (faintest == sized.end() || std::abs(faintest->z) > critical) return sized;
+    if (faintest == sized.end() || std::abs(faintest->z) > critical) return {sized, find_unknowns(scores, sized)};
     selected.erase(selected.begin() + (faintest - sized.begin()));
+    variance = settle_variance(products, selected, variance);
   }
 }
 
@@ -161,37 +243,45 @@ Eigen::VectorXd calc_difference(const Study& study, const Eigen::VectorXd& unkno
   return moved + study.make_model(fit.hypothesis).subtract_from_measured(fit.unknowns, fit.simulated);
 }
 
-Location describe_location(const PreparedSet& set, const PhaseOfSeries& stretch, const Sized& sized) {
-  Location location;
+LocationStretch describe_stretch(const PreparedSet& set, const PhaseOfSeries& stretch) {
   const Quantity& channel = set.channels()[stretch.series->channel];
-  location.channel = channel.header();
-  location.run = set.runs()[stretch.series->run].measured.id;
-  location.phase = stretch.name;
-  location.z = sized.z;
-  location.start_s = stretch.start_s;
-  location.end_s = stretch.end_s;
   const ReportUnit unit = find_report_unit(set, channel);
-  location.size = sized.size * unit.per_SI;
-  location.unit = unit.symbol;
+  return {channel.header(), set.runs()[stretch.series->run].measured.id, stretch.name, stretch.start_s,
+          stretch.end_s,    stretch.series->floor * unit.per_SI,         unit.symbol};
+}
+
+Location describe_location(const PreparedSet& set, const PhaseOfSeries& stretch, const Sized& sized) {
+  const LocationStretch place = describe_stretch(set, stretch);
+  Location location;
+  location.channel = place.channel;
+  location.run = place.run;
+  location.phase = place.phase;
+  location.z = sized.z;
+  location.start_s = place.start_s;
+  location.end_s = place.end_s;
+  location.size = sized.size * find_report_unit(set, set.channels()[stretch.series->channel]).per_SI;
+  location.unit = place.unit;
   return location;
 }
 
 }  // namespace
 
+std::vector<LocationStretch> list_location_stretches(const PreparedSet& set) {
+  std::vector<LocationStretch> all;
+  for (const PhaseOfSeries& stretch : cut_into_stretches(set)) all.push_back(describe_stretch(set, stretch));
+  return all;
+}
+
 std::vector<Location> find_locations(const Study& study) {
   const PreparedSet& set = study.set;
-  std::vector<PhaseOfSeries> stretches;
-  for (const Series& series : set.series()) add_stretches(set, series, stretches);
+  const std::vector<PhaseOfSeries> stretches = cut_into_stretches(set);
   const double tail = kFamilyWise / (2.0 * static_cast<double>(stretches.size()));
   const double critical = boost::math::quantile(boost::math::complement(boost::math::normal(), tail));
   const LinearFit linear(study.discrepancy, study.null);
-  const Scores scores = calc_scores(linear, stretches);
-  const std::vector<Sized> listed = size_jointly(scores, select_forward(scores, critical), critical);
+  const Located located = select_stretches(calc_products(linear, stretches), critical);
+  const std::vector<Sized>& listed = located.sized;
   if (listed.empty()) return {};
-
-  Eigen::VectorXd unknowns = linear.unknowns;
-  for (const Sized& sized : listed) unknowns += scores.null_steps.col(to_index(sized.stretch)) * sized.size;
-  const Eigen::VectorXd difference = calc_difference(study, unknowns);
+  const Eigen::VectorXd difference = calc_difference(study, located.unknowns);
   std::vector<Location> locations;
   double of_listed = 0.0;
   double of_others = 0.0;
