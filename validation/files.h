@@ -14,6 +14,7 @@ namespace rollrig::validation {
 constexpr const char* kTruthFormat = "rollrig-blind-bank/1";
 constexpr const char* kPlanFormat = "rollrig-blind-plan/1";
 constexpr const char* kUpperBoundFormat = "rollrig-blind-ceiling/1";
+constexpr const char* kLocationsFormat = "rollrig-validation-locations/1";
 
 // In a validation set: plans of follow-up tests, and the cases made by them.
 constexpr const char* kFollowUpFolder = "followup";

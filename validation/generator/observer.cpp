@@ -21,6 +21,10 @@ Eigen::MatrixXd Observer::reduce(const Eigen::MatrixXd& signals) const {
   return turned.bottomRows(signals.rows());
 }
 
+Eigen::VectorXd Observer::fit(const Eigen::VectorXd& signal) const {
+  return columns_.solve(put_below(signal, Eigen::MatrixXd::Zero(unknowns_, 1)));
+}
+
 double expect_log_bayes_factor(const Eigen::VectorXd& signal, const Eigen::MatrixXd& alternatives) {
   constexpr double kStrength = 3.0;
   return 0.5 * Observer(kStrength * alternatives).reduce(signal).squaredNorm();

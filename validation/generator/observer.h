@@ -19,6 +19,9 @@ class Observer {
   /// Columns whose scalar products are <s, t>, so that the norm of one is its d'.
   Eigen::MatrixXd reduce(const Eigen::MatrixXd& signals) const;
 
+  /// The unknowns that fit a signal best under their prior, in its standard deviations: (I + U^T U)^-1 U^T s.
+  Eigen::VectorXd fit(const Eigen::VectorXd& signal) const;
+
  private:
   Eigen::Index unknowns_;
   Eigen::HouseholderQR<Eigen::MatrixXd> columns_;

@@ -72,6 +72,19 @@ Eigen::MatrixXd draw_matrix(Eigen::Index rows, Eigen::Index columns) {
 
 }  // namespace
 
+TEST_CASE("unknowns are fitted under their prior", "[fast]") {
+  // (1 + 1^2 + 1^2)^-1 (1 3 + 1 6) of one that moves both samples alike
+  Eigen::MatrixXd one(2, 1);
+  one << 1.0, 1.0;
+  CHECK(rollrig::generator::Observer(one).fit(Eigen::Vector2d(3.0, 6.0))[0] == Approx(3.0));
+  // two that each move a sample of their own: s u/(1 + u^2)
+  Eigen::MatrixXd two(2, 2);
+  two << 3.0, 0.0, 0.0, 1.0;
+  const Eigen::VectorXd fitted = rollrig::generator::Observer(two).fit(Eigen::Vector2d(10.0, 10.0));
+  CHECK(fitted[0] == Approx(3.0));
+  CHECK(fitted[1] == Approx(5.0));
+}
+
 TEST_CASE("whitened blocks weigh a signal as the inverse of their covariance does", "[fast]") {
   const std::vector<bool> has_sample = leave_gaps(95);
   const auto lists = list_blocks(has_sample);
