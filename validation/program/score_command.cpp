@@ -104,6 +104,7 @@ void fill_places(ScoreOrder& order) {
   for (const char* name : {"upper_bound.json", "ceiling.json"}) {  // the second is of older sets
     if (order.upper_bound.empty() && is_there(name)) order.upper_bound = place_in(order.set, name);
   }
+  if (is_there(kLocationsFile)) order.locations = place_in(order.set, kLocationsFile);
   if (order.truth_was_left_out || order.answers != place_in(order.set, "answers")) return;
   const auto find_tests = [&](Choice choice) {
     const std::string name = folder_of(choice);

@@ -41,6 +41,20 @@ diagnosis::Cause read_cause(const Json& json) {
   return cause;
 }
 
+diagnosis::Location read_location(const Json& json) {
+  diagnosis::Location at;
+  at.channel = json.at("channel").get<std::string>();
+  at.run = json.at("run").get<std::string>();
+  at.phase = json.at("phase").get<std::string>();
+  at.share_percent = read_number(json.at("share_percent"));
+  at.size = read_number(json.at("size"));
+  at.unit = json.at("unit").get<std::string>();
+  at.z = read_number(json.at("z"));
+  at.start_s = read_number(json.at("start_s"));
+  at.end_s = read_number(json.at("end_s"));
+  return at;
+}
+
 diagnosis::Diagnosis read_diagnosis(const Json& json) {
   diagnosis::Diagnosis read;
   read.set = json.at("set").get<std::string>();
@@ -58,6 +72,7 @@ diagnosis::Diagnosis read_diagnosis(const Json& json) {
     read.next_tests.push_back({of.at("test").get<std::string>(), of.at("splits").get<std::vector<std::string>>(),
                                read_number(of.at("expected_bits_per_hour")), read_number(of.at("hours"))});
   }
+  for (const Json& at : json.value("where", Json::array())) read.where.push_back(read_location(at));
   return read;
 }
 

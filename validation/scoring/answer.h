@@ -25,7 +25,7 @@ struct Answer {
   std::string number;      // of the case
   std::string set_sha256;  // of its files
   Settings settings;
-  diagnosis::Diagnosis diagnosis;  // read back: verdict, probability, causes, gap, next tests without their runs
+  diagnosis::Diagnosis diagnosis;  // read back: verdict, probability, causes, gap, where, next tests without their runs
   std::string failure;             // why there is no diagnosis
   double seconds = 0.0;            // on one thread
   double cpu_seconds = 0.0;

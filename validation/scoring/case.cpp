@@ -119,6 +119,10 @@ std::string Case::said() const {
   return is_named() ? truth.name() : fmt::format("{}", fmt::join(cause().effects, "+"));
 }
 
+std::vector<diagnosis::Location> Case::scored_locations() const {
+  return places.empty() || !answer.failure.empty() ? std::vector<diagnosis::Location>{} : answer.diagnosis.where;
+}
+
 std::optional<SizeCheck> Case::check_size() const {
   if (!is_single() || !has_cause() || !is_exact()) return std::nullopt;
   const TrueEffect& effect = truth.effects.front();

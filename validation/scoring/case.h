@@ -7,6 +7,7 @@
 
 #include "validation/scoring/answer.h"
 #include "validation/scoring/follow_up.h"
+#include "validation/scoring/locations.h"
 #include "validation/scoring/statistics.h"
 #include "validation/scoring/truth.h"
 
@@ -28,6 +29,7 @@ struct Case {
   std::optional<double> d_prime;                     // of the ideal observer
   std::optional<bool> identifiable;                  // likewise: whether its data tell the effect from all others
   std::vector<double> log_bayes_factors;  // likewise: expected, of the truth over each other effect; may be empty
+  std::vector<TruePlace> places;          // where the effects act; empty where that was not computed
   std::optional<FollowUp> next_test;      // that the answer proposes; none where it leaves nothing open
   std::optional<FollowUp> drawn_test;     // drawn from the menu instead
 
@@ -61,6 +63,10 @@ struct Case {
   /// The probability stated for that.
   Stated stated() const;
   std::string said() const;
+
+  /// The locations that the answer names, the largest share of the gap first; none where it is not known where the
+  /// effects act.
+  std::vector<diagnosis::Location> scored_locations() const;
 
   bool is_clean() const { return truth.effects.empty(); }
   bool is_single() const { return truth.effects.size() == 1 && !truth.outside; }

@@ -19,11 +19,11 @@ Cases only(const Cases& cases, const Is& wanted) {
   return some;
 }
 
-/// The share of the cases `of` that count.
-Figure make_share(const char* id, const char* label, const Cases& of, const Is& counts) {
+/// The share of k in n.
+Figure make_proportion(const char* id, const char* label, std::size_t k, std::size_t n) {
   Figure figure{id, label};
-  figure.n = of.size();
-  figure.k = static_cast<std::size_t>(std::count_if(of.begin(), of.end(), counts));
+  figure.n = n;
+  figure.k = k;
   if (figure.n > 0) {
     figure.value = static_cast<double>(figure.k) / static_cast<double>(figure.n);
     figure.interval = calc_wilson_95(figure.k, figure.n);
@@ -31,6 +31,11 @@ Figure make_share(const char* id, const char* label, const Cases& of, const Is& 
     figure.note = "no such case";
   }
   return figure;
+}
+
+/// The share of the cases `of` that count.
+Figure make_share(const char* id, const char* label, const Cases& of, const Is& counts) {
+  return make_proportion(id, label, static_cast<std::size_t>(std::count_if(of.begin(), of.end(), counts)), of.size());
 }
 
 /// A number over `n` cases, of which less is better.
@@ -221,6 +226,23 @@ void add_next_tests(const Cases& cases, std::vector<Figure>& figures) {
   add("drawn_test", "  one drawn from the menu", &Case::drawn_test, "not measured: rollrig_validation plan --drawn");
 }
 
+/// Where the gap lies: the first location of each answer, and all that are named.
+void add_locations(const Cases& cases, std::vector<Figure>& figures) {
+  LocationTally tally;
+  for (const Case& one : cases) tally.add(one);
+  const bool is_known = std::any_of(cases.begin(), cases.end(), [](const Case& one) { return !one.places.empty(); });
+  const auto add = [&](const char* id, const char* label, std::size_t k, std::size_t n) {
+    Figure figure = make_proportion(id, label, k, n);
+    if (!is_known) figure.note = "not measured: rollrig_validation locations";
+    figures.push_back(at_least(0.90, std::move(figure)));
+  };
+  add("location", "location of the largest gap", tally.all_three, tally.answers);
+  add("location_channel", "  its channel", tally.channel, tally.answers);
+  add("location_run", "  its run", tally.run, tally.answers);
+  add("location_phase", "  its phase", tally.phase, tally.answers);
+  add("locations_named", "all locations that are named", tally.shifted, tally.named);
+}
+
 void add_the_rest(const Cases& cases, std::vector<Figure>& figures) {
   Tally all;
   std::vector<double> seconds;
@@ -255,6 +277,7 @@ std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOpti
   add_confidence(cases, options, figures);
   add_sizes(cases, figures);
   add_shrinkage(cases, figures);
+  add_locations(cases, figures);
   add_the_rest(cases, figures);
   return figures;
 }

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "diagnosis/output/diagnosis_json.h"
 #include "validation/scoring/report.h"
 
 namespace rollrig::validation {
@@ -60,6 +61,31 @@ Json make_missed(const Case& one) {
           {"said", one.said()},           {"answer", make_answer_json(one.answer)}};
 }
 
+Json make_reliability_group(const ReliabilityGroup& group) {
+  const Interval right = calc_wilson_95(group.bin.right, group.bin.cases);
+  return {
+      {"kind", group.kind},       {"verdict", diagnosis::name_of(group.verdict)},           {"cases", group.bin.cases},
+      {"right", group.bin.right}, {"mean_probability", number(group.bin.mean_probability)}, {"low_95", right.low},
+      {"high_95", right.high}};
+}
+
+Json describe_share(std::size_t k, std::size_t n) {
+  const Interval interval = calc_wilson_95(k, n);
+  return {{"k", k}, {"n", n}, {"low_95", interval.low}, {"high_95", interval.high}};
+}
+
+Json describe_locations(const Score& score) {
+  Json json = Json::object();
+  for (const auto& [kind, tally] : score.locations) {
+    json[kind] = {{"channel", describe_share(tally.channel, tally.answers)},
+                  {"run", describe_share(tally.run, tally.answers)},
+                  {"phase", describe_share(tally.phase, tally.answers)},
+                  {"all_three", describe_share(tally.all_three, tally.answers)},
+                  {"named", describe_share(tally.shifted, tally.named)}};
+  }
+  return json;
+}
+
 Json make_baselines(const Score& score) {
   Json json = Json::object();
   for (const BaselineScore& baseline : score.baselines) json[baseline.id] = baseline.values;
@@ -90,6 +116,8 @@ Json make_score_json(const Score& score) {
           {"all_effects", make_tallies({{"all", score.all_effects}}).at("all")},
           {"confusion", confusion},
           {"reliability", reliability},
+          {"reliability_by_kind", make_list(score.reliability_groups, make_reliability_group)},
+          {"locations", describe_locations(score)},
           {"next_tests", make_follow_ups_json(score)},
           {"missed", missed},
           {"warnings", score.warnings}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "diagnosis/output/diagnosis_json.h"
 #include "sim/core/text.h"
 #include "validation/scoring/report.h"
 
@@ -102,6 +103,43 @@ Table make_reliability(const Reliability& reliability) {
   return table;
 }
 
+/// Answers by kind and verdict; a mean of what is stated that lies outside of the interval of what is right is marked.
+Table make_reliability_by_kind(const std::vector<ReliabilityGroup>& groups) {
+  Table table{"Reliability by kind and verdict", {"kind", "verdict", "cases", "mean stated", "right", "95 %", ""}, {}};
+  for (const ReliabilityGroup& group : groups) {
+    const ReliabilityBin& bin = group.bin;
+    const Interval right = calc_wilson_95(bin.right, bin.cases);
+    const char* mark = bin.mean_probability > right.high  ? "too sure"
+                       : bin.mean_probability < right.low ? "too unsure"
+                                                          : "";
+    table.rows.push_back({group.kind, diagnosis::name_of(group.verdict), fmt::format("{}", bin.cases),
+                          fmt::format("{:.1f} %", 100.0 * bin.mean_probability),
+                          fmt::format("{:.1f} %", 100.0 * bin.right_share()), format_interval(right), mark});
+  }
+  return table;
+}
+
+/// "12 of 14 (60 to 96 %)"
+std::string show_proportion(std::size_t k, std::size_t n) {
+  const Interval interval = calc_wilson_95(k, n);
+  return fmt::format("{} of {} ({:.0f} to {:.0f} %)", k, n, 100.0 * interval.low, 100.0 * interval.high);
+}
+
+Table make_location_table(const Score& score) {
+  Table table{"Locations", {"kind", "where the gap is largest", "channel", "run", "phase", "all that are named"}, {}};
+  const auto add = [&table](const std::string& kind, const LocationTally& tally) {
+    table.rows.push_back({kind, show_proportion(tally.all_three, tally.answers),
+                          show_proportion(tally.channel, tally.answers), show_proportion(tally.run, tally.answers),
+                          show_proportion(tally.phase, tally.answers), show_proportion(tally.shifted, tally.named)});
+  };
+  for (const auto& [kind, tally] : score.locations) {
+    if (kind != kAllKinds) add(kind, tally);
+  }
+  const auto all = score.locations.find(kAllKinds);
+  if (all != score.locations.end()) add(all->first, all->second);
+  return table;
+}
+
 Table make_missed_table(const Score& score) {
   Table table{"Missed", {"what the data are", "what was answered"}, {}};
   for (const Case& one : score.missed) table.rows.push_back({describe_truth(one), describe_answer(one)});
@@ -124,7 +162,9 @@ std::vector<Table> make_score_tables(const Score& score) {
                             make_tally_table("By campaign", score.by_campaign),
                             make_tally_table("By size", score.by_size_class),
                             make_confusion(score.confusion),
-                            make_reliability(score.reliability)};
+                            make_reliability(score.reliability),
+                            make_reliability_by_kind(score.reliability_groups),
+                            make_location_table(score)};
   if (!score.by_effect.empty()) tables[2].rows.push_back(make_tally_row("all effects", score.all_effects));
   for (Table& table : make_follow_up_tables(score)) tables.push_back(std::move(table));
   tables.push_back(make_missed_table(score));

@@ -49,6 +49,30 @@ void read_upper_bound(const std::string& set, const std::string& file, std::vect
   }
 }
 
+/// Where the effects act: rollrig-validation-locations/1.
+void read_locations(const std::string& set, const std::string& file, std::vector<Case>& cases) {
+  if (file.empty()) return;
+  const std::string command = "rollrig_validation locations " + set;
+  try {
+    const Json json = Json::parse(read_text_file(file));
+    if (json.at("format") != kLocationsFormat) {
+      throw InputError(
+          {"no locations of a validation set", file, 0, "format", json["format"].dump(), kLocationsFormat, ""});
+    }
+    if (json.at("truth_sha256") != calc_sha256(read_text_file(set + "/truth.json"))) {
+      throw InputError({"the locations are of another validation set's truth", file, 0, "truth_sha256",
+                        json["truth_sha256"].dump(), command + " makes this set's own", ""});
+    }
+    for (Case& one : cases) {
+      const auto at = json.at("sets").find(one.truth.number);
+      if (at != json.at("sets").end()) one.places = read_places(*at);
+    }
+  } catch (const Json::exception& error) {
+    throw InputError({fmt::format("no locations of a validation set: {}", error.what()), file, 0, "", "",
+                      "a file as " + command + " writes it", ""});
+  }
+}
+
 std::string how_to_answer(const ScoreOrder& order) {
   const std::string program = "rollrig_validation ";
   if (order.by_baseline) return program + "baselines " + order.set;
@@ -82,6 +106,42 @@ double Tally::mean_named_set() const {
   return static_cast<double>(named_effects) / static_cast<double>(std::max<std::size_t>(1, named + named_wrong));
 }
 
+void LocationTally::add(const Case& one) {
+  const std::vector<diagnosis::Location> locations = one.scored_locations();
+  if (locations.empty()) return;
+  ++answers;
+  const LocationCheck first = check_largest(locations.front(), one.places);
+  channel += first.channel ? 1 : 0;
+  run += first.run ? 1 : 0;
+  phase += first.phase ? 1 : 0;
+  all_three += first.is_right() ? 1 : 0;
+  for (const diagnosis::Location& at : locations) {
+    ++named;
+    shifted += is_shifted(at, one.places) ? 1 : 0;
+  }
+}
+
+std::vector<ReliabilityGroup> group_reliability(const std::vector<Case>& cases) {
+  std::map<std::string, std::map<Verdict, ReliabilityBin>> bins;
+  std::map<Verdict, ReliabilityBin> all;
+  for (const Case& one : cases) {
+    if (!one.answer.failure.empty()) continue;
+    const Verdict verdict = one.answer.diagnosis.verdict;
+    bins[one.truth.kind][verdict].add(one.stated());
+    all[verdict].add(one.stated());
+  }
+  std::vector<ReliabilityGroup> groups;
+  const auto add = [&groups](const std::string& kind, const std::map<Verdict, ReliabilityBin>& by_verdict) {
+    for (const Verdict verdict : {Verdict::kNoGap, Verdict::kExplained, Verdict::kUnexplained}) {
+      const auto at = by_verdict.find(verdict);
+      if (at != by_verdict.end()) groups.push_back({kind, verdict, at->second});
+    }
+  };
+  for (const auto& [kind, by_verdict] : bins) add(kind, by_verdict);
+  if (bins.size() > 1) add(kAllKinds, all);
+  return groups;
+}
+
 Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
   Score score;
   score.cases = cases.size();
@@ -97,9 +157,14 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
     ++score.confusion[one.truth.name()][one.said()];
     if (!one.is_right()) score.missed.push_back(one);
     if (one.next_test.has_value() || one.drawn_test.has_value()) score.followed_up.push_back(one);
+    if (!one.places.empty()) {
+      score.locations[one.truth.kind].add(one);
+      score.locations[kAllKinds].add(one);
+    }
     programs.insert(one.answer.settings.program_sha256);
   }
   score.reliability = find_reliability(list_stated(cases));
+  score.reliability_groups = group_reliability(cases);
   const auto lacks_d_prime = [](const Case& one) { return one.is_inside() && !one.d_prime.has_value(); };
   const auto lacking = std::count_if(cases.begin(), cases.end(), lacks_d_prime);
   const bool any_known =
@@ -145,6 +210,7 @@ std::vector<Case> read_cases(const ScoreOrder& order) {
   }
   require_answers(lacking, all, order.answers, how_to_answer(order));
   read_upper_bound(order.set, order.upper_bound, cases);
+  read_locations(order.set, order.locations, cases);
   read_follow_ups(order.set, Choice::kProposed, order.next_tests, cases);
   read_follow_ups(order.set, Choice::kDrawn, order.drawn_tests, cases);
   return cases;

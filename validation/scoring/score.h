@@ -80,6 +80,30 @@ struct BaselineScore {
   std::map<std::string, double> values;  // by a figure's id, of those that the method is judged by
 };
 
+constexpr const char* kAllKinds = "all";
+
+/// What answers of one verdict to cases of one kind of measurement set state, and how many are right.
+struct ReliabilityGroup {
+  std::string kind;
+  diagnosis::Verdict verdict = diagnosis::Verdict::kNoGap;
+  ReliabilityBin bin{};
+};
+
+/// By kind, verdicts in the order no gap, explained, unexplained, where there are answers; then of all kinds together,
+/// where there is more than one. A diagnosis that failed is none.
+/// Checked  tests/validation/scoring/score_test.cpp
+std::vector<ReliabilityGroup> group_reliability(const std::vector<Case>& cases);
+
+/// How well answers locate the gap. Answers that name no location count nowhere.
+struct LocationTally {
+  std::size_t answers = 0;                                     // that name one or more
+  std::size_t channel = 0, run = 0, phase = 0, all_three = 0;  // of the first location of each: right
+  std::size_t named = 0;                                       // locations of all answers
+  std::size_t shifted = 0;                                     // of these: the effects shift the readings there so
+
+  void add(const Case& one);
+};
+
 struct Score {
   std::vector<Figure> figures;
   std::vector<BaselineScore> baselines;
@@ -87,6 +111,8 @@ struct Score {
   Tally all_effects;
   Confusion confusion;
   Reliability reliability{};
+  std::vector<ReliabilityGroup> reliability_groups;
+  std::map<std::string, LocationTally> locations;  // by kind, and of kAllKinds; empty where nothing is known of them
   std::vector<Case> missed;
   std::vector<Case> followed_up;  // whose next test was planned
   std::size_t cases = 0;
@@ -102,6 +128,7 @@ struct ScoreOrder {
   std::string answers;              // folder
   std::string known_cause;          // folder of answers with the true effect alone in the comparison; empty: none
   std::string upper_bound;          // file with d' of the cases; empty: none
+  std::string locations;            // file with where the effects act; empty: none
   std::string next_tests;           // folder of follow-up tests that were proposed, done; empty: none
   std::string drawn_tests;          // likewise with tests drawn from the menu
   bool truth_was_left_out = false;  // the true effects were not in the comparison: none is in the catalog

@@ -19,16 +19,18 @@ Interval calc_wilson_95(std::size_t k, std::size_t n) {
   return {k == 0 ? 0.0 : (middle - half) / scale, k == n ? 1.0 : (middle + half) / scale};
 }
 
+void ReliabilityBin::add(const Stated& one) {
+  ++cases;
+  right += one.right ? 1 : 0;
+  mean_probability += (one.probability - mean_probability) / static_cast<double>(cases);
+}
+
 Reliability find_reliability(const std::vector<Stated>& stated) {
   Reliability bins{};
   for (const Stated& one : stated) {
     const auto at = static_cast<std::size_t>(std::max(0.0, one.probability) * kReliabilityBins);
-    ReliabilityBin& bin = bins[std::min(at, kReliabilityBins - 1)];
-    ++bin.cases;
-    bin.right += one.right ? 1 : 0;
-    bin.mean_probability += one.probability;
+    bins[std::min(at, kReliabilityBins - 1)].add(one);
   }
-  for (ReliabilityBin& bin : bins) bin.mean_probability /= static_cast<double>(std::max<std::size_t>(1, bin.cases));
   return bins;
 }
 

@@ -32,8 +32,9 @@ constexpr std::size_t kReliabilityBins = 10;
 struct ReliabilityBin {
   std::size_t cases = 0;
   std::size_t right = 0;
-  double mean_probability = 0.0;
+  double mean_probability = 0.0;  // of its cases
 
+  void add(const Stated& one);
   double right_share() const { return static_cast<double>(right) / static_cast<double>(cases); }
 };
 using Reliability = std::array<ReliabilityBin, kReliabilityBins>;

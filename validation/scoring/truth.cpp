@@ -41,7 +41,8 @@ Truth read_truth(const std::string& number, const Json& json, const std::vector<
   Truth truth;
   truth.number = number;
   for (const Json& effect : json.at("effects")) truth.effects.push_back(read_effect(effect));
-  truth.campaign = json.value("campaign_kind", json.value("kind", "drum"));
+  truth.kind = json.value("kind", "drum");
+  truth.campaign = json.value("campaign_kind", truth.kind);
   for (const auto& [channel, floors] : json.at("signal_floors").items()) {
     if (floors.is_number()) truth.signal_floors = std::max(truth.signal_floors, floors.get<double>());
   }

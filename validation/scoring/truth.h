@@ -19,6 +19,7 @@ struct TrueEffect {
 struct Truth {
   std::string number;
   std::vector<TrueEffect> effects;  // none, one, or two
+  std::string kind;                 // of measurement set
   std::string campaign;             // kind of campaign, or kind of measurement set
   double signal_floors = 0.0;       // of the channel that shows most, in noise floors
   bool outside = false;             // not in the catalog

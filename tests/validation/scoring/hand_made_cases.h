@@ -12,6 +12,7 @@ inline validation::Case make_case(const std::string& set, const std::vector<std:
                                   double floors = 10.0) {
   validation::Case made;
   made.truth.number = set;
+  made.truth.kind = "drum";
   made.truth.campaign = "full_drum";
   made.truth.signal_floors = effects.empty() ? 0.0 : floors;
   for (const std::string& id : effects) made.truth.effects.push_back({id, 2.0, 0.0, "N", ""});

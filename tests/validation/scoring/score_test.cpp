@@ -79,6 +79,52 @@ TEST_CASE("the figures of a validation set are those counted by hand", "[fast]")
   CHECK(score.missed.size() == 7);  // all but 0001, 0002 (by its set), 0007, 0009 and 0011
 }
 
+TEST_CASE("reliability by kind and verdict is counted by hand", "[fast]") {
+  const auto on = [](const char* kind, Case one) {
+    one.truth.kind = kind;
+    return one;
+  };
+  Case failed = make_case("0006", {"rim_heat"});
+  failed.answer.failure = "no fit converges";
+  const std::vector<Case> cases{on("drum", say_cause(make_case("0001", {"rim_heat"}), {"rim_heat"}, 0.9)),
+                                on("drum", say_cause(make_case("0002", {"rim_heat"}), {"windage"}, 0.8)),
+                                on("drum", say_no_gap(make_case("0003", {}), 0.96)),
+                                on("road", say_unexplained(make_case("0004", {"rim_heat"}), 0.7)),
+                                on("road", say_cause(make_case("0005", {"slow_leak"}), {"slow_leak"}, 0.4)),
+                                failed};
+  const auto groups = validation::group_reliability(cases);
+  const auto check = [&groups](std::size_t i, const std::string& kind, diagnosis::Verdict verdict, std::size_t right,
+                               std::size_t of, double mean) {
+    INFO(i);
+    CHECK(groups.at(i).kind == kind);
+    CHECK(groups[i].verdict == verdict);
+    CHECK(groups[i].bin.right == right);
+    CHECK(groups[i].bin.cases == of);
+    CHECK(groups[i].bin.mean_probability == Approx(mean));
+  };
+  using diagnosis::Verdict;
+  REQUIRE(groups.size() == 7);
+  check(0, "drum", Verdict::kNoGap, 1, 1, 0.96);
+  check(1, "drum", Verdict::kExplained, 1, 2, 0.85);
+  check(2, "road", Verdict::kExplained, 1, 1, 0.4);
+  check(3, "road", Verdict::kUnexplained, 0, 1, 0.7);
+  check(4, "all", Verdict::kNoGap, 1, 1, 0.96);
+  check(5, "all", Verdict::kExplained, 2, 3, 0.7);
+  check(6, "all", Verdict::kUnexplained, 0, 1, 0.7);
+  CHECK(validation::group_reliability({cases[0]}).size() == 1);  // one kind: nothing to put together
+  const Json json = validation::make_score_json(validation::score_cases(cases, {})).at("reliability_by_kind");
+  CHECK(json.at(1).at("verdict") == "explained");
+  CHECK(json.at(1).at("mean_probability") == Approx(0.85));
+  CHECK(json.at(1).at("low_95") == validation::calc_wilson_95(1, 2).low);
+  // Wilson's interval of 0 of 1 is 0 to 79.3 %, of 1 of 1 20.7 to 100 %, which hold 70 and 40 %; that of 0 of 6 ends at
+  // 39.0 %
+  const std::vector<Case> sure(6, say_cause(make_case("0001", {"rim_heat"}), {"windage"}, 0.5));
+  CHECK_THAT(validation::format_score_markdown(validation::score_cases(sure, {})),
+             Catch::Contains("| drum | explained | 6 | 50.0 % | 0.0 % | 0.0 to 39.0 | too sure |"));
+  CHECK_THAT(validation::format_score_markdown(validation::score_cases({cases[3]}, {})),
+             Catch::Contains("| road | unexplained | 1 | 70.0 % | 0.0 % | 0.0 to 79.3 |  |"));
+}
+
 TEST_CASE("one of two causes, named alone, is told from another cause", "[fast]") {
   const Case pair = make_case("0001", {"windage", "rim_heat"});
   Case seen = say_cause(pair, {"rim_heat"}, 0.95);
