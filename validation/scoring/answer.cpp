@@ -61,6 +61,10 @@ diagnosis::Diagnosis read_diagnosis(const Json& json) {
   read.verdict = diagnosis::read_verdict(json.at("verdict").get<std::string>());
   for (const auto& [name, value] : json.at("probability").items()) read.probability[name] = read_number(value);
   for (const Json& cause : json.at("causes")) read.causes.push_back(read_cause(cause));
+  if (json.contains("trace") && json["trace"].is_object()) read.trace = read_cause(json["trace"]);
+  if (json.contains("nothing_detectable") && json["nothing_detectable"].is_number()) {
+    read.nothing_detectable = json["nothing_detectable"].get<double>();
+  }
   const Json& gap = json.at("gap");
   const auto read_view = [&gap](const char* key) -> diagnosis::GapView {
     return {read_number(gap.at(key).at("before")), read_number(gap.at(key).at("after"))};

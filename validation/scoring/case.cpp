@@ -50,6 +50,26 @@ bool Case::names_truth() const {
   return all.size() <= kLargestNamedSet && truth.is_within(all);
 }
 
+bool Case::names_trace() const {
+  if (!is(Verdict::kNoGap) || !answer.diagnosis.trace.has_value() || is_clean()) return false;
+  std::vector<std::string> all = answer.diagnosis.trace->effects;
+  const std::vector<std::string>& others = answer.diagnosis.trace->indistinguishable_from;
+  all.insert(all.end(), others.begin(), others.end());
+  return all.size() <= kLargestNamedSet && truth.is_within(all);
+}
+
+bool Case::is_named_strictly() const {
+  const diagnosis::Diagnosis& found = answer.diagnosis;
+  return is_named() && (names_trace() ? *found.trace : cause()).effects.size() <= truth.effects.size();
+}
+
+bool Case::shows_nothing() const {
+  constexpr double kDetectable_sd = 5.0;
+  constexpr double kDetectable_floors = 1.0;
+  if (is_clean()) return true;
+  return d_prime.has_value() ? *d_prime < kDetectable_sd : truth.signal_floors < kDetectable_floors;
+}
+
 bool Case::is_exact() const {
   return is(Verdict::kExplained) && has_cause() && cause().effects.size() == truth.effects.size() &&
          truth.is_within(cause().effects);
@@ -103,13 +123,15 @@ std::size_t Case::rank_of_truth() const {
 
 bool Case::is_right() const {
   if (!answer.failure.empty()) return false;
-  if (is_clean()) return is(Verdict::kNoGap);
+  if (is(Verdict::kNoGap)) return shows_nothing() || names_trace();
+  if (is_clean()) return false;
   return truth.outside ? is(Verdict::kUnexplained) : is_named();
 }
 
 Stated Case::stated() const {
   if (is(Verdict::kExplained) && has_cause()) return {cause().probability, is_right()};
-  return {probability_of(answer.diagnosis, is(Verdict::kNoGap) ? "none" : "unknown"), is_right()};
+  if (is(Verdict::kUnexplained)) return {probability_of(answer.diagnosis, "unknown"), is_right()};
+  return {answer.diagnosis.nothing_detectable.value_or(probability_of(answer.diagnosis, "none")), is_right()};
 }
 
 std::string Case::said() const {

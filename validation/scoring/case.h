@@ -40,11 +40,16 @@ struct Case {
   std::vector<std::string> named_set() const;
   /// Whether the true effects stand in a named set of at most three.
   bool names_truth() const;
-  /// Likewise, and the verdict is that the gap is explained.
-  bool is_named() const { return is(diagnosis::Verdict::kExplained) && names_truth(); }
+  /// Likewise, and the verdict is that the gap is explained; or the trace of a set without a gap names the true effects
+  /// in this way.
+  bool is_named() const { return (is(diagnosis::Verdict::kExplained) && names_truth()) || names_trace(); }
+  bool names_trace() const;
+  /// Whether nothing acts that an ideal observer would see (d' below 5, or, where that is not known, less than a noise
+  /// floor in every channel).
+  bool shows_nothing() const;
   bool is_exact() const;
-  /// Likewise named, and the first cause has no more effects than there are.
-  bool is_named_strictly() const { return is_named() && cause().effects.size() <= truth.effects.size(); }
+  /// Likewise named, and the first cause, or the trace, has no more effects than there are.
+  bool is_named_strictly() const;
   /// Effects that are said to act with more than that, where the verdict is that the gap is explained: all, and those
   /// of them that do not.
   std::vector<std::string> claims_above(double probability) const;

@@ -76,7 +76,7 @@ TEST_CASE("the figures of a validation set are those counted by hand", "[fast]")
   CHECK(figure_of(score, "named_set").value.value() == Approx((1 + 2 + 1 + 2 + 1) / 5.0));
   CHECK(figure_of(score, "time_largest").value.value() == 4.0);
   CHECK_FALSE(figure_of(score, "shrinkage_median").value.has_value());
-  CHECK(score.missed.size() == 7);  // all but 0001, 0002 (by its set), 0007, 0009 and 0011
+  CHECK(score.missed.size() == 6);  // all but 0001, 0002 (by its set), 0005 (nothing to see), 0007, 0009 and 0011
 }
 
 TEST_CASE("reliability by kind and verdict is counted by hand", "[fast]") {
@@ -270,4 +270,28 @@ TEST_CASE("the report fits the terminal and says each missed set", "[fast]") {
   CHECK(json.at("missed").size() == score.missed.size());
   CHECK(json.at("confusion").at("rim_heat").at("windage") == 1);
   CHECK(json.at("by_effect").at("slow_leak").at("sets") == 3);
+}
+
+TEST_CASE("no gap is right where nothing can be seen, and where its trace is what acts", "[fast]") {
+  const Case hidden = say_no_gap(make_case("0001", {"slow_leak"}, 0.2), 0.6);
+  CHECK(hidden.is_right());
+  CHECK(hidden.stated().probability == 0.6);
+  Case stated = hidden;
+  stated.answer.diagnosis.nothing_detectable = 0.97;  // beside a probability of none of 60 %
+  CHECK(stated.stated().probability == 0.97);
+  const Case missed = say_no_gap(make_case("0002", {"slow_leak"}, 3.0));
+  CHECK_FALSE(missed.is_right());
+  Case seen_by_observer = hidden;
+  seen_by_observer.d_prime = 7.0;
+  CHECK_FALSE(seen_by_observer.is_right());
+  Case trace = missed;
+  trace.answer.diagnosis.trace = diagnosis::Cause{};
+  trace.answer.diagnosis.trace->effects = {"windage"};
+  CHECK_FALSE(trace.is_right());
+  trace.answer.diagnosis.trace->effects = {"slow_leak"};
+  CHECK(trace.is_right());
+  CHECK(trace.is_named_strictly());
+  trace.answer.diagnosis.trace->effects = {"slow_leak", "windage"};
+  CHECK(trace.is_named());
+  CHECK_FALSE(trace.is_named_strictly());
 }
