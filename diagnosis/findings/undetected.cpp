@@ -9,7 +9,7 @@ namespace rollrig::diagnosis {
 namespace {
 
 /// The clearest trial of a term on top of the null; nullptr where none changes anything.
-const Screened* find_clearest(const Comparison& comparison, const SignedTerm& term) {
+const Screened* find_clearest_trial(const Comparison& comparison, const SignedTerm& term) {
   const Screened* clearest = nullptr;
   for (const Screened& one : comparison.screened) {
     if (!(one.term == term) || !(one.detectability > 0.0)) continue;
@@ -37,7 +37,7 @@ double calc_hidden(const Screened& clearest) {
 double calc_hidden(const Comparison& comparison, const Hypothesis& hypothesis) {
   double hidden = 1.0;
   for (const SignedTerm& one : hypothesis.terms) {
-    const Screened* clearest = find_clearest(comparison, one);
+    const Screened* clearest = find_clearest_trial(comparison, one);
     if (clearest != nullptr) hidden = std::min(hidden, calc_hidden(*clearest));
   }
   return hidden;

@@ -51,10 +51,10 @@ TEST_CASE("the change of a place is the mean difference that the effects make th
 
 TEST_CASE("without effects nothing changes, in any place", "[fast]") {
   const GeneratedSet made = make_generated_set("--kind road --runs 1 --seed 3");
-  const auto changes =
-      find_changes(made, {{kLiner, made.set.runs[0].id, 0, 300}, {kPressure, made.set.runs[0].id, 0, 300}});
+  const std::string& run = made.set.runs[0].id;
+  const auto changes = find_changes(made, {{"traction_force_N", run, 0, 300}, {"traction_force_N", run, 300, 600}});
   for (const ChangeAt& change : changes) {
-    CHECK(change.of_effects.blocks == 30);
+    CHECK(change.of_effects.blocks > 0.0);
     CHECK(change.of_effects.rms == 0.0);
     CHECK(change.after_retuning.rms == 0.0);
   }
