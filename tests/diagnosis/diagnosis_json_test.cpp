@@ -137,3 +137,21 @@ TEST_CASE("a number that is not finite is null, and the text is JSON all the sam
   CHECK(json["causes"][0]["parameters"][0]["sd"].is_null());
   CHECK(json["where"][0]["z"].is_null());
 }
+
+TEST_CASE("the JSON says what an unknown effect is like, how far a cause is confirmed, and that nothing can be seen",
+          "[fast]") {
+  diagnosis::Diagnosis made = tests::make_explained();
+  Json json = make_diagnosis_json(made);
+  CHECK(json["unknown_like"].is_null());
+  CHECK(json["nothing_detectable"].is_null());
+  CHECK(json["gap"]["left_out_nats"].is_null());
+  made.unknown_like = diagnosis::Likeness{"a force", 0.9, {"slip_loss"}};
+  made.nothing_detectable = 0.97;
+  made.gap.left_out_nats = 4.5;
+  json = make_diagnosis_json(made);
+  CHECK(json["unknown_like"]["text"] == "a force");
+  CHECK(json["unknown_like"]["probability"] == 0.9);
+  CHECK(json["unknown_like"]["beside"] == Json::array({"slip_loss"}));
+  CHECK(json["nothing_detectable"] == 0.97);
+  CHECK(json["gap"]["left_out_nats"] == 4.5);
+}

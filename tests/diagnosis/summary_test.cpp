@@ -2,6 +2,7 @@
 #include "diagnosis/output/summary.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <sstream>
 
 #include "build_paths.h"
@@ -278,4 +279,33 @@ TEST_CASE("docs/diagnosis.md shows the ten lines as they are printed", "[fast]")
   made.causes[0].indistinguishable_from = {"tire_loss_in_skim"};
   const std::string page = tests::read_file(ROLLRIG_SOURCE_DIR "/docs/diagnosis.md");
   for (const std::string& line : lines_of(format_summary(made))) CHECK_THAT(page, Contains("    " + line + "\n"));
+}
+
+TEST_CASE("what was left out is told to be likelier with the cause by a factor, or beyond all doubt", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.gap.left_out_nats = std::log(42.0);
+  CHECK_THAT(line_of(format_summary(made), "  left out"), Contains("42 times likelier with the cause"));
+  made.gap.left_out_nats = 0.5;
+  CHECK_THAT(line_of(format_summary(made), "  left out"), Contains("1.6 times likelier"));
+  made.gap.left_out_nats = 900.0;
+  CHECK_THAT(line_of(format_summary(made), "  left out"), Contains("over a million times"));
+  made.gap.left_out_nats.reset();
+  CHECK(format_summary(made).find("  left out") == std::string::npos);
+}
+
+TEST_CASE("without a gap the probability is that of nothing to be seen, beside that of nothing at all", "[fast]") {
+  Diagnosis made = tests::make_no_gap();
+  made.nothing_detectable = 0.99;
+  made.probability["none"] = 0.61;
+  CHECK_THAT(line_of(format_summary(made), "Verdict"), Contains("probability 99 % (no effect at all 61 %)"));
+}
+
+TEST_CASE("an effect outside of the catalog is described where it is the verdict, and not elsewhere", "[fast]") {
+  Diagnosis made = tests::make_explained();
+  made.unknown_like = diagnosis::Likeness{"a force of +18 N that acts between 62 and 78 km/h", 0.94, {"slip_loss"}};
+  CHECK(format_summary(made).find("It is like") == std::string::npos);
+  made.verdict = diagnosis::Verdict::kUnexplained;
+  const std::string text = join_lines(format_summary(made));
+  CHECK_THAT(text,
+             Contains("It is like    a force of +18 N that acts between 62 and 78 km/h, beside slip_loss (94 %)"));
 }

@@ -94,9 +94,12 @@ TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[f
   CHECK(judge(gap) == Verdict::kUnexplained);
   gap.shrink_ci95_percent = {1.0, 18.0};
   CHECK(judge(gap) == Verdict::kExplained);
-  gap.shrink_percent.reset();  // nothing that could judge it
+  gap.shrink_percent.reset();  // no gap above the noise: what was left out judges by its likelihood
   gap.judged_by = JudgedBy::kNothing;
+  gap.left_out_nats = 10.0;
   CHECK(judge(gap) == Verdict::kExplained);
+  gap.left_out_nats = 2.0;
+  CHECK(judge(gap) == Verdict::kUnexplained);
 }
 
 TEST_CASE("what an objection says names the parts that were left out", "[fast]") {

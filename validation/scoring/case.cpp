@@ -97,6 +97,15 @@ std::optional<Stated> Case::stated_alone() const {
   return Stated{*cause().alone, is_exact()};
 }
 
+std::optional<Stated> Case::stated_acts() const {
+  if (!is(Verdict::kExplained) || !has_cause() || !cause().acts.has_value()) return std::nullopt;
+  const std::vector<std::string> ids = truth.ids();
+  const bool acts = std::all_of(cause().effects.begin(), cause().effects.end(), [&](const std::string& effect) {
+    return std::count(ids.begin(), ids.end(), effect) > 0;
+  });
+  return Stated{*cause().acts, acts};
+}
+
 bool Case::names_one_of_two() const {
   if (!is_pair() || !has_cause() || cause().effects.size() != 1) return false;
   return std::any_of(truth.effects.begin(), truth.effects.end(),

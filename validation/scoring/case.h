@@ -57,6 +57,8 @@ struct Case {
   /// Whether the first cause acts, and nothing else does, with the probability stated for that; none where it is not
   /// stated.
   std::optional<Stated> stated_alone() const;
+  /// Whether all effects of the first cause act, alone or not, with the probability stated for that; likewise.
+  std::optional<Stated> stated_acts() const;
   /// Whether the first cause is one effect, which is one of the two true ones.
   bool names_one_of_two() const;
   bool is_wrong_above(double probability) const;

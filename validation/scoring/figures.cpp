@@ -129,12 +129,13 @@ Figure find_false_claims(const Cases& cases) {
   return figure;
 }
 
-std::vector<Stated> list_stated_alone(const Cases& cases) {
-  std::vector<Stated> stated;
+/// What is stated, by Case::stated_alone or Case::stated_acts, in the cases that state it.
+std::vector<Stated> list_stated_by(std::optional<Stated> (Case::*stated_by)() const, const Cases& cases) {
+  std::vector<Stated> all;
   for (const Case& one : cases) {
-    if (const auto alone = one.stated_alone()) stated.push_back(*alone);
+    if (const auto stated = (one.*stated_by)()) all.push_back(*stated);
   }
-  return stated;
+  return all;
 }
 
 std::optional<double> calc_ece_of(const Cases& cases) {
@@ -166,10 +167,13 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
     return all.empty() ? std::nullopt : std::optional<double>(calc_ece_noise_floor(all));
   };
   figures.push_back(make_number("ece_floor", "  its noise floor", floor_of(stated), stated.size(), Unit::kNumber));
-  const std::vector<Stated> alone = list_stated_alone(cases);
-  const auto ece_alone = alone.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(alone)));
-  figures.push_back(make_number("ece_alone", "  of the cause acting alone", ece_alone, alone.size(), Unit::kNumber));
-  figures.push_back(make_number("ece_alone_floor", "  its noise floor", floor_of(alone), alone.size(), Unit::kNumber));
+  const auto add_part = [&](const std::string& id, const char* words, const std::vector<Stated>& part) {
+    const auto ece = part.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(part)));
+    figures.push_back(make_number(id, words, ece, part.size(), Unit::kNumber));
+    figures.push_back(make_number(id + "_floor", "  its noise floor", floor_of(part), part.size(), Unit::kNumber));
+  };
+  add_part("ece_acts", "  of the cause acting", list_stated_by(&Case::stated_acts, cases));
+  add_part("ece_alone", "  of the cause acting alone", list_stated_by(&Case::stated_alone, cases));
   const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
   figures.push_back(
       make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(), Unit::kNumber));

@@ -156,6 +156,19 @@ TEST_CASE("a companion that is not there counts against a named cause, and so do
   check_share(score, "false_claims", 1, 3);
 }
 
+TEST_CASE("the probability that a cause acts is right where all of its effects act, alone or not", "[fast]") {
+  const Case pair = make_case("0001", {"rim_heat", "windage"});
+  Case one_of_two = say_cause(pair, {"rim_heat"}, 0.9);
+  Case with_another = say_cause(pair, {"rim_heat", "slow_leak"}, 0.9);
+  CHECK_FALSE(one_of_two.stated_acts().has_value());
+  one_of_two.answer.diagnosis.causes.front().acts = 0.95;
+  with_another.answer.diagnosis.causes.front().acts = 0.75;
+  CHECK(one_of_two.stated_acts()->right);
+  CHECK_FALSE(with_another.stated_acts()->right);
+  const validation::Score score = validation::score_cases({one_of_two, with_another}, {});
+  CHECK(figure_of(score, "ece_acts").value.value() == Approx(0.5 * 0.05 + 0.5 * 0.75));
+}
+
 TEST_CASE("the probability of acting alone is right where the first cause is the truth and no more", "[fast]") {
   Case single = say_cause(make_case("0001", {"rim_heat"}), {"rim_heat"}, 0.95);
   Case pair = say_cause(make_case("0002", {"rim_heat", "windage"}), {"rim_heat"}, 0.95);
