@@ -116,8 +116,7 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   stages.begin("checks", 0.015);
   const SetChecks checks = check_set(measured, options.threads);
   settings.terms = find_terms(measured, options);
-  settings.unknown_terms =
-      choose_unknown_terms(measured.kind->traits, measured.tire.model(measured.baseline));
+  settings.unknown_terms = choose_unknown_terms(measured.kind->traits, measured.tire.model(measured.baseline));
   settings.threads = options.threads;
   const Beliefs beliefs = compare_beliefs(leave_out(measured, checks.left_out), settings);
   const Study& study = *beliefs.likelier.study;
@@ -140,10 +139,6 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   } else if (diagnosis.verdict != Verdict::kNoGap) {
     named = diagnosis.causes;
   }
-  diagnosis.unknown_like = find_likeness(study, comparison);
-  if (diagnosis.verdict == Verdict::kNoGap && !diagnosis.trace.has_value()) {
-    diagnosis.nothing_detectable = calc_nothing_detectable(study, comparison);
-  }
   diagnosis.not_excluded = find_not_excluded(study, comparison, named);
   stages.begin("where and what", 0.76);
   diagnosis.where = find_locations(study);
@@ -159,6 +154,13 @@ Diagnosis diagnose_all_runs(const measurements::MeasurementSet& measured, const 
   stages.begin("runs left out", 1.0);
   diagnosis.fitted.recalibrated = find_fitted(study, study.null.fit);
   judge_cause(study, comparison, diagnosis);
+  if (diagnosis.verdict == Verdict::kUnexplained && !checks.is_implausible()) {
+    diagnosis.unknown_like = find_likeness(study, comparison, diagnosis.probability.at("unknown"));
+  }
+  if (diagnosis.verdict == Verdict::kNoGap && !diagnosis.trace.has_value()) {
+    diagnosis.nothing_detectable = average_of(
+        beliefs, [](const Belief& belief) { return calc_nothing_detectable(*belief.study, belief.comparison); });
+  }
   add_base_numbers(study, comparison, diagnosis);
   warn_of_tire(measured, study, diagnosis);
   if (!checks.left_out.empty()) diagnosis.fitted = {};

@@ -144,10 +144,14 @@ Block make_explanation(const models::EffectInfo& info) {
 std::string describe_verdict(const Findings& findings) {
   const bool has_cause = !findings.causes.empty();
   if (findings.verdict == Verdict::kNoGap) {
-    return fmt::format(
-        "No gap: the simulation meets the measurement within noise and the files' uncertainties "
-        "(probability {}).",
-        show_probability(findings.nothing_detectable.value_or(diagnosis::probability_of(findings, "none"))));
+    const std::string none = show_probability(diagnosis::probability_of(findings, "none"));
+    const std::string probability =
+        findings.nothing_detectable.has_value()
+            ? fmt::format("probability {} that nothing acts which this set would show; {} that nothing acts at all",
+                          show_probability(*findings.nothing_detectable), none)
+            : "probability " + none;
+    return fmt::format("No gap: the simulation meets the measurement within noise and the files' uncertainties ({}).",
+                       probability);
   }
   if (!findings.doubt.empty()) return "Unexplained: the files are in doubt, before any physics.";
   if (findings.verdict == Verdict::kUnexplained || !has_cause) {

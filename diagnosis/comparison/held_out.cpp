@@ -142,14 +142,25 @@ double LeaveOut::calc_log_likelihood(const LeftOutPart& part) const {
   return own.log_scale + calc_log_density(own.rows.leftCols(n), own.rows.col(n));
 }
 
-double LeaveOut::calc_log_likelihood_of_files() const {
+double LeaveOut::calc_log_likelihood_of_files(const std::vector<std::size_t>& base) const {
+  RowMatrix stated = RowMatrix::Zero(to_index(base.size()), curvature_.cols());
+  for (std::size_t i = 0; i < base.size(); ++i) stated(to_index(i), to_index(model_.own_count() + base[i])) = 1.0;
+  return calc_log_density(stated, stated * candidate_.fit.unknowns);
+}
+
+std::vector<std::size_t> LeaveOut::list_determined() const {
+  constexpr double kLeft = 1e-6;  // of the files, so that there is an inverse
   const Eigen::Index first = to_index(model_.own_count());
   const Eigen::Index count = to_index(model_.parameter_count()) - first;
-  RowMatrix stated = RowMatrix::Zero(count, curvature_.cols());
-  // A little of the files is left, for what no run determines.
-  constexpr double kLeft = 1e-3;
-  stated.middleCols(first, count).diagonal().setConstant(std::sqrt(1.0 - kLeft));
-  return calc_log_density(stated, stated * candidate_.fit.unknowns);
+  Eigen::MatrixXd curvature = curvature_;
+  curvature.diagonal().segment(first, count).array() -= 1.0 - kLeft;
+  const Eigen::MatrixXd covariance =
+      curvature.llt().solve(Eigen::MatrixXd::Identity(curvature.rows(), curvature.cols()));
+  std::vector<std::size_t> determined;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    if (covariance(first + i, first + i) < 1.0) determined.push_back(static_cast<std::size_t>(i));
+  }
+  return determined;
 }
 
 double LeaveOut::calc_log_density(const RowMatrix& jacobian, const Eigen::VectorXd& residuals) const {

@@ -43,8 +43,11 @@ class LeaveOut {
   /// Equation  -(e^T S^-1 e + ln |S|)/2 + ln |W|;  e = r + J (u - u_0), S = 1 + J C^-1 J^T
   /// Symbols   r, J of the part, whitened by W; u the unknowns of the fit without the part, C^-1 their covariance
   double calc_log_likelihood(const LeftOutPart& part) const;
-  /// Likewise of the base parameters as the files state them, where all runs and no file count.
-  double calc_log_likelihood_of_files() const;
+  /// Likewise of some base parameters as the files state them, predicted by the runs and the other numbers of the
+  /// files.
+  double calc_log_likelihood_of_files(const std::vector<std::size_t>& base) const;
+  /// Base parameters that the runs determine better than the files do: only of these the files can be left out.
+  std::vector<std::size_t> list_determined() const;
 
   /// How clearly a part shows a difference of block means in SI units: sum of squares, whitened as the uncertainty of a
   /// prediction is; of a run, without what its offsets take.

@@ -22,6 +22,13 @@ std::vector<Screened> choose(std::vector<Screened> screened, std::size_t least, 
   return chosen;
 }
 
+/// Named effects, and families of unknown ones: they do not compete for refits.
+std::pair<std::vector<Screened>, std::vector<Screened>> part_unknown(const std::vector<Screened>& screened) {
+  std::pair<std::vector<Screened>, std::vector<Screened>> parts;
+  for (const Screened& one : screened) (one.term.term->is_unknown() ? parts.second : parts.first).push_back(one);
+  return parts;
+}
+
 /// Adds candidates; of one hypothesis found from two starts the better stays.
 void add_candidates(std::vector<Candidate> more, std::vector<Candidate>& all) {
   for (Candidate& one : more) {
@@ -114,22 +121,18 @@ void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& 
     for (const Term* term : study.settings.terms) {
       if (!first.fit.hypothesis.contains(*term)) others.push_back(term);
     }
-    others.insert(others.end(), study.settings.unknown_terms.begin(), study.settings.unknown_terms.end());
+    if (how.terms == 1) {  // beside several named effects an unknown one could be anything
+      others.insert(others.end(), study.settings.unknown_terms.begin(), study.settings.unknown_terms.end());
+    }
     std::vector<Screened> screened = screen(study, first, others);
     comparison.on_top.push_back({first.fit.hypothesis, screened});
     screened.erase(std::remove_if(screened.begin(), screened.end(),
                                   [](const Screened& one) { return one.score < thresholds::kWorthAdding_nats; }),
                    screened.end());
     if (screened.empty()) continue;
-    if (how.terms > 1) {  // beside several named effects an unknown one could be anything
-      screened.erase(std::remove_if(screened.begin(), screened.end(),
-                                    [](const Screened& one) { return one.term.term->is_unknown(); }),
-                     screened.end());
-    }
-    const auto unknown = std::stable_partition(screened.begin(), screened.end(),
-                                               [](const Screened& one) { return !one.term.term->is_unknown(); });
-    std::vector<Screened> chosen = choose({screened.begin(), unknown}, how.seconds, 0.0);
-    for (Screened& one : choose({unknown, screened.end()}, 1, 0.0)) chosen.push_back(std::move(one));
+    const auto [named, unknown] = part_unknown(screened);
+    std::vector<Screened> chosen = choose(named, how.seconds, 0.0);
+    for (Screened& one : choose(unknown, 1, 0.0)) chosen.push_back(std::move(one));
     std::vector<Candidate> refitted = evaluator.refit_all(first, chosen);
     refitted.erase(std::remove_if(refitted.begin(), refitted.end(),
                                   [&](const Candidate& one) { return is_distortion(study, first, one); }),
@@ -143,7 +146,8 @@ bool asks_for(const Comparison& comparison, std::size_t terms) {
   const auto likeliest =
       std::max_element(comparison.candidates.begin(), comparison.candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.posterior() < b.posterior(); });
-  return likeliest != comparison.candidates.end() && likeliest->fit.hypothesis.terms.size() == terms;
+  return likeliest != comparison.candidates.end() && likeliest->fit.hypothesis.terms.size() == terms &&
+         !likeliest->fit.hypothesis.has_unknown();
 }
 
 }  // namespace
@@ -182,9 +186,10 @@ Comparison compare_models(Study& study) {
   terms.insert(terms.end(), study.settings.unknown_terms.begin(), study.settings.unknown_terms.end());
   comparison.screened = screen(study, study.null, terms);
   stages.begin("refit of effects", 0.45);
-  add_candidates(evaluator.refit_all(
-                     study.null, choose(comparison.screened, thresholds::kScreenedLeast, thresholds::kScreened_nats)),
-                 comparison.candidates);
+  const auto [named, unknown] = part_unknown(comparison.screened);
+  std::vector<Screened> chosen = choose(named, thresholds::kScreenedLeast, thresholds::kScreened_nats);
+  for (Screened& one : choose(unknown, 1, thresholds::kScreened_nats)) chosen.push_back(std::move(one));
+  add_candidates(evaluator.refit_all(study.null, chosen), comparison.candidates);
   assign_probabilities(study, comparison);
   add_on_top(study, evaluator, {1, thresholds::kFirstsOfPairs, thresholds::kSecondsOfPairs, "pairs", 0.62}, comparison);
   assign_probabilities(study, comparison);

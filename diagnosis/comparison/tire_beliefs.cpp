@@ -81,6 +81,12 @@ Beliefs compare_beliefs(const measurements::MeasurementSet& measured, const Stud
   return beliefs;
 }
 
+double average_of(const Beliefs& beliefs, const std::function<double(const Belief&)>& find) {
+  const double likelier = find(beliefs.likelier);
+  if (!beliefs.other.has_value()) return likelier;
+  return beliefs.weight * likelier + (1.0 - beliefs.weight) * find(*beliefs.other);
+}
+
 void average_over_beliefs(const Beliefs& beliefs, std::map<std::string, double>& probability,
                           std::vector<rollrig::Cause>& causes) {
   if (!beliefs.other.has_value()) return;

@@ -1,6 +1,7 @@
 #pragma once
 /// A set whose tire file does not say how well its numbers are known, compared under both beliefs about them.
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -38,5 +39,8 @@ Beliefs compare_beliefs(const measurements::MeasurementSet& measured, const Stud
 /// Averages probabilities of hypotheses and causes over both beliefs.
 void average_over_beliefs(const Beliefs& beliefs, std::map<std::string, double>& probability,
                           std::vector<rollrig::Cause>& causes);
+
+/// Likewise a probability that a function takes from a belief.
+double average_of(const Beliefs& beliefs, const std::function<double(const Belief&)>& find);
 
 }  // namespace rollrig::diagnosis

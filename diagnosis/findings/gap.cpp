@@ -324,7 +324,8 @@ BeforeAfter measure_fitted(const Study& study, const Scale& scale, const Candida
 }
 
 /// Sum over all that can be left out, one at a time: by how much the cause makes it likelier, in nats. These are the
-/// runs, or with a single run its stretches; and the numbers of the files.
+/// runs, or with a single run its stretches; and, taken together, the numbers of the files that the runs determine
+/// better.
 double calc_left_out_nats(const Study& study, const Fits& fits) {
   const bool by_runs = study.set.runs().size() > 1;
   std::vector<LeftOutPart> parts;
@@ -336,7 +337,12 @@ double calc_left_out_nats(const Study& study, const Fits& fits) {
   parallel_for(parts.size(), study.settings.threads, [&](std::size_t i) {
     ratios[i] = fits.with_cause->calc_log_likelihood(parts[i]) - fits.null.calc_log_likelihood(parts[i]);
   });
-  const double of_files = fits.with_cause->calc_log_likelihood_of_files() - fits.null.calc_log_likelihood_of_files();
+  const std::vector<std::size_t> of_null = fits.null.list_determined();
+  const std::vector<std::size_t> of_cause = fits.with_cause->list_determined();
+  std::vector<std::size_t> base;
+  std::set_intersection(of_null.begin(), of_null.end(), of_cause.begin(), of_cause.end(), std::back_inserter(base));
+  const double of_files =
+      fits.with_cause->calc_log_likelihood_of_files(base) - fits.null.calc_log_likelihood_of_files(base);
   return std::accumulate(ratios.begin(), ratios.end(), of_files);
 }
 

@@ -1,8 +1,5 @@
 #include "diagnosis/findings/likeness.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 
 #include "diagnosis/thresholds.h"
@@ -22,7 +19,7 @@ std::vector<double> list_own_SI(const Model& model, const Fit& fit, const Term& 
 
 }  // namespace
 
-std::optional<Likeness> find_likeness(const Study& study, const Comparison& comparison) {
+std::optional<Likeness> find_likeness(const Study& study, const Comparison& comparison, double unknown_probability) {
   const Candidate* best = nullptr;
   double sum = 0.0;
   for (const Candidate& candidate : comparison.candidates) {
@@ -30,7 +27,7 @@ std::optional<Likeness> find_likeness(const Study& study, const Comparison& comp
     sum += candidate.discrepancy_probability;
     if (best == nullptr || candidate.discrepancy_probability > best->discrepancy_probability) best = &candidate;
   }
-  if (best == nullptr || sum < thresholds::kLikeFamily * comparison.unknown_probability) return std::nullopt;
+  if (best == nullptr || sum < thresholds::kLikeFamily * unknown_probability) return std::nullopt;
   Likeness like;
   for (const SignedTerm& one : best->fit.hypothesis.terms) {
     if (!one.term->is_unknown()) {

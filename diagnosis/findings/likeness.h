@@ -9,8 +9,9 @@
 namespace rollrig::diagnosis {
 
 /// The likeliest family of unknown effects (terms/unknown_terms.h), alone or beside a named effect, in words. Nothing
-/// where it has less than half of the probability of "unknown": then the unknown effect follows no simple function.
+/// where all families together have less than half of the probability of "unknown": then the unknown effect follows no
+/// simple function.
 /// Checked  tests/diagnosis/unknown_terms_test.cpp
-std::optional<Likeness> find_likeness(const Study& study, const Comparison& comparison);
+std::optional<Likeness> find_likeness(const Study& study, const Comparison& comparison, double unknown_probability);
 
 }  // namespace rollrig::diagnosis

@@ -22,11 +22,12 @@ const Screened* find_clearest_trial(const Comparison& comparison, const SignedTe
 double calc_hidden(const Screened& clearest) {
   const models::EffectParameter& size = clearest.term.term->parameters().front();
   const double variance = clearest.detectability * clearest.detectability;
+  const double best = variance > 0.0 ? 0.5 * clearest.along * clearest.along / variance : 0.0;  // of any size
   double hidden = 0.0;
   double sum = 0.0;
   for (const SizePoint& point : list_size_points(size, clearest.term.sign, clearest.tried_u)) {
     const double x = point.ratio;
-    const double weight = point.weight * std::exp(x * clearest.along - 0.5 * x * x * variance);
+    const double weight = point.weight * std::exp(x * clearest.along - 0.5 * x * x * variance - best);
     sum += weight;
     if (std::abs(x) * clearest.detectability < thresholds::kDetectableEffect_sd) hidden += weight;
   }

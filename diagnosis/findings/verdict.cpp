@@ -319,10 +319,10 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
         fmt::format("the {} left out do not confirm it: the interval of what it shrinks holds 0 %", parts));
     first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
   }
-  if (gap.left_out_nats.has_value() && *gap.left_out_nats < thresholds::kConfirmed_nats) {
-    first.objections.push_back(
-        "nothing that was left out confirms it: runs and numbers of the files, each predicted by the rest, are hardly "
-        "likelier with it");
+  if (gap.left_out_nats.has_value() && !(*gap.left_out_nats >= thresholds::kConfirmed_nats)) {
+    first.objections.push_back(fmt::format(
+        "what was left out is hardly likelier with it: {} and numbers of the files, each predicted from the rest",
+        gap.held_out.empty() ? "stretches" : "runs"));
     first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
   }
   first.adequate = first.objections.empty();

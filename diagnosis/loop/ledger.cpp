@@ -59,16 +59,18 @@ LoopTest read_loop_test(const Json& json) {
 }
 
 Json make_answer_json(const LoopAnswer& answer) {
-  return {{"tests", answer.tests},
-          {"hours", answer.hours},
-          {"verdict", name_of(answer.verdict)},
-          {"effects", answer.effects},
-          {"indistinguishable_from", answer.indistinguishable_from},
-          {"probability", answer.probability},
-          {"none", answer.none},
-          {"unknown", answer.unknown},
-          {"alone", answer.alone.has_value() ? Json(*answer.alone) : Json(nullptr)},
-          {"is_trace", answer.is_trace}};
+  return {
+      {"tests", answer.tests},
+      {"hours", answer.hours},
+      {"verdict", name_of(answer.verdict)},
+      {"effects", answer.effects},
+      {"indistinguishable_from", answer.indistinguishable_from},
+      {"probability", answer.probability},
+      {"none", answer.none},
+      {"unknown", answer.unknown},
+      {"alone", answer.alone.has_value() ? Json(*answer.alone) : Json(nullptr)},
+      {"nothing_detectable", answer.nothing_detectable.has_value() ? Json(*answer.nothing_detectable) : Json(nullptr)},
+      {"is_trace", answer.is_trace}};
 }
 
 LoopAnswer read_answer(const Json& json) {
@@ -80,8 +82,10 @@ LoopAnswer read_answer(const Json& json) {
                     json.at("probability"),
                     json.at("none"),
                     json.at("unknown")};
-  const Json alone = json.value("alone", Json(nullptr));  // earlier ledgers have neither of these
+  const Json alone = json.value("alone", Json(nullptr));  // earlier ledgers have none of these
   if (alone.is_number()) answer.alone = alone.get<double>();
+  const Json hidden = json.value("nothing_detectable", Json(nullptr));
+  if (hidden.is_number()) answer.nothing_detectable = hidden.get<double>();
   answer.is_trace = json.value("is_trace", false);
   return answer;
 }
@@ -94,7 +98,7 @@ std::string describe_cause(const LoopAnswer& answer) {
 }
 
 double probability_of_verdict(const LoopAnswer& answer) {
-  return answer.verdict == Verdict::kNoGap ? answer.none : answer.probability;
+  return answer.verdict == Verdict::kNoGap ? answer.nothing_detectable.value_or(answer.none) : answer.probability;
 }
 
 /// The test before an answer; of the first answer, the set.

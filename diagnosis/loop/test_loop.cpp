@@ -199,7 +199,8 @@ bool take_hours(const LoopInput& input, LoopLedger& ledger) {
   if (!input.hours.has_value() || *input.hours == ledger.hours) return false;
   const bool is_more = *input.hours > ledger.hours;
   ledger.hours = *input.hours;
-  return is_more && ledger.state != LoopState::kNamed;
+  const bool is_over = ledger.state == LoopState::kNamed && is_settled(ledger.answers.back());
+  return is_more && !is_over;
 }
 
 void save_ledger(const LoopLedger& ledger, const LoopInput& input) {
@@ -219,6 +220,7 @@ LoopAnswer make_answer(const LoopLedger& ledger, const Diagnosis& found) {
   answer.verdict = found.verdict;
   answer.none = probability_of(found, "none");
   answer.unknown = probability_of(found, "unknown");
+  answer.nothing_detectable = found.nothing_detectable;
   answer.is_trace = found.verdict == Verdict::kNoGap && found.trace.has_value();
   if (!answer.is_trace && found.causes.empty()) return answer;
   const Cause& first = answer.is_trace ? *found.trace : found.causes.front();
@@ -298,8 +300,12 @@ std::string format_loop(const LoopStep& step, const std::string& folder) {
   const double left_h = ledger.hours - calc_hours_used(ledger);
   std::string text = format_ledger(ledger) + "\n";
   switch (ledger.state) {
-    case LoopState::kNamed:
-      return text + wrap("The loop has ended: the cause is at 95 % or more.", 0);
+    case LoopState::kNamed: {
+      const LoopAnswer& last = ledger.answers.back();
+      std::string more = last.is_trace ? " It is too small to matter." : "";
+      if (!is_settled(last)) more = fmt::format(" That it acts alone has only {:.0f} %.", 100.0 * *last.alone);
+      return text + wrap("The loop has ended: the cause is at 95 % or more." + more, 0);
+    }
     case LoopState::kHoursGone:
       return text + wrap(fmt::format("The loop has ended: no test fits into the {:.1f} h left. --hours gives it more.",
                                      left_h),

@@ -127,7 +127,7 @@ std::string doubt_lines(const Findings& findings) {
   return line("Cause", "none is named until this is mended:") + line("", findings.doubt);
 }
 
-/// What an effect outside of the catalog is like; empty where that is not known, or nothing is unexplained.
+/// What an effect outside the catalog is like; empty where that is not known, or nothing is unexplained.
 std::string likeness_line(const Findings& findings) {
   if (findings.verdict != Verdict::kUnexplained || !findings.unknown_like.has_value()) return {};
   const Likeness& like = *findings.unknown_like;
@@ -256,9 +256,10 @@ std::string side_by_side_lines(const Gap& gap) {
 /// How much likelier the cause makes what was left out.
 std::string likelier_line(const Gap& gap) {
   if (!gap.left_out_nats.has_value()) return {};
-  return line("  left out", fmt::format("{} likelier with the cause: runs, or numbers of the files, each predicted by "
-                                        "the rest",
-                                        show_factor(*gap.left_out_nats)));
+  return line("  left out",
+              fmt::format("{} likelier with the cause ({} and numbers of the files, each predicted from the "
+                          "rest)",
+                          show_factor(*gap.left_out_nats), gap.held_out.empty() ? "stretches" : "runs"));
 }
 
 /// Runs that do not count, and what they alone hold.
@@ -353,8 +354,9 @@ std::string show_probability(double probability) {
 }
 
 std::string show_factor(double nats) {
-  const double factor = std::exp(nats);
+  const double factor = std::exp(std::min(nats, 100.0));
   if (factor > 1e6) return "over a million times";
+  if (factor < 0.01) return "under a hundredth times";
   return factor >= 10.0 ? fmt::format("{:.0f} times", factor) : fmt::format("{:.2g} times", factor);
 }
 

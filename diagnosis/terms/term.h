@@ -29,7 +29,7 @@ class Term {
   /// Of a family of unknown effects: what it is like with these own parameters, SI units: "a force of ... that ...".
   /// Nothing for a named effect.
   virtual std::optional<std::string> describe(const std::vector<double>& /*own_SI*/) const { return std::nullopt; }
-  /// Whether it stands for effects outside of the catalog.
+  /// Whether it stands for effects outside the catalog.
   virtual bool is_unknown() const { return false; }
 
   const std::string& name() const { return info().id; }

@@ -2,6 +2,7 @@
 /// function of speed, load or temperature.
 #include "diagnosis/terms/unknown_terms.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ constexpr double kKmhPer_m_s = 3.6;
 
 std::string show_power(double power) { return fmt::format("{:.1f}", std::round(10.0 * power) / 10.0 + 0.0); }
 
-/// "grows with the power 1.8 of the speed", "does not depend on the speed".
+/// "grows with the power 1.8 of the speed", "hardly depends on the speed".
 std::string show_growth(const std::string& of, double power) {
   constexpr double kNone = 0.25;
   if (std::abs(power) < kNone) return fmt::format("hardly depends on the {}", of);
@@ -96,7 +97,7 @@ struct ForceByPowers {
   }
 
   static std::string describe(const std::vector<double>& at) {
-    return fmt::format("a force of {:+.2g} N at 80 km/h and full load that {} and {}", at[kForce],
+    return fmt::format("a force of {:+.2g} N at 80 km/h and the reference load that {} and {}", at[kForce],
                        show_growth("speed", at[kSpeedPower]), show_growth("load", at[kLoadPower]));
   }
 
@@ -168,7 +169,7 @@ struct HeatByPower {
 
   static std::string describe(const std::vector<double>& at) {
     return fmt::format(
-        "heat of {:+.2g} W in the rubber at 80 km/h and full load, beyond what the loss makes, that {} and {}",
+        "heat of {:+.0f} W in the rubber at 80 km/h and the reference load, beyond what the loss makes, that {} and {}",
         at[kHeat] * 80.0 / kKmhPer_m_s, show_growth("speed", at[kSpeedPower] + 1.0),
         show_growth("load", at[kLoadPower]));
   }
@@ -197,7 +198,7 @@ struct BentTemperature {
   }
 
   static std::string describe(const std::vector<double>& at) {
-    return fmt::format("a reading of the liner that is off by {:+.2g} K at 55 degC and {} above 25 degC", at[kError],
+    return fmt::format("an error of the liner's reading of {:+.2g} K at 55 degC that {} above 25 degC", at[kError],
                        show_growth("temperature", at[kPower]));
   }
 

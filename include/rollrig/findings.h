@@ -182,7 +182,7 @@ struct Findings {
   std::optional<double> nothing_detectable;   // without a gap: that no effect acts which the set would show
   std::vector<Cause> causes;                  // the likeliest first
   std::optional<Cause> trace;                 // a cause that acts, but is too small to matter: then there is no gap
-  std::optional<Likeness> unknown_like;       // what an effect outside of the catalog is like, where that is known
+  std::optional<Likeness> unknown_like;       // what an effect outside the catalog is like, where that is known
   Gap gap;
   std::vector<Location> where;  // the largest share first
   std::vector<BalanceShare> balance;

@@ -45,7 +45,8 @@ struct LoopAnswer {
   double none = 0.0;                           // of no effect
   double unknown = 0.0;                        // of an effect that is not in the catalog
   std::optional<double> alone = std::nullopt;  // that the first cause acts and nothing else of the catalog does
-  bool is_trace = false;                       // the first cause is too small to matter: there is no gap
+  std::optional<double> nothing_detectable = std::nullopt;  // as in Findings
+  bool is_trace = false;                                    // the first cause is too small to matter: there is no gap
 };
 
 /// The record of a loop, as loop.json has it (rollrig-loop/1).

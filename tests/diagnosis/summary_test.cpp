@@ -284,7 +284,7 @@ TEST_CASE("docs/diagnosis.md shows the ten lines as they are printed", "[fast]")
 TEST_CASE("what was left out is told to be likelier with the cause by a factor, or beyond all doubt", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.gap.left_out_nats = std::log(42.0);
-  CHECK_THAT(line_of(format_summary(made), "  left out"), Contains("42 times likelier with the cause"));
+  CHECK_THAT(line_of(format_summary(made), "  left out"), Contains("42 times likelier with the cause (runs and"));
   made.gap.left_out_nats = 0.5;
   CHECK_THAT(line_of(format_summary(made), "  left out"), Contains("1.6 times likelier"));
   made.gap.left_out_nats = 900.0;
@@ -300,7 +300,7 @@ TEST_CASE("without a gap the probability is that of nothing to be seen, beside t
   CHECK_THAT(line_of(format_summary(made), "Verdict"), Contains("probability 99 % (no effect at all 61 %)"));
 }
 
-TEST_CASE("an effect outside of the catalog is described where it is the verdict, and not elsewhere", "[fast]") {
+TEST_CASE("an effect outside the catalog is described where it is the verdict, and not elsewhere", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.unknown_like = diagnosis::Likeness{"a force of +18 N that acts between 62 and 78 km/h", 0.94, {"slip_loss"}};
   CHECK(format_summary(made).find("It is like") == std::string::npos);

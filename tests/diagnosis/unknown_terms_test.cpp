@@ -73,7 +73,7 @@ TEST_CASE("a force in a band of speeds is unknown, and the band is told", "[fast
   const auto set = tests::measure_on_drum({acting}, {plan_long_steps()});
   const Compared compared(set, {"standing_wave", "windage", "speed_record"});
   CHECK(compared.comparison.unknown_probability > 0.9);
-  const auto like = find_likeness(compared.study, compared.comparison);
+  const auto like = find_likeness(compared.study, compared.comparison, compared.comparison.unknown_probability);
   REQUIRE(like.has_value());
   INFO(like->text);
   int low_km_h = 0;

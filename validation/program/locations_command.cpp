@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "cli/progress.h"
+#include "diagnosis/checks/set_checks.h"
 #include "diagnosis/findings/locations.h"
 #include "measurements/measurement_set.h"
 #include "sim/core/error.h"
@@ -27,7 +28,8 @@ struct LocationsOptions {
 std::vector<TruePlace> find_places(const std::string& folder, const Json& truth) {
   const generator::SetOrder order = generator::read_order(truth);
   generator::require_same_files(folder, order);
-  const diagnosis::PreparedSet set(measurements::read_measurement_set(folder));
+  const measurements::MeasurementSet measured = measurements::read_measurement_set(folder);
+  const diagnosis::PreparedSet set(diagnosis::leave_out(measured, diagnosis::check_set(measured, 1).left_out));
   const std::vector<diagnosis::LocationStretch> stretches = diagnosis::list_location_stretches(set);
   std::vector<generator::Place> places;
   for (const diagnosis::LocationStretch& at : stretches) places.push_back({at.channel, at.run, at.start_s, at.end_s});

@@ -26,9 +26,17 @@ const std::map<std::string, Conversion> kSizeConversions{
 /// Effects whose size means something else in the generator's law, so that nothing can be compared.
 const std::set<std::string> kSizesApart{"bearing_warmup", "gas_heat_transfer", "tire_temperature", "tread_liner_lag"};
 
+/// The effects of a trace, and all that it cannot be told from.
+std::vector<std::string> list_trace(const diagnosis::Cause& trace) {
+  std::vector<std::string> all = trace.effects;
+  all.insert(all.end(), trace.indistinguishable_from.begin(), trace.indistinguishable_from.end());
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> Case::named_set() const {
+  if (is(Verdict::kNoGap) && answer.diagnosis.trace.has_value()) return list_trace(*answer.diagnosis.trace);
   return has_cause() ? list_named(answer.diagnosis) : std::vector<std::string>{};
 }
 
@@ -52,9 +60,7 @@ bool Case::names_truth() const {
 
 bool Case::names_trace() const {
   if (!is(Verdict::kNoGap) || !answer.diagnosis.trace.has_value() || is_clean()) return false;
-  std::vector<std::string> all = answer.diagnosis.trace->effects;
-  const std::vector<std::string>& others = answer.diagnosis.trace->indistinguishable_from;
-  all.insert(all.end(), others.begin(), others.end());
+  const std::vector<std::string> all = list_trace(*answer.diagnosis.trace);
   return all.size() <= kLargestNamedSet && truth.is_within(all);
 }
 

@@ -167,13 +167,13 @@ void add_confidence(const Cases& cases, const ScoreOptions& options, std::vector
     return all.empty() ? std::nullopt : std::optional<double>(calc_ece_noise_floor(all));
   };
   figures.push_back(make_number("ece_floor", "  its noise floor", floor_of(stated), stated.size(), Unit::kNumber));
-  const auto add_part = [&](const std::string& id, const char* words, const std::vector<Stated>& part) {
+  const auto add_part = [&](const char* id, const char* floor_id, const char* words, const std::vector<Stated>& part) {
     const auto ece = part.empty() ? std::nullopt : std::optional<double>(calc_ece(find_reliability(part)));
     figures.push_back(make_number(id, words, ece, part.size(), Unit::kNumber));
-    figures.push_back(make_number(id + "_floor", "  its noise floor", floor_of(part), part.size(), Unit::kNumber));
+    figures.push_back(make_number(floor_id, "  its noise floor", floor_of(part), part.size(), Unit::kNumber));
   };
-  add_part("ece_acts", "  of the cause acting", list_stated_by(&Case::stated_acts, cases));
-  add_part("ece_alone", "  of the cause acting alone", list_stated_by(&Case::stated_alone, cases));
+  add_part("ece_acts", "ece_acts_floor", "  of the cause acting", list_stated_by(&Case::stated_acts, cases));
+  add_part("ece_alone", "ece_alone_floor", "  of the cause acting alone", list_stated_by(&Case::stated_alone, cases));
   const Cases visible = only(cases, [&](const Case& one) { return one.is_clean() || is_detectable(one, options); });
   figures.push_back(
       make_number("ece_visible", "  without what cannot be seen", calc_ece_of(visible), visible.size(), Unit::kNumber));
