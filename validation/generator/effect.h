@@ -163,14 +163,20 @@ struct EffectSize {
   double gap = 0.0;          // drawn nearer to the neutral one than this: drawn again, for it would be no effect
 };
 
+/// Effects outside of the catalog come in lists. An order draws from one list alone, so that a new list leaves
+/// validation sets of earlier seeds as they are; a list that was drawn from stays as it is.
+enum class OutsideList { kFirst, kSecond };
+constexpr std::array<const char*, 2> kOutsideListNames{"first", "second"};
+
 /// An effect before its size is known.
 struct EffectKind {
   const char* id;
   EffectSize size;
-  std::vector<Form> forms;  // drawn evenly
-  Where acts = on_rigs;     // where it can be made
-  Where drawn = on_rigs;    // where validation sets have it: the others hardly change with it
-  bool outside = false;     // of the catalog
+  std::vector<Form> forms;                         // drawn evenly
+  Where acts = on_rigs;                            // where it can be made
+  Where drawn = on_rigs;                           // where validation sets have it: the others hardly change with it
+  bool outside = false;                            // of the catalog
+  OutsideList outside_list = OutsideList::kFirst;  // of one outside
 };
 
 #define ROLLRIG_EFFECT(id)      \

@@ -125,6 +125,13 @@ std::vector<CampaignChoice> read_campaigns(const std::string& name) {
   return {{"", &find_machine(name, "--kind")}};
 }
 
+OutsideList read_outside_list(const std::string& name) {
+  require_known("list of outside effects", "--outside-list", name,
+                {kOutsideListNames.begin(), kOutsideListNames.end()});
+  const auto at = std::find(kOutsideListNames.begin(), kOutsideListNames.end(), name);
+  return static_cast<OutsideList>(at - kOutsideListNames.begin());
+}
+
 void check_drawn(const ValidationSetOrder& order) {
   for (const std::string& id : order.effects) {
     const bool is_drawn = std::any_of(all_machines().begin(), all_machines().end(), [&](const Machine* machine) {

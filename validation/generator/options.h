@@ -26,6 +26,9 @@ void read_case(const CaseWords& words, SetOrder& order);
 /// Campaigns of a validation set: one of a kind, or all of "mixed".
 std::vector<CampaignChoice> read_campaigns(const std::string& name);
 
+/// List of effects outside of the catalog, by its name.
+OutsideList read_outside_list(const std::string& name);
+
 /// Whether effects are drawn where the order says.
 void check_drawn(const ValidationSetOrder& order);
 

@@ -33,6 +33,16 @@ std::vector<CampaignChoice> find_campaigns(const std::vector<CampaignChoice>& ca
   return found;
 }
 
+/// Effects that sets of `campaigns` have, of those that belong.
+template <class Belongs>
+std::vector<std::string> find_drawn(const std::vector<CampaignChoice>& campaigns, const Belongs& belongs) {
+  std::vector<std::string> ids;
+  for (const EffectKind* effect : effect_kinds()) {
+    if (belongs(*effect) && !find_campaigns(campaigns, {effect->id}).empty()) ids.emplace_back(effect->id);
+  }
+  return ids;
+}
+
 void add_pairs(const ValidationSetOrder& order, Draws& draws, std::vector<Plan>& plans) {
   const int last = static_cast<int>(order.effects.size()) - 1;
   for (int i = 0; i < order.pairs; ++i) {
@@ -63,7 +73,7 @@ void add_singles(const ValidationSetOrder& order, std::vector<Plan>& plans) {
 }
 
 void add_outside(const ValidationSetOrder& order, std::vector<Plan>& plans) {
-  const std::vector<std::string> effects = drawn_effects(order.campaigns, true);
+  const std::vector<std::string> effects = drawn_outside_effects(order.campaigns, order.outside_list);
   for (std::size_t i = 0; i < static_cast<std::size_t>(order.outside); ++i) {
     plans.push_back({{effects[i % effects.size()]}});
   }
@@ -106,6 +116,9 @@ Json describe_order(const ValidationSetOrder& order) {
                 {"pairs", order.pairs}};
   if (order.singles > 0) truth["singles"] = order.singles;
   if (order.outside > 0) truth["outside"] = order.outside;
+  if (order.outside_list != OutsideList::kFirst) {
+    truth["outside_list"] = kOutsideListNames[static_cast<std::size_t>(order.outside_list)];
+  }
   if (order.kind != all_machines().front()->word) truth["kind"] = order.kind;
   truth["sets"] = Json::object();
   return truth;
@@ -146,12 +159,13 @@ std::vector<CampaignChoice> mixed_campaigns() {
   return choices;
 }
 
-std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside) {
-  std::vector<std::string> ids;
-  for (const EffectKind* effect : effect_kinds()) {
-    if (effect->outside == outside && !find_campaigns(campaigns, {effect->id}).empty()) ids.emplace_back(effect->id);
-  }
-  return ids;
+std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns) {
+  return find_drawn(campaigns, [](const EffectKind& effect) { return !effect.outside; });
+}
+
+std::vector<std::string> drawn_outside_effects(const std::vector<CampaignChoice>& campaigns, OutsideList list) {
+  return find_drawn(campaigns,
+                    [list](const EffectKind& effect) { return effect.outside && effect.outside_list == list; });
 }
 
 std::vector<SetOrder> draw_cases(const ValidationSetOrder& order) {

@@ -33,14 +33,17 @@ struct ValidationSetOrder {
   int none = 40;                          // cases without effect
   int pairs = 30;                         // cases of two effects, drawn among them
   int outside = 30;                       // cases with an effect outside of the catalog, each as often as the others
-  std::vector<std::string> effects;       // among which
+  OutsideList outside_list = OutsideList::kFirst;  // from which these are drawn
+  std::vector<std::string> effects;                // among which
   int runs = kMostRuns;
   bool counterfactual = false;  // also counterfactual/<number>, to be kept from who diagnoses like the truth
   std::string out;
 };
 
-/// Effects that sets of these campaigns have: of the catalog, or outside of it.
-std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns, bool outside);
+/// Effects of the catalog that sets of these campaigns have.
+std::vector<std::string> drawn_effects(const std::vector<CampaignChoice>& campaigns);
+/// Effects of a list outside of the catalog that sets of these campaigns have.
+std::vector<std::string> drawn_outside_effects(const std::vector<CampaignChoice>& campaigns, OutsideList list);
 
 /// The cases of an order; each is a function of the seed and its place.
 std::vector<SetOrder> draw_cases(const ValidationSetOrder& order);

@@ -68,12 +68,14 @@ int make_case_command(CaseOptions options) {
 struct MakeOptions {
   ValidationSetOrder order;
   std::string effects;
+  std::string outside_list = kOutsideListNames.front();
 };
 
 int make_command(MakeOptions options) {
   ValidationSetOrder& order = options.order;
   order.campaigns = read_campaigns(order.kind);
-  order.effects = options.effects.empty() ? drawn_effects(order.campaigns, false) : read_effects(options.effects);
+  order.outside_list = read_outside_list(options.outside_list);
+  order.effects = options.effects.empty() ? drawn_effects(order.campaigns) : read_effects(options.effects);
   check_drawn(order);
   cli::ProgressLine line("validation", false);
   const auto hashed = [&order, &line](const std::string& sha256) {
@@ -101,11 +103,18 @@ int follow_up_command(const FollowUpOrder& order) {
   return cli::kDone;
 }
 
+/// What `list` says beside the id.
+std::string describe_place(const EffectKind& kind) {
+  if (!kind.outside) return "";
+  if (kind.outside_list == OutsideList::kFirst) return " (outside of the catalog)";
+  return fmt::format(" (outside of the catalog, {} list)",
+                     kOutsideListNames[static_cast<std::size_t>(kind.outside_list)]);
+}
+
 int list_command() {
   for (const EffectKind* kind : effect_kinds()) {
-    std::cout << fmt::format("{}{}\n  size     {} [{}]; {:g} does nothing\n", kind->id,
-                             kind->outside ? " (outside of the catalog)" : "", kind->size.meaning, kind->size.unit,
-                             kind->size.neutral);
+    std::cout << fmt::format("{}{}\n  size     {} [{}]; {:g} does nothing\n", kind->id, describe_place(*kind),
+                             kind->size.meaning, kind->size.unit, kind->size.neutral);
     for (const Form& form : kind->forms) std::cout << fmt::format("  form     {}: {}\n", form.name, form.law);
     std::cout << fmt::format("  made on  {}\n  drawn on {}\n", list_grounds(kind->acts), list_grounds(kind->drawn));
   }
@@ -151,6 +160,9 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   add_count("--pairs", order.pairs, "Cases of two effects");
   add_count("--none", order.none, "Cases without effect");
   add_count("--outside", order.outside, "Cases with an effect outside of the catalog");
+  command->add_option(
+      "--outside-list", options->outside_list,
+      fmt::format("List of which these are: {} [{}]", fmt::join(kOutsideListNames, ", "), options->outside_list));
   command->add_option("--effects", options->effects, "Effects, as a,b,c [all of the catalog that the kind shows]");
   command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")->check(CLI::Range(1, kMostRuns));
   command->add_flag("--counterfactual", order.counterfactual, "Also each case without effect and without noise");

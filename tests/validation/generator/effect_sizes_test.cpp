@@ -82,7 +82,7 @@ std::vector<Json> draw_truths(const std::string& kind, int each, std::uint64_t s
   order.campaigns = generator::read_campaigns(kind);
   order.effects = kind == "dyno"
                       ? std::vector<std::string>{"slip_loss", "brake_heat", "tie_down_load", "curvature_exponent"}
-                      : generator::drawn_effects(order.campaigns, false);
+                      : generator::drawn_effects(order.campaigns);
   order.each = each;
   order.singles = order.pairs = order.none = order.outside = 0;
   order.runs = 1;

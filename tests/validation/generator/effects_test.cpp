@@ -92,6 +92,22 @@ const std::vector<Expected> kOutside{
     {"road", "drafting", "0", "30", true, false, false},
 };
 
+/// The second list of them.
+const std::vector<Expected> kOutsideSecond{
+    {"drum", "load_hunting", "0", "100", true, true, true},
+    {"drum", "relief_valve", "0", "6", false, false, true},  // its loss is there, but below a floor
+    {"drum", "lead_conduction", "0", "4", false, true, false},
+    {"drum", "cover_rub", "0", "1", true, false, false},
+    {"drum", "cradle_friction", "0", "0.8", true, false, false},
+    {"dyno", "lead_conduction", "0", "4", false, true, false},
+    {"dyno", "cover_rub", "0", "1.5", true, false, false},
+    {"dyno", "cradle_friction", "0", "0.8", true, false, false},
+    {"dyno", "fan_belt_slip", "0", "20", true, true, true},
+    {"road --baseline combined", "height_map_shift", "0", "80", true, false, false},
+    {"road", "cabin_power", "0", "3000", true, false, false},
+    {"road", "bends", "0", "150", true, false, false},
+};
+
 GeneratedSet make(const Expected& expected, const std::string& form, const std::string& size) {
   return make_effect_set(with_form(expected.kind, form), expected.effect, size);
 }
@@ -117,6 +133,9 @@ TEST_CASE("the whole catalog is there, and eight effects outside of it", "[fast]
   CHECK(kOutside.size() >= 8);
   for (const Expected& expected : kOutside) {
     CHECK_THAT(listed, Catch::Contains(std::string(expected.effect) + " (outside of the catalog)"));
+  }
+  for (const Expected& expected : kOutsideSecond) {
+    CHECK_THAT(listed, Catch::Contains(std::string(expected.effect) + " (outside of the catalog, second list)"));
   }
 }
 
@@ -174,10 +193,12 @@ TEST_CASE("an effect of its neutral size does nothing", "[slow]") {
   check_neutral(kEffects);
   check_neutral(kRoadEffects);
   check_neutral(kOutside);
+  check_neutral(kOutsideSecond);
 }
 
 TEST_CASE("an effect moves its channels and leaves the others alone", "[slow]") {
   check_moved(kEffects);
   check_moved(kRoadEffects);
   check_moved(kOutside);
+  check_moved(kOutsideSecond);
 }
