@@ -31,7 +31,7 @@ void make_lead_conduction(Making& of) {
 const EffectKind kind{
     "lead_conduction",
     {"percent", "of the difference between rim and liner, by which the reading is off", 0.0, 0.0, 80.0,
-     log_normal(0.8, 5.0, 0.6, 8.0)},
+     log_normal(3.0, 14.0, 2.0, 20.0)},
     {{"only", "the reading lies between liner and rim; the rim follows a share of the rise of the liner, first order",
       make_lead_conduction}},
     on_rigs,

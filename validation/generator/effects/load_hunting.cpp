@@ -25,7 +25,7 @@ void make_load_hunting(Making& of) {
 const EffectKind kind{
     "load_hunting",
     {"N", "half of the swing of the load, at the reference load", 0.0, 0.0, 1000.0,
-     log_normal(20.0, 120.0, 15.0, 180.0)},
+     log_normal(25.0, 150.0, 20.0, 200.0)},
     {{"only", "a rounded square wave about the set load, in proportion to it, in spells of some minutes",
       make_load_hunting}},
     on_carriages,

@@ -24,7 +24,7 @@ void make_relief_valve(Making& of) {
 
 const EffectKind kind{
     "relief_valve",
-    {"kPa/h", "fall of the pressure at 10 kPa above the setting", 0.0, 0.0, 200.0, log_normal(1.0, 6.0, 0.7, 9.0)},
+    {"kPa/h", "fall of the pressure at 10 kPa above the setting", 0.0, 0.0, 200.0, log_normal(0.5, 4.0, 0.3, 6.0)},
     {{"only", "tight up to some kPa above the cold pressure of the run, above it a flow in proportion to the excess",
       make_relief_valve}},
     on_carriages,
