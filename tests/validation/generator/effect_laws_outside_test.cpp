@@ -98,9 +98,11 @@ TEST_CASE("a load that hunts swings by its size at the reference load, and rests
     lowest = std::min(lowest, more_Nm / without_Nm);
     if (std::abs(more_Nm) < 0.002 * without_Nm) ++at_rest;
   });
-  const double share = 200.0 / 5400.0;  // the reference load of the generator
-  CHECK(highest == Approx(share).epsilon(0.25));  // less the bearings' part
-  CHECK(lowest == Approx(-share).epsilon(0.25));
+  const double share = 200.0 / 5400.0;             // the reference load of the generator
+  for (const double swing : {highest, -lowest}) {  // of the tire's part of the torque, which is two thirds at least
+    CHECK(swing > 0.66 * share);
+    CHECK(swing < 1.02 * share);
+  }
   CHECK(at_rest > 200);
 }
 
@@ -128,9 +130,9 @@ TEST_CASE("a lead draws the reading from the liner towards the air, by less than
   for_each_sample(made, "liner_temperature_degC",
                   [&](const auto& run, std::size_t row, double more_K, double without_K) {
                     const double over_air_K = without_K - run.columns.at("ambient_degC")[row];
-                    if (over_air_K < 5.0) return;
+                    if (over_air_K < 5.0) return;  // the rim lags behind the air as well, by up to 2 K
                     largest = std::max(largest, -more_K / over_air_K);
-                    if (more_K > 0.0 || more_K < -0.05 * over_air_K) FAIL_CHECK(more_K << " K in row " << row);
+                    if (more_K > 0.0 || more_K < -0.05 * (over_air_K + 2.0)) FAIL_CHECK(more_K << " K in row " << row);
                   });
   CHECK(largest > 0.02);
 }
