@@ -10,8 +10,8 @@ namespace rollrig::diagnosis {
 
 /// Probabilities before the measurement (docs/how_the_diagnosis_reasons.md, "Which hypotheses are compared");
 /// what a kind has is shared evenly.
-/// Assumed: without a cause as likely as with one; one effect likelier than two; 3 % for a cause outside the catalog, a
-/// third of what it was while single causes that were right in 98 % of 864 answers were stated with 90 %.
+/// Assumed: without a cause as likely as with one; one effect likelier than two; 5 % for a cause outside the catalog, in
+/// all.
 struct ComparisonPriors {
   double none = 0.50;
   double singles = 0.40;
@@ -73,6 +73,7 @@ constexpr double kKeptRemainder = 0.1;     // of 35 with something else missing 
 constexpr double kKeptBeyondRange = 0.05;  // Assumed, as of those that follow: no such truth was seen
 constexpr double kKeptWrongFiles = 0.05;
 constexpr double kKeptUnconfirmed = 0.05;
+constexpr double kKeptHardlyLikelier = 0.45;  // of what was left out: still the likeliest, and not explained
 constexpr double kConfirmed_nats = 3.0;   // Assumed: odds of 20 for what was left out; less does not confirm a cause
 constexpr double kShownHeldOut_sd = 3.0;  // Assumed: by which a cause changes a part left out for it to be judged there
 constexpr double kCertainHeldOut = 0.25;  // Assumed: of what the cause changes, in squares: a part left out is judged

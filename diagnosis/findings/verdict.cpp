@@ -323,7 +323,7 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
     first.objections.push_back(fmt::format(
         "what was left out is hardly likelier with it: {} and numbers of the files, each predicted from the rest",
         gap.held_out.empty() ? "stretches" : "runs"));
-    first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
+    first.kept = std::min(first.kept, thresholds::kKeptHardlyLikelier);
   }
   first.adequate = first.objections.empty();
   const double moved = (1.0 - first.kept) * first.probability;

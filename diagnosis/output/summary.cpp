@@ -256,10 +256,9 @@ std::string side_by_side_lines(const Gap& gap) {
 /// How much likelier the cause makes what was left out.
 std::string likelier_line(const Gap& gap) {
   if (!gap.left_out_nats.has_value()) return {};
-  return line("  left out",
-              fmt::format("{} likelier with the cause ({} and numbers of the files, each predicted from the "
-                          "rest)",
-                          show_factor(*gap.left_out_nats), gap.held_out.empty() ? "stretches" : "runs"));
+  return line("  predicted", fmt::format("{} and numbers of the files, each from the rest, are {} likelier with the "
+                                         "cause",
+                                         gap.held_out.empty() ? "stretches" : "runs", show_factor(*gap.left_out_nats)));
 }
 
 /// Runs that do not count, and what they alone hold.

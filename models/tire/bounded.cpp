@@ -81,7 +81,10 @@ struct Bounded : TreadAndCarcass {
     const TireParameters<S>& tire = now.context->tire;
     const LossReference<S>& reference = tire.rolling_resistance;
     const OwnParameters<S>& own = tire.own;
-    const S load_factor = pow(positive_part(now.motion.load_N) / reference.reference_load_N, own[kLoadExponent]);
+    const S& load_N = now.motion.load_N;
+    // A lifted tire has none. 0^m would have no derivative where a fit tries an exponent below 1.
+    const S load_factor =
+        value_of(load_N) > 0.0 ? S(pow(S(load_N / reference.reference_load_N), own[kLoadExponent])) : S(0.0);
     const S pressure_factor =
         calc_pressure_factor(now.pressure_Pa, reference.reference_pressure_Pa, reference.pressure_exponent);
     const S above_80 =

@@ -158,6 +158,7 @@ TEST_CASE("from a folder of logs to a diagnosis: three commands, and the cause o
              folder);
     run_well("validate " + set, folder);
     const json found = diagnose(set, folder);
+    INFO(found["causes"].dump() << "\n" << found["probability"].dump() << "\n" << found["unknown_like"].dump());
     CHECK(found["verdict"] == truth["verdict"]);
     CHECK(found["causes"][0]["effects"] == truth["causes"][0]["effects"]);
   }
