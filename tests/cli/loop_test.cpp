@@ -45,7 +45,7 @@ class LoopFolder {
     const std::string test = "loop/test-" + std::to_string(number);
     const json planned = ledger()["tests"][number - 1];
     for (std::size_t i = 1; i <= planned["runs"].size(); ++i) {
-      const std::string made = "made-" + std::to_string(i);
+      const std::string made = "made-" + std::to_string(number) + "-" + std::to_string(i);
       run("run " + test + "/run-" + std::to_string(i) + ".toml --write-set " + made + " --force --quiet --set " +
           effect_ + " --seed " + std::to_string(10 * number + i));
       for (const auto& entry : fs::directory_iterator(file(made))) {
@@ -75,7 +75,7 @@ TEST_CASE("a loop plans a test, waits for it, takes it in, and ends when the cau
   REQUIRE(ledger["state"] == "waiting");
   std::size_t done = 0;
   while (ledger["state"] == "waiting") {
-    REQUIRE(done < 4);
+    REQUIRE(done < 12);
     const std::string before = read_file(loop.file("loop/loop.json"));
     const ProgramResult waiting = loop.run("diagnose set --loop loop");
     CHECK_THAT(flatten(waiting.out), Contains("Waiting for loop/test-" + std::to_string(done + 1)));

@@ -54,7 +54,7 @@ TEST_CASE("without effects nothing changes, in any place", "[fast]") {
   const std::string& run = made.set.runs[0].id;
   const auto changes = find_changes(made, {{"traction_force_N", run, 0, 300}, {"traction_force_N", run, 300, 600}});
   for (const ChangeAt& change : changes) {
-    CHECK(change.of_effects.blocks > 0.0);
+    CHECK(change.of_effects.blocks > 0);
     CHECK(change.of_effects.rms == 0.0);
     CHECK(change.after_retuning.rms == 0.0);
   }
