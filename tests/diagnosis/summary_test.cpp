@@ -284,7 +284,8 @@ TEST_CASE("docs/diagnosis.md shows the ten lines as they are printed", "[fast]")
 TEST_CASE("what was left out is told to be likelier with the cause by a factor, or beyond all doubt", "[fast]") {
   Diagnosis made = tests::make_explained();
   made.gap.left_out_nats = std::log(42.0);
-  CHECK_THAT(line_of(format_summary(made), "  predicted"), Contains("runs and numbers of the files") && Contains("42 times likelier"));
+  CHECK_THAT(line_of(format_summary(made), "  predicted"),
+             Contains("runs and numbers of the files") && Contains("42 times likelier"));
   made.gap.left_out_nats = 0.5;
   CHECK_THAT(line_of(format_summary(made), "  predicted"), Contains("1.6 times likelier"));
   made.gap.left_out_nats = 900.0;
