@@ -82,17 +82,10 @@ void assign_probabilities(Study& study, Comparison& comparison) {
 /// law: less than a distorted look-alike would (ModelError::look_alike_share).
 bool is_distortion(const Study& study, const Candidate& named, const Candidate& with_unknown) {
   if (!with_unknown.fit.hypothesis.has_unknown() || !std::isfinite(with_unknown.fit.cost)) return false;
-  const auto measure = [&study](const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
-    double sum = 0.0;
-    for (const Series& series : study.set.series()) {
-      const Eigen::VectorXd change = series.rows_of(to) - series.rows_of(from);
-      sum += change.squaredNorm() / (series.floor * series.floor);
-    }
-    return std::sqrt(sum);
-  };
-  const double of_named = measure(study.null.fit.simulated, named.fit.simulated);
-  const double of_unknown = measure(named.fit.simulated, with_unknown.fit.simulated);
-  return of_unknown < study.settings.model_error.look_alike_share * of_named;
+  const double of_named = sum_squared_floors(study.set, named.fit.simulated - study.null.fit.simulated);
+  const double of_unknown = sum_squared_floors(study.set, with_unknown.fit.simulated - named.fit.simulated);
+  const double share = study.settings.model_error.look_alike_share;
+  return of_unknown < share * share * of_named;
 }
 
 /// On top of the best `firsts` hypotheses of so many terms the `seconds` terms that gain most: those whose score

@@ -130,4 +130,12 @@ void PreparedSet::add_series(std::size_t r, std::size_t channel, std::size_t off
   series_.push_back(std::move(series));
 }
 
+double sum_squared_floors(const PreparedSet& set, const Eigen::VectorXd& change) {
+  double sum = 0.0;
+  for (const Series& series : set.series()) {
+    sum += series.rows_of(change).squaredNorm() / (series.floor * series.floor);
+  }
+  return sum;
+}
+
 }  // namespace rollrig::diagnosis

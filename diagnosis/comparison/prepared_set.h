@@ -96,4 +96,7 @@ class PreparedSet {
   Eigen::VectorXd measured_;
 };
 
+/// Sum of the squares of a change of block means, SI units, each in noise floors of its series.
+double sum_squared_floors(const PreparedSet& set, const Eigen::VectorXd& change);
+
 }  // namespace rollrig::diagnosis

@@ -16,12 +16,8 @@ CauseChange measure_change(const Study& study, const Candidate& cause) {
   const Model without = study.make_model({});
   const Eigen::VectorXd retuned = without.subtract_from_measured(null.unknowns, null.simulated) -
                                   model.subtract_from_measured(fit.unknowns, fit.simulated);
-  double sum = 0.0;
-  for (const Series& series : set.series()) {
-    sum += series.rows_of(retuned).squaredNorm() / (series.floor * series.floor);
-  }
   CauseChange change;
-  change.floors = std::sqrt(sum / static_cast<double>(set.residual_count()));
+  change.floors = std::sqrt(sum_squared_floors(set, retuned) / static_cast<double>(set.residual_count()));
   Eigen::VectorXd simulated;
   const Eigen::VectorXd base = fit.unknowns.tail(fit.unknowns.size() - to_index(model.own_count()));
   if (without.simulate(base, study.settings.threads, simulated, nullptr)) {

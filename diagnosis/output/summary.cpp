@@ -355,7 +355,7 @@ std::string show_probability(double probability) {
 std::string show_factor(double nats) {
   const double factor = std::exp(std::min(nats, 100.0));
   if (factor > 1e6) return "over a million times";
-  if (factor < 0.01) return "under a hundredth times";
+  if (factor < 0.01) return "less than 0.01 times";
   return factor >= 10.0 ? fmt::format("{:.0f} times", factor) : fmt::format("{:.2g} times", factor);
 }
 
