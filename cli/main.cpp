@@ -46,7 +46,7 @@ void add_examples(const CLI::App& app) {
        "  rollrig diagnose --explain bearing_warmup\n"},
       {"plan",
        "  rollrig plan --rig drum --hours 8 --tire a50\n"
-       "  rollrig plan --rig rollers --hours 16 --out campaign --html campaign.html\n"},
+       "  rollrig plan --rig dyno --hours 16 --out campaign --html campaign.html\n"},
       {"import",
        "  rollrig import logs/import.toml --out campaign\n"
        "  rollrig import --guess logs --tire a50 --rig drum_2m --out campaign\n"},

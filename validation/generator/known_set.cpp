@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -101,6 +102,12 @@ KnownSet::Change KnownSet::drive(const Specimen& specimen, const Effects& effect
 
 KnownSet::Change KnownSet::subtract_baseline(Change driven) const {
   subtract(1.0, without_, driven);
+  for (Columns& run : driven) {
+    for (std::vector<double>& column : run) {
+      std::replace_if(
+          column.begin(), column.end(), [](double change) { return std::isnan(change); }, 0.0);
+    }
+  }
   return driven;
 }
 

@@ -44,6 +44,7 @@ class KnownSet {
 
  private:
   Change drive(const Specimen& specimen, const Effects& effects) const;
+  /// A row that one of both cannot show, since brakes act there, counts as unchanged.
   Change subtract_baseline(Change driven) const;
   Eigen::VectorXd whiten(const Change& change) const;
   std::vector<Change> offsets() const;

@@ -132,6 +132,28 @@ OutsideList read_outside_list(const std::string& name) {
   return static_cast<OutsideList>(at - kOutsideListNames.begin());
 }
 
+namespace {
+
+/// Whether any three of the effects can be drawn together.
+bool has_triple(const ValidationSetOrder& order) {
+  const std::vector<std::string>& ids = order.effects;
+  const auto is_drawn = [&order](const std::vector<std::string>& triple) {
+    return std::any_of(order.campaigns.begin(), order.campaigns.end(), [&triple](const CampaignChoice& campaign) {
+      return find_common_laws(triple, *campaign.machine, true).any();
+    });
+  };
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) {
+        if (is_drawn({ids[i], ids[j], ids[k]})) return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void check_drawn(const ValidationSetOrder& order) {
   for (const std::string& id : order.effects) {
     const bool is_drawn = std::any_of(all_machines().begin(), all_machines().end(), [&](const Machine* machine) {
@@ -148,8 +170,13 @@ void check_drawn(const ValidationSetOrder& order) {
   if (order.pairs > 0 && order.effects.size() < 2) {
     throw refuse("a pair needs two effects", "--pairs", std::to_string(order.pairs), "two or more --effects");
   }
-  const std::size_t all = static_cast<std::size_t>(order.each) * order.effects.size() +
-                          static_cast<std::size_t>(order.singles + order.none + order.pairs + order.outside);
+  if (order.triples > 0 && !has_triple(order)) {
+    throw refuse("no three of the effects act on one machine", "--triples", std::to_string(order.triples),
+                 "three or more --effects of one kind");
+  }
+  const std::size_t all =
+      static_cast<std::size_t>(order.each) * order.effects.size() +
+      static_cast<std::size_t>(order.singles + order.none + order.pairs + order.triples + order.outside);
   if (all == 0) throw refuse("the validation set has no cases", "--each", "0", "one case at least");
 }
 

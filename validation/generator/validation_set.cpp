@@ -61,6 +61,20 @@ void add_pairs(const ValidationSetOrder& order, Draws& draws, std::vector<Plan>&
   }
 }
 
+/// From a stream of its own, so that validation sets without triples stay as they were.
+void add_triples(const ValidationSetOrder& order, std::vector<Plan>& plans) {
+  constexpr std::size_t kEffects = 3;
+  Draws draws(order.seed, "bank/triples");
+  std::vector<std::string> effects = order.effects;
+  for (int added = 0; added < order.triples;) {
+    draws.shuffle(effects);
+    const std::vector<std::string> triple(effects.begin(), effects.begin() + kEffects);
+    if (find_campaigns(order.campaigns, triple).empty()) continue;
+    plans.push_back({triple});
+    ++added;
+  }
+}
+
 /// Effects in an order of the seed, so that where there are fewer cases than effects it is not the last that lack.
 void add_singles(const ValidationSetOrder& order, std::vector<Plan>& plans) {
   Draws draws(order.seed, "bank/singles");
@@ -87,6 +101,7 @@ std::vector<Plan> draw_plans(const ValidationSetOrder& order) {
   }
   add_singles(order, plans);
   add_pairs(order, draws, plans);
+  add_triples(order, plans);
   add_outside(order, plans);
   draws.shuffle(plans);
   return plans;
@@ -115,6 +130,7 @@ Json describe_order(const ValidationSetOrder& order) {
                 {"none", order.none},
                 {"pairs", order.pairs}};
   if (order.singles > 0) truth["singles"] = order.singles;
+  if (order.triples > 0) truth["triples"] = order.triples;
   if (order.outside > 0) truth["outside"] = order.outside;
   if (order.outside_list != OutsideList::kFirst) {
     truth["outside_list"] = kOutsideListNames[static_cast<std::size_t>(order.outside_list)];

@@ -32,6 +32,7 @@ struct ValidationSetOrder {
   int singles = 200;                      // cases of one effect, in turn, sizes small, middle and large in turn
   int none = 40;                          // cases without effect
   int pairs = 30;                         // cases of two effects, drawn among them
+  int triples = 0;                        // cases of three effects, drawn among them
   int outside = 30;                       // cases with an effect outside of the catalog, each as often as the others
   OutsideList outside_list = OutsideList::kFirst;  // from which these are drawn
   std::vector<std::string> effects;                // among which

@@ -158,6 +158,7 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   add_count("--singles", order.singles, "Cases of one effect, small, middle and large in turn");
   add_count("--each", order.each, "Cases of each effect");
   add_count("--pairs", order.pairs, "Cases of two effects");
+  add_count("--triples", order.triples, "Cases of three effects");
   add_count("--none", order.none, "Cases without effect");
   add_count("--outside", order.outside, "Cases with an effect outside of the catalog");
   command->add_option(

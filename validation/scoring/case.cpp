@@ -70,10 +70,8 @@ bool Case::is_named_strictly() const {
 }
 
 bool Case::shows_nothing() const {
-  constexpr double kDetectable_sd = 5.0;
-  constexpr double kDetectable_floors = 1.0;
   if (is_clean()) return true;
-  return d_prime.has_value() ? *d_prime < kDetectable_sd : truth.signal_floors < kDetectable_floors;
+  return d_prime.has_value() ? *d_prime < kDetectable_d_prime : truth.signal_floors < kDetectable_floors;
 }
 
 bool Case::is_exact() const {

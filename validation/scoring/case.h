@@ -14,6 +14,8 @@
 namespace rollrig::validation {
 
 constexpr double kConfident = 0.9;           // from here on a wrong cause counts as stated with confidence
+constexpr double kDetectable_d_prime = 5.0;  // of the ideal observer: from here on an effect is to be found
+constexpr double kDetectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what is seen
 constexpr std::size_t kLargestNamedSet = 3;  // a larger one names nothing
 
 /// A stated size beside the true one, where both laws mean the same by it.
@@ -78,8 +80,9 @@ struct Case {
   bool is_clean() const { return truth.effects.empty(); }
   bool is_single() const { return truth.effects.size() == 1 && !truth.outside; }
   bool is_pair() const { return truth.effects.size() == 2 && !truth.outside; }
+  bool is_triple() const { return truth.effects.size() == 3 && !truth.outside; }
   /// Whether there is an effect, and none outside of the catalog.
-  bool is_inside() const { return is_single() || is_pair(); }
+  bool is_inside() const { return is_single() || is_pair() || is_triple(); }
   std::optional<SizeCheck> check_size() const;
   /// The same case with the answer to it after a test; without an answer where the test was not done.
   Case answered_after(const FollowUp& test) const;

@@ -113,6 +113,16 @@ void add_names(const Cases& cases, const ScoreOptions& options, std::vector<Figu
       at_least(0.90, make_share("pairs_identifiable", "  of those that can be told", identifiable_pairs, is_named)));
 }
 
+/// Of three effects at once: in how many cases all are named, and in how many of the answers all that is named acts.
+void add_triples(const Cases& cases, std::vector<Figure>& figures) {
+  const Cases triples = only(cases, [](const Case& one) { return one.is_triple(); });
+  figures.push_back(
+      make_share("triples", "triples, all named", triples, [](const Case& one) { return one.is_named(); }));
+  const Cases answered = only(triples, [](const Case& one) { return one.stated_acts().has_value(); });
+  figures.push_back(make_share("triples_acting", "  what is named acts", answered,
+                               [](const Case& one) { return one.stated_acts()->right; }));
+}
+
 /// Of the effects that are said to act with more than 0.9, those that do not.
 Figure find_false_claims(const Cases& cases) {
   Figure figure{"false_claims", "false claims above 0.9"};
@@ -278,6 +288,7 @@ std::vector<Stated> list_stated(const Cases& cases) {
 std::vector<Figure> find_figures(const std::vector<Case>& cases, const ScoreOptions& options) {
   std::vector<Figure> figures;
   add_names(cases, options, figures);
+  add_triples(cases, figures);
   add_confidence(cases, options, figures);
   add_sizes(cases, figures);
   add_shrinkage(cases, figures);

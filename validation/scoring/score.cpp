@@ -148,7 +148,7 @@ Score score_cases(const std::vector<Case>& cases, const ScoreOptions& options) {
   score.figures = find_figures(cases, options);
   std::set<std::string> programs;
   for (const Case& one : cases) {
-    score.by_effect[one.truth.effects.size() > 1 ? "pairs" : one.truth.name()].add(one);
+    score.by_effect[one.is_triple() ? "triples" : one.is_pair() ? "pairs" : one.truth.name()].add(one);
     score.by_campaign[one.truth.campaign].add(one);
     if (!one.is_clean()) score.all_effects.add(one);
     if (one.is_single() && !one.truth.effects.front().size_class.empty()) {

@@ -48,8 +48,8 @@ using Tallies = std::map<std::string, Tally>;
 using Confusion = std::map<std::string, std::map<std::string, std::size_t>>;  // truth, what was said
 
 struct ScoreOptions {
-  double detectable_d_prime = 5.0;  // from here on an effect is to be found (docs/validation.md, "Figures of merit")
-  double detectable_floors = 1.0;   // likewise where no d' is known. Assumed: an upper bound of what can be seen
+  double detectable_d_prime = kDetectable_d_prime;  // docs/validation.md, "Figures of merit"
+  double detectable_floors = kDetectable_floors;
 };
 
 /// The chance that an ideal observer has with one case: nobody names what the data do not show. None where the case has

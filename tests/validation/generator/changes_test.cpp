@@ -60,6 +60,15 @@ TEST_CASE("without effects nothing changes, in any place", "[fast]") {
   }
 }
 
+TEST_CASE("rows in which brakes act only with another mass leave the change a number", "[fast]") {
+  const GeneratedSet made = make_generated_set("--kind road --runs 2 --seed 21 --effect wind_and_grade");
+  const std::string& run = made.set.runs[0].id;
+  for (const ChangeAt& change : find_changes(made, {{"traction_force_N", run, 0, 300}})) {
+    CHECK(std::isfinite(change.of_effects.rms));
+    CHECK(std::isfinite(change.after_retuning.rms));
+  }
+}
+
 TEST_CASE("of a constant error of a sensor its offset takes most, of a drift it does not", "[fast]") {
   // 0.6 kPa are about two standard deviations of the offset, and six noise floors
   const GeneratedSet constant =

@@ -238,6 +238,29 @@ TEST_CASE("a mixed validation set has every effect of the catalog, each size cla
   }
 }
 
+TEST_CASE("cases of three effects are drawn beside the others, which stay as they are", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string rest =
+      "--seed 33 --singles 2 --pairs 1 --none 1 --outside 1 --runs 1 "
+      "--effects slow_leak,torque_gain,rim_heat --kind drum --out ";
+  REQUIRE(run_validation("make " + rest + folder.file("without")).status == 0);
+  REQUIRE(run_validation("make --triples 2 " + rest + folder.file("with")).status == 0);
+  const auto count_effects = [&folder](const std::string& set) {
+    const Json truth = Json::parse(read_file(folder.file(set + "/truth.json")));
+    std::map<std::size_t, int> counts;  // of cases, by the number of effects
+    for (const auto& [number, one] : truth.at("sets").items()) ++counts[one.at("effects").size()];
+    return counts;
+  };
+  CHECK(count_effects("without") == std::map<std::size_t, int>{{0, 1}, {1, 3}, {2, 1}});
+  CHECK(count_effects("with") == std::map<std::size_t, int>{{0, 1}, {1, 3}, {2, 1}, {3, 2}});
+  const auto refused = run_validation(
+      "make --triples 1 --singles 0 --pairs 0 --none 0 --outside 0 --kind drum "
+      "--effects slow_leak,torque_gain --out " +
+      folder.file("two"));
+  CHECK(refused.status == 2);
+  CHECK_THAT(refused.err, Catch::Contains("three or more --effects"));
+}
+
 TEST_CASE("size classes are thirds of what is drawn, by the distance from doing nothing", "[fast]") {
   const TemporaryFolder folder;
   const auto made = run_validation(

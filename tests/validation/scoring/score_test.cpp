@@ -57,6 +57,20 @@ std::vector<Case> make_set() {
 
 }  // namespace
 
+TEST_CASE("of three effects the score tells whether all are named, and whether what is named acts", "[fast]") {
+  const std::vector<std::string> three{"windage", "rim_heat", "slow_leak"};
+  std::vector<Case> cases{say_cause(make_case("0001", three), {"windage"}, 0.8),
+                          say_cause(make_case("0002", three), {"torque_gain"}, 0.8),
+                          say_cause(make_case("0003", three), three, 0.8), say_unexplained(make_case("0004", three))};
+  for (Case& one : cases) {
+    if (one.has_cause()) one.answer.diagnosis.causes.front().acts = 0.8;
+  }
+  const validation::Score score = validation::score_cases(cases, {});
+  check_share(score, "triples", 1, 4);
+  check_share(score, "triples_acting", 2, 3);
+  CHECK(score.by_effect.at("triples").cases == 4);
+}
+
 TEST_CASE("the figures of a validation set are those counted by hand", "[fast]") {
   const validation::Score score = validation::score_cases(make_set(), {});
   check_share(score, "detection", 4, 5);
