@@ -53,6 +53,12 @@ if(ROLLRIG_SANITIZE)
   add_link_options(-fsanitize=${ROLLRIG_SANITIZE})
 endif()
 
+# Coverage for libFuzzer, by the preset fuzz (tools/fuzz)
+option(ROLLRIG_FUZZ "Build the readers for libFuzzer; needs Clang" OFF)
+if(ROLLRIG_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE}")
