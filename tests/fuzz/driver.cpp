@@ -1,23 +1,17 @@
 /// fuzz_readers: gives changed inputs to the readers, in a child process, and says which input ends it.
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <chrono>
-#include <cstring>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "build_paths.h"
 #include "sim/core/file_io.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/fuzz/target.h"
+#include "tests/fuzz/watched_child.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -26,53 +20,9 @@ using namespace rollrig::fuzz;
 
 namespace {
 
-constexpr std::size_t kMostBytes = 1 << 17;
-constexpr unsigned kHang_s = 5;              // for one input
-constexpr rlim_t kMostMemory_B = 1UL << 30;  // beyond what the program holds at its start
-constexpr rlim_t kAtStart_B = 1UL << 29;     // Assumed: address space of its libraries
-const fs::path kFormer = fs::path(ROLLRIG_SOURCE_DIR) / "tests/fuzz/crashes";
-
-/// What the child shows the parent while it works.
-struct Shared {
-  std::size_t size;
-  std::size_t executions;
-  char input[2 * kMostBytes];
-};
-
-Shared& share() {
-  void* memory = ::mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::runtime_error("no shared memory");
-  return *static_cast<Shared*>(memory);
-}
-
-void execute_watched(const Target& target, const std::string& input, const std::string& folder, Shared& shared) {
-  shared.size = std::min(input.size(), sizeof shared.input);
-  std::memcpy(shared.input, input.data(), shared.size);
-  ::alarm(kHang_s);
-  try {
-    execute(target, input, folder);
-  } catch (const std::exception& error) {
-    std::cerr << fmt::format("{}: unexpected exception: {}\n", target.name, std::string(error.what()).substr(0, 500));
-    ::_exit(1);
-  }
-  ::alarm(0);
-  ++shared.executions;
-}
-
-std::vector<std::string> list_former(const Target& target) {
-  std::vector<std::string> inputs;
-  if (!fs::is_directory(kFormer / target.name)) return inputs;
-  for (const auto& entry : fs::directory_iterator(kFormer / target.name)) {
-    inputs.push_back(tests::read_file(entry.path().string()));
-  }
-  return inputs;
-}
-
-std::vector<std::string> list_inputs(const Target& target) {
-  std::vector<std::string> inputs = list_former(target);
-  for (std::string& seed : target.make_seeds()) inputs.push_back(std::move(seed));
-  return inputs;
-}
+constexpr std::size_t kMostBytes = kMostInput_B / 2;  // of a changed input
+constexpr unsigned kHang_s = 5;                       // for one input
+constexpr std::size_t kMostMemory_B = 1UL << 30;      // for a reader
 
 struct Options {
   std::vector<std::string> targets;
@@ -83,45 +33,44 @@ struct Options {
   std::vector<std::string> replay;
 };
 
-/// The child: former mistakes and seeds as they are, then changed ones until the time is over.
-[[noreturn]] void work(const Target& target, const Options& options, Shared& shared) {
-  const rlimit limit{kMostMemory_B + kAtStart_B, kMostMemory_B + kAtStart_B};
-  ::setrlimit(RLIMIT_AS, &limit);
-  const tests::TemporaryFolder folder;
+/// Seeds, and inputs that were neither read nor refused before.
+std::vector<std::string> list_inputs(const Target& target) {
+  std::vector<std::string> inputs = target.make_seeds();
+  const fs::path former = fs::path(ROLLRIG_SOURCE_DIR) / "tests/fuzz/crashes" / target.name;
+  if (!fs::is_directory(former)) return inputs;
+  for (const auto& entry : fs::directory_iterator(former)) inputs.push_back(tests::read_file(entry.path().string()));
+  return inputs;
+}
+
+/// All inputs as they are, then changed ones until the time is over.
+void work(const Target& target, const Options& options, const std::string& folder, Watched& watched) {
+  const auto give = [&](const std::string& input) {
+    watched.begin(input, kHang_s);
+    execute(target, input, folder);
+    watched.end();
+  };
   const std::vector<std::string> inputs = list_inputs(target);
-  for (const std::string& input : inputs) execute_watched(target, input, folder.path(), shared);
+  for (const std::string& input : inputs) give(input);
   Engine engine(options.seed);
   const auto start = std::chrono::steady_clock::now();
-  const auto is_over = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > options.seconds;
-  };
-  while (!is_over()) {
+  while (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < options.seconds) {
     const std::string& input = inputs[engine() % inputs.size()];
     const std::string& other = inputs[engine() % inputs.size()];
-    execute_watched(target, mutate(input, other, kMostBytes, engine), folder.path(), shared);
+    give(mutate(input, other, kMostBytes, engine));
   }
-  fs::remove_all(folder.path());
-  ::_exit(0);
 }
 
 /// Whether all inputs were read or refused.
-bool fuzz_target(const Target& target, const Options& options, Shared& shared) {
-  shared.executions = 0;
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("no child process");
-  if (child == 0) work(target, options, shared);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  std::cout << fmt::format("{:14} {:>9} executions\n", target.name, shared.executions) << std::flush;
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
-  const std::string input(shared.input, shared.size);
+bool fuzz_target(const Target& target, const Options& options) {
+  Watched watched;
+  const tests::TemporaryFolder folder;
+  const std::string ended = watched.run([&] { work(target, options, folder.path(), watched); }, kMostMemory_B);
+  std::cout << fmt::format("{:14} {:>9} executions\n", target.name, watched.executions()) << std::flush;
+  if (ended.empty()) return true;
+  const std::string input = watched.last_input();
   const fs::path file = fs::path(options.out) / fmt::format("{}-{}", target.name, calc_sha256(input).substr(0, 12));
   std::ofstream(file, std::ios::binary) << input;
-  const bool is_hang = WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM;
-  const std::string why = is_hang               ? fmt::format("takes more than {} s", kHang_s)
-                          : WIFSIGNALED(status) ? fmt::format("ends by signal {}", WTERMSIG(status))
-                                                : "unexpected exception";
-  std::cout << fmt::format("{}: {}, by the input in {}\n", target.name, why, file.string());
+  std::cout << fmt::format("{}: {}, by the input in {}\n", target.name, ended, file.string());
   return false;
 }
 
@@ -130,6 +79,11 @@ void write_seeds(const Target& target, const std::string& folder) {
   for (const std::string& input : list_inputs(target)) {
     std::ofstream(fs::path(folder) / target.name / calc_sha256(input).substr(0, 16), std::ios::binary) << input;
   }
+}
+
+void replay(const Target& target, const std::vector<std::string>& files) {
+  const tests::TemporaryFolder folder;
+  for (const std::string& file : files) execute(target, tests::read_file(file), folder.path());
 }
 
 }  // namespace
@@ -147,19 +101,15 @@ int main(int argc, char** argv) {
   if (options.targets.empty()) {
     for (const Target& target : list_targets()) options.targets.push_back(target.name);
   }
-  Shared& shared = share();
   bool is_good = true;
   for (const std::string& name : options.targets) {
     const Target& target = find_target(name);
     if (!options.write_seeds.empty()) {
       write_seeds(target, options.write_seeds);
     } else if (!options.replay.empty()) {
-      const tests::TemporaryFolder folder;
-      for (const std::string& file : options.replay) {
-        execute_watched(target, tests::read_file(file), folder.path(), shared);
-      }
+      replay(target, options.replay);
     } else {
-      is_good = fuzz_target(target, options, shared) && is_good;
+      is_good = fuzz_target(target, options) && is_good;
     }
   }
   return is_good ? 0 : 1;
