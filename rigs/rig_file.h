@@ -16,8 +16,8 @@ struct DrumParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"diameter_m", positive(), "Diameter of drum or roller"}, p.diameter_m);
-    visit(Field{"inertia_kg_m2", positive(), "Moment of inertia about its axis"}, p.inertia_kg_m2);
+    visit(Field{"diameter_m", between(0.1, 1000.0), "Diameter of drum or roller"}, p.diameter_m);
+    visit(Field{"inertia_kg_m2", between(0.0001, 1000000000.0), "Moment of inertia about its axis"}, p.inertia_kg_m2);
   }
 };
 
@@ -27,7 +27,8 @@ struct BeltParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"moving_mass_kg", positive(), "Belt, and the inertia of its drums and motor as mass at its surface"},
+    visit(Field{"moving_mass_kg", between(0.001, 100000000.0),
+                "Belt, and the inertia of its drums and motor as mass at its surface"},
           p.moving_mass_kg);
   }
 };
@@ -50,7 +51,7 @@ struct SkimParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"load_N", positive(), "Load of the skim test"}, p.load_N);
+    visit(Field{"load_N", between(0.01, 1000000.0), "Load of the skim test"}, p.load_N);
   }
 };
 
@@ -62,7 +63,8 @@ struct CarriageParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"mass_kg", positive(), "Moving mass without the wheel. Assumed: 155 kg, a bounce of 5.6 Hz", 155.0},
+    visit(Field{"mass_kg", between(0.1, 1000000.0),
+                "Moving mass without the wheel. Assumed: 155 kg, a bounce of 5.6 Hz", 155.0},
           p.mass_kg);
     visit(Field{"damping_N_s_per_m", non_negative(), "Damper of the load cylinder. Assumed: 9 kN s/m, 0.7 of critical",
                 9000.0},
@@ -82,10 +84,11 @@ struct TieDownParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"stiffness_N_per_m", positive(), "Along the vehicle, in all. Assumed: 2 MN/m", 2e6},
+    visit(Field{"stiffness_N_per_m", between(1000.0, 10000000000.0), "Along the vehicle, in all. Assumed: 2 MN/m", 2e6},
           p.stiffness_N_per_m);
-    visit(Field{"damping_N_s_per_m", positive(), "Likewise. Assumed: 100 kN s/m, 0.75 of critical", 1e5},
-          p.damping_N_s_per_m);
+    visit(
+        Field{"damping_N_s_per_m", between(1.0, 1000000000.0), "Likewise. Assumed: 100 kN s/m, 0.75 of critical", 1e5},
+        p.damping_N_s_per_m);
   }
 };
 
@@ -96,7 +99,7 @@ struct DriveParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"bandwidth_rad_s", positive(),
+    visit(Field{"bandwidth_rad_s", between(0.001, 10000.0),
                 "Natural frequency of the speed loop, critically damped. Assumed: 3 rad/s", 3.0},
           p.bandwidth_rad_s);
   }

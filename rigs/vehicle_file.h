@@ -22,11 +22,13 @@ struct VehicleSuspension {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"stiffness_N_per_m", positive(), "Wheel rate. Assumed: 35 kN/m", 35000.0}, p.stiffness_N_per_m);
+    visit(Field{"stiffness_N_per_m", between(100.0, 100000000.0), "Wheel rate. Assumed: 35 kN/m", 35000.0},
+          p.stiffness_N_per_m);
     visit(Field{"damping_N_s_per_m", positive(), "Damper, at the wheel. Assumed: 4 kN s/m", 4000.0},
           p.damping_N_s_per_m);
-    visit(Field{"unsprung_mass_kg", positive(), "Upright and brake, without the wheel. Assumed: 25 kg", 25.0},
-          p.unsprung_mass_kg);
+    visit(
+        Field{"unsprung_mass_kg", between(0.1, 100000.0), "Upright and brake, without the wheel. Assumed: 25 kg", 25.0},
+        p.unsprung_mass_kg);
   }
 };
 
@@ -42,7 +44,8 @@ struct VehiclePowertrain {
     visit(Field{"regeneration_limit_m_s2", non_negative(),
                 "Deceleration up to which the driven axles brake by their motor. Assumed: 1.5 m/s2", 1.5},
           p.regeneration_limit_m_s2);
-    visit(Field{"regeneration_fade_km_h", positive(), "Speed below which it fades to nothing. Assumed: 10 km/h", 10.0},
+    visit(Field{"regeneration_fade_km_h", between(0.001, 500.0),
+                "Speed below which it fades to nothing. Assumed: 10 km/h", 10.0},
           p.regeneration_fade_m_s);
   }
 };
@@ -92,7 +95,7 @@ struct VehicleFile {
 
 /// Height of the center of gravity, in both formats.
 inline Field make_center_height_field() {
-  return {"center_of_gravity_height_m", positive(), "Above the road. Assumed: 0.6 m", 0.6,
+  return {"center_of_gravity_height_m", between(0.001, 20.0), "Above the road. Assumed: 0.6 m", 0.6,
           "centre_of_gravity_height_m"};
 }
 
@@ -104,7 +107,7 @@ struct TwoAxleGeometry {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"wheelbase_m", positive(), "Between the axles. Assumed: 2.9 m", 2.9}, p.wheelbase_m);
+    visit(Field{"wheelbase_m", between(0.1, 100.0), "Between the axles. Assumed: 2.9 m", 2.9}, p.wheelbase_m);
     visit(make_center_height_field(), p.center_of_gravity_height_m);
     visit(Field{"front_load_share", between(0.05, 0.95),
                 "Share of the weight on the front axle. Assumed: 0.5, or with an odd number of tires its share of them",

@@ -23,12 +23,13 @@ struct TireGeometry {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"outer_diameter_m", positive(), "Nominal design diameter, unloaded"}, p.outer_diameter_m);
-    visit(Field{"section_width_m", positive(), "Section width"}, p.section_width_m);
-    visit(Field{"rim_diameter_m", positive(), "Rim diameter"}, p.rim_diameter_m);
-    visit(Field{"mass_kg", positive(), "Mass of the tire"}, p.mass_kg);
-    visit(Field{"wheel_mass_kg", positive(), "Mass of the rim and the hub that turn with the tire"}, p.wheel_mass_kg);
-    visit(Field{"spin_inertia_kg_m2", positive(), "Moment of inertia about the spin axis, tire and wheel"},
+    visit(Field{"outer_diameter_m", between(0.1, 10.0), "Nominal design diameter, unloaded"}, p.outer_diameter_m);
+    visit(Field{"section_width_m", between(0.01, 3.0), "Section width"}, p.section_width_m);
+    visit(Field{"rim_diameter_m", between(0.05, 8.0), "Rim diameter"}, p.rim_diameter_m);
+    visit(Field{"mass_kg", between(0.01, 10000.0), "Mass of the tire"}, p.mass_kg);
+    visit(Field{"wheel_mass_kg", between(0.01, 10000.0), "Mass of the rim and the hub that turn with the tire"},
+          p.wheel_mass_kg);
+    visit(Field{"spin_inertia_kg_m2", between(1e-5, 100000.0), "Moment of inertia about the spin axis, tire and wheel"},
           p.spin_inertia_kg_m2);
   }
 };
@@ -44,13 +45,16 @@ struct TireStiffness {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"vertical_N_per_m", positive(), "Vertical stiffness dFz/dz"}, p.vertical_N_per_m);
+    visit(Field{"vertical_N_per_m", between(1000.0, 100000000.0), "Vertical stiffness dFz/dz"}, p.vertical_N_per_m);
     visit(Field{"vertical_damping_N_s_per_m", non_negative(), "Vertical damping"}, p.vertical_damping_N_s_per_m);
-    visit(Field{"slip_stiffness_N", positive(), "dFx/dslip at the reference load; acts with slip_loss only"},
+    visit(Field{"slip_stiffness_N", between(10.0, 1000000000.0),
+                "dFx/dslip at the reference load; acts with slip_loss only"},
           p.slip_stiffness_N);
-    visit(Field{"relaxation_length_m", positive(), "Longitudinal relaxation length; acts with slip_loss only"},
+    visit(Field{"relaxation_length_m", between(0.0001, 100.0),
+                "Longitudinal relaxation length; acts with slip_loss only"},
           p.relaxation_length_m);
-    visit(Field{"friction_coefficient", positive(), "Fx/Fz at which the contact slides. Assumed: 1 on dry steel", 1.0},
+    visit(Field{"friction_coefficient", between(0.01, 10.0),
+                "Fx/Fz at which the contact slides. Assumed: 1 on dry steel", 1.0},
           p.friction_coefficient);
   }
 };
@@ -83,9 +87,12 @@ struct LossReference {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"reference_load_N", positive(), "Load at which the loss of the law holds"}, p.reference_load_N);
-    visit(Field{"reference_pressure_kPa", positive(), "Gauge pressure at which it holds"}, p.reference_pressure_Pa);
-    visit(Field{"reference_drum_diameter_m", positive(), "Drum on which it holds"}, p.reference_drum_diameter_m);
+    visit(Field{"reference_load_N", between(10.0, 1000000.0), "Load at which the loss of the law holds"},
+          p.reference_load_N);
+    visit(Field{"reference_pressure_kPa", between(1.0, 10000.0), "Gauge pressure at which it holds"},
+          p.reference_pressure_Pa);
+    visit(Field{"reference_drum_diameter_m", between(0.1, 1e12), "Drum on which it holds"},
+          p.reference_drum_diameter_m);
     visit(Field{"pressure_exponent", between(0.0, 2.0), "a of (p/p_ref)^-a"}, p.pressure_exponent);
   }
 };
@@ -111,7 +118,7 @@ struct LoadMapEntry : SpeedLines<S> {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"load_N", positive(), "Load at which the entry was fitted"}, p.load_N);
+    visit(Field{"load_N", between(1.0, 1000000.0), "Load at which the entry was fitted"}, p.load_N);
     SpeedLines<S>::visit(p, visit);
   }
 };
@@ -129,10 +136,11 @@ struct TireThermalParameters {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"heat_capacity_J_per_K", positive(), "Heat capacity of the rubber"}, p.heat_capacity_J_per_K);
-    visit(Field{"gas_heat_capacity_J_per_K", positive(), "Heat capacity of the inflation gas"},
+    visit(Field{"heat_capacity_J_per_K", between(1.0, 100000000.0), "Heat capacity of the rubber"},
+          p.heat_capacity_J_per_K);
+    visit(Field{"gas_heat_capacity_J_per_K", between(0.001, 1000000.0), "Heat capacity of the inflation gas"},
           p.gas_heat_capacity_J_per_K);
-    visit(Field{"H_gas_W_per_K", positive(), "Conductance from rubber to gas"}, p.H_gas_W_per_K);
+    visit(Field{"H_gas_W_per_K", between(1e-6, 1000000.0), "Conductance from rubber to gas"}, p.H_gas_W_per_K);
     visit(Field{"conductance_at_rest_W_per_K", non_negative(),
                 "Speed-independent conductance to air and road. 0 with that per speed: by the rig's [tire_cooling]",
                 0.0, "z_W_per_K"},

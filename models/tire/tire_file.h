@@ -72,9 +72,9 @@ struct Iso28580Reference {
 
   template <class Self, class Visit>
   static void visit(Self& p, Visit&& visit) {
-    visit(Field{"rrc_N_per_kN", positive(), ""}, p.rrc);
-    visit(Field{"load_N", positive(), ""}, p.load_N);
-    visit(Field{"pressure_kPa", positive(), ""}, p.pressure_Pa);
+    visit(Field{"rrc_N_per_kN", between(0.01, 500.0), ""}, p.rrc);
+    visit(Field{"load_N", between(1.0, 1000000.0), ""}, p.load_N);
+    visit(Field{"pressure_kPa", between(1.0, 10000.0), ""}, p.pressure_Pa);
     visit(Field{"warm_up_min", between(1.0, 600.0), "", 30.0}, p.warm_up_s);
     visit(Field{"ambient_coefficient_per_degC", between(0.0, 0.05), "", kAmbientCoefficient_per_K},
           p.ambient_coefficient_per_K);

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <fmt/format.h>
+
+#include "sim/core/error.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -72,7 +73,7 @@ double calc_window_mean(const std::vector<double>& time_s, const std::vector<dou
     ++count;
   });
   if (count == 0) {
-    throw std::invalid_argument(fmt::format("no sample between {} and {} s", window.start_s, window.end_s));
+    throw RunFailure(fmt::format("there is no sample between {} and {} s", window.start_s, window.end_s));
   }
   return sum / count;
 }

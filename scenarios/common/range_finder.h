@@ -34,7 +34,7 @@ std::vector<LoadRange> find_load_ranges(const std::vector<double>& time_s, const
 Window find_last_window(const LoadRange& range, double window_s, double margin_s);
 
 /// Mean of samples whose whole averaging interval lies in the window; NaN samples are left out. Throws
-/// std::invalid_argument when there is none.
+/// RunFailure where there is none.
 double calc_window_mean(const std::vector<double>& time_s, const std::vector<double>& values, const Window& window,
                         double interval_s);
 

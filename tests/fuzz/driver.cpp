@@ -29,6 +29,7 @@ struct Options {
   double seconds = 1.0;
   std::uint64_t seed = 1;
   std::string out = ".";
+  bool is_list = false;
   std::string write_seeds;
   std::vector<std::string> replay;
 };
@@ -97,6 +98,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "Folder for inputs that are neither read nor refused [.]");
   app.add_option("--write-seeds", options.write_seeds, "Writes seeds and former mistakes to a folder, and ends");
   app.add_option("--replay", options.replay, "Gives these files, as they are, to the one --target, and ends");
+  app.add_flag("--list", options.is_list, "Prints the readers, and ends");
   CLI11_PARSE(app, argc, argv);
   if (options.targets.empty()) {
     for (const Target& target : list_targets()) options.targets.push_back(target.name);
@@ -104,7 +106,9 @@ int main(int argc, char** argv) {
   bool is_good = true;
   for (const std::string& name : options.targets) {
     const Target& target = find_target(name);
-    if (!options.write_seeds.empty()) {
+    if (options.is_list) {
+      std::cout << name << "\n";
+    } else if (!options.write_seeds.empty()) {
       write_seeds(target, options.write_seeds);
     } else if (!options.replay.empty()) {
       replay(target, options.replay);
