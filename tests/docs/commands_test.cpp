@@ -29,6 +29,8 @@ const std::vector<NotRun> kNotRun{
     {"podman ", "needs a program for containers, and makes an image"},
     {"cmake --", "configures, builds or installs the project"},
     {"ctest --", "runs the tests, this one among them"},
+    {"tests/fuzz/", "is not built for users, and takes minutes"},
+    {"tools/fuzz ", "builds the readers with Clang, and takes minutes"},
     {"clang-format -i <files>", "the reader names the files"},
     {"mpirun ", "needs MPI and a file of machines"},
     {"$ROLLRIG_MEASURED_DATA", "needs measured data that are not part of rollrig"},
