@@ -10,6 +10,7 @@
 #include "scenarios/run/run_spec.h"
 #include "scenarios/scaffold/iso_test.h"
 #include "sim/core/csv.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 
 namespace fs = std::filesystem;
@@ -29,6 +30,7 @@ FileCheck validate_set(const std::string& path, BadRows bad_rows) {
   std::size_t rows = 0;
   std::size_t without = 0;
   for (const measurements::MeasuredRun& run : set.runs) {
+    throw_if_interrupted();
     rows += run.time_s.size();
     if (!has_measured(set, run)) without += run.time_s.size();
   }

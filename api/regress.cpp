@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "report/list_pages.h"
@@ -10,6 +11,7 @@
 #include "scenarios/run/run_spec.h"
 #include "sim/core/assets.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/parallel.h"
 #include "sim/core/text.h"
 
@@ -42,10 +44,15 @@ void regress_run(const std::string& folder, RegressedRun& run) {
     run.status = "bad run file";  // if reading it throws
     const ConfigTable document = read_config((fs::path(folder) / (run.name + ".toml")).string());
     const scenarios::RunSpec spec = scenarios::read_run_spec(document, folder);
-    std::vector<scenarios::GoldenValue> now = scenarios::make_golden(scenarios::run_scenario(spec, {}));
+    const scenarios::Outcome outcome = scenarios::run_scenario(spec, {});
+    to_text(outcome.result);  // throws where a result is no number
+    std::vector<scenarios::GoldenValue> now = scenarios::make_golden(outcome);
     run.golden = scenarios::write_golden(now);
     run.status = fs::exists(golden_file) ? "bad golden" : "no golden";  // likewise
-    if (run.status == "no golden") return;
+    if (run.status == "no golden") {
+      run.problems = {fmt::format("there is no {}; --update writes it", golden_file)};
+      return;
+    }
     const std::vector<scenarios::GoldenValue> golden = scenarios::read_golden(golden_file);
     scenarios::keep_tolerances(golden, now);
     run.golden = scenarios::write_golden(now);
@@ -76,12 +83,13 @@ std::string format_problems(const std::vector<RegressedRun>& runs) {
 void make_report(Regression& found) {
   Json json = {{"format", "rollrig-regression/1"}, {"runs", Json::array()}};
   for (const RegressedRun& run : found.runs) {
-    json["runs"].push_back({{"name", run.name},
-                            {"status", run.status},
-                            {"compared", run.compared},
-                            {"worst_share_of_tolerance", run.worst_share},
-                            {"worst", run.worst_quantity},
-                            {"problems", run.problems}});
+    json["runs"].push_back(
+        {{"name", run.name},
+         {"status", run.status},
+         {"compared", run.compared},
+         {"worst_share_of_tolerance", std::isfinite(run.worst_share) ? Json(run.worst_share) : Json()},
+         {"worst", run.worst_quantity},
+         {"problems", run.problems}});
   }
   found.text = format_table(report::make_regress_table(json)) + format_problems(found.runs);
   found.json = to_text(json);
@@ -105,7 +113,10 @@ Regression regress(const std::string& folder, const RegressionOptions& options) 
       });
   // A golden without a run file is listed, lest a renamed run goes unchecked.
   for (const std::string& name : list_names(found.folder, ".golden.csv")) {
-    if (!fs::exists(fs::path(found.folder) / (name + ".toml"))) found.runs.push_back({{}, name, "no run file"});
+    const std::string run_file = (fs::path(found.folder) / (name + ".toml")).string();
+    if (fs::exists(run_file)) continue;
+    RegressedRun& run = found.runs.emplace_back(RegressedRun{{}, name, "no run file"});
+    run.problems = {fmt::format("{} has no run file {}", find_golden_file(found.folder, run), run_file)};
   }
   make_report(found);
   return found;
@@ -114,8 +125,10 @@ Regression regress(const std::string& folder, const RegressionOptions& options) 
 Regression update_goldens(Regression found) {
   for (RegressedRun& run : found.runs) {
     if (run.golden.empty() || run.status == "same") continue;
+    throw_if_interrupted();
     write_file_atomically(find_golden_file(found.folder, run), run.golden);
     run.status = "updated";
+    run.problems.clear();
   }
   make_report(found);
   return found;

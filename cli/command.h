@@ -18,13 +18,14 @@
 namespace rollrig::cli {
 
 /// Exit statuses of formats.md.
-enum ExitStatus { kDone = 0, kDiffers = 1, kInputError = 2, kRunFailed = 3, kInterrupted = 130 };
+enum ExitStatus { kDone = 0, kDiffers = 1, kInputError = 2, kRunFailed = 3, kInternalError = 70, kInterrupted = 130 };
 
 /// What a subcommand does when it is called; set by the add_..._command functions below.
 using Action = std::function<int()>;
 
-/// Calls what makes a program's command line and runs it. Returns the exit status; errors go to standard error.
-int run_program(const std::function<int()>& body);
+/// Calls what makes a program's command line and runs it. Returns the exit status; errors go to standard error. `argc`
+/// and `argv` are for the report of a mistake of the program itself.
+int run_program(int argc, char** argv, const std::function<int()>& body);
 
 /// Reads the command line and does what its subcommand has set in `action`.
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv);

@@ -71,7 +71,7 @@ void add_convert_command(CLI::App& app, Action& action) {
   command->add_option("--diameter-exponent", input.diameter_exponent, "n of D^-n; needs --to-tire-diameter [1/3]");
   command->add_option("--ambient-coefficient", input.ambient_coefficient_per_K,
                       "K_t of ISO 28580 in 1/degC, as of the tire's class; needs --to-ambient [0.008, class C1]");
-  command->add_option("--json", options->output.json, "File for the result, - for standard output");
+  add_output_option(*command, "--json", options->output.json, "File for the result, - for standard output");
 }
 
 }  // namespace rollrig::cli

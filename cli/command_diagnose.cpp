@@ -71,11 +71,10 @@ int diagnose_all(const DiagnoseOptions& options, const std::vector<std::string>&
   return status;
 }
 
-/// Writes the first proposed test into the folder. What it says to a person: where it is, or that there is none.
-std::string write_plan(const FolderFiles& files, OutputFolder& folder) {
+/// Stages the first proposed test for the folder. What it says to a person: where it is, or that there is none.
+std::string stage_plan(const FolderFiles& files, OutputFolder& folder, Output& output) {
   if (files.empty()) return fmt::format("no test is proposed, so no plan is written to {}/\n", folder.path());
-  for (const auto& [name, content] : files) folder.add(name, content);
-  folder.commit();
+  output.stage(folder, files);
   return fmt::format("next test written to {0}/: {0}/plan.txt says how\n", folder.path());
 }
 
@@ -117,10 +116,10 @@ int diagnose_command(const DiagnoseOptions& options) {
     ProgressLine progress("diagnose", options.output.quiet);
     return diagnose(set, make_options(options, progress));
   }();
-  output.require_no_input();
-  const std::string planned = plan.has_value() ? write_plan(found.make_plan(), *plan) : "";
-  output.write(found);
-  output.print(found.text + planned);
+  const FolderFiles plan_files = plan.has_value() ? found.make_plan() : FolderFiles();
+  output.stage(found);
+  const std::string planned = plan.has_value() ? stage_plan(plan_files, *plan, output) : "";
+  output.finish(found.text, planned);
   return kDone;
 }
 
@@ -135,12 +134,12 @@ void add_diagnose_command(CLI::App& app, Action& action) {
                       "Tell of an effect instead: equation, source, priors, what reveals it, what it is confused with, "
                       "which test splits them; also none, unknown");
   options->output.add_to(*command, "File for the diagnosis, - for standard output");
-  command->add_option("--plan", options->plan,
-                      "Folder for the first proposed next test as run files, with a plan for a person");
+  add_output_option(*command, "--plan", options->plan,
+                    "Folder for the first proposed next test as run files, with a plan for a person");
   command->add_flag("--force", options->force, "Write the plan into a folder that holds files");
-  command->add_option("--loop", options->loop,
-                      "Folder of a loop of tests: reads what its planned test measured, diagnoses, plans the next "
-                      "test, until a cause is at 95 % or the hours are gone");
+  add_output_option(*command, "--loop", options->loop,
+                    "Folder of a loop of tests: reads what its planned test measured, diagnoses, plans the next "
+                    "test, until a cause is at 95 % or the hours are gone");
   command->add_option("--hours", options->hours, "Hours of the machine that the loop may take [8]");
   command->add_flag("--test-failed", options->test_failed,
                     "The planned test of the loop could not be done; its hours count all the same");

@@ -28,8 +28,10 @@ int export_command(const ExportOptions& options) {
   const std::string mat = options.mat.empty() ? "" : made.make_mat();
   const std::string hdf5 = options.hdf5.empty() ? "" : made.make_hdf5();
   files.require_no_input();
-  if (!mat.empty()) write_output(options.mat, mat);
-  if (!hdf5.empty()) write_output(options.hdf5, hdf5);
+  std::vector<StagedOutput> staged;
+  if (!mat.empty()) staged.emplace_back(options.mat, mat);
+  if (!hdf5.empty()) staged.emplace_back(options.hdf5, hdf5);
+  commit_all(staged);
   if (options.quiet || options.mat == "-" || options.hdf5 == "-") return kDone;
   std::cout << format_warnings(made.warnings);
   for (const std::string& file : {options.mat, options.hdf5}) {
@@ -48,8 +50,8 @@ void add_export_command(CLI::App& app, Action& action) {
       ->add_option("source", options->source,
                    "Folder that run --out or --write-set wrote, a measurement set, or a recording.csv")
       ->required();
-  command->add_option("--mat", options->mat, "File for MATLAB, version 5; - for standard output");
-  command->add_option("--hdf5", options->hdf5, "File in HDF5; - for standard output");
+  add_output_option(*command, "--mat", options->mat, "File for MATLAB, version 5; - for standard output");
+  add_output_option(*command, "--hdf5", options->hdf5, "File in HDF5; - for standard output");
   add_skip_bad_rows(*command, options->bad_rows);
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }

@@ -47,9 +47,10 @@ Report read_and_import(const ImportOptions& options) {
 int import_command(const ImportOptions& options) {
   Output output(options.output);
   const Report imported = read_and_import(options);
-  output.write(imported);
+  output.stage(imported);
+  output.finish(imported.text);
   if (options.output.is_silent()) return kDone;
-  std::cout << imported.text << format_checks(options.output.folder)
+  std::cout << format_checks(options.output.folder)
             << fmt::format("  written to {}/: set.toml, one CSV for each run, import.json, marks.csv\n",
                            options.output.folder);
   return kDone;
@@ -65,9 +66,9 @@ void add_import_command(CLI::App& app, Action& action) {
   command->add_option("--guess", options->guess.folder,
                       "Guess the mapping from this folder of logs; further options help");
   command->add_option("--data", options->data, "Folder of the logs [that of the mapping]");
-  command->add_option("--out", options->output.folder, "Folder for the set")->required();
+  add_output_option(*command, "--out", options->output.folder, "Folder for the set")->required();
   add_skip_bad_rows(*command, options->bad_rows);
-  command->add_option("--json", options->output.json, "File for the report, - for standard output");
+  add_output_option(*command, "--json", options->output.json, "File for the report, - for standard output");
   command->add_flag("--force", options->output.force, "Write into a folder that holds files");
   command->add_flag("--quiet", options->output.quiet, "Print nothing but errors");
   add_guess_set_options(*command, options->guess);

@@ -67,7 +67,7 @@ void add_list_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<ListOptions>(
       app, action, "list", "List scenarios, effects, tires, rigs, vehicles, cycles, sensors", &list_command);
   command->add_option("kind", options->kind, "What to list: scenarios, effects, tires, ... [all]");
-  command->add_option("--json", options->json, "File for the list, - for standard output");
+  add_output_option(*command, "--json", options->json, "File for the list, - for standard output");
 }
 
 void add_describe_command(CLI::App& app, Action& action) {

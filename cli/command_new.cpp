@@ -24,8 +24,8 @@ struct NewFileOptions {
   bool quiet = false;
 
   void add_to(CLI::App& command, const char* doc) {
-    command.add_option("--out", path, doc);
-    command.add_option("--json", json, "File for the report, - for standard output");
+    add_output_option(command, "--out", path, doc);
+    add_output_option(command, "--json", json, "File for the report, - for standard output");
     command.add_flag("--force", force, "Replace a file that is there");
     command.add_flag("--quiet", quiet, "Print nothing but errors");
   }
@@ -43,8 +43,11 @@ void write_new_file(const NewFiles& made, const NewFileOptions& options, const s
   const std::string path = !options.path.empty() ? options.path : (fs::path(folder) / files.front().first).string();
   require_free(path, options.force);
   const OutputFiles outputs({{"--out", path}, {"--json", options.json}});
-  write_output(path, files.front().second);
-  if (!options.json.empty()) write_output(options.json, made.json);
+  std::vector<StagedOutput> staged;
+  const auto existing = options.force ? StagedOutput::Existing::kReplace : StagedOutput::Existing::kKeep;
+  staged.emplace_back(path, files.front().second, existing);
+  if (!options.json.empty()) staged.emplace_back(options.json, made.json);
+  commit_all(staged);
   if (options.quiet || path == "-" || options.json == "-") return;
   std::cout << made.text << fmt::format("  written to {}\n", path);
 }

@@ -1,9 +1,14 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <iostream>
 
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/regress.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -24,6 +29,18 @@ int find_status(const std::vector<RegressedRun>& runs) {
   return status;
 }
 
+/// On standard error, what the table would say.
+void tell_problems(const Regression& found) {
+  for (const RegressedRun& run : found.runs) {
+    if (run.problems.empty()) continue;
+    std::cerr << wrap(fmt::format("error: {}: {}: {}", (std::filesystem::path(found.folder) / run.name).string(),
+                                  run.status, run.problems.front()),
+                      2)
+                     .substr(2);
+    if (run.problems.size() > 1) std::cerr << fmt::format("  and {} more\n", run.problems.size() - 1);
+  }
+}
+
 int regress_command(const RegressOptions& options) {
   Output output(options.output);
   Regression found = [&] {
@@ -33,6 +50,7 @@ int regress_command(const RegressOptions& options) {
   output.require_no_input();
   if (options.update) found = update_goldens(found);
   output.show(found);
+  if (options.output.is_silent()) tell_problems(found);
   return find_status(found.runs);
 }
 

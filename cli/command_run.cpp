@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <iostream>
 #include <optional>
 
 #include "cli/command.h"
@@ -36,18 +35,18 @@ int run_command(const RunOptions& options) {
     ProgressLine progress(run.scenario(), options.output.quiet);
     return run.carry_out(progress.callback());
   }();
-  output.write(result);
+  const FolderFiles set_files = set.has_value() ? result.make_set_files() : FolderFiles();
+  output.stage(result);
+  std::string notes;
   if (set.has_value()) {
-    for (const auto& [name, content] : result.make_set_files()) set->add(name, content);
-    set->commit();
+    output.stage(*set, set_files);
+    notes = fmt::format("  measurement set written to {}/\n", options.set_folder);
+    if (!run.has_sensors()) {
+      notes +=
+          wrap("warning: nothing is measured in it: --sensors source, dyno or road, or a file, gives it channels", 2);
+    }
   }
-  output.print(result.text);
-  if (!set.has_value() || options.output.is_silent()) return kDone;
-  std::cout << fmt::format("  measurement set written to {}/\n", options.set_folder);
-  if (!run.has_sensors()) {
-    std::cout << wrap(
-        "warning: nothing is measured in it: --sensors source, dyno or road, or a file, gives it channels", 2);
-  }
+  output.finish(result.text, notes);
   return kDone;
 }
 
@@ -73,7 +72,7 @@ void add_run_options(CLI::App& command, RunInput& input) {
 void add_run_command(CLI::App& app, Action& action) {
   const auto [command, options] = add_command<RunOptions>(app, action, "run", "Run a scenario on a rig", &run_command);
   add_run_options(*command, options->run);
-  command->add_option("--write-set", options->set_folder, "Folder for the run as a measurement set");
+  add_output_option(*command, "--write-set", options->set_folder, "Folder for the run as a measurement set");
   options->output.add_to(*command, "File for result.json, - for standard output",
                          "Folder for result.json, recording.csv, manifest.json");
 }

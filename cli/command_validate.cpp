@@ -7,6 +7,7 @@
 #include "cli/output_files.h"
 #include "rollrig/measurement_set.h"
 #include "sim/core/error.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 
 namespace rollrig::cli {
@@ -34,6 +35,7 @@ std::vector<std::string> list_files(const std::vector<std::string>& paths) {
 int validate_command(const ValidateOptions& options) {
   int status = kDone;
   for (const std::string& path : list_files(options.paths)) {
+    throw_if_interrupted();
     try {
       const FileCheck found = check_file(path, options.bad_rows);
       std::cout << wrap(fmt::format("{}: {} {}", path, found.is_good ? "good" : "doubtful", found.what), 2).substr(2);

@@ -26,7 +26,8 @@ constexpr const char* kFooter =
     "  rollrig diagnose campaign --json why.json\n"
     "  rollrig diagnose --explain bearing_warmup\n"
     "Exit status: 0 done, 1 a regression differs or a set is doubtful,\n"
-    "2 input or usage, 3 the run failed.\n";
+    "2 input or usage, 3 the run failed, 70 a mistake in rollrig itself,\n"
+    "130 stopped by Ctrl-C. With 2, 3, 70 and 130 nothing is written.\n";
 
 /// A command's own examples, below its help.
 void add_examples(const CLI::App& app) {
@@ -127,5 +128,5 @@ int make_and_run(int argc, char** argv) {
 }  // namespace rollrig::cli
 
 int main(int argc, char** argv) {
-  return rollrig::cli::run_program([argc, argv] { return rollrig::cli::make_and_run(argc, argv); });
+  return rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::cli::make_and_run(argc, argv); });
 }

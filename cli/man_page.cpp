@@ -84,7 +84,10 @@ a regression differs, or a set that validate or fit tire looked at is doubtful
 input or usage; nothing is written
 .TP
 .B 3
-the run failed
+the run failed; nothing is written
+.TP
+.B 70
+a mistake in rollrig itself, with what to report; nothing is half-written
 .TP
 .B 130
 interrupted; nothing is written

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "rollrig/measurement_set.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 
 namespace fs = std::filesystem;
@@ -50,8 +51,17 @@ void OutputFiles::require_no_input() const {
   }
 }
 
+CLI::Option* add_output_option(CLI::App& command, const std::string& option, std::string& path,
+                               const std::string& doc) {
+  const auto set = [&path, option](const std::string& given) {
+    if (given.empty()) throw usage_error("the name of what is to be written is empty", option, given, "a name");
+    path = given;
+  };
+  return command.add_option_function<std::string>(option, set, doc);
+}
+
 void add_html_option(CLI::App& command, std::string& path) {
-  command.add_option("--html", path, "File for a page with charts, for any browser; - for standard output");
+  add_output_option(command, "--html", path, "File for a page with charts, for any browser; - for standard output");
 }
 
 std::string note_page(const std::string& path) {
@@ -59,8 +69,8 @@ std::string note_page(const std::string& path) {
 }
 
 void OutputOptions::add_to(CLI::App& command, const char* json_doc, const char* folder_doc) {
-  if (folder_doc != nullptr) command.add_option("--out", folder, folder_doc);
-  command.add_option("--json", json, json_doc);
+  if (folder_doc != nullptr) add_output_option(command, "--out", folder, folder_doc);
+  add_output_option(command, "--json", json, json_doc);
   add_html_option(command, html);
   if (folder_doc != nullptr) command.add_flag("--force", force, "Write into a folder that holds files");
   command.add_flag("--quiet", quiet, "Print nothing but errors");
@@ -72,24 +82,50 @@ Output::Output(const OutputOptions& options)
                                      : std::optional<OutputFolder>(std::in_place, options.folder, options.force)),
       files_({{"--json", options.json}, {"--html", options.html}}) {}
 
-void Output::write(const Report& report) {
+void Output::stage(const Report& report) {
   files_.require_no_input();
+  // All are made before the first is written, so that a failure costs no room.
+  const FolderFiles files = folder_.has_value() ? report.make_files() : FolderFiles();
+  const std::string page = options_.html.empty() ? "" : report.make_page();
   if (folder_.has_value()) {
-    for (const auto& [name, content] : report.make_files()) {
-      folder_->add(name, content);
+    stage(*folder_, files);
+    for (const auto& [name, content] : files) {
       const std::string shown = name.substr(0, name.find('/') == std::string::npos ? name.size() : name.find('/') + 1);
       if (written_.empty() || written_.back() != shown) written_.push_back(shown);
     }
-    folder_->commit();
   }
-  if (!options_.json.empty()) write_output(options_.json, report.json);
-  if (!options_.html.empty()) write_output(options_.html, report.make_page());
+  if (!options_.json.empty()) staged_files_.emplace_back(options_.json, report.json);
+  if (!options_.html.empty()) staged_files_.emplace_back(options_.html, page);
 }
 
-void Output::print(const std::string& text) const {
+void Output::stage(OutputFolder& folder, const FolderFiles& files) {
+  for (const auto& [name, content] : files) folder.add(name, content);
+  folder.flush();
+  staged_folders_.push_back(&folder);
+}
+
+void Output::finish(const std::string& text, const std::string& notes) {
+  throw_if_interrupted();
+  if (!options_.is_silent()) {
+    std::cout << text;
+    flush_standard_output();
+  }
+  commit_all(staged_files_, staged_folders_);
   if (options_.is_silent()) return;
-  std::cout << text << note_page(options_.html);
+  std::cout << note_page(options_.html);
   if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
+  std::cout << notes;
+}
+
+void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders) {
+  throw_if_interrupted();
+  for (StagedOutput& file : files) {
+    if (file.is_direct()) file.commit();
+  }
+  for (OutputFolder* folder : folders) folder->commit();
+  for (StagedOutput& file : files) {
+    if (!file.is_direct()) file.commit();
+  }
 }
 
 void warn_of_undescribed(const std::string& folder) {

@@ -37,6 +37,9 @@ class OutputFiles {
   std::vector<OutputFile> files_;
 };
 
+/// An option that names a file or folder to write, which may not be empty: `--out ""` is a slip, such as a variable of
+/// a script that is not set.
+CLI::Option* add_output_option(CLI::App& command, const std::string& option, std::string& path, const std::string& doc);
 /// --html: the result as a page, one file that needs nothing else.
 void add_html_option(CLI::App& command, std::string& path);
 /// A line that says where the page is; empty where there is none, or where it went to standard output.
@@ -56,30 +59,43 @@ struct OutputOptions {
   bool is_silent() const { return quiet || json == "-" || html == "-"; }
 };
 
-/// The output of one command. To be made before the work, so that what cannot be written is refused before it.
+/// The output of one command. To be made before the work, so that what cannot be written is refused before it. Files
+/// and folders are made and written beside their places, all of them, before the first is put there: where one fails,
+/// none is.
 class Output {
  public:
   /// Throws InputError as OutputFolder and OutputFiles do.
   explicit Output(const OutputOptions& options);
 
-  /// Throws InputError where a file to be written has been read; write() does so as well.
+  /// Throws InputError where a file to be written has been read; stage() does so as well.
   void require_no_input() const { files_.require_no_input(); }
-  /// Writes the files into --out, the JSON to --json, the page to --html, as far as they are wanted.
-  void write(const Report& report);
-  /// Writes the report, then prints its text.
+  /// Makes and stages the files for --out, the JSON for --json, the page for --html, as far as they are wanted. Throws
+  /// InputError, RunFailure.
+  void stage(const Report& report);
+  /// Stages files of a further folder, which must outlive this.
+  void stage(OutputFolder& folder, const FolderFiles& files);
+  /// Prints `text`, puts all that is staged in its place, and prints where that is, then `notes`; where is_silent(),
+  /// nothing is printed. Throws Interrupted before the first is put there, InputError.
+  void finish(const std::string& text, const std::string& notes = "");
+  /// All of a report.
   void show(const Report& report) {
-    write(report);
-    print(report.text);
+    stage(report);
+    finish(report.text);
   }
-  /// Prints `text` and where the page and the files are, unless nothing is to be printed.
-  void print(const std::string& text) const;
 
  private:
   const OutputOptions& options_;
   std::optional<OutputFolder> folder_;
   OutputFiles files_;
   std::vector<std::string> written_;  // names in the folder; a folder in it stands for its files
+  std::vector<OutputFolder*> staged_folders_;
+  std::vector<StagedOutput> staged_files_;
 };
+
+/// Puts files and folders in their places. First comes what goes to standard output or a device, which may be full,
+/// then the folders, whose names another program may have taken meanwhile. Throws Interrupted before all of them,
+/// InputError.
+void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders = {});
 
 /// On standard error, folders in a folder of sets that hold CSV files but no set.toml.
 void warn_of_undescribed(const std::string& folder);

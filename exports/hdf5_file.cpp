@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "exports/tree.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/units.h"
 #include "tables/hdf5_handle.h"
 
@@ -124,6 +125,7 @@ struct ValueWriter {
 void write_members(hid_t place, const Group& group) {
   std::set<std::string> taken;
   for (const auto& [key, node] : group.members) {
+    throw_if_interrupted();
     const std::string link = take_name(make_link(key), taken);
     std::visit(ValueWriter{place, link, key}, node.value);
   }

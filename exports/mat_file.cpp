@@ -12,6 +12,7 @@
 
 #include "exports/tree.h"
 #include "sim/core/error.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/units.h"
 
 namespace rollrig::exports {
@@ -87,6 +88,7 @@ Fields make_fields(const Group& group) {
   Fields fields;
   Fields units;
   for (const auto& [name, node] : group.members) {
+    throw_if_interrupted();
     const std::string field = take_name(make_identifier(name), taken);
     const std::string unit = unit_of_key(name).symbol;
     if (!unit.empty()) units.emplace_back(field, make_text(unit));
@@ -147,6 +149,7 @@ void write_variables(const std::string& path, const Group& tree) {
   const File file(Mat_CreateVer(path.c_str(), kHeader, MAT_FT_MAT5), Mat_Close);
   if (!file) throw std::runtime_error("matio refused to write");
   for (auto& [name, variable] : make_fields(tree)) {
+    throw_if_interrupted();
     require_size(name, *variable);
     variable->name = ::strdup(name.c_str());  // NOLINT: freed with the variable
     if (Mat_VarWrite(file.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0) {

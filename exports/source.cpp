@@ -9,6 +9,7 @@
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 
 namespace fs = std::filesystem;
 
@@ -105,6 +106,7 @@ Group read_set(const std::string& path, BadRows bad_rows, std::vector<std::strin
   if (set.vehicle.has_value()) tree.add("vehicle", make_node(parse_config(set.vehicle->content, set.vehicle->path)));
   Group runs;
   for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    throw_if_interrupted();
     runs.add(set.runs[i].id, {make_run(*tables[i].as_table(), set.runs[i])});
   }
   tree.add("runs", {runs});

@@ -143,13 +143,21 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
   return page;
 }
 
+namespace {
+
+/// Of a tolerance; beyond all where that is 0.
+std::string show_share(const Json& share) {
+  return share.is_null() ? "none allowed" : fmt::format("{:.2g}", share.get<double>());
+}
+
+}  // namespace
+
 Table make_regress_table(const Json& regression) {
   Table table{"", {"run", "status", "values", "worst, share of tolerance", "of"}, {}, 1};
   for (const Json& run : regression["runs"]) {
     const std::string worst = run["worst"];
     table.rows.push_back({run["name"], run["status"], fmt::format("{}", run["compared"].get<std::size_t>()),
-                          worst.empty() ? "-" : fmt::format("{:.2g}", run["worst_share_of_tolerance"].get<double>()),
-                          worst});
+                          worst.empty() ? "-" : show_share(run["worst_share_of_tolerance"]), worst});
   }
   return table;
 }
@@ -166,7 +174,8 @@ Page make_regress_page(const Json& regression) {
     if (status == "same" || status == "updated") ++good;
     for (const Json& problem : run["problems"]) problems.push_back(name + ": " + problem.get<std::string>());
     names.push_back(name);
-    shares.push_back(rounded(run["worst_share_of_tolerance"].get<double>()));
+    shares.push_back(
+        run["worst_share_of_tolerance"].is_null() ? Json() : rounded(run["worst_share_of_tolerance"].get<double>()));
   }
   const bool is_good = good == runs.size();
   Page page{"regress", "Regression runs against their goldens", format_count(runs.size(), "run")};

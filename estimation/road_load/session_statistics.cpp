@@ -74,6 +74,11 @@ std::optional<SessionDrift> fit_drift(const CoastdownData& data, const std::vect
     }
     y(k) = deviations.at(used[at]);
   }
+  // Where one heading was driven after the other, a change in time and the difference of the headings are one.
+  constexpr double kLeastShare = 1e-2;  // Assumed: of what runs in turn tell about the change
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> parts(X);
+  parts.setThreshold(kLeastShare);
+  if (parts.rank() < p) return std::nullopt;
   const Eigen::MatrixXd inverse = (X.transpose() * X).inverse();
   const Eigen::VectorXd beta = inverse * X.transpose() * y;
   const double freedom = static_cast<double>(n - p);

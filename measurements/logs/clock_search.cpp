@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/core/interrupt.h"
+
 namespace rollrig::measurements {
 namespace {
 
@@ -57,6 +59,7 @@ Clock scan(const std::vector<Tie>& ties, const ClockPrior& prior, double referen
   double highest = -std::numeric_limits<double>::infinity();
   for (const double rate : rates) {
     for (const double shift_s : make_grid(prior.half_width_s, step_s)) {
+      throw_if_interrupted();
       const Clock clock{reference_s, prior.center_s + shift_s, rate};
       const double gain = calc_gain(ties, clock, prior);
       if (gain > highest) {
@@ -105,6 +108,7 @@ void refine(const std::vector<Tie>& ties, const ClockPrior& prior, double step_s
   const double longest_s = std::max(2.0, 0.1 * prior.half_width_s);
   peak.gain = calc_gain(ties, peak.clock, prior);
   for (int i = 0; i < kMostSteps; ++i) {
+    throw_if_interrupted();
     const Normal normal = calc_normal(ties, peak.clock, prior, step_s);
     Eigen::Vector2d move = normal.matrix.ldlt().solve(normal.right);
     if (std::abs(move(0)) > longest_s) move *= longest_s / std::abs(move(0));
@@ -162,6 +166,7 @@ ClockPeak search_clock(std::vector<Tie> ties, const ClockPrior& prior) {
   refine(ties, prior, step_s, peak);
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
+    throw_if_interrupted();
     estimate_all_noise(ties, peak.clock);
     refine(ties, prior, step_s, peak);
   }

@@ -9,6 +9,7 @@
 
 #include "sim/core/assets.h"
 #include "sim/core/error.h"
+#include "sim/core/interrupt.h"
 
 namespace fs = std::filesystem;
 
@@ -186,6 +187,7 @@ Guess guess_logs(const GuessOptions& options, const models::TireFile& tire) {
         split_heading(source.form.headings[i], i < source.form.units.size() ? source.form.units[i] : ""));
   }
   for (const std::string& file : files) {
+    throw_if_interrupted();
     source.logs.push_back({file, read_guessed_table(file, source.form), {}});
     for (const std::string& heading : source.logs.back().table.columns()) {
       source.logs.back().cells[heading] = source.logs.back().table.text(heading);

@@ -9,6 +9,7 @@
 
 #include "measurements/spikes.h"
 #include "measurements/whitener.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 
 namespace rollrig::measurements {
@@ -73,7 +74,10 @@ void read_logs(const Mapping& mapping, BadRows bad_rows, Import& imported) {
     if (!plan.tire_log.empty()) read_once(*mapping.tire_log, plan.tire_log, imported, problems);
   }
   settle_log_rows(imported, problems, bad_rows, mapping.torque_log.csv.hint);
-  for (Log& log : imported.logs) take_out_spikes(log, mapping.set.sensors, mapping.spike_threshold);
+  for (Log& log : imported.logs) {
+    throw_if_interrupted();
+    take_out_spikes(log, mapping.set.sensors, mapping.spike_threshold);
+  }
 }
 
 std::size_t find_or_estimate(const Log& torque_log, const Log& tire_log, const Mapping& mapping, Import& imported) {
@@ -164,7 +168,10 @@ void add_warnings(Import& imported) {
 Import import_logs(const Mapping& mapping, BadRows bad_rows) {
   Import imported;
   read_logs(mapping, bad_rows, imported);
-  for (const RunPlan& plan : mapping.runs) import_run(plan, mapping, imported);
+  for (const RunPlan& plan : mapping.runs) {
+    throw_if_interrupted();
+    import_run(plan, mapping, imported);
+  }
   average_sensors(mapping, imported);
   add_warnings(imported);
   return imported;

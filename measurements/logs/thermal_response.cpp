@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sim/core/interrupt.h"
+
 namespace rollrig::measurements {
 namespace {
 
@@ -105,6 +107,7 @@ Basis make_response_basis(const Log& torque_log, Response response, bool at_rows
   basis.node_s = inputs.node_s;
   for (const auto& [starts, ends] : make_drives(inputs)) {
     for (const double tau_s : kRubber_s) {
+      throw_if_interrupted();
       const std::vector<double> slow = filter(inputs, starts, ends, tau_s);
       if (response == Response::kRubber) {
         basis.functions.push_back(slow);

@@ -86,8 +86,8 @@ GoldenComparison compare_with_golden(const std::vector<GoldenValue>& golden, con
     }
     ++comparison.compared;
     const double difference = std::abs(it->second.value - expected.value);
-    const double share = difference / expected.tolerance();
-    if (share > comparison.worst_share || comparison.worst_quantity.empty()) {
+    const double share = difference == 0.0 ? 0.0 : difference / expected.tolerance();  // the tolerance may be 0
+    if (!(share <= comparison.worst_share) || comparison.worst_quantity.empty()) {
       comparison.worst_share = share;
       comparison.worst_quantity = describe(expected);
     }

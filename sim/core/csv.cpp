@@ -14,6 +14,7 @@
 #include "sim/core/csv_scanner.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 
 namespace rollrig {
@@ -84,6 +85,7 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblem
   table.read_header(scanner.next_record());
   scanner.go_to_line(form.first_row_line);
   while (!scanner.at_end()) {
+    throw_if_interrupted();
     const int line = scanner.line();
     try {
       table.add_row(line, problems != nullptr ? scanner.next_line() : scanner.next_record());

@@ -1,7 +1,6 @@
 #pragma once
 /// Files in and out: reading with errors that say what is wrong, writing all or nothing.
 
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -26,20 +25,54 @@ std::string nearest_file(const std::string& path);
 /// SHA-256 of a string, in hexadecimal.
 std::string calc_sha256(const std::string& content);
 
-/// Writes one file: to a temporary name beside it, then renamed. Throws InputError (no permission, no
-/// space, no such folder); what stood there before is kept then.
+/// Text that is written beside its place and put there by commit(): standard output for `-`, a device such as
+/// /dev/null, or a file, which then stands there whole. What is not committed goes with the object.
+class StagedOutput {
+ public:
+  /// Whether a file that stands there already is replaced.
+  enum class Existing { kReplace, kKeep };
+
+  /// Writes a file beside its place, under a name that nobody can foresee. Throws InputError (no permission, no space,
+  /// no such folder).
+  StagedOutput(std::string path, std::string content, Existing existing = Existing::kReplace);
+  ~StagedOutput();
+  StagedOutput(StagedOutput&& other) noexcept;
+  StagedOutput(const StagedOutput&) = delete;
+  StagedOutput& operator=(const StagedOutput&) = delete;
+
+  /// Whether it goes to standard output or a device: it then is written as it is, and cannot be taken back.
+  bool is_direct() const { return is_direct_; }
+  /// Throws InputError: what the constructor throws, or a file that has come there with Existing::kKeep.
+  void commit();
+
+ private:
+  std::string path_;
+  std::string content_;  // of what is direct
+  std::string staging_;  // empty where there is none
+  Existing existing_;
+  bool is_direct_ = false;
+};
+
+/// Writes one file whole. Throws InputError; what stood there before is kept then.
 void write_file_atomically(const std::string& path, const std::string& content);
 
 /// Writes text to standard output for `-`, else to a file atomically; a device such as /dev/null is
 /// written to in place.
 void write_output(const std::string& path, const std::string& content);
 
+/// Writes what waits for standard output. Throws InputError where that cannot be, but not where its reader has gone,
+/// such as `head`: it has what it wanted.
+void flush_standard_output();
+/// Whether standard output is a pipe that nobody reads any more.
+bool is_reader_gone();
+
 /// Throws InputError when write_output() could not write there: no such folder, no permission, a directory.
 /// To be called before work whose result would else be lost.
 void require_writable(const std::string& path);
 
 /// A result folder that appears whole or not at all: files are collected and written into a folder beside the final
-/// one, which commit() renames. What is not committed goes with the object.
+/// one, which commit() renames. What is not committed goes with the object. Into a folder that holds files, and into
+/// one that cannot be replaced (a mount point, the working folder), commit() moves file by file.
 class OutputFolder {
  public:
   /// Throws InputError when the folder holds files and `force` is off, or when it cannot be made.
@@ -51,16 +84,24 @@ class OutputFolder {
   void add(const std::string& file_name, std::string content);
   /// Writes what was added, so that memory need not hold all of it. Throws InputError as commit() does.
   void flush();
+  /// Puts the folder in its place. Throws InputError where it cannot, and, unless `force` is on, where another program
+  /// has put files there meanwhile, of which none is touched.
   void commit();
   const std::string& path() const { return path_; }
 
  private:
-  void move_into_existing() const;
-  /// Calls `act` with errors of the file system as InputError.
-  void attempt(const std::function<void()>& act) const;
+  void make_staging();
+  void require_room() const;
+  void synchronize() const;
+  void move_whole();
+  void move_into_existing();
 
-  std::string path_;
-  std::string staging_;
+  std::string path_;   // as given
+  std::string place_;  // the same, absolute
+  bool force_;
+  bool is_filled_in_place_ = false;
+  std::string staging_;                       // empty where there is none
+  std::vector<std::string> parents_;          // folders made on the way to it
   std::map<std::string, std::string> files_;  // not written yet
   std::set<std::string> written_;
 };

@@ -9,8 +9,9 @@ namespace rollrig {
 
 using Json = nlohmann::ordered_json;
 
-/// A document as it is written to files.
-inline std::string to_text(const Json& json) { return json.dump(2) + "\n"; }
+/// A document as it is written to files. Bytes that are no UTF-8, such as those of a path, become U+FFFD.
+/// Errors  RunFailure: a number that is not finite, with its key; what may lack a value is null instead
+std::string to_text(const Json& json, int indent = 2);
 
 /// A list of what `convert` makes of each item; [] where there is none.
 template <class Items, class Convert>

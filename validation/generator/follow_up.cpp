@@ -10,6 +10,7 @@
 #include "sim/core/csv.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/parallel.h"
 #include "validation/files.h"
 #include "validation/generator/laboratory.h"
@@ -217,7 +218,7 @@ std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress
   }
   const std::string out = follow_up_folder(order) + "/sets";
   validation::require_new_folder(out, "followup");
-  OutputFolder folder(out, true);
+  OutputFolder folder(out, false);
   std::vector<Files> made(numbers.size());
   parallel_for(
       numbers.size(), order.threads,
@@ -229,6 +230,7 @@ std::size_t write_follow_up(const FollowUpOrder& order, const Progress& progress
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     for (auto& [file, content] : made[i]) folder.add(numbers[i] + "/" + file, std::move(content));
   }
+  throw_if_interrupted();
   folder.commit();
   return numbers.size();
 }

@@ -8,6 +8,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/parallel.h"
 #include "validation/files.h"
 #include "validation/generator/known_set.h"
@@ -120,7 +121,8 @@ std::size_t write_upper_bounds(UpperBoundOrder& order, const Progress& progress)
                {"truth_sha256", truth.sha256},
                {"sets", read_kept(order.out, truth.sha256)}};
   for (std::size_t i = 0; i < orders.size(); ++i) json["sets"][orders[i].first] = std::move(described[i]);
-  write_output(order.out, json.dump(1) + "\n");
+  throw_if_interrupted();
+  write_output(order.out, to_text(json, 1));
   return orders.size();
 }
 

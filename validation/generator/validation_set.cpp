@@ -195,7 +195,7 @@ std::vector<SetOrder> draw_cases(const ValidationSetOrder& order) {
 void write_validation_set(const ValidationSetOrder& order, const std::function<void(const std::string&)>& hashed,
                           const Progress& progress) {
   validation::require_new_folder(order.out, "--out");
-  OutputFolder folder(order.out, true);
+  OutputFolder folder(order.out, false);
   const auto add = [&folder](const std::string& name, const Files& files) {
     for (const auto& [file, content] : files) folder.add(name + "/" + file, content);
   };
@@ -211,11 +211,13 @@ void write_validation_set(const ValidationSetOrder& order, const std::function<v
     progress(static_cast<double>(truth["sets"].size()) / static_cast<double>(cases.size()));
     throw_if_interrupted();
   }
-  const std::string text = truth.dump(1) + "\n";
+  const std::string text = to_text(truth, 1);
   const std::string sha256 = calc_sha256(text);
   folder.add("truth.json", text);
   folder.add("truth.sha256", sha256 + "  truth.json\n");
+  folder.flush();
   hashed(sha256);
+  throw_if_interrupted();
   folder.commit();
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <set>
 
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "sim/core/error.h"
 #include "sim/core/text.h"
@@ -113,7 +114,7 @@ void add_run(CLI::App& app, cli::Action& action) {
       app, action, "run",
       "Diagnose the cases, the truth unopened; goes on where it was interrupted; under mpirun shared", run_command);
   add_common(*command, *options);
-  command->add_option("--out", options->out, "Folder of the answers [answers in the validation set]");
+  cli::add_output_option(*command, "--out", options->out, "Folder of the answers [answers in the validation set]");
   options->comparison.add_to(*command);
 }
 
@@ -147,8 +148,8 @@ void add_known_cause(CLI::App& app, cli::Action& action) {
                     "With left_out: without all that the catalog calls confusable with the truth, too");
   command->add_option("--hash", options->hash, "SHA-256 of truth.json [what truth.sha256 says]");
   command->add_option("--seal", options->hash)->group("");
-  command->add_option("--out", options->out,
-                      "Folder of the answers [answers-alone or answers-left-out in the validation set]");
+  cli::add_output_option(*command, "--out", options->out,
+                         "Folder of the answers [answers-alone or answers-left-out in the validation set]");
   command->add_option("--only", options->comparison.only, "Effects in the comparison, the true ones left out: a,b")
       ->delimiter(',');
 }

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <optional>
 
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
@@ -53,15 +54,18 @@ void check_places(const CaseOptions& options) {
 int make_case_command(CaseOptions options) {
   read_case(options.words, options.order);
   check_places(options);
-  OutputFolder set(options.out, true);
+  OutputFolder set(options.out, false);
   std::optional<OutputFolder> without;
-  if (!options.counterfactual.empty()) without.emplace(options.counterfactual, true);
+  if (!options.counterfactual.empty()) without.emplace(options.counterfactual, false);
   MadeSet made = make_set(options.order, without.has_value());
   for (auto& [name, content] : made.files) set.add(name, std::move(content));
   for (auto& [name, content] : made.counterfactual) without->add(name, std::move(content));
-  if (!options.truth.empty()) write_output(options.truth, to_text(made.truth));
-  set.commit();
-  if (without.has_value()) without->commit();
+  std::vector<StagedOutput> truth;
+  if (!options.truth.empty()) truth.emplace_back(options.truth, to_text(made.truth));
+  std::vector<OutputFolder*> folders{&set};
+  if (without.has_value()) folders.push_back(&*without);
+  for (OutputFolder* folder : folders) folder->flush();
+  cli::commit_all(truth, folders);
   return cli::kDone;
 }
 
@@ -80,8 +84,8 @@ int make_command(MakeOptions options) {
   cli::ProgressLine line("validation", false);
   const auto hashed = [&order, &line](const std::string& sha256) {
     line.clear();
-    std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256) << std::flush;
-    if (!std::cout) throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
+    std::cout << fmt::format("SHA-256 of {}/truth.json: {}\n", order.out, sha256);
+    flush_standard_output();
   };
   write_validation_set(order, hashed, show_share_of_cases(line));
   return cli::kDone;
@@ -131,10 +135,10 @@ void add_make_case(CLI::App& app, cli::Action& action) {
   command->add_option("--size", options->words.sizes, "Its size in its own unit, for two a,b [drawn]");
   command->add_option("--form", options->words.forms, "Its functional form, for two a,b [drawn]");
   command->add_option("--seed", options->order.seed, "Decides all that is drawn [1]");
-  command->add_option("--out", options->out, "Folder of the case, new or empty")->required();
-  command->add_option("--truth", options->truth, "File for the truth, outside of the case");
-  command->add_option("--counterfactual", options->counterfactual,
-                      "Folder for the same case without effect and without noise");
+  cli::add_output_option(*command, "--out", options->out, "Folder of the case, new or empty")->required();
+  cli::add_output_option(*command, "--truth", options->truth, "File for the truth, outside of the case");
+  cli::add_output_option(*command, "--counterfactual", options->counterfactual,
+                         "Folder for the same case without effect and without noise");
   command->add_option("--runs", options->order.runs, "Number of runs [6]")->check(CLI::Range(1, kMostRuns));
   command->add_flag("--noise-free", options->order.noise_free, "No errors of sensors, no drop-outs");
   command->add_flag("--nominal-base", options->order.nominal_base, "Base parameters as the files have them");
@@ -167,7 +171,7 @@ CLI::App* add_make(CLI::App& app, cli::Action& action, const char* name, const V
   command->add_option("--effects", options->effects, "Effects, as a,b,c [all of the catalog that the kind shows]");
   command->add_option("--runs", order.runs, "Number of runs of a case, at most [6]")->check(CLI::Range(1, kMostRuns));
   command->add_flag("--counterfactual", order.counterfactual, "Also each case without effect and without noise");
-  command->add_option("--out", order.out, "Folder of the validation set, new or empty")->required();
+  cli::add_output_option(*command, "--out", order.out, "Folder of the validation set, new or empty")->required();
   return command;
 }
 
@@ -186,7 +190,7 @@ void add_upper_bound(CLI::App& app, cli::Action& action) {
       app, action, "upper-bound", "Open the truth: what an ideal observer makes of the cases", upper_bound_command);
   add_set_to(*command, order->set);
   command->alias("ceiling");
-  command->add_option("--out", order->out, "File for the bound [upper_bound.json in the validation set]");
+  cli::add_output_option(*command, "--out", order->out, "File for the bound [upper_bound.json in the validation set]");
   command->add_option("--cases", order->cases, "Numbers of cases, as 0001,0002 [all]")->delimiter(',');
   command->add_option("--sets", order->cases)->delimiter(',')->group("");
   command->add_flag("--detection", order->detection_alone,

@@ -9,6 +9,7 @@
 #include "measurements/measurement_set.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/parallel.h"
 #include "validation/files.h"
 #include "validation/generator/changes.h"
@@ -57,7 +58,8 @@ int locations_command(const LocationsOptions& options) {
                [&line](double share_done) { line.update(share_done, "cases"); });
   Json json = {{"format", kLocationsFormat}, {"truth_sha256", truth.sha256}, {"sets", Json::object()}};
   for (std::size_t i = 0; i < numbers.size(); ++i) json["sets"][numbers[i]] = std::move(described[i]);
-  write_output(out, json.dump(1) + "\n");
+  throw_if_interrupted();
+  write_output(out, to_text(json, 1));
   line.clear();
   std::cout << fmt::format("where the effects of {} cases act written to {}\n", numbers.size(), out);
   return cli::kDone;

@@ -5,10 +5,12 @@
 #include <iostream>
 #include <map>
 
+#include "cli/output_files.h"
 #include "cli/progress.h"
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/text.h"
 #include "validation/program/commands.h"
 #include "validation/program/loop_cases.h"
@@ -85,6 +87,7 @@ int loop_command(const LoopCommandOptions& options) {
                        {"drawn", order.drawn},
                        {"failing_share", order.failing_share},
                        {"cases", make_list(loops, make_loop_json)}};
+    throw_if_interrupted();
     write_output(options.json, to_text(json));
   }
   if (options.quiet || options.json == "-") return cli::kDone;
@@ -106,7 +109,7 @@ void add_loop_command(CLI::App& app, cli::Action& action) {
   command->add_option("--failing", options->failing_percent, "Percent of tests that fail")->capture_default_str();
   command->add_flag("--drawn", options->order.drawn, "Tests drawn from the menu, instead of the best");
   command->add_option("--seed", options->order.seed, "Of failures and drawn tests")->capture_default_str();
-  command->add_option("--json", options->json, "File for all loops, - for standard output");
+  cli::add_output_option(*command, "--json", options->json, "File for all loops, - for standard output");
   cli::add_threads(*command, options->order.threads, "Cases at the same time [as many as the machine has cores]");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }

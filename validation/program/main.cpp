@@ -37,5 +37,5 @@ int make_and_run(int argc, char** argv) {
 }  // namespace rollrig::validation
 
 int main(int argc, char** argv) {
-  return rollrig::cli::run_program([argc, argv] { return rollrig::validation::make_and_run(argc, argv); });
+  return rollrig::cli::run_program(argc, argv, [argc, argv] { return rollrig::validation::make_and_run(argc, argv); });
 }

@@ -18,7 +18,7 @@ struct ReleaseCheckOptions {
 int release_check_command(const ReleaseCheckOptions& options) {
   const Json now = list_decision_settings();
   if (options.write) {
-    write_output(options.record, now.dump(1) + "\n");
+    write_output(options.record, to_text(now, 1));
     return cli::kDone;
   }
   const SettingsComparison comparison = compare_settings(read_settings(options.record), now);

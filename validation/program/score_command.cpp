@@ -120,9 +120,13 @@ int score_command(ScoreCommandOptions options) {
   Score score = score_cases(read_cases(options.order), options.how);
   put_beside(score_baselines(options.order, options.how), score);
   files.require_no_input();
-  if (!options.json.empty()) write_output(options.json, make_score_json(score).dump(1) + "\n");
-  if (!options.markdown.empty()) write_output(options.markdown, format_score_markdown(score));
-  if (!options.html.empty()) write_output(options.html, report::make_html(make_score_page(score, options.order.set)));
+  std::vector<StagedOutput> staged;
+  if (!options.json.empty()) staged.emplace_back(options.json, to_text(make_score_json(score), 1));
+  if (!options.markdown.empty()) staged.emplace_back(options.markdown, format_score_markdown(score));
+  if (!options.html.empty()) {
+    staged.emplace_back(options.html, report::make_html(make_score_page(score, options.order.set)));
+  }
+  cli::commit_all(staged);
   const bool is_output_taken = options.json == "-" || options.markdown == "-" || options.html == "-";
   if (!options.quiet && !is_output_taken) std::cout << format_score(score) << cli::note_page(options.html);
   return cli::kDone;
@@ -147,9 +151,10 @@ void add_score_command(CLI::App& app, cli::Action& action) {
   command->add_option("--ceiling", order.upper_bound)->group("");
   command->add_option("--detectable-floors", options->how.detectable_floors,
                       "Signal from which an effect is to be found where no d' is known, in noise floors [1]");
-  command->add_option("--json", options->json, "File for everything, - for standard output");
+  cli::add_output_option(*command, "--json", options->json, "File for everything, - for standard output");
   cli::add_html_option(*command, options->html);
-  command->add_option("--markdown", options->markdown, "File for the tables of a page, - for standard output");
+  cli::add_output_option(*command, "--markdown", options->markdown,
+                         "File for the tables of a page, - for standard output");
   command->add_flag("--quiet", options->quiet, "Print nothing but errors");
 }
 

@@ -127,7 +127,7 @@ std::string answer_file(const std::string& folder, const std::string& number) {
 }
 
 void write_answer(const std::string& folder, const Answer& answer) {
-  write_file_atomically(answer_file(folder, answer.number), make_answer_json(answer).dump(1) + "\n");
+  write_file_atomically(answer_file(folder, answer.number), to_text(make_answer_json(answer), 1));
 }
 
 std::optional<Answer> find_answer(const std::string& folder, const std::string& number) {

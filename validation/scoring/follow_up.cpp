@@ -11,6 +11,7 @@
 #include "diagnosis/next_test/test_menu.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/interrupt.h"
 #include "sim/core/random.h"
 #include "sim/core/units.h"
 #include "validation/files.h"
@@ -119,7 +120,7 @@ void write_test(const FollowUpPlan& plan, const MeasurementSet& set, const Plann
   for (auto& [name, content] : diagnosis::write_plan(set, of)) {
     if (fs::path(name).extension() == ".csv") out.add(folder + name, content);
   }
-  out.add(folder + "plan.json", make_plan_json(plan, set, test).dump(1) + "\n");
+  out.add(folder + "plan.json", to_text(make_plan_json(plan, set, test), 1));
 }
 
 /// The next test of a case, written where it can be made.
@@ -195,7 +196,7 @@ std::map<std::string, std::string> write_generator_plan(const std::string& numbe
   }
   const Json plan = {
       {"format", kPlanFormat}, {"set", number}, {"set_sha256", set_sha256}, {"kind", set.kind->word}, {"runs", runs}};
-  files["plan.json"] = plan.dump(1) + "\n";
+  files["plan.json"] = to_text(plan, 1);
   return files;
 }
 
@@ -218,8 +219,8 @@ bool FollowUp::is_promised(const Answer& before) const {
 
 std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) {
   const std::string folder = (fs::path(order.set) / folder_of(order.choice)).string();
-  OutputFolder out(folder, true);
   require_new_folder(folder, "plan");
+  OutputFolder out(folder, false);
   const std::vector<Answer> answers = read_answers(order);
   std::vector<FollowUpPlan> plans;
   Json sets = Json::array();
@@ -235,7 +236,8 @@ std::vector<FollowUpPlan> plan_follow_ups(const PlanOrder& order) {
     if (order.progress) order.progress(i + 1, answers.size());
   }
   const Json all = {{"format", kPlansFormat}, {"choice", folder_of(order.choice)}, {"sets", sets}};
-  out.add("plans.json", all.dump(1) + "\n");
+  out.add("plans.json", to_text(all, 1));
+  throw_if_interrupted();
   out.commit();
   return plans;
 }

@@ -1,0 +1,178 @@
+// What is written: whole or not at all, under names that nobody can foresee, and never over what another program wrote.
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "sim/core/error.h"
+#include "sim/core/file_io.h"
+#include "sim/core/json.h"
+#include "tests/support/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace rollrig;
+using tests::TemporaryFolder;
+
+namespace {
+
+/// The working folder, as long as the object is.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const std::string& path) : before_(fs::current_path()) { fs::current_path(path); }
+  ~WorkingFolder() { fs::current_path(before_); }
+  WorkingFolder(const WorkingFolder&) = delete;
+  WorkingFolder& operator=(const WorkingFolder&) = delete;
+
+ private:
+  fs::path before_;
+};
+
+unsigned mode_of(const std::string& path) { return static_cast<unsigned>(fs::status(path).permissions()) & 0777U; }
+
+}  // namespace
+
+TEST_CASE("of two that write one new folder the second is refused, and the first loses nothing", "[fast]") {
+  const TemporaryFolder base;
+  for (const bool is_there : {false, true}) {
+    const std::string target = base.file(is_there ? "there" : "new");
+    if (is_there) fs::create_directory(target);
+    OutputFolder first(target, false);
+    OutputFolder second(target, false);
+    first.add("result.json", "first");
+    second.add("result.json", "second");
+    second.add("more.txt", "second");
+    second.flush();
+    first.commit();
+    CHECK_THROWS_WITH(second.commit(), Catch::Contains("another program has written"));
+    CHECK(read_text_file(target + "/result.json") == "first");
+    CHECK_FALSE(fs::exists(target + "/more.txt"));
+  }
+  CHECK(base.entry_count() == 2);  // nothing beside the two folders
+}
+
+TEST_CASE("with force the files of two do not stop each other", "[fast]") {
+  const TemporaryFolder base;
+  OutputFolder first(base.file("out"), true);
+  OutputFolder second(base.file("out"), true);
+  first.add("a", "first");
+  second.add("a", "second");
+  first.commit();
+  second.commit();
+  CHECK(read_text_file(base.file("out/a")) == "second");
+}
+
+TEST_CASE("nothing follows a link that was planted under the name that is written first", "[fast]") {
+  const TemporaryFolder base;
+  tests::write_file(base.file("victim"), "untouched");
+  for (const char* name : {"file", "folder"}) {
+    fs::create_symlink(base.file("victim"),
+                       base.file("." + std::string(name) + ".partial-" + std::to_string(::getpid())));
+  }
+  write_file_atomically(base.file("file"), "new");
+  CHECK(read_text_file(base.file("victim")) == "untouched");
+  CHECK(read_text_file(base.file("file")) == "new");
+  OutputFolder folder(base.file("folder"), false);
+  folder.add("a", "new");
+  folder.commit();
+  CHECK(read_text_file(base.file("folder/a")) == "new");
+}
+
+TEST_CASE("what is staged and not committed leaves nothing, parents included", "[fast]") {
+  const TemporaryFolder base;
+  {
+    OutputFolder folder(base.file("deep/er/out"), false);
+    folder.add("a", "1");
+    folder.flush();
+    const StagedOutput file(base.file("b"), "2");
+    CHECK(base.entry_count() > 0);
+  }
+  CHECK(base.entry_count() == 0);
+}
+
+TEST_CASE("a file that came meanwhile is kept where that is asked for", "[fast]") {
+  const TemporaryFolder base;
+  StagedOutput file(base.file("a"), "late", StagedOutput::Existing::kKeep);
+  tests::write_file(base.file("a"), "early");
+  CHECK_THROWS_WITH(file.commit(), Catch::Contains("is there already"));
+  CHECK(read_text_file(base.file("a")) == "early");
+}
+
+TEST_CASE("files are for all to read as the umask says, and a folder that was there keeps its permissions", "[fast]") {
+  const TemporaryFolder base;
+  const mode_t before = ::umask(022);
+  fs::create_directory(base.file("private"));
+  fs::permissions(base.file("private"), fs::perms::owner_all);
+  for (const char* name : {"open", "private"}) {
+    OutputFolder folder(base.file(name), false);
+    folder.add("a", "1");
+    folder.commit();
+  }
+  write_file_atomically(base.file("b"), "2");
+  CHECK(mode_of(base.file("open")) == 0755);
+  CHECK(mode_of(base.file("private")) == 0700);
+  CHECK(mode_of(base.file("open/a")) == 0644);
+  CHECK(mode_of(base.file("b")) == 0644);
+  ::umask(077);
+  write_file_atomically(base.file("c"), "3");
+  CHECK(mode_of(base.file("c")) == 0600);
+  ::umask(before);
+}
+
+TEST_CASE("the working folder is filled where it is, and what a killed program left there counts for nothing",
+          "[fast]") {
+  const TemporaryFolder base;
+  const WorkingFolder here(base.path());
+  fs::create_directory(base.file(".x.partial-0123456789abcdef"));
+  OutputFolder folder(".", false);
+  folder.add("deep/a", "1");
+  folder.commit();
+  CHECK(read_text_file("deep/a") == "1");
+  CHECK(read_text_file(base.file("deep/a")) == "1");
+  CHECK_THROWS_WITH(OutputFolder(".", false), Catch::Contains("holds files already"));
+}
+
+TEST_CASE("a folder in the way of a file stops a forced write before the first file goes", "[fast]") {
+  const TemporaryFolder base;
+  tests::write_file(base.file("a"), "old");
+  fs::create_directory(base.file("b"));
+  OutputFolder folder(base.path(), true);
+  folder.add("a", "new");
+  folder.add("b", "new");
+  CHECK_THROWS_AS(folder.commit(), InputError);
+  CHECK(read_text_file(base.file("a")) == "old");
+}
+
+TEST_CASE("a folder that goes while it is written is an error of the user's", "[fast]") {
+  const TemporaryFolder base;
+  fs::create_directory(base.file("gone"));
+  OutputFolder folder(base.file("gone/out"), false);
+  folder.add("a", "1");
+  folder.flush();
+  fs::remove_all(base.file("gone"));
+  CHECK_THROWS_AS(folder.commit(), InputError);
+  CHECK(base.entry_count() == 0);
+}
+
+TEST_CASE("a link to nothing is no folder to write", "[fast]") {
+  const TemporaryFolder base;
+  fs::create_symlink(base.file("nowhere"), base.file("link"));
+  CHECK_THROWS_WITH(OutputFolder(base.file("link"), false), Catch::Contains("link"));
+}
+
+TEST_CASE("a document with a number that is not finite is a failed run that names its key", "[fast]") {
+  Json json = {{"good", 1.0}, {"list", {{{"sd", 0.5}}, {{"sd", std::numeric_limits<double>::quiet_NaN()}}}}};
+  CHECK_THROWS_AS(to_text(json), RunFailure);
+  CHECK_THROWS_WITH(to_text(json), Catch::Contains("'list.2.sd'"));
+  json["list"][1]["sd"] = -std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(to_text(json), RunFailure);
+  json["list"][1]["sd"] = nullptr;
+  CHECK(Json::parse(to_text(json)) == json);
+}
+
+TEST_CASE("a document may hold a name that is no UTF-8", "[fast]") {
+  CHECK_THAT(to_text(Json{{"file", "caf\xE9.csv"}}), Catch::Contains("caf\xEF\xBF\xBD.csv"));
+}

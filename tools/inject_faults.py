@@ -1,0 +1,372 @@
+#!/usr/bin/env python3
+"""Kills rollrig, fills its disk and takes its folders away while it writes.
+
+    tools/inject_faults.py PROGRAM [--kills 200] [--seed 1] [--short]
+
+Every command that writes is run once undisturbed. Then each is disturbed in every way below. After each disturbance
+its outputs must be whole, with the bytes of the undisturbed run, or absent; the exit status must be the documented one
+(docs/formats.md); and the same command, given again, must succeed with the same bytes.
+
+--short takes the quick commands alone. Faults that this machine cannot have (no root for a small disk, no German
+locale) are skipped, which is said. Exit status: 1 where something was wrong.
+"""
+import argparse
+import hashlib
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+EXAMPLES = os.path.join(ROOT, "assets", "examples")
+DONE, DIFFERS, WRONG, FAILED, INTERNAL, STOPPED = 0, 1, 2, 3, 70, 130
+
+
+class Command:
+    """A command with its outputs, which lie in the folder {o} of its arguments."""
+
+    def __init__(self, name, arguments, outputs, quick=True, statuses=(DONE,)):
+        self.name, self.arguments, self.outputs = name, arguments, outputs
+        self.quick, self.statuses = quick, statuses
+        self.takes_force = name in ("run", "sweep", "fit", "import", "new", "plan", "diagnose")
+        self.reference, self.takes_s = None, 0.0
+
+    def words(self, folder, outputs=None, force=False):
+        words = [word.replace("{o}", folder) for word in self.arguments]
+        for ours, theirs in (outputs or {}).items():
+            words = [word.replace(folder + "/" + ours, folder + "/" + theirs) for word in words]
+        return words + (["--force"] if force and self.takes_force else [])
+
+    def has_folder(self):
+        return any("." not in output for output in self.outputs)
+
+
+def make_commands(inputs):
+    logs = os.path.join(EXAMPLES, "logs", "import.toml")
+    coastdowns = os.path.join(EXAMPLES, "coastdowns.csv")
+    return [
+        Command("run", ["run", "skim", "--tire", "a50", "--sensors", "source", "--out", "{o}/out", "--write-set",
+                        "{o}/set", "--json", "{o}/run.json", "--html", "{o}/run.html"],
+                ["out", "set", "run.json", "run.html"]),
+        Command("sweep", ["sweep", "skim", "--tire", "a50", "--vary", "load_N=4000:6000:100", "--threads", "2", "--out",
+                          "{o}/out", "--json", "{o}/sweep.json", "--html", "{o}/sweep.html"],
+                ["out", "sweep.json", "sweep.html"]),
+        Command("fit", ["fit", "road-load", coastdowns, "--mass", "2203", "--out", "{o}/out", "--json", "{o}/fit.json",
+                        "--html", "{o}/fit.html"], ["out", "fit.json", "fit.html"]),
+        Command("import", ["import", logs, "--out", "{o}/out", "--json", "{o}/import.json"], ["out", "import.json"]),
+        Command("export", ["export", inputs + "/set", "--mat", "{o}/set.mat", "--hdf5", "{o}/set.h5"],
+                ["set.mat", "set.h5"]),
+        Command("new", ["new", "tire", "--size", "205/55R16", "--load-index", "91", "--rrc", "8.2", "--out",
+                        "{o}/tire.toml", "--json", "{o}/new.json"], ["tire.toml", "new.json"]),
+        Command("convert", ["convert", "--force", "32", "--from-drum", "2.0", "--to-drum", "1.2", "--tire", "a50",
+                            "--json", "{o}/loss.json"], ["loss.json"]),
+        Command("plan", ["plan", "--rig", "drum", "--hours", "4", "--out", "{o}/out", "--json", "{o}/plan.json",
+                         "--html", "{o}/plan.html"], ["out", "plan.json", "plan.html"], quick=False),
+        Command("diagnose", ["diagnose", EXAMPLES + "/hidden_effect", "--only", "bearing_warmup,torque_gain", "--plan",
+                             "{o}/next", "--json", "{o}/why.json", "--html", "{o}/why.html"],
+                ["next", "why.json", "why.html"], quick=False),
+    ]
+
+
+def hash_output(path):
+    """SHA-256 of a file, or of all names and files of a folder; None where it is absent."""
+    if not os.path.lexists(path):
+        return None
+    if not os.path.isdir(path):
+        with open(path, "rb") as file:
+            return hashlib.sha256(file.read()).hexdigest()
+    found = hashlib.sha256()
+    for folder, folders, files in os.walk(path):
+        folders[:] = sorted(name for name in folders if ".partial-" not in name)
+        for name in sorted(files):
+            full = os.path.join(folder, name)
+            found.update(os.path.relpath(full, path).encode("utf-8", "surrogateescape") + b"\0")
+            found.update(hash_output(full).encode())
+    return found.hexdigest()
+
+
+class Faults:
+    def __init__(self, program, seed, base):
+        self.program, self.base = os.path.abspath(program), base
+        self.random = random.Random(seed)
+        self.wrong, self.counts, self.skipped = [], {}, []
+        self.number = 0
+
+    def new_folder(self):
+        self.number += 1
+        folder = os.path.join(self.base, "w%d" % self.number)
+        os.mkdir(folder)
+        return folder
+
+    def start(self, words, **options):
+        options.setdefault("stdout", subprocess.DEVNULL)
+        options.setdefault("stderr", subprocess.PIPE)
+        return subprocess.Popen([self.program] + words, **options)
+
+    def run(self, words, **options):
+        process = self.start(words, **options)
+        errors = process.communicate(timeout=600)[1] or b""
+        return process.returncode, errors.decode("utf-8", "replace")
+
+    def check(self, fault, command, is_right, what):
+        self.counts[fault] = self.counts.get(fault, 0) + 1
+        if not is_right:
+            self.wrong.append("%s, %s: %s" % (fault, command.name, what))
+
+    def find_states(self, command, folder, outputs=None):
+        """Of each output: whole, absent or broken."""
+        names = outputs or {}
+        states = {}
+        for output, expected in command.reference.items():
+            found = hash_output(os.path.join(folder, names.get(output, output)))
+            states[output] = "absent" if found is None else "whole" if found == expected else "broken"
+        return states
+
+    def check_states(self, fault, command, folder, allowed, outputs=None):
+        states = self.find_states(command, folder, outputs)
+        self.check(fault, command, set(states.values()) <= set(allowed), "outputs are %s" % states)
+        known = set((outputs or {}).get(name, name) for name in command.reference)
+        others = [name for name in os.listdir(folder) if name not in known and ".partial-" not in name]
+        self.check(fault, command, not others, "left %s" % others)
+        return states
+
+    def check_no_leftover(self, fault, command, folder):
+        left = [name for name in os.listdir(folder) if ".partial-" in name]
+        self.check(fault, command, not left, "left %s" % left)
+
+    def check_repeats(self, fault, command, folder):
+        """The same command again, over what is there."""
+        there = "whole" in self.find_states(command, folder).values()
+        status, errors = self.run(command.words(folder, force=there))
+        self.check(fault, command, status == DONE, "given again it exits with %d: %s" % (status, errors))
+        self.check_states(fault, command, folder, ["whole"])
+
+    def make_reference(self, command):
+        for is_second in (False, True):
+            folder = self.new_folder()
+            start = time.time()
+            status, errors = self.run(command.words(folder))
+            command.takes_s = time.time() - start
+            if status != DONE:
+                sys.exit("%s does not even run undisturbed: exit %d\n%s" % (command.name, status, errors))
+            found = {output: hash_output(os.path.join(folder, output)) for output in command.outputs}
+            self.check("undisturbed", command, None not in found.values(), "outputs are missing: %s" % found)
+            if is_second:
+                self.check("undisturbed", command, found == command.reference, "two runs differ")
+            command.reference = found
+            shutil.rmtree(folder)
+
+    def draw_moment_s(self, command):
+        """Any time of a run, or, as often, one near its end, where it writes."""
+        if self.random.random() < 0.5:
+            return self.random.uniform(0.0, 1.1 * command.takes_s)
+        return max(0.0, command.takes_s * self.random.uniform(0.75, 1.1))
+
+    def kill(self, command):
+        folder = self.new_folder()
+        process = self.start(command.words(folder))
+        time.sleep(self.draw_moment_s(command))
+        process.kill()
+        process.communicate()
+        self.check("kill -9", command, process.returncode in (-signal.SIGKILL, DONE),
+                   "exits with %d" % process.returncode)
+        states = self.check_states("kill -9", command, folder, ["whole", "absent"])
+        met = process.returncode != DONE
+        self.check_repeats("kill -9", command, folder)
+        shutil.rmtree(folder)
+        return met, set(states.values()) == {"whole"}
+
+    def stop(self, command, number):
+        fault = signal.Signals(number).name
+        folder = self.new_folder()
+        process = self.start(command.words(folder))
+        time.sleep(self.draw_moment_s(command))
+        process.send_signal(number)
+        process.communicate()
+        # Before it listens to signals the signal itself ends it.
+        done = process.returncode == DONE
+        self.check(fault, command, process.returncode in (DONE, STOPPED, -number), "exits with %d" % process.returncode)
+        self.check_states(fault, command, folder, ["whole"] if done else ["absent"])
+        self.check_no_leftover(fault, command, folder)
+        self.check_repeats(fault, command, folder)
+        shutil.rmtree(folder)
+
+    def mount(self, folder, options):
+        return subprocess.call(["mount", "-t", "tmpfs", "-o", options, "rollrig-faults", folder],
+                               stderr=subprocess.DEVNULL) == 0
+
+    def fill_disk(self, command):
+        if os.geteuid() != 0:
+            return self.skip("full disk", "not root")
+        for size_kB in (4, 16, 64, 256):
+            folder = self.new_folder()
+            if not self.mount(folder, "size=%dk" % size_kB):
+                os.rmdir(folder)
+                return self.skip("full disk", "no tmpfs can be mounted")
+            status, errors = self.run(command.words(folder))
+            self.check("full disk", command, status in (DONE, WRONG), "exits with %d: %s" % (status, errors))
+            self.check("full disk", command, status == DONE or "cannot write" in errors, "says: %s" % errors)
+            self.check_states("full disk", command, folder, ["whole"] if status == DONE else ["absent"])
+            self.check_no_leftover("full disk", command, folder)
+            subprocess.call(["umount", folder])
+            os.rmdir(folder)
+
+    def lock_folder(self, command):
+        folder = self.new_folder()
+        is_mounted = os.geteuid() == 0 and self.mount(folder, "ro")
+        if not is_mounted:
+            os.chmod(folder, 0o555)
+        if os.access(folder, os.W_OK):
+            return self.skip("read-only folder", "root may write everywhere, and no tmpfs can be mounted")
+        status, errors = self.run(command.words(folder))
+        self.check("read-only folder", command, status == WRONG and "cannot write" in errors,
+                   "exits with %d: %s" % (status, errors))
+        self.check("read-only folder", command, not os.listdir(folder), "wrote %s" % os.listdir(folder))
+        if is_mounted:
+            subprocess.call(["umount", folder])
+        os.chmod(folder, 0o755)
+        os.rmdir(folder)
+
+    def take_folder_away(self, command):
+        fault = "vanishing folder"
+        folder = self.new_folder()
+        process = self.start(command.words(folder))
+        time.sleep(self.draw_moment_s(command))
+        shutil.rmtree(folder, ignore_errors=True)
+        errors = process.communicate()[1].decode("utf-8", "replace")
+        self.check(fault, command, process.returncode in (DONE, WRONG), "exits with %d: %s" % (process.returncode, errors))
+        os.makedirs(folder, exist_ok=True)
+        shutil.rmtree(folder)
+        os.mkdir(folder)
+        self.check_repeats(fault, command, folder)
+        shutil.rmtree(folder)
+
+    def lose_output(self, command):
+        closed = {"preexec_fn": lambda: os.close(1), "stdout": None}
+        with open("/dev/full", "w") as full:
+            for fault, options in (("closed standard output", closed), ("full standard output", {"stdout": full})):
+                folder = self.new_folder()
+                status, errors = self.run(command.words(folder), **options)
+                self.check(fault, command, status in (WRONG, DONE), "exits with %d: %s" % (status, errors))
+                self.check_states(fault, command, folder, ["whole"] if status == DONE else ["absent", "whole"])
+                self.check_no_leftover(fault, command, folder)
+                self.check_repeats(fault, command, folder)
+                shutil.rmtree(folder)
+
+    def break_pipe(self, command):
+        fault = "broken pipe"
+        folder = self.new_folder()
+        read_end, write_end = os.pipe()
+        os.close(read_end)
+        status, errors = self.run(command.words(folder), stdout=write_end)
+        os.close(write_end)
+        self.check(fault, command, status in (DONE, -signal.SIGPIPE) and not errors,
+                   "exits with %d: %s" % (status, errors))
+        self.check_states(fault, command, folder, ["whole"])
+        shutil.rmtree(folder)
+
+    def run_twice(self, command):
+        fault = "two processes"
+        folder = self.new_folder()
+        processes = [self.start(command.words(folder)) for _ in range(2)]
+        for process in processes:
+            process.communicate()
+        statuses = sorted(process.returncode for process in processes)
+        only_one = command.has_folder() or command.name == "new"
+        expected = ([DONE, WRONG],) if only_one else ([DONE, DONE],)
+        self.check(fault, command, statuses in expected, "exit with %s" % statuses)
+        self.check_states(fault, command, folder, ["whole"])
+        self.check_no_leftover(fault, command, folder)
+        shutil.rmtree(folder)
+
+    def go_abroad(self, command, locales):
+        fault = "German locale, other time zone"
+        folder = self.new_folder()
+        environment = dict(os.environ, TZ="Asia/Kathmandu", LC_ALL="de_DE.UTF-8", LANG="de_DE.UTF-8")
+        if locales:
+            environment["LOCPATH"] = locales
+        status, errors = self.run(command.words(folder), env=environment)
+        self.check(fault, command, status == DONE, "exits with %d: %s" % (status, errors))
+        self.check_states(fault, command, folder, ["whole"])
+        shutil.rmtree(folder)
+
+    def use_odd_names(self, command):
+        fault = "odd names"
+        for odd in ("with space", "new\nline", "größe", "<script>", "a'b\"c", "-", "%s{}", os.fsdecode(b"caf\xe9")):
+            folder = self.new_folder()
+            names = {output: odd + " " + output for output in command.outputs}
+            status, errors = self.run(command.words(folder, names))
+            self.check(fault, command, status == DONE, "%r: exits with %d: %s" % (odd, status, errors))
+            self.check_states(fault, command, folder, ["whole"], names)
+            self.check_no_leftover(fault, command, folder)
+            shutil.rmtree(folder)
+
+    def skip(self, fault, why):
+        if (fault, why) not in self.skipped:
+            self.skipped.append((fault, why))
+
+
+def make_locale(base):
+    """A folder with the German locale; empty where the system has it, None where there is none to be had."""
+    if b"de_DE.utf8" in subprocess.run(["locale", "-a"], stdout=subprocess.PIPE).stdout:
+        return ""
+    made = subprocess.call(["localedef", "-i", "de_DE", "-f", "UTF-8", os.path.join(base, "de_DE.UTF-8")],
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) if shutil.which("localedef") else 1
+    return base if made == 0 else None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("--kills", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--short", action="store_true")
+    options = parser.parse_args()
+    base = tempfile.mkdtemp(prefix="rollrig-faults-")
+    try:
+        faults = Faults(options.program, options.seed, base)
+        inputs = os.path.join(base, "inputs")
+        os.mkdir(inputs)
+        faults.run(["run", "skim", "--tire", "a50", "--sensors", "source", "--write-set", inputs + "/set", "--quiet"])
+        commands = [command for command in make_commands(inputs) if command.quick or not options.short]
+        for command in commands:
+            faults.make_reference(command)
+        met = whole = 0
+        for i in range(options.kills):
+            was_met, was_whole = faults.kill(commands[i % len(commands)])
+            met += was_met
+            whole += was_whole
+        locales = make_locale(base)
+        if locales is None:
+            faults.skip("German locale", "it is not installed, and localedef cannot make it")
+        for i, command in enumerate(commands):
+            faults.stop(command, signal.SIGTERM if i % 2 else signal.SIGINT)
+            faults.lose_output(command)
+            faults.break_pipe(command)
+            faults.run_twice(command)
+            faults.take_folder_away(command)
+            faults.lock_folder(command)
+            faults.go_abroad(command, locales)
+            if options.short and i > 0:
+                continue
+            faults.fill_disk(command)
+            faults.use_odd_names(command)
+        print("%d kills: %d met the command before its end, %d found all outputs whole" % (options.kills, met, whole))
+        for fault, count in faults.counts.items():
+            print("  %-32s %5d checks" % (fault, count))
+        for fault, why in faults.skipped:
+            print("  %-32s skipped: %s" % (fault, why))
+        for wrong in faults.wrong:
+            print("WRONG  " + wrong)
+        print("%d wrong" % len(faults.wrong))
+        return 1 if faults.wrong else 0
+    finally:
+        shutil.rmtree(base, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
