@@ -82,6 +82,35 @@ TEST_CASE("page of a sweep", "[slow]") {
                 "--charts 3");
 }
 
+TEST_CASE("pages of tires, sets and runs whose names hold a script", "[slow]") {
+  const TemporaryFolder folder;
+  const std::string name = "<img src=x onerror=attacked=1>";
+  std::string tire = read_file(std::string(ROLLRIG_SOURCE_DIR) + "/assets/tires/a50.toml");
+  const std::size_t at = tire.find("name");
+  tire.replace(at, tire.find('\n', at) - at, "name = '</script><script>attacked=1</script>" + name + "'");
+  write_file(folder.file(name + ".toml"), tire);
+  const std::string quick = " --fidelity quasi_static ";
+  const std::string shows = " --shows '" + name + "'";
+  check_command(folder, "run skim --tire './" + name + ".toml'" + quick, "--charts 2" + shows);
+  write_file(folder.file(name + ".csv"),
+             "time_s,speed_km_h,load_N,ambient_degC\n0,0,5000,25\n30,80,5000,25\n300,80,5000,25\n");
+  fs::copy_file(folder.file(name + ".csv"), folder.file("b" + name + ".csv"));
+  check_command(folder,
+                "sweep follow_drum --tire a50" + quick + "--vary pressure_kPa=250,260 --vary 'program=" + name +
+                    ".csv,b" + name + ".csv'",
+                "--charts 1" + shows);
+  write_set(folder);
+  const std::string set_file = read_file(folder.file("set/set.toml"));
+  std::string named = set_file;
+  for (std::size_t from = named.find("speed-80"); from != std::string::npos; from = named.find("speed-80", from + 60)) {
+    named.replace(from, 8, name);
+  }
+  write_file(folder.file("set/set.toml"), named);
+  fs::rename(folder.file("set/speed-80.csv"), folder.file("set/" + name + ".csv"));
+  check_command(folder, "diagnose set --only bearing_warmup,load_exponent", "--charts 3" + shows);
+  check_command(folder, "fit tire set", "--charts 3" + shows);
+}
+
 TEST_CASE("page of regression runs", "[slow]") {
   const TemporaryFolder folder;
   for (const char* file : {"skim_a40.toml", "skim_a40.golden.csv", "iso_28580_a50_quasi_static.toml"}) {

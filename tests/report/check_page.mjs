@@ -1,6 +1,7 @@
 // Opens a page of rollrig in headless Chromium and checks it. One line a finding; exit status 1 where one is bad.
-// node check_page.mjs <page.html> [--charts N] [--animation] [--recording FILE.csv] [--screenshots DIR]
-import { readFileSync, writeFileSync } from 'node:fs';
+// node check_page.mjs <page.html> [--charts N] [--animation] [--recording FILE.csv] [--shows TEXT] [--screenshots DIR]
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { Chromium } from './chromium.mjs';
@@ -177,12 +178,51 @@ async function waitFor(expression) {
   return true;
 }
 
+// What a name in a file may hold. Where it stands on a page it is text: no element comes of it, and none of its scripts runs.
+const kHostile = '<img src=x onerror="attacked=1"></script><script>attacked=1</script><svg onload="attacked=1">';
+const kWordsOfPages = ['type', 'format', 'kind', 'tone', 'machine', 'align', 'class']; // not of a file: a page's own
+
+/// Tooltips are shown, and no script but the page's own has run.
+async function checkHarmless(what) {
+  const tips = await chromium.evaluate('rollrig.showTips()');
+  check(!tips.length || tips.some((tip) => tip !== ''), `${what}: ${tips.filter((tip) => tip !== '').length} of ${tips.length} tooltips shown`);
+  check(!tips.some((tip) => /<(img|script|svg)/.test(tip)), `${what}: no element in a tooltip comes of a name: ${tips.find((tip) => /<(img|script|svg)/.test(tip))?.slice(0, 200) ?? ''}`);
+  await new Promise((done) => setTimeout(done, 50)); // an image that is not there says so later
+  check(await chromium.evaluate(`typeof attacked === 'undefined' && document.images.length === 0 && document.scripts.length === 2`), `${what}: no script but the page's own has run`);
+}
+
+/// The same page with what an attacker may write in each of its texts.
+async function checkHostileTexts() {
+  const html = readFileSync(page, 'utf8');
+  const mark = 'id="payload">';
+  const first = html.indexOf(mark) + mark.length;
+  const last = html.indexOf('</script>', first);
+  const payload = JSON.parse(html.slice(first, last), (key, value) => (typeof value === 'string' && !kWordsOfPages.includes(key) ? value + kHostile : value));
+  const folder = mkdtempSync(join(tmpdir(), 'rollrig-hostile-'));
+  try {
+    const file = join(folder, 'page.html');
+    writeFileSync(file, html.slice(0, first) + JSON.stringify(payload).replaceAll('<', '\\u003c') + html.slice(last));
+    await load(file);
+    check(await waitFor(`document.documentElement.dataset.ready === 'yes'`), 'the page is made of hostile texts');
+    await chromium.evaluate('(rollrig.drawAll(), 0)');
+    await checkHarmless('hostile texts');
+    check(messages.length === 0, `no message on the console: ${messages.join(' | ')}`);
+    // Were a name to come through, the policy of the page would still stop its script.
+    await chromium.evaluate(`(document.body.insertAdjacentHTML('beforeend', ${JSON.stringify(kHostile)}), 0)`);
+    check(await waitFor(`document.images.length === 1 && document.images[0].complete`), 'an element with a handler stands in the page');
+    await new Promise((done) => setTimeout(done, 50));
+    check(await chromium.evaluate(`typeof attacked === 'undefined'`), 'the policy of the page lets no handler in an attribute run');
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+}
+
 /// Loads the page. Returns the time of its first paint with content, in s.
-async function load() {
+async function load(file = page) {
   let fire;
   const loaded = new Promise((done) => (fire = done));
   const stop = chromium.on((method) => method === 'Page.loadEventFired' && fire());
-  await chromium.send('Page.navigate', { url: pathToFileURL(page).href });
+  await chromium.send('Page.navigate', { url: pathToFileURL(file).href });
   await loaded;
   stop();
   await waitFor(`performance.getEntriesByName('first-contentful-paint').length > 0`);
@@ -199,6 +239,9 @@ async function checkPage() {
   await checkCharts();
   await saveScreenshot('light');
   await checkWords();
+  await checkHarmless('the page');
+  const shown = option('--shows');
+  if (shown) check(await chromium.evaluate(`document.querySelector('main').textContent.includes(${JSON.stringify(shown)})`), `the page shows ${shown}`);
   await checkAccess();
   if (args.includes('--animation')) await checkAnimation();
   if (option('--recording')) await checkReadings(option('--recording'));
@@ -207,6 +250,7 @@ async function checkPage() {
   const strange = requests.filter((url) => url !== pathToFileURL(page).href);
   check(strange.length === 0, `nothing but the file itself is asked for: ${strange.join(' ')}`);
   check(messages.length === 0, `no message on the console: ${messages.join(' | ')}`);
+  await checkHostileTexts();
 }
 
 // A browser that dies or stalls on a machine short of memory or time says nothing of the page: it is started anew, twice at

@@ -22,6 +22,10 @@ echarts.use([
 
 export const { graphic } = echarts;
 
+/// A line of a tooltip: a name and a value. Tooltips are elements, not HTML as text: names come from files and may hold
+/// anything.
+export const tipLine = (name, value) => h('div', { class: 'tip' }, h('span', null, name), h('b', null, value));
+
 const all = [];
 
 /// Text and lines that every chart shares.
@@ -81,6 +85,7 @@ export class Chart {
   redraw() {
     if (!this.instance) return;
     const zoom = this.zoom();
+    this.instance.dispatchAction({ type: 'hideTip' }); // it would be shown anew in what is no longer there
     this.width = this.element.clientWidth;
     this.element.style.height = `${this.height(this.width)}px`;
     this.instance.resize({ animation: { duration: 0 } });
@@ -115,6 +120,14 @@ export function drawAll() {
   all.forEach((chart) => (chart.instance ? chart.redraw() : chart.draw()));
 }
 export const chartCount = () => all.filter((chart) => chart.instance).length;
+
+/// Shows the tooltip of the first point of each series, one after the other. Returns their HTML, for tests.
+export function showTips() {
+  return all.filter((chart) => chart.instance).flatMap((chart) => chart.instance.getOption().series.map((_, seriesIndex) => {
+    chart.instance.dispatchAction({ type: 'showTip', seriesIndex, dataIndex: 0 });
+    return [...chart.element.children].slice(1).map((tip) => tip.innerHTML).join('');
+  }));
+}
 
 /// A figure: chart, caption, and the numbers as a table that opens.
 export function figure({ chart, caption, table, before }) {

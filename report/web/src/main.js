@@ -8,7 +8,7 @@ import { mapBlock, sharesBlock } from './blocks/map.js';
 import { linesBlock, tableBlock } from './blocks/table.js';
 import { definitionsBlock, leadBlock, preBlock, textBlock, warningsBlock } from './blocks/text.js';
 import { timesBlock } from './blocks/times.js';
-import { chartCount, drawAll } from './chart.js';
+import { chartCount, drawAll, showTips } from './chart.js';
 import { Clock } from './clock.js';
 import { h } from './dom.js';
 import { animationBlock } from './animation/animation.js';
@@ -67,7 +67,7 @@ function start() {
     setOnPaper(false);
     drawAll();
   });
-  window.rollrig = { clock, drawAll, chartCount };
+  window.rollrig = { clock, drawAll, chartCount, showTips };
   document.documentElement.dataset.ready = 'yes';
 }
 

@@ -1,7 +1,8 @@
 // Curves and points over a quantity that is not time:
 // {x: {label, unit}, y: {label, unit}, series: [{name, kind: line | points, x, y, low, high}], caption}
 // A line's low and high are a band, those of points are whiskers.
-import { axisStyle, axisTitle, baseOption, Chart, figure } from '../chart.js';
+import { axisStyle, axisTitle, baseOption, Chart, figure, tipLine } from '../chart.js';
+import { h } from '../dom.js';
 import { number } from '../format.js';
 import { color, seriesStyle } from '../theme.js';
 import { makeTable } from './table.js';
@@ -55,7 +56,7 @@ function makeOption(block) {
   if (lines.length) series[0].markLine = { silent: true, symbol: 'none', label: { show: false }, lineStyle: { color: color('axis'), type: [4, 4] }, data: lines };
   return {
     ...baseOption(),
-    tooltip: { ...baseOption().tooltip, trigger: 'item', formatter: (p) => `${p.seriesName}<br>${name(block.x)}: <b>${number(p.value[0])}</b><br>${name(block.y)}: <b>${number(p.value[1])}</b>` },
+    tooltip: { ...baseOption().tooltip, trigger: 'item', formatter: (p) => [h('div', null, p.seriesName), tipLine(`${name(block.x)}:`, number(p.value[0])), tipLine(`${name(block.y)}:`, number(p.value[1]))] },
     legend: { show: block.series.length > 1, top: 0, left: 0, padding: 0, itemWidth: block.series.every((s) => s.kind !== 'points') ? 26 : 14, itemHeight: 9, type: 'scroll', textStyle: { color: color('ink'), fontSize: 12 }, data: block.series.map((s) => s.name) },
     title: axisTitle(name(block.y), block.series.length > 1),
     grid: { left: 8, right: 16, top: block.series.length > 1 ? 54 : 30, bottom: 26, containLabel: true },

@@ -1,7 +1,7 @@
 // Where the energy goes: {ledgers: [{name, terms: [{name, in_J}]}], links: [[from, to]], closures: [...]}
 // Terms above zero bring energy in, terms below carry it off or store it. Energy that leaves the first ledger as the
 // second's heat source flows on.
-import { baseOption, Chart } from '../chart.js';
+import { baseOption, Chart, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { number, plain } from '../format.js';
 import { color } from '../theme.js';
@@ -56,7 +56,7 @@ function makeOption(block, unit, width) {
     links.filter((l) => l.target === name).reduce((s, l) => s + l.value, 0));
   return {
     ...baseOption(),
-    tooltip: { ...baseOption().tooltip, formatter: (p) => (p.dataType === 'edge' ? `${p.data.source} to ${p.data.target}: <b>${number(p.data.value)} ${unit.symbol}</b>` : `${p.name}: <b>${number(p.value)} ${unit.symbol}</b>`) },
+    tooltip: { ...baseOption().tooltip, formatter: (p) => tipLine(p.dataType === 'edge' ? `${p.data.source} to ${p.data.target}:` : `${p.name}:`, `${number(p.dataType === 'edge' ? p.data.value : p.value)} ${unit.symbol}`) },
     series: [{
       type: 'sankey', left: 4, right, top: 12, bottom: 12, nodeWidth: 10, nodeGap: 28, draggable: false, nodeAlign: 'left',
       data: nodes, links, layoutIterations: 64, emphasis: { disabled: true },

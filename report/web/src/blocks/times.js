@@ -3,7 +3,7 @@
 // {title, view: [from_s, to_s], phases: [{name, start_s, end_s}],
 //  rows: [[start_s, step_s, number], ...], panels: [{label, unit, series: [{name, t, y, points, recorded, phases}]}]}
 // Of a recording the values in numbers are those of its rows (rows, recorded, phases), not of the lines.
-import { axisStyle, baseOption, Chart, graphic } from '../chart.js';
+import { axisStyle, baseOption, Chart, graphic, tipLine } from '../chart.js';
 import { h } from '../dom.js';
 import { recordedAt, rowAt, rowTimes, valueAt } from '../clock.js';
 import { clockTime, number, timeUnit } from '../format.js';
@@ -106,23 +106,24 @@ function makeSeries(panel, series, index, k, unit, phases) {
 /// Of a recording: the values of the last row at or before the pointer. Of other series: their points nearest to it.
 function makeTooltip(block, unit) {
   const times_s = block.rows && rowTimes(block.rows);
-  const line = (series, panel, value) => `<span class="tip"><span>${series.name}</span><b>${number(value)} ${panel.unit}</b></span>`;
+  const head = (at_s) => h('div', null, h('b', null, clockTime(at_s)));
+  const line = (series, panel, value) => tipLine(series.name, `${number(value)} ${panel.unit}`);
   return (items) => {
     if (!items.length) return '';
     const time_s = items[0].axisValue * unit.seconds;
     if (times_s) {
       const row = rowAt(times_s, time_s);
       const value = (series) => (series.recorded ? recordedAt(series.recorded, row, times_s) : valueAt(series, times_s[row]));
-      return [`<b>${clockTime(times_s[row])}</b>`, ...block.panels.flatMap((panel) => panel.series.map((series) => line(series, panel, value(series))))].join('');
+      return [head(times_s[row]), ...block.panels.flatMap((panel) => panel.series.map((series) => line(series, panel, value(series))))];
     }
-    const lines = [`<b>${clockTime(time_s)}</b>`];
+    const lines = [head(time_s)];
     for (const panel of block.panels) {
       for (const series of panel.series) {
         const item = items.find((one) => one.seriesName === uniqueName(panel, series) && one.value[1] !== null);
         if (item) lines.push(line(series, panel, item.value[1]));
       }
     }
-    return lines.join('');
+    return lines;
   };
 }
 
