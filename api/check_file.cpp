@@ -8,6 +8,7 @@
 #include "measurements/sensor_file.h"
 #include "rollrig/measurement_set.h"
 #include "scenarios/run/run_spec.h"
+#include "scenarios/run/tire_validity.h"
 #include "scenarios/scaffold/iso_test.h"
 #include "sim/core/csv.h"
 #include "sim/core/interrupt.h"
@@ -44,6 +45,8 @@ FileCheck validate_set(const std::string& path, BadRows bad_rows) {
 /// A tire is held against its own RRc as well, as far as its file has what the test needs.
 FileCheck validate_tire(const models::TireFile& tire) {
   FileCheck check{fmt::format("tire '{}'", tire.name)};
+  check.warnings = scenarios::list_negative_losses(tire);
+  check.is_good = check.warnings.empty();
   try {
     if (const auto warning = scenarios::check_iso_rrc(tire)) check.warnings.push_back(*warning);
   } catch (const InputError&) {  // a tire for other tests

@@ -29,7 +29,8 @@ struct MeasuredRun {
 struct FileCheck {
   std::string what;                        // "tire 'a50'"
   std::vector<std::string> warnings = {};  // a sentence each
-  bool is_good = true;                     // false for a set whose columns or units cannot be what they are said to be
+  bool is_good = true;                     // false for a set whose columns or units cannot be what they are said to be,
+                                           // and for a tire whose loss is negative where it is valid
 };
 
 /// A measurement set with all that it names, read and checked. Copies share it; any number of threads may use it.

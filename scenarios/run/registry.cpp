@@ -46,6 +46,7 @@ PreparedRun prepare_run(const RunSpec& spec) {
   return [&spec, run = spec.scenario->prepare(spec)](const sim::Progress& progress) {
     try {
       Outcome outcome = run(progress);
+      require_loss(list_tires(spec), outcome.recording);
       warn_of_tires(spec, outcome);
       return outcome;
     } catch (const RunFailure& failure) {

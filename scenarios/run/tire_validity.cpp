@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "models/quantities.h"
+#include "sim/core/error.h"
 
 namespace rollrig::scenarios {
 namespace {
@@ -31,7 +32,83 @@ Extremes find_extremes(const sim::Recording<double>& recording, const Quantity& 
   return found;
 }
 
+/// A line A0 + A1 v of a tire's loss, and its table in the file.
+struct NamedLine {
+  std::string table;
+  models::SpeedLines<double> line;
+
+  double loss_N(double speed_m_s) const { return line.A0_N + line.A1_N_s_per_m * speed_m_s; }
+  std::string falling_key() const { return fmt::format("{} A1_N_s_per_m = {:g}", table, line.A1_N_s_per_m); }
+};
+
+std::vector<NamedLine> list_lines(const models::TireFile& tire) {
+  if (!tire.has_rolling_resistance || !tire.model(models::Baseline::kCombined).info.follows_speed_lines()) return {};
+  if (tire.values.load_map.empty()) return {{"[rolling_resistance]", tire.values.rolling_resistance}};
+  std::vector<NamedLine> lines;
+  for (const models::LoadMapEntry<double>& entry : tire.values.load_map) {
+    lines.push_back({fmt::format("[[rolling_resistance.load_map]] of {:g} N", entry.load_N), entry});
+  }
+  return lines;
+}
+
+/// Keys of the tires whose loss falls with speed.
+std::string describe_falling_losses(const std::vector<const models::TireFile*>& tires) {
+  std::string text;
+  for (const models::TireFile* tire : tires) {
+    for (const NamedLine& line : list_lines(*tire)) {
+      if (line.line.A1_N_s_per_m >= 0.0) continue;
+      text += fmt::format("\ntire '{}': {} makes its loss negative above {:.4g} km/h", tire->name, line.falling_key(),
+                          -3.6 * line.line.A0_N / line.line.A1_N_s_per_m);
+    }
+  }
+  return text;
+}
+
 }  // namespace
+
+std::vector<std::string> list_negative_losses(const models::TireFile& tire) {
+  constexpr double kHighest_m_s = 120.0 / 3.6;
+  const double highest_m_s = std::max(tire.values.rolling_resistance.lowest_speed_m_s,
+                                      tire.validity.has_value() ? tire.validity->highest_speed_m_s : kHighest_m_s);
+  std::vector<std::string> found;
+  for (const NamedLine& line : list_lines(tire)) {
+    if (line.loss_N(highest_m_s) >= 0.0) continue;
+    found.push_back(
+        fmt::format("{}: the loss is negative above {:.4g} km/h, and the tire is valid to {:.4g} km/h: no "
+                    "tire gives energy to the motion",
+                    line.falling_key(), -3.6 * line.line.A0_N / line.line.A1_N_s_per_m, 3.6 * highest_m_s));
+  }
+  return found;
+}
+
+void require_loss(const std::vector<const models::TireFile*>& tires, const sim::Recording<double>& recording) {
+  namespace quantities = models::quantities;
+  constexpr double kRolls_m_s = 1.0;  // below, a wheel may roll to and fro within a row
+  constexpr double kRounding = 1e-6;
+  const std::vector<double>* speed_m_s = recording.find(quantities::kSpeed);
+  if (speed_m_s == nullptr) return;
+  const std::string prefix(quantities::kRollingResistance.name());
+  for (std::size_t i = 0; i < recording.channels.size(); ++i) {
+    const Quantity& channel = recording.channels[i].quantity;
+    if (channel.name().rfind(prefix, 0) != 0) continue;
+    const std::vector<double>& force_N = recording.values[i];
+    double largest_N = 0.0;
+    for (const double force : force_N) largest_N = std::max(largest_N, std::abs(force));
+    for (std::size_t row = 0; row < force_N.size(); ++row) {
+      const double speed = (*speed_m_s)[row];
+      if (std::abs(speed) <= kRolls_m_s || force_N[row] * (speed > 0.0 ? 1.0 : -1.0) >= -kRounding * largest_N)
+        continue;
+      const std::string wheel = std::string(channel.name()).substr(prefix.size());
+      const std::vector<double>* liner_K = recording.find(
+          intern_quantity(fmt::format("{}{}_degC", std::string(quantities::kLinerTemperature.name()), wheel)));
+      const std::string temperature =
+          liner_K == nullptr ? "" : fmt::format(", liner temperature {:.4g} degC", (*liner_K)[row] - kZeroCelsius_K);
+      throw RunFailure(fmt::format(
+          "{} is {:.4g} N at {:.6g} s (speed {:.4g} km/h{}): no tire gives energy to the motion{}", channel.header(),
+          force_N[row], recording.time_s[row], 3.6 * speed, temperature, describe_falling_losses(tires)));
+    }
+  }
+}
 
 std::vector<std::string> list_validity_warnings(const std::string& tire, const models::TireValidity& range,
                                                 const sim::Recording<double>& recording) {

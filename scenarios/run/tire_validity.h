@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a run left the range for which its tire file is valid.
+/// Whether a run left the range for which its tire file is valid, and whether the loss of a tire is a loss.
 
 #include <string>
 #include <vector>
@@ -15,5 +15,17 @@ namespace rollrig::scenarios {
 /// Checked tests/scenarios/tire_validity_test.cpp
 std::vector<std::string> list_validity_warnings(const std::string& tire, const models::TireValidity& range,
                                                 const sim::Recording<double>& recording);
+
+/// A sentence for each line A0 + A1 v of a tire's loss that is negative within its validity, from lowest_speed_km_h to
+/// highest_speed_km_h, or to 120 km/h (Assumed) where the file gives no validity. At the loads and temperatures of the
+/// validity the loss has the sign of A. Laws other than these lines have no negative loss.
+/// Checked tests/scenarios/tire_validity_test.cpp
+std::vector<std::string> list_negative_losses(const models::TireFile& tire);
+
+/// No tire gives energy to the motion: throws RunFailure where the rolling resistance of a recording drives a wheel
+/// that rolls faster than 1 m/s, by more than 1e-6 of the largest resistance. The message has time, speed and
+/// temperature of the first such row, and the key of the tire files that may cause it.
+/// Checked tests/scenarios/tire_validity_test.cpp
+void require_loss(const std::vector<const models::TireFile*>& tires, const sim::Recording<double>& recording);
 
 }  // namespace rollrig::scenarios

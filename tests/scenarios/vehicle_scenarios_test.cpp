@@ -190,3 +190,19 @@ TEST_CASE("an effect on measured channels finds those of each wheel under their 
   const auto quarter = rigs::make_one_wheel(*spec.vehicle, spec.rig, 293.15, {}, tests::kFront);
   CHECK(rigs::find_at_wheel(models::quantities::kCavityPressure, quarter, 0) == models::quantities::kCavityPressure);
 }
+
+TEST_CASE("a vehicle that would bounce through the whole test is refused on the multibody rig", "[fast]") {
+  ConfigTable document = scenarios::make_run_document("coastdown");
+  set_config_value(document, "tire", "a50", "test");
+  scenarios::RunSpec spec = scenarios::read_run_spec(document, "");
+  const auto prepare = [&spec](double damping_N_s_per_m, scenarios::Fidelity fidelity) {
+    spec.fidelity = fidelity;
+    spec.vehicle->axles[1].suspension.damping_N_s_per_m = damping_N_s_per_m;
+    scenarios::prepare_run(spec);
+  };
+  CHECK_THROWS_WITH(prepare(10.0, scenarios::Fidelity::kMultibody),
+                    Catch::Contains("axle 'rear'") && Catch::Contains("damping_N_s_per_m") && Catch::Contains("10") &&
+                        Catch::Contains("at least"));
+  CHECK_NOTHROW(prepare(10.0, scenarios::Fidelity::kQuasiStatic));
+  CHECK_NOTHROW(prepare(1000.0, scenarios::Fidelity::kMultibody));
+}
