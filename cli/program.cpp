@@ -1,16 +1,20 @@
 // What all programs share: options read, errors answered, exit statuses.
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <sstream>
+#include <streambuf>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -22,11 +26,81 @@
 #include "sim/core/file_io.h"
 #include "sim/core/freed_memory.h"
 #include "sim/core/text.h"
+#include "sim/core/visible.h"
 
 #undef si_value  // a macro of <csignal>, and a name of units.h
 
 namespace rollrig::cli {
 namespace {
+
+/// Passes text on to a stream of the system and shows control characters in it: names, paths and values come from
+/// files, and a terminal would carry out what they hold.
+class VisibleText : public std::streambuf {
+ public:
+  explicit VisibleText(std::ostream& stream) : stream_(stream), system_(stream.rdbuf(this)) {}
+  ~VisibleText() override {
+    sync();
+    stream_.rdbuf(system_);
+  }
+  VisibleText(const VisibleText&) = delete;
+  VisibleText& operator=(const VisibleText&) = delete;
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    const char character = traits_type::to_char_type(c);
+    return xsputn(&character, 1) == 1 ? c : traits_type::eof();
+  }
+  std::streamsize xsputn(const char* text, std::streamsize count) override {
+    part_.append(text, static_cast<std::size_t>(count));
+    const std::string whole = part_.substr(0, find_last_whole());
+    part_.erase(0, whole.size());
+    return put(whole) ? count : 0;
+  }
+  int sync() override {
+    const bool is_put = put(part_);
+    part_.clear();
+    return is_put ? system_->pubsync() : -1;
+  }
+
+ private:
+  bool put(const std::string& text) {
+    const std::string shown = show_controls(text);
+    const auto count = static_cast<std::streamsize>(shown.size());
+    return system_->sputn(shown.data(), count) == count;
+  }
+  /// End of the last character whose bytes are all there: a character may come in parts.
+  std::size_t find_last_whole() const {
+    for (std::size_t back = 1; back <= std::min<std::size_t>(3, part_.size()); ++back) {
+      const auto byte = static_cast<unsigned char>(part_[part_.size() - back]);
+      if ((byte & 0xC0U) == 0x80U) continue;
+      const std::size_t length = byte >= 0xF0U ? 4 : byte >= 0xE0U ? 3 : byte >= 0xC0U ? 2 : 1;
+      return length > back ? part_.size() - back : part_.size();
+    }
+    return part_.size();
+  }
+
+  std::ostream& stream_;
+  std::streambuf* system_;
+  std::string part_;
+};
+
+/// The same for a message of the log.
+class VisibleMessage : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm& /*time*/, spdlog::memory_buf_t& out) override {
+    const std::string shown = show_on_one_line({message.payload.data(), message.payload.size()});
+    out.append(shown.data(), shown.data() + shown.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<VisibleMessage>(); }
+};
+
+void set_up_log() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("rollrig"));
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<VisibleMessage>('*').set_pattern("%^%l%$: %*");
+  spdlog::set_formatter(std::move(formatter));
+}
 
 int report(const char* kind, const InputProblem& problem, int status) {
   std::cout << std::flush;
@@ -98,8 +172,9 @@ int run_program(int argc, char** argv, const std::function<int()>& body) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone costs no files
   keep_freed_memory();
   install_interrupt_handler();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("rollrig"));
-  spdlog::set_pattern("%^%l%$: %v");
+  set_up_log();
+  const VisibleText out(std::cout);
+  const VisibleText err(std::cerr);
   try {
     return body();
   } catch (const InputError& error) {

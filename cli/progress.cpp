@@ -7,6 +7,7 @@
 
 #include "sim/core/columns.h"
 #include "sim/core/text.h"
+#include "sim/core/visible.h"
 
 namespace rollrig::cli {
 namespace {
@@ -44,6 +45,7 @@ void ProgressLine::update(double done, const std::string& stage) {
   std::string text = label_;
   if (done > 0.0) text += fmt::format("  {:.0f} %, about {:.0f} s left", 100.0 * done, elapsed_s * (1.0 - done) / done);
   if (!stage.empty()) text += "  " + stage;
+  text = show_on_one_line(text);
   while (count_characters(text) >= terminal_columns(STDERR_FILENO)) {  // else it would take a second line
     while ((static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.pop_back();
     text.pop_back();

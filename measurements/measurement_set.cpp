@@ -9,6 +9,7 @@
 
 #include "measurements/run_rows.h"
 #include "sim/core/assets.h"
+#include "sim/core/data_file.h"
 #include "sim/core/file_io.h"
 #include "sim/core/text.h"
 
@@ -31,7 +32,7 @@ MeasuredRun read_run(const ConfigTable& table, const std::string& folder, const 
   if (run.id.empty()) throw reader.problem("id", "a run needs a name", "a text that is not empty");
   const std::string file = reader.text("file");
   if (file.empty()) throw reader.problem("file", "a run needs a file", "a path relative to this file");
-  run.file = (fs::path(folder) / file).string();
+  run.file = place_data_file(reader, "file", folder, file);
   if (!fs::exists(run.file)) {
     InputProblem missing =
         reader.problem("file", fmt::format("no such file '{}'", run.file), "a path relative to this file").problem();

@@ -5,13 +5,15 @@
 #include "scenarios/run/run_spec.h"
 #include "sim/core/columns.h"
 #include "sim/core/text.h"
+#include "sim/core/visible.h"
 
 namespace rollrig::report {
 
 std::string format_outcome(const scenarios::RunSpec& spec, const scenarios::Outcome& outcome) {
   using Ledger = sim::EnergyTerm::Ledger;
-  std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name, spec.tire.name,
-                                 spec.tire.designation, spec.rig.name, scenarios::name_of(spec.fidelity));
+  std::string text = fmt::format("{}   tire {} ({})   rig {}   {}\n", spec.scenario->text.name,
+                                 show_on_one_line(spec.tire.name), show_on_one_line(spec.tire.designation),
+                                 show_on_one_line(spec.rig.name), scenarios::name_of(spec.fidelity));
   if (spec.vehicle.has_value()) {
     text += wrap(fmt::format("vehicle {}: {:.0f} kg, driven axle {}", spec.vehicle->name, spec.vehicle->body.mass_kg,
                              rigs::list_driven_axles(*spec.vehicle)),

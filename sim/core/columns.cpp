@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "sim/core/text.h"
+#include "sim/core/visible.h"
 
 namespace rollrig {
 namespace {
@@ -129,8 +130,10 @@ std::size_t terminal_columns(int descriptor) {
   return std::max<std::size_t>(80, is_known ? size.ws_col : 0);
 }
 
-std::string text_columns(const std::vector<std::vector<std::string>>& rows, const ColumnStyle& style) {
-  if (rows.empty()) return "";
+std::string text_columns(const std::vector<std::vector<std::string>>& given, const ColumnStyle& style) {
+  if (given.empty()) return "";
+  std::vector<std::vector<std::string>> rows = given;
+  for (auto& row : rows) std::transform(row.begin(), row.end(), row.begin(), &show_on_one_line);
   std::vector<TextColumn> columns = measure_columns(rows, style.has_header);
   const std::size_t fitting = count_fitting(columns, style.width - style.indent);
   if (fitting > 1 && fitting < columns.size()) {

@@ -10,6 +10,7 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include "sim/core/text.h"
+#include "sim/core/visible.h"
 
 namespace rollrig {
 namespace {
@@ -40,6 +41,7 @@ std::vector<ProblemPart> list_parts(const InputProblem& problem) {
                                  {"nearest", problem.nearest}};
   parts.erase(std::remove_if(parts.begin(), parts.end(), [](const ProblemPart& part) { return part.content.empty(); }),
               parts.end());
+  for (ProblemPart& part : parts) part.content = show_on_one_line(part.content);
   return parts;
 }
 
@@ -66,7 +68,7 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 }
 
 InputProblem unknown_name(const std::string& kind, const std::string& name, const std::vector<std::string>& known) {
-  return {fmt::format("unknown {} '{}'", kind, name),
+  return {fmt::format("unknown {} '{}'", kind, show_on_one_line(name)),
           "",
           0,
           "",

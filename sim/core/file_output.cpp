@@ -27,6 +27,10 @@ namespace fs = std::filesystem;
 namespace rollrig {
 namespace {
 
+InputError standard_output_problem() {
+  return InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
+}
+
 constexpr mode_t kReadableByAll = 0644;  // less the umask
 constexpr mode_t kFolderOfAll = 0777;    // likewise
 
@@ -200,8 +204,10 @@ StagedOutput::~StagedOutput() {
 
 void StagedOutput::commit() {
   if (path_ == "-") {
-    std::cout << content_;
     flush_standard_output();
+    // As it is: what is printed through std::cout has its control characters shown (visible.h).
+    const bool is_written = std::fwrite(content_.data(), 1, content_.size(), stdout) == content_.size();
+    if ((std::fflush(stdout) != 0 || !is_written) && !is_reader_gone()) throw standard_output_problem();
     return;
   }
   if (is_direct_) {
@@ -236,7 +242,7 @@ bool is_reader_gone() {
 
 void flush_standard_output() {
   if (std::cout.flush() || is_reader_gone()) return;
-  throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
+  throw standard_output_problem();
 }
 
 void require_writable(const std::string& path) {

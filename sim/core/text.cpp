@@ -5,6 +5,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "sim/core/visible.h"
+
 namespace rollrig {
 
 std::size_t count_characters(const std::string& text) {
@@ -13,7 +15,7 @@ std::size_t count_characters(const std::string& text) {
 }
 
 std::string wrap(const std::string& text, std::size_t indent, std::size_t width) {
-  std::istringstream words(text);
+  std::istringstream words(show_controls(text));
   std::string out;
   std::string line(indent, ' ');
   std::string word;
