@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/split.hpp>
 
 #include "api/data.h"
@@ -53,18 +54,41 @@ Json make_json(const std::string& scenario, const SweepResult& sweep, const std:
     Json varied = Json::object();
     for (std::size_t a = 0; a < sweep.axes.size(); ++a) varied[sweep.axes[a]] = sweep.points[i][a];
     json["points"].push_back({{"set", varied}, {"result", results[i]}});
+    if (!sweep.failures[i].empty()) json["points"].back()["failure"] = sweep.failures[i];
   }
   return json;
 }
 
-/// A field is empty where a point has no such result.
+/// "ambient_degC -10, speed_km_h 80"
+std::string name_point(const SweepResult& sweep, std::size_t i) {
+  std::string name;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    name += fmt::format("{}{} {}", a > 0 ? ", " : "", sweep.axes[a], sweep.points[i][a]);
+  }
+  return name;
+}
+
+/// Points that failed, a line each.
+std::string list_failures(const SweepResult& sweep) {
+  std::string text;
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    if (sweep.failures[i].empty()) continue;
+    text += wrap(fmt::format("failed: {}: {}", name_point(sweep, i), sweep.failures[i]), 2);
+  }
+  return text;
+}
+
+/// A field is empty where a point has no such result. Where a point failed, the last column says why.
 std::string make_csv(const SweepResult& sweep) {
   std::vector<std::string> columns = sweep.axes;
   columns.insert(columns.end(), sweep.results.begin(), sweep.results.end());
+  const bool has_failures = sweep.count_failures() > 0;
+  if (has_failures) columns.emplace_back("failure");
   CsvWriter csv(columns);
   for (std::size_t i = 0; i < sweep.points.size(); ++i) {
     for (const std::string& value : sweep.points[i]) csv.add(value);
     for (const double value : sweep.values[i]) csv.add(CsvWriter::Rounded{value, 12});
+    if (has_failures) csv.add(sweep.failures[i]);
     csv.end_row();
   }
   return csv.take();
@@ -106,6 +130,11 @@ std::vector<std::string> choose_shown(const std::vector<std::string>& asked, con
 
 }  // namespace
 
+std::size_t SweepResult::count_failures() const {
+  return static_cast<std::size_t>(
+      std::count_if(failures.begin(), failures.end(), [](const std::string& failure) { return !failure.empty(); }));
+}
+
 SweepAxis read_sweep_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) throw bad_axis(text);
@@ -146,20 +175,29 @@ Sweep::Sweep(const SweepInput& input) {
 
 SweepResult Sweep::carry_out(const Progress& progress) const {
   const std::vector<scenarios::RunSpec>& specs = data_->specs;
-  std::vector<Json> results(specs.size());
-  FolderFiles files(specs.size() + 2);
+  std::vector<Json> results(specs.size(), Json::object());
+  std::vector<std::string> manifests(specs.size());
+  SweepResult sweep;
+  sweep.failures.resize(specs.size());
   const auto carry_out_one = [&](std::size_t i) {
-    const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
-    results[i] = outcome.result;
-    files[i + 2] = {fmt::format("manifests/{:04}.json", i + 1), to_text(scenarios::make_manifest(specs[i], outcome))};
+    try {
+      const scenarios::Outcome outcome = scenarios::run_scenario(specs[i], {});
+      results[i] = outcome.result;
+      manifests[i] = to_text(scenarios::make_manifest(specs[i], outcome));
+    } catch (const RunFailure& failure) {  // the other points are still worth having
+      sweep.failures[i] = boost::algorithm::replace_all_copy(std::string(failure.what()), "\n", "; ");
+    }
   };
   const auto advance = [&progress](double done) {
     if (progress) progress(done, "");
   };
   parallel_for(specs.size(), data_->input.threads, carry_out_one, advance);
-  SweepResult sweep;
   for (const SweepAxis& axis : data_->input.axes) sweep.axes.push_back(axis.key);
   sweep.points = data_->points;
+  if (sweep.count_failures() == specs.size()) {
+    throw RunFailure(
+        fmt::format("no point of the sweep could be simulated. {}: {}", name_point(sweep, 0), sweep.failures.front()));
+  }
   const Json json = make_json(specs.front().scenario->text.name, sweep, results);
   const std::vector<Json> numbers = scenarios::flatten_results(results);
   const Json flat = make_json(specs.front().scenario->text.name, sweep, numbers);
@@ -174,13 +212,16 @@ SweepResult Sweep::carry_out(const Progress& progress) const {
   const std::vector<std::string> shown = choose_shown(data_->input.shown, flat, sweep);
   sweep.json = to_text(json);
   sweep.text = format_table(report::make_sweep_table(flat, format_count(specs.size(), "run"), shown));
+  sweep.text += list_failures(sweep);
   if (shown.size() < sweep.results.size()) {
     sweep.text += wrap(fmt::format("{} of {} results are shown. --show names others, --out and --json write all.",
                                    shown.size(), sweep.results.size()),
                        0);
   }
-  files[0] = {"sweep.csv", make_csv(sweep)};
-  files[1] = {"sweep.json", sweep.json};
+  FolderFiles files{{"sweep.csv", make_csv(sweep)}, {"sweep.json", sweep.json}};
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (sweep.failures[i].empty()) files.emplace_back(fmt::format("manifests/{:04}.json", i + 1), manifests[i]);
+  }
   sweep.make_files = [files] { return files; };
   sweep.make_page = [flat, data = data_] {
     const scenarios::RunSpec& spec = data->specs.front();

@@ -1,7 +1,12 @@
+#include <fmt/format.h>
+
+#include <iostream>
+
 #include "cli/command.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "rollrig/sweep.h"
+#include "sim/core/text.h"
 
 namespace rollrig::cli {
 namespace {
@@ -23,7 +28,14 @@ int sweep_command(const SweepOptions& options) {
     result = sweep.carry_out(progress.callback());
   }
   output.show(result);
-  return kDone;
+  const std::size_t failed = result.count_failures();
+  if (failed == 0) return kDone;
+  std::cout << std::flush;
+  std::cerr << wrap(fmt::format("run failed: {} of {} points of the sweep; the others are as they should be", failed,
+                                result.points.size()),
+                    2)
+                   .substr(2);
+  return kRunFailed;
 }
 
 }  // namespace

@@ -122,6 +122,15 @@ Page make_sweep_page(const Json& sweep, std::vector<std::string> shown, const st
   const std::string scenario = sweep["scenario"];
   Page page{"sweep", fmt::format("Sweep of {} over {}", scenario, fmt::join(axes, ", ")), subtitle};
   Section charts{"Results"};
+  std::vector<std::string> failures;
+  for (const Json& point : sweep["points"]) {
+    if (!point.contains("failure")) continue;
+    std::string name = "failed";
+    for (const auto& [axis, value] : point["set"].items())
+      name += fmt::format(", {} {}", axis, value.get<std::string>());
+    failures.push_back(fmt::format("{}: {}", name, point["failure"].get<std::string>()));
+  }
+  if (!failures.empty()) charts.blocks.push_back(make_warnings(failures));
   if (is_numeric(sweep, axes.front()) && sweep["points"].size() > 1) {
     for (const std::string& result : shown) charts.blocks.push_back(make_sweep_chart(sweep, axes, result));
   }

@@ -26,12 +26,16 @@ struct SweepInput {
   int threads = 0;                 // 0: as many as the machine has
 };
 
-/// One row for each point, the last axis fastest. Its files: sweep.csv, sweep.json, one manifest for each point.
+/// One row for each point, the last axis fastest. Its files: sweep.csv, sweep.json, one manifest for each point that
+/// could be simulated.
 struct SweepResult : Report {
   std::vector<std::string> axes;                 // keys
   std::vector<std::vector<std::string>> points;  // values of the axes
   std::vector<std::string> results;              // names of all results; of a list's: "cycles.1.load_N"
   std::vector<std::vector<double>> values;       // of each point the results; NaN where it has none
+  std::vector<std::string> failures;             // of each point why it could not be simulated, empty where it could
+
+  std::size_t count_failures() const;
 };
 
 /// A sweep whose runs are all read and checked. Copies share it; any number of threads may use it.
@@ -39,8 +43,8 @@ class Sweep {
  public:
   /// Throws InputError, also for a result to be shown that the scenario does not have.
   explicit Sweep(const SweepInput& input);
-  /// Runs all points, several at a time. Throws InputError for a result to be shown that no point has, RunFailure,
-  /// Interrupted.
+  /// Runs all points, several at a time. A point that fails is named in the result. Throws InputError for a result to
+  /// be shown that no point has, RunFailure where all points fail, Interrupted.
   SweepResult carry_out(const Progress& progress = {}) const;
 
  private:

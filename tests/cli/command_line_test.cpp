@@ -1,15 +1,20 @@
 // The command line as users and CI jobs meet it: runs, sweeps and regressions, their settings and what they write.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "build_paths.h"
+#include "sim/core/csv.h"
 #include "tests/cli/longest_line.h"
 #include "tests/support/run_program.h"
 
 namespace fs = std::filesystem;
 using Catch::Contains;
 using nlohmann::json;
+using rollrig::CsvTable;
+using rollrig::tests::flatten;
 using rollrig::tests::longest_line;
 using rollrig::tests::read_file;
 using rollrig::tests::run_program;
@@ -184,6 +189,67 @@ TEST_CASE("a sweep tables a grid, the same from one and two threads", "[fast]") 
   CHECK(json::parse(read_file(folder.file("one/sweep.json")))["points"].size() == 6);
   CHECK(fs::exists(folder.file("one/manifests/0006.json")));
   CHECK(longest_line(one.out) <= 80);
+}
+
+namespace {
+
+const std::string kCombinedTire = ROLLRIG_SOURCE_DIR "/tests/published/combined_law/a50.toml";
+
+}  // namespace
+
+TEST_CASE("a point of a sweep that fails is named, and the others are written", "[fast]") {
+  const TemporaryFolder folder;
+  const auto sweep = run_program("sweep warm_up --fidelity quasi_static --tire " + kCombinedTire +
+                                     " --set tire.rolling_resistance.A0_N=50 --vary "
+                                     "tire.rolling_resistance.A1_N_s_per_m=1,-3,0 --out out",
+                                 folder.path());
+  INFO(sweep.out << sweep.err);
+  CHECK(sweep.status == 3);
+  CHECK_THAT(flatten(sweep.out), Catch::Contains("failed: tire.rolling_resistance.A1_N_s_per_m -3: "
+                                                 "rolling_resistance_N is -"));
+  CHECK_THAT(sweep.err, Catch::Contains("1 of 3 points"));
+  const CsvTable csv = CsvTable::read(folder.file("out/sweep.csv"));
+  REQUIRE(csv.row_count() == 3);
+  const std::vector<std::string> failures = csv.text("failure");
+  const std::vector<std::string> loss_N = csv.text("rolling_resistance_N");
+  CHECK(failures[0].empty());
+  CHECK_THAT(failures[1], Catch::Contains("no tire gives energy to the motion"));
+  CHECK(failures[2].empty());
+  CHECK(!loss_N[0].empty());
+  CHECK(loss_N[1].empty());
+  CHECK(!loss_N[2].empty());
+  const json sweep_json = json::parse(read_file(folder.file("out/sweep.json")));
+  CHECK(sweep_json["points"].size() == 3);
+  CHECK(sweep_json["points"][1]["failure"] == failures[1]);
+  CHECK(!sweep_json["points"][0].contains("failure"));
+  CHECK(std::filesystem::exists(folder.file("out/manifests/0003.json")));
+  CHECK(!std::filesystem::exists(folder.file("out/manifests/0002.json")));
+}
+
+TEST_CASE("a sweep whose points all fail writes nothing", "[fast]") {
+  const TemporaryFolder folder;
+  const auto sweep = run_program("sweep warm_up --fidelity quasi_static --tire " + kCombinedTire +
+                                     " --set tire.rolling_resistance.A0_N=50 --vary "
+                                     "tire.rolling_resistance.A1_N_s_per_m=-3,-4 --out out",
+                                 folder.path());
+  CHECK(sweep.status == 3);
+  CHECK_THAT(flatten(sweep.err), Catch::Contains("no point of the sweep could be simulated"));
+  CHECK(folder.entry_count() == 0);
+}
+
+TEST_CASE("a sweep has the results of all its points as columns, in whatever order they are run", "[fast]") {
+  const TemporaryFolder folder;
+  for (const char* order : {"25:-10:-35", "-10:25:35"}) {
+    const auto sweep = run_program(
+        fmt::format("sweep warm_up --fidelity quasi_static --tire a50 --vary ambient_degC={} --out out --force", order),
+        folder.path());
+    INFO(sweep.err);
+    REQUIRE(sweep.status == 0);
+    const CsvTable csv = CsvTable::read(folder.file("out/sweep.csv"));
+    const std::vector<std::string> ambient = csv.text("ambient_degC");
+    const std::vector<std::string> band_N = csv.text("band_low_N");
+    for (std::size_t row = 0; row < ambient.size(); ++row) CHECK(band_N[row].empty() == (ambient[row] == "-10"));
+  }
 }
 
 TEST_CASE("regress: same, differs with exit 1, updated", "[fast]") {
