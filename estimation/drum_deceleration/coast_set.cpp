@@ -9,6 +9,7 @@
 #include <set>
 
 #include "estimation/run_checks/checked_rows.h"
+#include "sim/core/data_file.h"
 
 namespace fs = std::filesystem;
 
@@ -120,7 +121,7 @@ CoastRun read_run(const ConfigTable& table, const std::string& folder) {
   TableReader reader(table, "[[run]]");
   CoastRun run;
   run.id = reader.text("file");
-  run.file = (fs::path(folder) / run.id).string();
+  run.file = place_data_file(reader, "file", folder, run.id);
   run.state = reader.text("state", {"loaded", "lifted"}) == "loaded" ? CoastState::kLoaded : CoastState::kLifted;
   const Field pressure{"pressure_kPa", between(20.0, 2000.0), "gauge"};
   run.pressure_Pa =
@@ -167,6 +168,16 @@ void require_states(const TableReader& reader, const CoastSet& set) {
   if (!lifted) {
     throw reader.problem("run", "no run has the drum alone: its own loss cannot be taken off",
                          "a [[run]] with state = \"lifted\"");
+  }
+  const bool lifted_wheel = std::any_of(set.runs.begin(), set.runs.end(), [](const CoastRun& run) {
+    return run.state == CoastState::kLifted && run.wheel.has_value();
+  });
+  if (set.calc_mass_ratio() > 0.0 && !lifted_wheel) {
+    throw reader.problem("run",
+                         "[wheel] gives the wheel's share of the inertia, and no run has the lifted wheel alone: its "
+                         "own loss cannot be taken off",
+                         "a [[run]] with state = \"lifted\" and body = \"wheel\"; or no inertia_kg_m2 and no "
+                         "mass_ratio in [wheel]: the wheel's own loss then stays in the tire's");
   }
 }
 

@@ -34,6 +34,32 @@ state = "lifted"
   CHECK(set.runs[0].wheel->speed_m_s == std::vector<double>{19.5, 18.5});
 }
 
+TEST_CASE("a wheel's inertia without a run of the lifted wheel is refused, and the message says what is missing",
+          "[fast]") {
+  const TemporaryFolder folder;
+  const auto write = [&folder](const std::string& wheel) {
+    write_file(
+        folder.file("set.toml"),
+        "format = \"rollrig-drum-coastdown/1\"\n[drum]\ndiameter_m = 2.0\ninertia_kg_m2 = 850.0\n" + wheel + R"([[run]]
+file = "1.csv"
+state = "loaded"
+pressure_kPa = 250.0
+[[run]]
+file = "1.csv"
+state = "lifted"
+)");
+  };
+  write_file(folder.file("1.csv"), "time_s,speed_km_h\n0,80\n1,79\n2,78\n");
+  for (const char* wheel :
+       {"[wheel]\ninertia_kg_m2 = 1.1\nrolling_radius_m = 0.345\n", "[wheel]\nmass_ratio = 0.02\n"}) {
+    write(wheel);
+    CHECK_THROWS_WITH(read_coast_set(folder.file("set.toml")),
+                      Catch::Contains("no run has the lifted wheel alone") && Catch::Contains("body = \"wheel\""));
+  }
+  write("");
+  CHECK_NOTHROW(read_coast_set(folder.file("set.toml")));
+}
+
 TEST_CASE("a resonance has the pressure of its runs, one without a tire on the drum has none", "[fast]") {
   DrumCoastdownFit fit;
   fit.resonances.resize(2);
