@@ -131,6 +131,11 @@ Candidate Evaluator::fit_null() const {
     throw RunFailure("the baseline cannot be fitted to the set: it cannot be simulated near its own parameters");
   }
   weigh(null);
+  if (!std::isfinite(null.log_evidence) || !std::isfinite(null.log_discrepancy)) {
+    throw RunFailure(
+        "the baseline cannot be weighed against the set: its numbers are beyond what can be computed; are the times of "
+        "the rows in seconds?");
+  }
   return null;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "diagnosis/comparison/log_determinant.h"
 #include "diagnosis/comparison/truncated_normal.h"
@@ -121,6 +122,10 @@ Evidence::Solution Evidence::solve(const Sums& sums, bool with_covariance) const
   const double log_m = calc_log_determinant(factor);
   solution.log_value = -0.5 * (solution.chi2 + sums.log_determinant + log_determinant_below_ + log_m) +
                        calc_log_within(factor, solution.step);
+  // Data that are beyond all rounding, such as rows a nanosecond apart, leave no positive definite matrix.
+  if (factor.info() != Eigen::Success || !std::isfinite(solution.log_value)) {
+    solution.log_value = -std::numeric_limits<double>::infinity();
+  }
   if (with_covariance) solution.covariance = factor.solve(Eigen::MatrixXd::Identity(n, n));
   return solution;
 }
@@ -159,6 +164,7 @@ Evidence::Sum Evidence::integrate(const std::vector<AmplitudePrior>& priors) con
     if (channel == priors.size()) break;
   }
   Sum sum{log_sum_exp(logs), Amplitudes(priors.size(), 0.0)};
+  if (!std::isfinite(sum.log_value)) return sum;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const double weight = std::exp(logs[i] - sum.log_value);
     for (std::size_t c = 0; c < priors.size(); ++c) sum.mean[c] += weight * combinations[i][c];

@@ -24,7 +24,7 @@ struct Derived {
 };
 
 Derived find_known(const RefitStart& start) {
-  if (start.known == nullptr) return {};
+  if (start.known == nullptr || !std::isfinite(start.known->cost)) return {};  // a fit that failed has no derivatives
   return {start.known->unknowns, start.known->residuals, start.known->jacobian};
 }
 

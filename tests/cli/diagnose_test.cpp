@@ -1,4 +1,6 @@
 // rollrig diagnose as users and CI jobs meet it. What it finds is tested in tests/diagnosis.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -225,5 +227,32 @@ TEST_CASE("a plan for a wheel or a vehicle is run, and what it writes is diagnos
     }
     CHECK(fs::exists(folder.file(is_road ? "next/vehicle.toml" : "next/rig.toml")));
     CHECK(json::parse(read_file(folder.file("why.json")))["verdict"] == "no_gap");  // nothing was switched on
+  }
+}
+
+TEST_CASE("a tiny set, with rows a nanosecond or a year apart, has an answer or a reason why it has none", "[slow]") {
+  const TemporaryFolder folder;
+  fs::copy(ROLLRIG_SOURCE_DIR "/assets/examples/hidden_effect", folder.file("set"), fs::copy_options::recursive);
+  std::string set = read_file(folder.file("set/set.toml"));
+  set.erase(set.find("[[run]]", set.find("[[run]]") + 1));
+  write_file(folder.file("set/set.toml"), set);
+  std::istringstream rows(read_file(folder.file("set/1-warm-up-120.csv")));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(rows, line);) lines.push_back(line);
+  for (const double step_s : {1e-9, 1.0, 3e7}) {
+    for (const std::size_t count : {std::size_t{1}, std::size_t{3}, std::size_t{5}}) {
+      INFO(step_s << " s, " << count << " rows");
+      std::string csv = lines[0] + "\n";
+      for (std::size_t row = 0; row < count; ++row) {
+        const std::string& line = lines[61 + row];
+        csv += fmt::format("{}{}\n", step_s * static_cast<double>(row), line.substr(line.find(',')));
+      }
+      write_file(folder.file("set/1-warm-up-120.csv"), csv);
+      const auto found = run_program("diagnose set --only bearing_warmup,load_exponent --json why.json", folder.path());
+      INFO(found.out << found.err);
+      CHECK((found.status == 0 || found.status == 2 || found.status == 3));
+      CHECK_THAT(found.out + found.err, !Contains("nan") && !Contains("internal error"));
+      if (found.status == 0) CHECK(json::parse(read_file(folder.file("why.json")))["probability"]["none"].is_number());
+    }
   }
 }
