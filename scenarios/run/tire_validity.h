@@ -17,8 +17,8 @@ std::vector<std::string> list_validity_warnings(const std::string& tire, const m
                                                 const sim::Recording<double>& recording);
 
 /// A sentence for each line A0 + A1 v of a tire's loss that is negative within its validity, from lowest_speed_km_h to
-/// highest_speed_km_h, or to 120 km/h (Assumed) where the file gives no validity. At the loads and temperatures of the
-/// validity the loss has the sign of A. Laws other than these lines have no negative loss.
+/// highest_speed_km_h. At the loads and temperatures of the validity the loss has the sign of A. Laws other than these
+/// lines have no negative loss. Where the file gives no validity, the highest speed is 120 km/h. Assumed: the 120 km/h
 /// Checked tests/scenarios/tire_validity_test.cpp
 std::vector<std::string> list_negative_losses(const models::TireFile& tire);
 

@@ -82,9 +82,9 @@ TEST_CASE("a run in which the tire drives the wheel fails, and says when and why
   spec.tire = make_driving_tire();
   for (const scenarios::Fidelity fidelity : {scenarios::Fidelity::kQuasiStatic, scenarios::Fidelity::kMultibody}) {
     spec.fidelity = fidelity;
-    CHECK_THROWS_WITH(scenarios::run_scenario(spec, {}),
-                      Catch::Contains("rolling_resistance_N is -") && Catch::Contains("speed 80 km/h") &&
-                          Catch::Contains("degC") && Catch::Contains("A1_N_s_per_m = -3 makes") &&
-                          Catch::Contains("'driving'"));
+    CHECK_THROWS_WITH(scenarios::run_scenario(spec, {}), Catch::Contains("rolling_resistance_N is -") &&
+                                                             Catch::Contains("(speed 6") && Catch::Contains("degC") &&
+                                                             Catch::Contains("A1_N_s_per_m = -3 makes") &&
+                                                             Catch::Contains("'driving'"));
   }
 }
