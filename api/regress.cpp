@@ -127,8 +127,8 @@ Regression update_goldens(Regression found) {
     if (run.golden.empty() || run.status == "same") continue;
     throw_if_interrupted();
     write_file_atomically(find_golden_file(found.folder, run), run.golden);
+    if (run.status == "no golden") run.problems.clear();  // else they say what was updated
     run.status = "updated";
-    run.problems.clear();
   }
   make_report(found);
   return found;

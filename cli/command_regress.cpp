@@ -32,7 +32,7 @@ int find_status(const std::vector<RegressedRun>& runs) {
 /// On standard error, what the table would say.
 void tell_problems(const Regression& found) {
   for (const RegressedRun& run : found.runs) {
-    if (run.problems.empty()) continue;
+    if (run.problems.empty() || run.status == "updated") continue;
     std::cerr << wrap(fmt::format("error: {}: {}: {}", (std::filesystem::path(found.folder) / run.name).string(),
                                   run.status, run.problems.front()),
                       2)

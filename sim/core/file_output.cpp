@@ -96,10 +96,11 @@ void write_descriptor(const std::string& path, int descriptor, const std::string
   if (::close(descriptor) != 0) throw write_problem(path, errno);
 }
 
-void write_staged_file(const std::string& path, const std::string& content) {
+/// `shown` is the name that the file will have, for errors.
+void write_staged_file(const std::string& path, const std::string& content, const std::string& shown) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, kReadableByAll);
-  if (descriptor < 0) throw write_problem(path, errno);
-  write_descriptor(path, descriptor, content, Durability::kLater);
+  if (descriptor < 0) throw write_problem(shown, errno);
+  write_descriptor(shown, descriptor, content, Durability::kLater);
 }
 
 /// Tries hidden names beside `place`, which nobody can foresee, until `make` has made a file or folder of one: it
@@ -309,7 +310,7 @@ void OutputFolder::flush() {
       const fs::path file = fs::path(staging_) / name;
       written_.insert(name);
       fs::create_directories(file.parent_path());
-      write_staged_file(file.string(), content);
+      write_staged_file(file.string(), content, (fs::path(path_) / name).string());
     }
   });
   files_.clear();

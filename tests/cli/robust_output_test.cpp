@@ -94,7 +94,7 @@ TEST_CASE("of two commands with one new folder one is done, and the other one is
   CHECK(fs::exists(folder.file("out/manifest.json")));
 }
 
-TEST_CASE("every command that is stopped ends with 130 and leaves nothing", "[fast]") {
+TEST_CASE("every command that is stopped ends with 130 and leaves nothing", "[slow]") {
   const TemporaryFolder inputs;
   write_file(inputs.file("recording.csv"), make_long_recording());
   write_file(inputs.file("torque.csv"), make_long_recording());
@@ -192,6 +192,11 @@ TEST_CASE("regress says of every run that is not the same why, also where it pri
     }
     CHECK_THAT(said, Contains("missing key 'tire'"));
   }
+  fs::remove(folder.file("no_run_file.golden.csv"));
+  write_file(folder.file("no_tire.toml"), run_file);
+  const auto updated = run_program("regress . --update --quiet", folder.path());
+  CHECK(updated.status == 0);
+  CHECK(updated.err.empty());
 }
 
 TEST_CASE("a tolerance of zero compares equal numbers as equal", "[fast]") {
