@@ -31,6 +31,20 @@ InputError bad_axis(const std::string& text) {
                      "key=a,b,c or key=from:to:step, with the keys of --set", ""});
 }
 
+/// Refuses more points than memory and a result of one table hold, before any is made.
+void require_few_points(const std::vector<SweepAxis>& axes) {
+  std::size_t points = 1;
+  for (const SweepAxis& axis : axes) {
+    points *= axis.values.size();  // no overflow: below, and an axis has not so many values
+    if (points <= kMostSweepPoints) continue;
+    std::vector<std::string> counts;
+    for (const SweepAxis& each : axes) counts.push_back(fmt::format("{} of {}", each.values.size(), each.key));
+    throw InputError({"too many points in a sweep", "command line", 0, "--vary",
+                      fmt::format("{}: every value with every other", fmt::join(counts, ", ")),
+                      fmt::format("at most {} points", kMostSweepPoints), ""});
+  }
+}
+
 /// Every combination of the axes' values, the last axis fastest.
 std::vector<std::vector<std::string>> make_grid(const std::vector<SweepAxis>& axes) {
   std::vector<std::vector<std::string>> grid{{}};
@@ -160,6 +174,7 @@ SweepAxis read_sweep_axis(const std::string& text) {
 }
 
 Sweep::Sweep(const SweepInput& input) {
+  require_few_points(input.axes);
   const auto data = std::make_shared<Data>(Data{input, make_grid(input.axes), {}});
   for (const auto& point : data->points) {
     RunInput run = input.run;

@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <fcntl.h>
+#include <glog/logging.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,6 +27,7 @@
 #include "sim/core/file_io.h"
 #include "sim/core/freed_memory.h"
 #include "sim/core/text.h"
+#include "sim/core/text_encoding.h"
 #include "sim/core/visible.h"
 
 #undef si_value  // a macro of <csignal>, and a name of units.h
@@ -165,11 +167,34 @@ void end_by_closed_pipe() {
   std::raise(SIGPIPE);
 }
 
+/// A place that the operating system does not let one look at: a name too long, links in a loop, no working folder.
+InputProblem file_system_problem(const std::filesystem::filesystem_error& error) {
+  const std::string path = error.path1().string();
+  const std::string place = path.empty() ? "the working folder" : "'" + path + "'";
+  return {fmt::format("cannot access {}: {}", place, error.code().message()),
+          "",
+          0,
+          "",
+          "",
+          "a place that can be read and searched",
+          ""};
+}
+
+/// Throws InputError: arguments become names and texts in JSON and TOML, which have no other encoding.
+void require_utf8(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (decode_text(argv[i], "utf-8").is_valid) continue;
+    throw InputError({"an argument is not UTF-8 text", "command line", 0, fmt::format("argument {}", i), argv[i],
+                      "UTF-8; a file or a folder of another name has to be renamed", ""});
+  }
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv, const std::function<int()>& body) {
   open_closed_streams();
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone costs no files
+  std::signal(SIGPIPE, SIG_IGN);           // a reader that has gone costs no files
+  FLAGS_minloglevel = google::GLOG_FATAL;  // ceres' remarks; what they mean is said by rollrig
   keep_freed_memory();
   install_interrupt_handler();
   set_up_log();
@@ -184,11 +209,9 @@ int run_program(int argc, char** argv, const std::function<int()>& body) {
   } catch (const Interrupted&) {
     return report("stopped", "nothing was written", kInterrupted);
   } catch (const std::bad_alloc&) {
-    return report("run failed", "there is not enough memory", kRunFailed);
+    return report("run failed", "the memory of this computer does not suffice", kRunFailed);
   } catch (const std::filesystem::filesystem_error& error) {
-    const std::string path = error.path1().string();
-    return report("error", {fmt::format("'{}': {}", path, error.code().message()), path, 0, "", "", "", ""},
-                  kInputError);
+    return report("error", file_system_problem(error), kInputError);
   } catch (const std::exception& error) {
     return report_internal_error(error.what(), argc, argv);
   } catch (...) {
@@ -197,6 +220,7 @@ int run_program(int argc, char** argv, const std::function<int()>& body) {
 }
 
 int parse_and_act(CLI::App& app, const Action& action, int argc, char** argv) {
+  require_utf8(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

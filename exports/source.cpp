@@ -10,6 +10,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
+#include "sim/core/parse_json.h"
 
 namespace fs = std::filesystem;
 
@@ -38,17 +39,6 @@ Group read_recording(const std::string& path) {
     recording.add(column, column == "phase" ? Node{csv.text(column)} : Node{csv.plain_numbers(column, {})});
   }
   return recording;
-}
-
-Json read_json(const std::string& path) {
-  const std::string text = read_text_file(path);
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const auto wrong = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-    const auto line = 1 + std::count(text.begin(), wrong, '\n');
-    throw InputError({"not JSON", path, static_cast<int>(line), "", "", "the file as rollrig wrote it", ""});
-  }
 }
 
 Json read_result(const std::string& path) {

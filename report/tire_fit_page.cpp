@@ -80,8 +80,10 @@ Table make_two_step(const TireFit& fit) {
   std::vector<std::string> numbers;
   const Json two_step = estimation::make_two_step_json(*fit.two_step);
   for (const auto& [key, value] : two_step.items()) {
-    numbers.push_back(
-        fmt::format("{} {:.5g} {}", name_without_unit(key), value.get<double>(), unit_of_key(key).symbol));
+    const double number = value.get<double>();
+    numbers.push_back(std::isfinite(number)
+                          ? fmt::format("{} {:.5g} {}", name_without_unit(key), number, unit_of_key(key).symbol)
+                          : name_without_unit(key) + " not determined");
   }
   return {"", {}, {{"two-step regression", fmt::format("{} (start of the fit)", fmt::join(numbers, ", "))}}};
 }

@@ -2,12 +2,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 
 #include "sim/core/error.h"
+#include "sim/core/file_io.h"
 #include "tables/formats.h"
 #include "tables/mdf4_blocks.h"
 
@@ -210,11 +209,6 @@ void add_columns(const std::vector<Mdf4Group>& groups, Columns& columns) {
   }
 }
 
-std::string read_bytes(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 Columns read_blocks(const Mdf4Bytes& file, const std::string& path) {
   if (file.text(0, 8) != "MDF     ") {
     throw InputError({"a recording of MDF4 that was not brought to its end", path, 0, "", file.text(0, 8),
@@ -250,7 +244,7 @@ Columns read_blocks(const Mdf4Bytes& file, const std::string& path) {
 
 Columns read_mdf4(const std::string& path) {
   try {
-    return read_blocks(Mdf4Bytes(read_bytes(path)), path);
+    return read_blocks(Mdf4Bytes(read_binary_file(path)), path);
   } catch (const Mdf4Damaged&) {
     throw InputError({"a damaged MDF4 file", path, 0, "", "", "a whole file, as its program wrote it", ""});
   }

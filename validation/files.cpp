@@ -10,6 +10,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 
 namespace fs = std::filesystem;
 
@@ -86,7 +87,7 @@ TruthFile open_truth(const std::string& set, const std::string& hash) {
                       opened.sha256, expected, ""});
   }
   try {
-    const Json json = Json::parse(text);
+    const Json json = parse_json(text, file);
     if (json.at("format") == kTruthFormat) opened.cases = json.at("sets");
   } catch (const Json::exception&) {  // said below
   }

@@ -7,6 +7,7 @@
 #include "sim/core/columns.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 
 namespace rollrig::diagnosis {
 namespace {
@@ -134,7 +135,7 @@ LoopLedger read_ledger(const std::string& file) {
     return InputError({fmt::format("not the ledger of a loop: {}", what), file, 0, "", "", kFormat, ""});
   };
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = read_json(file);
     if (json.at("format") != kFormat) throw problem(fmt::format("format is {}", json.at("format").dump()));
     LoopLedger ledger;
     ledger.set = json.at("set");

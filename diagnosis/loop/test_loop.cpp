@@ -33,7 +33,7 @@ std::string hash_set(const MeasurementSet& set) {
   std::string all = read_text_file(set.path) + set.tire.content;
   if (set.rig.has_value()) all += set.rig->content;
   if (set.vehicle.has_value()) all += set.vehicle->content;
-  for (const MeasuredRun& run : set.runs) all += calc_sha256(read_text_file(run.file));
+  for (const MeasuredRun& run : set.runs) all += calc_sha256(read_table_file(run.file));
   return calc_sha256(all);
 }
 
@@ -101,7 +101,7 @@ void require_test_folder(const std::string& folder) {
 void require_new_samples(const MeasurementSet& known, const MeasurementSet& test) {
   for (const MeasuredRun& run : test.runs) {
     for (const MeasuredRun& other : known.runs) {
-      if (read_text_file(other.file) != read_text_file(run.file)) continue;
+      if (read_table_file(other.file) != read_table_file(run.file)) continue;
       throw InputError({fmt::format("the samples are those of the run '{}'", other.id), run.file, 0, "", "",
                         "what the rig recorded in the planned test", ""});
     }

@@ -6,8 +6,7 @@
 #include <utility>
 
 #include "estimation/run_checks/checked_rows.h"
-#include "sim/core/file_io.h"
-#include "sim/core/json.h"
+#include "sim/core/parse_json.h"
 
 namespace fs = std::filesystem;
 
@@ -32,7 +31,7 @@ fs::path find_recording(const std::string& path) {
 }
 
 Json read_manifest(const fs::path& file) {
-  const Json manifest = Json::parse(read_text_file(file.string()), nullptr, false);
+  const Json manifest = read_json(file.string());
   if (manifest.is_object()) return manifest;
   throw InputError({"the manifest beside the recording is not JSON", file.string(), 0, "", "",
                     "the file as 'rollrig run' wrote it", ""});

@@ -61,7 +61,7 @@ void add_warning(const char* what, double speed_m_s, const Uncertain& two_step, 
                  const char* unit, std::vector<std::string>& warnings) {
   constexpr double kMost = 3.0;  // Assumed
   const double sd = std::hypot(two_step.sd, joint.sd);
-  if (std::abs(two_step.value - joint.value) <= kMost * sd) return;
+  if (!(std::abs(two_step.value - joint.value) > kMost * sd)) return;  // of a number that is not known: none
   warnings.push_back(fmt::format(
       "at {:.0f} km/h the two-step regression and the fit differ by {:.1f} standard uncertainties in the {}: "
       "{:.4g} +- {:.2g} and {:.4g} +- {:.2g} {}. The model lacks something, or a number that was held is "

@@ -1,6 +1,7 @@
 #pragma once
 /// A scenario at every point of a grid of settings.
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,12 +17,14 @@ struct SweepAxis {
   std::vector<std::string> values;  // in the unit of the key
 };
 
+constexpr std::size_t kMostSweepPoints = 100000;  // Assumed: each takes memory for its run, result and manifest
+
 /// "key=a,b,c" or "key=from:to:step". Throws InputError.
 SweepAxis read_sweep_axis(const std::string& text);
 
 struct SweepInput {
   RunInput run;
-  std::vector<SweepAxis> axes;
+  std::vector<SweepAxis> axes;     // at most kMostSweepPoints values with each other
   std::vector<std::string> shown;  // results in the report's table and charts; none: those that change
   int threads = 0;                 // 0: as many as the machine has
 };

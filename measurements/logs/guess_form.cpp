@@ -23,7 +23,7 @@ struct TextLine {
 
 /// Lines that are not blank.
 std::vector<TextLine> list_text_lines(const std::string& path) {
-  std::string text = read_text_file(path);
+  std::string text = read_table_file(path);
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);
   std::vector<TextLine> lines;
   std::size_t from = 0;

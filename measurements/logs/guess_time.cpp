@@ -2,16 +2,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <regex>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
 #include "measurements/logs/guess.h"
 #include "measurements/logs/time_stamps.h"
 #include "sim/core/error.h"
+#include "sim/core/text_cursor.h"
 
 namespace rollrig::measurements {
 namespace {
@@ -21,17 +23,56 @@ constexpr const char* kNoDay = "2000-01-01";  // of times of day without a date
 /// What the cells of a column are.
 enum class StampKind { kNone, kIso8601, kDateAndTime, kDate, kClock, kNumber };
 
+/// The separators of a date, as in "05.03.2024"; empty where the text is none.
+std::string take_date(TextCursor& cursor) {
+  std::string separators;
+  if (!cursor.take_digits(1, 4).has_value()) return {};
+  for (const std::size_t most : {2U, 4U}) {
+    const char separator = cursor.take_one_of("-./");
+    if (separator == '\0' || !cursor.take_digits(1, most).has_value()) return {};
+    separators += separator;
+  }
+  return separators;
+}
+
+/// "13:29" or "13:29:42.464", with so many digits behind the point.
+bool take_clock(TextCursor& cursor, std::size_t most_decimals) {
+  if (!cursor.take_digits(1, 2).has_value() || !cursor.take(':') || !cursor.take_digits(2, 2).has_value()) return false;
+  if (!cursor.take(':')) return true;
+  if (!cursor.take_digits(2, 2).has_value()) return false;
+  return cursor.take_one_of(".,") == '\0' || cursor.take_digits(1, most_decimals).has_value();
+}
+
+bool take_offset(TextCursor& cursor) {
+  if (cursor.at_end() || cursor.take('Z')) return true;
+  if (cursor.take_one_of("+-") == '\0') return false;
+  const std::string digits = cursor.take_digits(2, 4).value_or("");
+  if (digits.size() == 2 && cursor.take(':')) return cursor.take_digits(2, 2).has_value();
+  return digits.size() == 2 || digits.size() == 4;
+}
+
+bool is_iso(const std::string& cell) {
+  constexpr std::size_t kDate = 10;  // characters of 2024-03-05
+  if (cell.size() <= kDate || cell.find_first_not_of("0123456789-") != kDate || cell[4] != '-' || cell[7] != '-') {
+    return false;
+  }
+  TextCursor date(std::string_view(cell).substr(0, kDate)), time(std::string_view(cell).substr(kDate));
+  return take_date(date) == "--" && date.at_end() && time.take_one_of("T ") != '\0' && take_clock(time, cell.size()) &&
+         take_offset(time) && time.at_end();
+}
+
 StampKind find_kind_of_cell(const std::string& cell, char decimal) {
-  static const std::regex iso(R"(\d{4}-\d{2}-\d{2}[T ]\d{1,2}:\d{2}(:\d{2}([.,]\d+)?)?(Z|[+-]\d{2}(:?\d{2})?)?)");
-  static const std::regex both(R"(\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[T, ]+\d{1,2}:\d{2}(:\d{2}([.,]\d+)?)?)");
-  static const std::regex date(R"(\d{1,4}[-./]\d{1,2}[-./]\d{1,4})");
-  static const std::regex clock(R"(\d{1,2}:\d{2}(:\d{2}([.,]\d{1,9})?)?)");
   if (parse_log_number(cell, decimal).has_value()) return StampKind::kNumber;
-  if (std::regex_match(cell, iso)) return StampKind::kIso8601;
-  if (std::regex_match(cell, both)) return StampKind::kDateAndTime;
-  if (std::regex_match(cell, date)) return StampKind::kDate;
-  if (std::regex_match(cell, clock)) return StampKind::kClock;
-  return StampKind::kNone;
+  if (is_iso(cell)) return StampKind::kIso8601;
+  TextCursor cursor(cell);
+  if (take_date(cursor).empty()) {
+    TextCursor clock(cell);
+    return take_clock(clock, 9) && clock.at_end() ? StampKind::kClock : StampKind::kNone;
+  }
+  if (cursor.at_end()) return StampKind::kDate;
+  if (cursor.take_one_of("T, ") == '\0') return StampKind::kNone;
+  while (cursor.take_one_of("T, ") != '\0') continue;
+  return take_clock(cursor, cell.size()) && cursor.at_end() ? StampKind::kDateAndTime : StampKind::kNone;
 }
 
 /// The kind of all cells of a column; kNone where they differ.
@@ -61,11 +102,14 @@ bool increases_in_all_logs(const GuessSource& source, const std::string& heading
 
 /// Whether a heading is one of time: by its words, or by the heading of sets.
 bool is_named_time(const HeadingParts& parts) {
-  static const std::regex words(
-      "(^|.*[^a-z])(time|zeit|uhrzeit|t|s|sec|timestamp|zeitstempel|elapsed|messzeit)([^a-z].*|$)");
+  static const std::set<std::string> words{"time", "zeit",      "uhrzeit",     "t",       "s",
+                                           "sec",  "timestamp", "zeitstempel", "elapsed", "messzeit"};
   const std::string name = boost::algorithm::to_lower_copy(parts.name);
   if (parts.unit.has_value() && unit_of_key("value_" + parts.unit->suffix).dimension != dimension::kTime) return false;
-  return std::regex_match(name, words) || name.find("zeit") != std::string::npos ||
+  std::vector<std::string> parts_of_name;
+  boost::algorithm::split(parts_of_name, name, [](char c) { return c < 'a' || c > 'z'; });
+  const auto is_word = [](const std::string& part) { return words.count(part) > 0; };
+  return std::any_of(parts_of_name.begin(), parts_of_name.end(), is_word) || name.find("zeit") != std::string::npos ||
          name.find("time") != std::string::npos;
 }
 
@@ -81,7 +125,6 @@ std::vector<std::string> list_columns_of(const GuessSource& source, StampKind ki
 
 /// Order of day, month and year in written dates. Throws InputError where it cannot be told.
 std::string find_date_order(const GuessSource& source, const std::string& heading, std::string& reason) {
-  static const std::regex parts(R"((\d{1,4})([-./])(\d{1,2})[-./]\d{1,4}.*)");
   if (!source.options.date_order.empty()) {
     reason += "; order of the date as --date-order says";
     return source.options.date_order;
@@ -90,13 +133,18 @@ std::string find_date_order(const GuessSource& source, const std::string& headin
   char sign = '.';
   for (const GuessedLog& log : source.logs) {
     for (const std::string& cell : log.cells_of(heading)) {
-      std::smatch match;
       const std::string trimmed = boost::algorithm::trim_copy(cell);
-      if (!std::regex_match(trimmed, match, parts)) continue;
-      if (match[1].length() == 4) return "ymd";
-      first = std::max(first, std::stoi(match[1]));
-      second = std::max(second, std::stoi(match[3]));
-      sign = match[2].str().front();
+      TextCursor cursor(trimmed);
+      const auto one = cursor.take_digits(1, 4);
+      const char separator = cursor.take_one_of("-./");
+      const auto two = cursor.take_digits(1, 2);
+      const bool is_date = one.has_value() && separator != '\0' && two.has_value() &&
+                           cursor.take_one_of("-./") != '\0' && cursor.take_digits(1).has_value();
+      if (!is_date) continue;
+      if (one->size() == 4) return "ymd";
+      first = std::max(first, std::stoi(*one));
+      second = std::max(second, std::stoi(*two));
+      sign = separator;
     }
   }
   if (first > 12 || sign == '.') {

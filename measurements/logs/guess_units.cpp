@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/case_conv.hpp>
@@ -11,6 +10,7 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include "sim/core/text_cursor.h"
 #include "sim/core/unit_names.h"
 
 namespace rollrig::measurements {
@@ -106,13 +106,19 @@ std::string normalize_unit(std::string text) {
 
 /// Takes "(a)", "abs", "(g)" and their like off the unit of a pressure. Returns whether it was absolute.
 bool take_off_reference(std::string& text) {
-  static const std::regex absolute("^(bar|kPa|psi|mbar|hPa|MPa)(\\(a\\)|\\(abs\\)|_?abs|a)$", std::regex::icase);
-  static const std::regex gauge("^(bar|kPa|psi|mbar|hPa|MPa)(\\(g\\)|\\(rel\\)|_?rel|g|\\(\u00FC\\)|\u00FC)$",
-                                std::regex::icase);
-  std::smatch match;
-  const bool is_absolute = std::regex_match(text, match, absolute);
-  if (is_absolute || std::regex_match(text, match, gauge)) text = match[1].str();
-  return is_absolute;
+  constexpr std::array<const char*, 6> kPressures{"bar", "kPa", "psi", "mbar", "hPa", "MPa"};
+  static const std::vector<std::string> absolute{"(a)", "(abs)", "abs", "_abs", "a"};
+  static const std::vector<std::string> gauge{"(g)", "(rel)", "rel", "_rel", "g", "(\u00FC)", "\u00FC"};
+  for (const std::string pressure : kPressures) {
+    if (!boost::algorithm::istarts_with(text, pressure)) continue;
+    const auto is_rest = [rest = text.substr(pressure.size())](const std::string& reference) {
+      return boost::algorithm::iequals(rest, reference);
+    };
+    const bool is_absolute = std::any_of(absolute.begin(), absolute.end(), is_rest);
+    if (is_absolute || std::any_of(gauge.begin(), gauge.end(), is_rest)) text.resize(pressure.size());
+    return is_absolute;
+  }
+  return false;
 }
 
 /// "p_bar" and its like. One letter that may be an index of the name, as in T_m, is none.
@@ -124,6 +130,59 @@ std::optional<HeadingParts> split_at_underscore(const std::string& heading) {
     if (unit.has_value() && !may_be_index) return HeadingParts{heading.substr(0, at), unit, ""};
   }
   return std::nullopt;
+}
+
+/// A heading as a name and what may be a unit.
+struct SplitHeading {
+  std::string name, unit;
+  bool is_in_brackets = false;
+};
+
+std::string trim_right(std::string_view text) {
+  return std::string(text.substr(0, text.find_last_not_of(kBlanks) + 1));  // of blanks alone: nothing
+}
+
+/// "name [unit]", "name (unit)"; the last bracket that opens, where no other one stands right before it.
+void add_bracketed(const std::string& heading, char open, char close, std::vector<SplitHeading>& found) {
+  if (heading.empty() || heading.back() != close) return;
+  for (std::size_t at = heading.rfind(open); at != std::string::npos && at > 0; at = heading.rfind(open, at - 1)) {
+    const std::string name = trim_right(std::string_view(heading).substr(0, at));
+    if (name.empty()) return;
+    if (open == '(' && name.back() == open) continue;
+    found.push_back({name, boost::algorithm::trim_copy(heading.substr(at + 1, heading.size() - at - 2)), open == '['});
+    return;
+  }
+}
+
+/// "name in unit", "name / unit", "name unit", "name/unit".
+void add_words(const std::string& heading, std::vector<SplitHeading>& found) {
+  const std::size_t last = heading.find_last_of(kBlanks) + 1;  // first character of the last word
+  const std::string unit = heading.substr(last);
+  const std::string name = trim_right(std::string_view(heading).substr(0, last));
+  if (!name.empty() && !unit.empty()) {
+    for (const std::string link : {"in", "/"}) {
+      const std::size_t before = name.size() - std::min(name.size(), link.size());
+      const std::string shorter = trim_right(std::string_view(name).substr(0, before));
+      if (name.compare(before, std::string::npos, link) == 0 && !shorter.empty() && shorter.size() < before) {
+        found.push_back({shorter, unit});
+      }
+    }
+    found.push_back({name, unit});
+  }
+  std::size_t slash = heading.find('/', last);
+  if (slash == last) slash = heading.find('/', last + 1);  // nothing but a blank stands before the first one
+  if (slash != std::string::npos && slash + 1 < heading.size()) {
+    found.push_back({heading.substr(0, slash), heading.substr(slash + 1)});
+  }
+}
+
+/// The ways to split a heading, the likeliest first.
+std::vector<SplitHeading> list_splits(const std::string& heading) {
+  std::vector<SplitHeading> found;
+  add_bracketed(heading, '[', ']', found);
+  add_bracketed(heading, '(', ')', found);
+  add_words(heading, found);
+  return found;
 }
 
 }  // namespace
@@ -139,6 +198,8 @@ double GuessedUnit::convert(double number, const Quantity& quantity) const {
 }
 
 std::optional<GuessedUnit> find_unit(const std::string& text) {
+  constexpr std::size_t kLongest = 40;  // Assumed: characters; the longest spelling has fewer
+  if (text.size() > kLongest) return std::nullopt;
   std::string plain = normalize_unit(text);
   const bool is_absolute = take_off_reference(plain);
   const auto make = [&](const UnitSpelling& spelling) {
@@ -175,19 +236,11 @@ HeadingParts split_heading(const std::string& heading, const std::string& unit_c
     const std::optional<GuessedUnit> unit = find_unit(cell);
     return {heading, unit, unit.has_value() ? "" : cell};
   }
-  static const std::array<std::regex, 6> kForms{std::regex("^(.*\\S)\\s*\\[\\s*(.*?)\\s*\\]$"),
-                                                std::regex("^(.*[^\\s(])\\s*\\(\\s*(.*?)\\s*\\)$"),
-                                                std::regex("^(.*\\S)\\s+in\\s+(\\S+)$"),
-                                                std::regex("^(.*\\S)\\s+/\\s+(\\S+)$"),
-                                                std::regex("^(.*\\S)\\s+(\\S+)$"),
-                                                std::regex("^(.*?\\S)/(\\S+)$")};
   if (const auto parts = split_at_underscore(heading)) return *parts;
-  std::smatch match;
-  for (const std::regex& form : kForms) {
-    if (!std::regex_match(heading, match, form)) continue;
-    const std::optional<GuessedUnit> unit = find_unit(match[2]);
-    if (unit.has_value()) return {match[1], unit, ""};
-    if (&form == &kForms.front()) return {match[1], std::nullopt, match[2]};
+  for (const SplitHeading& split : list_splits(heading)) {
+    const std::optional<GuessedUnit> unit = find_unit(split.unit);
+    if (unit.has_value()) return {split.name, unit, ""};
+    if (split.is_in_brackets) return {split.name, std::nullopt, split.unit};
   }
   return {heading, std::nullopt, ""};
 }

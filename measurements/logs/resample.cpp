@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -50,15 +52,36 @@ double read_given(const Log& log, const Quantity& column, double time_s) {
   return values[i] + (values[i + 1] - values[i]) * (time_s - log.time_s[i]) / between_s;
 }
 
-/// Why a log has no value of a column from one time to another.
-std::string find_reason(const Log& log, const Quantity& column, double from_s, double to_s) {
-  const double half_s = 0.5 * log.interval_s;
-  for (const Mark& mark : log.marks) {
-    const bool concerns = mark.column.name().empty() || mark.column == column;
-    if (concerns && mark.from_s - half_s < to_s && mark.to_s + half_s > from_s) return mark.reason;
+/// Why a log has no value of a column at times that increase from question to question: what its first mark says that
+/// meets the time asked for. Each mark is looked at a few times, whatever the number of questions.
+class Reasons {
+ public:
+  /// Keeps a reference to `log`.
+  Reasons(const Log& log, const Quantity& column) : log_(log), half_s_(0.5 * log.interval_s) {
+    for (std::size_t i = 0; i < log.marks.size(); ++i) {
+      const Quantity& of = log.marks[i].column;
+      if (of.name().empty() || of == column) later_.push_back(i);
+    }
+    const auto begins_later = [&log](std::size_t a, std::size_t b) {
+      return log.marks[a].from_s > log.marks[b].from_s;
+    };
+    std::stable_sort(later_.begin(), later_.end(), begins_later);
   }
-  return "outside the log";
-}
+
+  std::string find(double from_s, double to_s) {
+    for (; !later_.empty() && log_.marks[later_.back()].from_s - half_s_ < to_s; later_.pop_back()) {
+      begun_.insert(later_.back());
+    }
+    while (!begun_.empty() && !(log_.marks[*begun_.begin()].to_s + half_s_ > from_s)) begun_.erase(begun_.begin());
+    return begun_.empty() ? "outside the log" : log_.marks[*begun_.begin()].reason;
+  }
+
+ private:
+  const Log& log_;
+  double half_s_;
+  std::vector<std::size_t> later_;  // marks that begin after all times asked for, the next one last
+  std::set<std::size_t> begun_;     // those that began, in the order of the log; the first one may have ended
+};
 
 /// What one sample of a log stands for.
 struct Cell {
@@ -147,12 +170,13 @@ void add_measured(const Log& log, const Quantity& column, const RowGrid& rows, R
   const auto& [times, cells, interval_s] = rows;
   const bool is_slow = log.interval_s > kSlower * interval_s;
   std::vector<double> values = is_slow ? place_samples(log, column, cells) : calc_means(log, column, cells);
+  Reasons reasons(log, column);
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!std::isnan(values[row])) continue;
     const bool is_end = row == 0 || row + 1 == times.size();
     // Between the samples of a slow log a row is empty for no reason but that.
     const double reach_s = is_slow ? 1e-9 : 0.0;
-    std::string reason = find_reason(log, column, cells[row].from_s + reach_s, cells[row].to_s - reach_s);
+    std::string reason = reasons.find(cells[row].from_s + reach_s, cells[row].to_s - reach_s);
     const bool inside = times[row] >= log.time_s.front() && times[row] <= log.time_s.back();
     if (reason == "outside the log" && inside && is_slow) {
       ++run.rows_between[column];
@@ -170,7 +194,7 @@ InputError missing_input(const Log& log, const Quantity& column, double from_s, 
   const auto row = std::min(static_cast<std::size_t>(at - log.time_s.begin()), log.time_s.size() - 1);
   return InputError(
       {fmt::format("'{}' is missing for {:.3g} s of the run, {}", column.header(), to_s - from_s,
-                   find_reason(log, column, from_s, to_s)),
+                   Reasons(log, column).find(from_s, to_s)),
        log.file, log.line[row], column.header(), "",
        fmt::format("at most {:.3g} s (longest_given_gap_s); else from and to of [[run]], so that it ends before or "
                    "begins after",
@@ -185,6 +209,10 @@ std::vector<double> add_given(const Mapping& mapping, const RunSources& sources,
   for (const rigs::Column& column : mapping.set.kind->columns.all_given()) {
     const Source source = find_source(mapping, sources, column.quantity);
     if (source.log != nullptr || !std::isnan(source.constant_SI)) given.emplace_back(column.quantity, source);
+  }
+  std::map<Quantity, Reasons> reasons;
+  for (const auto& [column, source] : given) {
+    if (source.log != nullptr) reasons.emplace(column, Reasons(*source.log, column));
   }
   std::vector<double> kept;
   for (const double time_s : grid) {
@@ -201,7 +229,7 @@ std::vector<double> add_given(const Mapping& mapping, const RunSources& sources,
         throw missing_input(*source.log, column, since_s + (kept.empty() ? 0.0 : interval_s),
                             back == grid.end() ? grid.back() : *back, mapping.longest_given_gap_s);
       }
-      const std::string reason = find_reason(*source.log, column, time_s - 1e-6, time_s + 1e-6);
+      const std::string reason = reasons.at(column).find(time_s - 1e-6, time_s + 1e-6);
       add_empty(run, {column, time_s - run.start_s, time_s - run.start_s, 1, true, reason}, interval_s);
       break;
     }

@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <regex>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "sim/core/error.h"
+#include "sim/core/text_cursor.h"
 #include "sim/core/units.h"
 
 namespace rollrig::scenarios {
@@ -32,35 +33,97 @@ InputError bad_size(const std::string& text, const std::string& what) {
        "a metric size: width in mm, aspect ratio in percent, rim in inches, as in 205/55R16 or 315/80R22.5", ""});
 }
 
+/// The parts of a size as they are written.
+struct WrittenSize {
+  std::string width, aspect, rim, load_index;
+  bool is_light_truck = false;
+};
+
+/// Two or three digits, and two or three more behind a slash where there is one: the load index of twin tires.
+std::optional<std::string> take_load_index(TextCursor& cursor) {
+  const auto single = cursor.take_digits(2, 3);
+  if (!single.has_value() || !cursor.take('/')) return single;
+  const auto twin = cursor.take_digits(2, 3);
+  if (!twin.has_value()) return std::nullopt;
+  return *single + "/" + *twin;
+}
+
+/// Width, aspect ratio and rim: "205/55R16", "315/80 ZR 22.5".
+bool take_dimensions(TextCursor& cursor, WrittenSize& size) {
+  const auto width = cursor.take_digits(3, 3);
+  cursor.skip_blanks();
+  const bool has_slash = cursor.take('/');
+  cursor.skip_blanks();
+  const auto aspect = cursor.take_digits(2, 3);
+  cursor.skip_blanks();
+  cursor.take_one_of("Zz");
+  const bool has_build = cursor.take_one_of("RrDd-") != '\0';
+  cursor.skip_blanks();
+  const auto rim = cursor.take_digits(2, 2);
+  if (!width.has_value() || !has_slash || !aspect.has_value() || !has_build || !rim.has_value()) return false;
+  size.width = *width;
+  size.aspect = *aspect;
+  size.rim = *rim;
+  if (!cursor.take('.')) return true;
+  const auto decimal = cursor.take_digits(1, 1);
+  size.rim += "." + decimal.value_or("");
+  return decimal.has_value();
+}
+
+std::optional<WrittenSize> split_size(const std::string& text) {
+  WrittenSize size;
+  TextCursor cursor(text);
+  cursor.skip_blanks();
+  size.is_light_truck = cursor.take_word("LT");
+  if (!size.is_light_truck) cursor.take_one_of("Pp");
+  cursor.skip_blanks();
+  if (!take_dimensions(cursor, size)) return std::nullopt;
+  bool is_apart = cursor.skip_blanks() > 0;
+  if (cursor.take_one_of("Cc") != '\0' || cursor.take_word("LT")) {
+    size.is_light_truck = true;
+    is_apart = cursor.skip_blanks() > 0;
+  }
+  if (cursor.at_end()) return size;
+  const auto load_index = take_load_index(cursor);
+  if (!is_apart || !load_index.has_value()) return std::nullopt;
+  size.load_index = *load_index;
+  cursor.skip_blanks();
+  cursor.take_letters(1, 1);  // of the speed
+  cursor.skip_blanks();
+  if (!cursor.at_end()) return std::nullopt;
+  return size;
+}
+
 }  // namespace
 
 TireSize parse_tire_size(const std::string& text) {
-  static const std::regex shape(
-      R"(\s*(P|LT)?\s*(\d{3})\s*/\s*(\d{2,3})\s*Z?([RD-])\s*(\d{2}(?:\.\d)?)\s*(C|LT)?(?:\s+(\d{2,3}(?:/\d{2,3})?)\s*[A-Z]?)?\s*)",
-      std::regex::icase);
-  std::smatch match;
-  if (!std::regex_match(text, match, shape)) throw bad_size(text, fmt::format("'{}' is no size of a tire", text));
-  const double width_mm = std::stod(match[2]);
-  const double aspect_percent = std::stod(match[3]);
-  const double rim_in = std::stod(match[5]);
+  const auto written = split_size(text);
+  if (!written.has_value()) throw bad_size(text, fmt::format("'{}' is no size of a tire", text));
+  const double width_mm = std::stod(written->width);
+  const double aspect_percent = std::stod(written->aspect);
+  const double rim_in = std::stod(written->rim);
   if (width_mm < 100.0 || width_mm > 500.0 || aspect_percent < 20.0 || aspect_percent > 100.0 || rim_in < 8.0 ||
       rim_in > 26.0) {
     throw bad_size(text, fmt::format("'{}' is no size of a tire for the road", text));
   }
   TireSize size;
-  size.is_commercial = match[6].matched || match[1].str() == "LT" || match[1].str() == "lt";
+  size.is_commercial = written->is_light_truck;
   size.designation = fmt::format("{:g}/{:g} R{:g}{}", width_mm, aspect_percent, rim_in, size.is_commercial ? "C" : "");
   size.section_width_m = width_mm * 1e-3;
   size.rim_diameter_m = rim_in * kInch_m;
   size.outer_diameter_m = size.rim_diameter_m + 2.0 * aspect_percent * 0.01 * size.section_width_m;
-  size.load_index = match[7];
+  size.load_index = written->load_index;
   return size;
 }
 
 int parse_load_index(const std::string& load_index) {
-  static const std::regex shape(R"(\s*(\d{2,3})(/\d{2,3})?\s*[A-Za-z]?\s*)");
-  std::smatch match;
-  const int index = std::regex_match(load_index, match, shape) ? std::stoi(match[1]) : 0;
+  TextCursor cursor(load_index);
+  cursor.skip_blanks();
+  const auto written = take_load_index(cursor);
+  cursor.skip_blanks();
+  cursor.take_letters(1, 1);  // of the speed
+  cursor.skip_blanks();
+  const int index = written.has_value() && cursor.at_end() ? std::stoi(*written) : 0;  // the first of two
   if (index >= kLowestIndex && index <= kHighestIndex) return index;
   throw InputError(
       {fmt::format("'{}' is no load index", load_index), "command line", 0, "--load-index", load_index,

@@ -77,12 +77,27 @@ std::string find_present_name(const std::string& folder, const std::string& name
   return renamed != former.end() ? renamed->second : name;
 }
 
+namespace {
+
+/// Throws InputError where ROLLRIG_ASSETS names a folder that has no such assets at all.
+void require_assets_of_variable(const std::string& folder) {
+  const char* set = std::getenv("ROLLRIG_ASSETS");
+  if (set == nullptr || !list_assets(folder).empty()) return;
+  throw InputError({fmt::format("the folder '{}' of the variable ROLLRIG_ASSETS has no {}", set, folder), "", 0,
+                    "ROLLRIG_ASSETS", set,
+                    fmt::format("a folder that has {}/*{}; or unset the variable", folder, extension_of(folder)), ""});
+}
+
+}  // namespace
+
 std::string find_asset_from(const std::string& base_folder, const std::string& folder,
                             const std::string& name_or_path) {
   if (is_path(folder, name_or_path)) return (fs::path(base_folder) / name_or_path).lexically_normal().string();
   const std::string name = find_present_name(folder, name_or_path);
   const fs::path file = fs::path(find_assets_folder()) / folder / (name + extension_of(folder));
-  if (fs::exists(file)) return file.string();
+  std::error_code code;  // a name that is too long for a file names none
+  if (fs::exists(file, code)) return file.string();
+  require_assets_of_variable(folder);
   InputProblem problem = unknown_name(folder.substr(0, folder.size() - 1), name_or_path, list_assets(folder));
   problem.allowed += fmt::format("; or a path to a {} file", extension_of(folder));
   throw InputError(problem);
@@ -102,7 +117,7 @@ std::string find_asset_of(const TableReader& reader, const std::string& key, con
     at_key.nearest = error.problem().nearest;
     throw InputError(at_key);
   }
-  if (!fs::exists(path)) {
+  if (!is_there(path)) {
     InputProblem missing = reader
                                .problem(key, fmt::format("no such file '{}'", path),
                                         fmt::format("a name under assets/{}, or a path relative to this file", folder))

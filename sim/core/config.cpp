@@ -8,6 +8,8 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/nesting.h"
+#include "sim/core/text.h"
 
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
@@ -59,6 +61,7 @@ ConfigValue convert_node(const toml::node& node, const std::string& file) {
 }
 
 ConfigValue parse_value(const std::string& text, const std::string& origin_name) {
+  require_shallow(text, origin_name);
   try {
     const toml::table table = toml::parse("value = " + text);
     if (table.size() == 1) {
@@ -86,6 +89,7 @@ std::vector<std::string> ConfigTable::keys() const {
 }
 
 ConfigTable parse_config(std::string_view text, const std::string& name) {
+  require_shallow(text, name);
   try {
     ConfigTable table = convert_table(toml::parse(text, name), name);
     table.origin = {name, 1};
@@ -106,6 +110,10 @@ void set_config_value(ConfigTable& root, const std::string& dotted_key, const st
                       const std::string& origin_name) {
   std::vector<std::string> words;
   boost::algorithm::split(words, dotted_key, [](char c) { return c == '.'; });
+  if (words.size() > kMostKeyParts) {
+    throw InputError({"a key with too many parts", origin_name, 0, shorten(dotted_key, 60), shorten(value, 60),
+                      fmt::format("at most {} parts with points between", kMostKeyParts), ""});
+  }
   ConfigTable* table = &root;
   for (std::size_t i = 0; i < words.size(); ++i) {
     boost::algorithm::trim(words[i]);

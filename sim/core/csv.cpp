@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -51,14 +52,19 @@ void require_separated(const std::vector<std::string>& header, const std::string
 
 void CsvTable::read_header(const std::vector<std::string>& names) {
   require_separated(names, path_, form_);
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    if (name->empty()) {
+  if (names.size() > kMostColumns) {
+    throw InputError({"too many columns", path_, form_.header_line, "", format_count(names.size(), "column"),
+                      fmt::format("at most {}", kMostColumns), ""});
+  }
+  std::unordered_set<std::string> known;
+  for (const std::string& name : names) {
+    if (name.empty()) {
       throw InputError(
           {"a column has no name", path_, form_.header_line, "", "", "a header line with a name a column", ""});
     }
-    if (std::find(names.begin(), name, *name) != name) {
-      throw InputError({fmt::format("column '{}' stands twice", *name), path_, form_.header_line, *name, "",
-                        "each column once", ""});
+    if (!known.insert(name).second) {
+      throw InputError(
+          {fmt::format("column '{}' stands twice", name), path_, form_.header_line, name, "", "each column once", ""});
     }
   }
   columns_ = names;
@@ -82,6 +88,11 @@ CsvTable CsvTable::read(const std::string& path, const CsvForm& form, RowProblem
   table.form_ = form;
   CsvScanner scanner(text, path, form.separator);
   scanner.go_to_line(form.header_line);
+  if (scanner.at_end()) {
+    throw InputError({"the file ends before its header", path, scanner.line(), "",
+                      fmt::format("header in line {}", form.header_line), allow("a header, and rows below it", form),
+                      ""});
+  }
   table.read_header(scanner.next_record());
   scanner.go_to_line(form.first_row_line);
   while (!scanner.at_end()) {
@@ -135,7 +146,7 @@ std::vector<std::string> CsvTable::text(const std::string& column) const {
 InputError CsvTable::cell_error(std::size_t row, const std::string& column, const std::string& what,
                                 const std::string& allowed) const {
   const std::string& cell = rows_[row].cells[find_column(column)];
-  return InputError({what, path_, line_of(row), column, cell.empty() ? "(empty)" : cell, allowed, ""});
+  return InputError({what, path_, line_of(row), column, cell.empty() ? "(empty)" : shorten(cell, 60), allowed, ""});
 }
 
 double CsvTable::parse_cell(std::size_t row, const Field& field, const std::string& cell) const {
@@ -154,9 +165,9 @@ double CsvTable::parse_cell(std::size_t row, const Field& field, const std::stri
   const auto [stop, error] = std::from_chars(plain.data(), end, value);
   if (error != std::errc() || stop != end) {
     const bool has_comma = form_.decimal == '.' && parse_number(boost::algorithm::replace_all_copy(cell, ",", "."));
-    throw make_error(fmt::format("'{}' is not a number", cell), has_comma);
+    throw make_error(fmt::format("'{}' is not a number", shorten(cell, 60)), has_comma);
   }
-  if (!std::isfinite(value)) throw make_error(fmt::format("'{}' is not finite", cell));
+  if (!std::isfinite(value)) throw make_error(fmt::format("'{}' is not finite", shorten(cell, 60)));
   if (!field.range.contains(value)) throw make_error(fmt::format("{} is out of range", field.key));
   return value;
 }

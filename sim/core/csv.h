@@ -23,12 +23,14 @@ struct CsvForm {
   std::string encoding_hint{};     // for errors: where to say the encoding
 };
 
+constexpr std::size_t kMostColumns = 10000;  // Assumed: of one table; loggers have hundreds
+
 /// A CSV file as text cells. With `problems`, what is wrong with single rows is added there and not thrown.
 class CsvTable {
  public:
-  /// Reads a file. Throws InputError: see read_text_file, and no header, a header without rows, ragged
-  /// rows, a quote that never ends, a column named twice. With `problems`, each row is one line, and rows that are
-  /// ragged or have a quote that does not end are left out.
+  /// Reads a file. Throws InputError: see read_text_file, and no header, a header without rows, more than kMostColumns
+  /// columns, ragged rows, a quote that never ends, a column named twice. With `problems`, each row is one line, and
+  /// rows that are ragged or have a quote that does not end are left out.
   static CsvTable read(const std::string& path, const CsvForm& form = {}, RowProblems* problems = nullptr);
 
   /// A table of cells that a file of another format holds, column by column; row i is "line" i + 1.

@@ -13,7 +13,7 @@ CsvScanner::CsvScanner(const std::string& text, const std::string& path, char se
 }
 
 void CsvScanner::go_to_line(int line) {
-  for (; line_ < line && !at_end(); ++line_) position_ = std::min(text_.find('\n', position_), text_.size()) + 1;
+  for (; line_ < line && !at_end(); ++line_) position_ = std::min(text_.find('\n', position_), text_.size() - 1) + 1;
 }
 
 std::vector<std::string> CsvScanner::next_record() {

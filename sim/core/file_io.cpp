@@ -64,8 +64,15 @@ std::string nearest_file(const std::string& path) {
 
 namespace {
 
-/// What is in a file that is there and not empty.
-std::string read_bytes(const std::string& path) {
+InputError read_problem(const std::string& path, int error_number) {
+  return file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(error_number)), path);
+}
+
+/// Throws InputError for what is no file: it may never end, or nobody may ever write to it.
+void require_file(const std::string& path) {
+  if (!decode_text(path, "utf-8").is_valid) {
+    throw file_problem("the name of a file is not UTF-8 text", path, "a name in UTF-8; rename the file or its folder");
+  }
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found) {
@@ -74,39 +81,78 @@ std::string read_bytes(const std::string& path) {
   if (status.type() == fs::file_type::directory) {
     throw file_problem(fmt::format("'{}' is a directory, not a file", path), path);
   }
+  if (code) throw read_problem(path, code.value());
   if (status.type() == fs::file_type::character || status.type() == fs::file_type::block) {
     throw file_problem(fmt::format("'{}' is a device, not a file", path), path);  // /dev/zero never ends
   }
+  if (status.type() != fs::file_type::regular) {
+    throw file_problem(fmt::format("'{}' is a pipe, not a file", path), path,
+                       "a file: it is read more than once; write what the pipe gives to one first");
+  }
+}
+
+InputError too_large(const std::string& path, std::uintmax_t largest_bytes) {
+  return file_problem(fmt::format("'{}' is too large", path), path,
+                      fmt::format("at most {} MiB in a file of this kind", largest_bytes >> 20));
+}
+
+/// What is in a file that is there and not empty.
+std::string read_bytes(const std::string& path, std::uintmax_t largest_bytes) {
+  require_file(path);
   spdlog::debug("reads {}", path);
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(errno)), path);
+  if (!in) throw read_problem(path, errno);
   note_as_read(path);
-  std::ostringstream content;
-  content << in.rdbuf();
-  std::string text = content.str();
-  if (text.empty()) throw file_problem(fmt::format("'{}' is empty", path), path);
-  return text;
+  std::error_code code;
+  const std::uintmax_t size = fs::file_size(path, code);  // those of /proc say 0, whatever is in them
+  if (!code && size > largest_bytes) throw too_large(path, largest_bytes);
+  std::string bytes;
+  constexpr std::size_t kPiece = 1 << 16;
+  if (!code) bytes.reserve(size + kPiece);
+  while (in) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + kPiece);
+    in.read(bytes.data() + before, static_cast<std::streamsize>(kPiece));
+    bytes.resize(before + static_cast<std::size_t>(in.gcount()));
+    if (bytes.size() > largest_bytes) throw too_large(path, largest_bytes);
+  }
+  if (in.bad()) throw read_problem(path, errno);
+  if (bytes.size() < kPiece) bytes.shrink_to_fit();
+  if (bytes.empty()) throw file_problem(fmt::format("'{}' is empty", path), path);
+  return bytes;
 }
 
 constexpr const char* kUtf8 =
     "UTF-8 text; iconv -f latin1 -t utf-8 (or -f utf-16) makes it of a text of another encoding";
 
-}  // namespace
-
-std::string read_text_file(const std::string& path) {
-  std::string text = read_bytes(path);
-  const DecodedText decoded = decode_text(text, "utf-8");
-  if (!decoded.is_valid || decoded.text != text) {
-    throw file_problem(fmt::format("'{}' is not a text file", path), path, kUtf8);
-  }
-  return text;
+std::string read_utf8(const std::string& path, std::uintmax_t largest_bytes) {
+  std::string bytes = read_bytes(path, largest_bytes);
+  const bool is_utf16 = has_utf16_mark(bytes);
+  DecodedText decoded = decode_text(std::move(bytes), "utf-8");
+  if (decoded.is_valid && !is_utf16) return std::move(decoded.text);
+  throw file_problem(fmt::format("'{}' is not a text file", path), path, kUtf8);
 }
 
+}  // namespace
+
+std::string read_text_file(const std::string& path) { return read_utf8(path, kLargestText_bytes); }
+
+std::string read_table_file(const std::string& path) { return read_utf8(path, kLargestTable_bytes); }
+
 std::string read_text_file(const std::string& path, const std::string& encoding, const std::string& hint) {
-  DecodedText decoded = decode_text(read_bytes(path), encoding);
+  DecodedText decoded = decode_text(read_bytes(path, kLargestTable_bytes), encoding);
   if (decoded.is_valid) return std::move(decoded.text);
   throw InputError({fmt::format("'{}' is not a text file in {}", path, encoding), path,
                     static_cast<int>(decoded.valid_lines) + 1, "", "", hint.empty() ? kUtf8 : hint, ""});
+}
+
+std::string read_binary_file(const std::string& path) { return read_bytes(path, kLargestTable_bytes); }
+
+bool is_there(const std::string& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (status.type() == fs::file_type::none) throw read_problem(path, code.value());
+  return fs::exists(status);
 }
 
 bool was_read(const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Files in and out: reading with errors that say what is wrong, writing all or nothing.
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
@@ -8,13 +9,26 @@
 
 namespace rollrig {
 
-/// The whole of a text file. Throws InputError when it is missing, a directory, unreadable, empty, or
-/// not UTF-8 text.
+constexpr std::uintmax_t kLargestText_bytes = std::uintmax_t{64} << 20;  // Assumed: of TOML, JSON and other documents
+constexpr std::uintmax_t kLargestTable_bytes = std::uintmax_t{1} << 30;  // Assumed: of tables, such as CSV logs
+
+/// The whole of a text file of at most kLargestText_bytes. Throws InputError when it is missing, a directory, a device,
+/// a pipe, unreadable, empty, too large, or not UTF-8 text.
 std::string read_text_file(const std::string& path);
 
-/// The same of a text in one of the encodings of text_encoding.h, as UTF-8. `hint` is for errors: where to say the
-/// encoding.
+/// The same of a table, which may have kLargestTable_bytes.
+std::string read_table_file(const std::string& path);
+
+/// The same of a table in one of the encodings of text_encoding.h, as UTF-8, of at most kLargestTable_bytes. `hint` is
+/// for errors: where to say the encoding.
 std::string read_text_file(const std::string& path, const std::string& encoding, const std::string& hint);
+
+/// The bytes of a table in a binary format, of at most kLargestTable_bytes. Throws InputError as read_text_file() does.
+std::string read_binary_file(const std::string& path);
+
+/// Whether something is at a path. Throws InputError where the system cannot tell: the name is too long, its links go
+/// round in a loop, a folder on the way may not be searched.
+bool is_there(const std::string& path);
 
 /// Whether read_text_file() has read this very file, by whatever name, since the program started.
 bool was_read(const std::string& path);

@@ -15,22 +15,14 @@
 namespace rollrig {
 namespace {
 
-constexpr std::size_t kMostShown = 20;  // rows of a file
+constexpr std::size_t kMostShown = 20;     // rows of a file
+constexpr std::size_t kLongestValue = 20;  // characters of it that a table shows
 
 std::string without_hint(const std::string& allowed, const std::string& hint) {
   const std::string end = "; " + hint;
   const bool has_it = !hint.empty() && allowed.size() > end.size() &&
                       allowed.compare(allowed.size() - end.size(), end.size(), end) == 0;
   return has_it ? allowed.substr(0, allowed.size() - end.size()) : allowed;
-}
-
-/// A value as a table shows it: a long text cut short.
-std::string shorten(const std::string& value) {
-  constexpr std::size_t kLongest = 20;
-  if (count_characters(value) <= kLongest) return value;
-  std::size_t end = kLongest - 3;
-  while (end > 0 && (static_cast<unsigned char>(value[end]) & 0xC0U) == 0x80U) --end;  // not within a character
-  return value.substr(0, end) + "...";
 }
 
 /// Median time from row to row of a sequence; rows that it passes over count.
@@ -78,8 +70,8 @@ std::string format_file(const RowProblems& problems, const std::string& hint) {
   for (const InputProblem& problem : problems) {
     if (lines.size() == kMostShown && lines.count(problem.line) == 0) break;
     lines.insert(problem.line);
-    cells.push_back({std::to_string(problem.line), problem.key.empty() ? "(row)" : problem.key, shorten(problem.value),
-                     without_hint(problem.allowed, hint)});
+    cells.push_back({std::to_string(problem.line), problem.key.empty() ? "(row)" : problem.key,
+                     shorten(problem.value, kLongestValue), without_hint(problem.allowed, hint)});
   }
   const std::size_t count = count_rows(problems);
   std::string text = fmt::format("  {}: {}\n", problems.front().file, format_count(count, "bad row"));

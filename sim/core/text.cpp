@@ -33,6 +33,16 @@ std::string wrap(const std::string& text, std::size_t indent, std::size_t width)
   return out + line + "\n";
 }
 
+std::string shorten(const std::string& text, std::size_t most) {
+  if (count_characters(text) <= most) return text;
+  std::size_t end = 0;
+  for (std::size_t characters = 0; end < text.size(); ++end) {
+    const bool begins_one = (static_cast<unsigned char>(text[end]) & 0xC0U) != 0x80U;
+    if (begins_one && ++characters > most - 3) break;
+  }
+  return text.substr(0, end) + "...";
+}
+
 std::string format_count(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }

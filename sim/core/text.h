@@ -14,6 +14,9 @@ std::size_t count_characters(const std::string& text);
 /// Text broken into lines of at most `width`, each indented.
 std::string wrap(const std::string& text, std::size_t indent, std::size_t width = 80);
 
+/// A text of at most so many characters: of a longer one, its beginning and "...".
+std::string shorten(const std::string& text, std::size_t most);
+
 /// "1 run", "2 runs": a number and what it counts, with an s unless it is one.
 std::string format_count(std::size_t count, const std::string& what);
 

@@ -16,18 +16,13 @@ DecodedText give_up_at(const std::string& text, std::size_t byte) {
   return {"", false, static_cast<std::size_t>(std::count(text.begin(), end, '\n'))};
 }
 
-bool has_utf16_mark(const std::string& bytes) {
-  const std::string_view start = std::string_view(bytes).substr(0, 2);
-  return start == "\xFF\xFE" || start == "\xFE\xFF";
-}
-
 /// By the converter of the C library.
 DecodedText convert(const std::string& bytes, const char* encoding) {
   const iconv_t converter = iconv_open("UTF-8", encoding);
   if (converter == iconv_t(-1)) throw std::runtime_error(std::string("this system cannot convert ") + encoding);
   BOOST_SCOPE_EXIT_ALL(&) { iconv_close(converter); };
   std::string in = bytes;
-  std::string out(4 * bytes.size() + 4, '\0');  // more than any character becomes
+  std::string out(3 * bytes.size() + 4, '\0');  // more than any character becomes
   char* from = in.data();
   char* to = out.data();
   std::size_t left = in.size();
@@ -57,12 +52,18 @@ const std::vector<std::string>& encoding_names() {
   return names;
 }
 
-DecodedText decode_text(const std::string& bytes, const std::string& encoding) {
-  DecodedText decoded{bytes, true, 0};
-  if (has_utf16_mark(bytes)) {
-    decoded = convert(bytes, "UTF-16");
+bool has_utf16_mark(const std::string& bytes) {
+  const std::string_view start = std::string_view(bytes).substr(0, 2);
+  return start == "\xFF\xFE" || start == "\xFE\xFF";
+}
+
+DecodedText decode_text(std::string bytes, const std::string& encoding) {
+  const bool is_utf16 = has_utf16_mark(bytes);
+  DecodedText decoded{std::move(bytes), true, 0};
+  if (is_utf16) {
+    decoded = convert(decoded.text, "UTF-16");
   } else if (encoding == "windows-1252") {
-    decoded = convert(bytes, "WINDOWS-1252");
+    decoded = convert(decoded.text, "WINDOWS-1252");
   } else if (encoding == "utf-16") {
     return {"", false, 0};  // without a mark, the order of the bytes is not known
   }

@@ -19,6 +19,9 @@ struct DecodedText {
 /// Bytes in one of these encodings as UTF-8. Bytes that begin with the byte order mark of UTF-16 are in UTF-16,
 /// whatever `encoding` says. A zero byte is no text.
 /// Checked  tests/core/text_encoding_test.cpp
-DecodedText decode_text(const std::string& bytes, const std::string& encoding);
+DecodedText decode_text(std::string bytes, const std::string& encoding);
+
+/// Whether bytes begin with the byte order mark of UTF-16.
+bool has_utf16_mark(const std::string& bytes);
 
 }  // namespace rollrig

@@ -8,15 +8,19 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <regex>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/trim.hpp>
 
+#include "sim/core/text.h"
+#include "sim/core/text_cursor.h"
+
 namespace rollrig {
 namespace {
+
+constexpr std::size_t kLongestUnit = 100;  // Assumed: characters of a name, more of which UDUNITS does not get
 
 /// A dimension that has a name, and units that logs have it in.
 struct NamedDimension {
@@ -111,18 +115,31 @@ std::string describe_unit(const ut_unit* unit) {
   return length > 0 ? fmt::format("quantity in {}", text.data()) : "quantity of another kind";
 }
 
+/// "psi" of "psia" and "bar" of "bar (g)"; empty where a text does not say from where a pressure counts.
+std::string take_off_zero(const std::string& text) {
+  using boost::algorithm::iends_with;
+  std::string shorter = text;
+  if (!shorter.empty() && shorter.back() == ')') shorter.pop_back();
+  for (const std::string reference : {"gauge", "abs.", "abs", "g", "a"}) {
+    if (!iends_with(shorter, reference)) continue;
+    shorter.resize(shorter.size() - reference.size());
+    if (!shorter.empty() && shorter.back() == '(') shorter.pop_back();
+    return boost::algorithm::trim_right_copy(shorter);
+  }
+  return {};
+}
+
 /// "psia", "bar(g)": a pressure and from where it counts.
 void refuse_pressure_with_zero(const std::string& text) {
-  static const std::regex shape(R"((.+?)\s*\(?(g|a|abs|abs\.|gauge)\)?)", std::regex::icase);
-  std::smatch match;
-  if (!std::regex_match(text, match, shape)) return;
-  const UnitOf base = Database::get().parse(match[1].str());
+  const std::string without_reference = take_off_zero(text);
+  if (without_reference.empty()) return;
+  const UnitOf base = Database::get().parse(without_reference);
   const UnitOf pressure = Database::get().parse(dimension::kPressure);
   if (base == nullptr || pressure == nullptr || ut_are_convertible(base.get(), pressure.get()) == 0) return;
   throw std::invalid_argument(
       fmt::format("'{}' says of a pressure whether it is gauge or absolute, which a unit does not: unit = \"{}\", and "
                   "for absolute pressure offset = minus the pressure of the air in that unit",
-                  text, match[1].str()));
+                  text, without_reference));
 }
 
 /// A usual name that differs in its case alone.
@@ -137,7 +154,7 @@ std::string find_by_case(const std::string& text, const Dimension& dimension) {
 
 bool is_known_unit(const std::string& text) {
   const std::string name = boost::algorithm::trim_copy(text);
-  if (name.empty()) return false;
+  if (name.empty() || name.size() > kLongestUnit) return false;
   if (!unit_of_key("value_" + name).symbol.empty()) return true;
   const std::lock_guard<std::mutex> lock(Database::get().mutex());
   return Database::get().parse(find_udunits_name(name, dimension::kTemperature)) != nullptr;
@@ -160,6 +177,7 @@ std::string describe_dimension(const Dimension& dimension) {
 
 Unit parse_unit(const std::string& given, const Unit& wanted) {
   const std::string text = boost::algorithm::trim_copy(given);
+  if (text.size() > kLongestUnit) throw std::invalid_argument(fmt::format("'{}' is no unit", shorten(text, 60)));
   const auto of_suffix = [&wanted](const std::string& name) -> std::optional<Unit> {
     Unit unit = unit_of_key("value_" + name);
     if (unit.symbol.empty() || unit.dimension != wanted.dimension) return std::nullopt;

@@ -86,3 +86,19 @@ TEST_CASE("the nearest known name is found, and nothing when none is near", "[fa
   CHECK(nearest_name("a0_n", known) == "A0_N");
   CHECK(nearest_name("zzzzzzzzzz", known).empty());
 }
+
+TEST_CASE("a config that is too deep is refused, wherever it is deep", "[fast]") {
+  std::string key = "a";
+  for (int i = 0; i < 10000; ++i) key += ".a";
+  const auto refuses = [](const std::string& text, const char* what) {
+    INFO(text.substr(0, 20));
+    CHECK_THROWS_WITH(parse_config(text, "file.toml"), Catch::Contains(what) && Catch::Contains("file.toml, line 2"));
+  };
+  refuses("b = 1\n" + key + " = 1\n", "too many parts");
+  refuses("b = 1\n[" + key + "]\n", "too many parts");
+  refuses("b = 1\na = " + std::string(5000, '[') + std::string(5000, ']'), "nested too deeply");
+  ConfigTable root;
+  CHECK_THROWS_WITH(set_config_value(root, key, "1", "command line"), Catch::Contains("too many parts"));
+  CHECK_THROWS_WITH(set_config_value(root, "a", std::string(5000, '['), "command line"),
+                    Catch::Contains("nested too deeply"));
+}

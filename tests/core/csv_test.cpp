@@ -74,3 +74,41 @@ TEST_CASE("wrong files are refused with line and column", "[fast]") {
   CHECK_THROWS_WITH(parse("#,a_N\n1,2\n3\n"), Catch::Contains("ragged") && Catch::Contains("line 3"));  // a counter
   CHECK_THROWS_WITH(parse("a_N\nnan\n").numbers({"a_N", any_number(), ""}), Catch::Contains("not finite"));
 }
+
+TEST_CASE("a header that is to stand behind the end of the file is told", "[fast]") {
+  for (const std::string content : {"a,b\n1,2", "a,b\n1,2\n", "a"}) {
+    for (const int line : {4, 9, 1000000}) {
+      const tests::TemporaryFolder folder;
+      tests::write_file(folder.file("run.csv"), content);
+      CsvForm form;
+      form.header_line = line;
+      form.first_row_line = line + 1;
+      CHECK_THROWS_WITH(CsvTable::read(folder.file("run.csv"), form), Catch::Contains("ends before its header"));
+    }
+  }
+}
+
+TEST_CASE("a table may have as many columns as the limit, which are found at once", "[fast]") {
+  const auto make = [](std::size_t columns) {
+    std::string header, row;
+    for (std::size_t i = 0; i < columns; ++i) {
+      header += (i > 0 ? ",c" : "c") + std::to_string(i);
+      row += i > 0 ? ",1" : "0";
+    }
+    return header + "\n" + row + "\n";
+  };
+  const CsvTable csv = parse(make(kMostColumns));
+  CHECK(csv.text("c0")[0] == "0");
+  CHECK(csv.has("c" + std::to_string(kMostColumns - 1)));
+  CHECK_THROWS_WITH(parse(make(kMostColumns + 1)), Catch::Contains("too many columns"));
+}
+
+TEST_CASE("a long cell is told by its beginning", "[fast]") {
+  const std::string cell(50000, 'x');
+  try {
+    parse("a\n" + cell + "\n").numbers({"a", any_number(), ""});
+    FAIL("a text was taken for a number");
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()).size() < 1000);
+  }
+}

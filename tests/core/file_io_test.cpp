@@ -1,5 +1,7 @@
 #include "sim/core/file_io.h"
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 
 #include <filesystem>
@@ -70,4 +72,41 @@ TEST_CASE("text files are told from what is none", "[fast]") {
 TEST_CASE("SHA-256 of the standard's example", "[fast]") {
   // FIPS 180-2, appendix B.1
   CHECK(calc_sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+}
+
+TEST_CASE("a pipe is refused, for whoever waits for it may wait for ever", "[fast]") {
+  const tests::TemporaryFolder temporary;
+  const std::string pipe = temporary.file("pipe");
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_THROWS_WITH(read_text_file(pipe), Catch::Contains("is a pipe, not a file"));
+  CHECK_THROWS_WITH(read_text_file(pipe, "utf-8", ""), Catch::Contains("is a pipe, not a file"));
+}
+
+TEST_CASE("a file larger than its kind may be is refused before it is read", "[fast]") {
+  const tests::TemporaryFolder temporary;
+  const std::string file = temporary.file("file");
+  std::ofstream(file) << "text";
+  fs::resize_file(file, kLargestText_bytes + 1);  // a hole, which takes no room
+  CHECK_THROWS_WITH(read_text_file(file), Catch::Contains("is too large") && Catch::Contains("at most 64 MiB"));
+  CHECK_THROWS_WITH(read_text_file(file, "utf-8", ""), Catch::Contains("not a text file"));  // of zero bytes
+  fs::resize_file(file, kLargestTable_bytes + 1);
+  CHECK_THROWS_WITH(read_text_file(file, "utf-8", ""), Catch::Contains("at most 1024 MiB"));
+  CHECK_THROWS_WITH(read_binary_file(file), Catch::Contains("at most 1024 MiB"));
+  CHECK(read_text_file("/proc/self/status").size() > 100);  // of which the system says that it has no bytes
+}
+
+TEST_CASE("names that the system does not follow are errors of the input", "[fast]") {
+  const tests::TemporaryFolder temporary;
+  const std::string too_long = temporary.file(std::string(300, 'n'));
+  CHECK_THROWS_WITH(read_text_file(too_long), Catch::Contains("cannot read") && Catch::Contains("too long"));
+  CHECK_THROWS_AS(is_there(too_long), InputError);
+  const std::string loop = temporary.file("loop");
+  fs::create_symlink("loop", loop);
+  CHECK_THROWS_WITH(read_text_file(loop), Catch::Contains("cannot read") && Catch::Contains("symbolic links"));
+  CHECK_THROWS_AS(is_there(loop), InputError);
+  const std::string latin1 = temporary.file("caf\xE9.toml");
+  std::ofstream(latin1) << "text";
+  CHECK_THROWS_WITH(read_text_file(latin1), Catch::Contains("the name of a file is not UTF-8"));
+  CHECK_FALSE(is_there(temporary.file("none")));
+  CHECK(is_there(temporary.path()));
 }

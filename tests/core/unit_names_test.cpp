@@ -81,3 +81,9 @@ TEST_CASE("every usual name of a unit is one of its dimension", "[fast]") {
     }
   }
 }
+
+TEST_CASE("a text that is too long for a unit is none", "[fast]") {
+  const std::string text(50000, 'a');
+  CHECK_THROWS_WITH(rollrig::parse_unit(text, rollrig::unit_of_key("p_kPa")), Catch::Contains("is no unit"));
+  CHECK_FALSE(rollrig::is_known_unit(text));
+}

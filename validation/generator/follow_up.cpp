@@ -12,6 +12,7 @@
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
 #include "sim/core/parallel.h"
+#include "sim/core/parse_json.h"
 #include "validation/files.h"
 #include "validation/generator/laboratory.h"
 
@@ -152,7 +153,7 @@ TestPlan read_test_plan(const std::string& folder, const SetOrder& order, double
   };
   TestPlan plan;
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = read_json(file);
     require(json, "format", validation::kPlanFormat);
     require(json, "kind", order.machine->word);
     plan.set_sha256 = json.at("set_sha256").get<std::string>();

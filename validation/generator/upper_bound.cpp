@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
 #include "sim/core/parallel.h"
+#include "sim/core/parse_json.h"
 #include "validation/files.h"
 #include "validation/generator/known_set.h"
 #include "validation/generator/observer.h"
@@ -65,8 +65,13 @@ std::vector<std::pair<std::string, SetOrder>> read_orders(const UpperBoundOrder&
 
 /// The cases that an older file of the same truth holds; none where there is no such file.
 Json read_kept(const std::string& file, const std::string& truth_sha256) {
-  std::ifstream in(file);
-  const Json old = Json::parse(in, nullptr, false);
+  if (!is_there(file)) return Json::object();
+  Json old;
+  try {
+    old = read_json(file);
+  } catch (const InputError&) {  // spoiled: as if it were not there
+    return Json::object();
+  }
   const bool is_ours = old.is_object() && old.value("format", "") == validation::kUpperBoundFormat &&
                        old.value("truth_sha256", "") == truth_sha256;
   return is_ours && old.contains("sets") ? old["sets"] : Json::object();

@@ -241,7 +241,7 @@ SetOrder read_order(const Json& truth) {
 void require_same_files(const std::string& folder, const SetOrder& order) {
   for (const auto& [name, content] : make_set(order, false).files) {
     const std::string file = (fs::path(folder) / name).string();
-    if (read_text_file(file) == content) continue;
+    if (read_table_file(file) == content) continue;
     throw InputError(
         {fmt::format("'{}' is not what this program makes of its truth", file), file, 0, "", "", kAllowed, ""});
   }

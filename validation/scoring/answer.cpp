@@ -8,6 +8,7 @@
 #include "diagnosis/output/diagnosis_json.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 #include "validation/files.h"
 
 namespace fs = std::filesystem;
@@ -134,7 +135,7 @@ std::optional<Answer> find_answer(const std::string& folder, const std::string& 
   const std::string file = answer_file(folder, number);
   if (!fs::exists(file)) return std::nullopt;
   try {
-    Answer answer = read_answer_json(Json::parse(read_text_file(file)));
+    Answer answer = read_answer_json(read_json(file));
     if (answer.number == number) return answer;
   } catch (const Json::exception&) {  // of another program, or spoiled: as if it were not there
   } catch (const InputError&) {

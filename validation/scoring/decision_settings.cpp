@@ -7,6 +7,7 @@
 #include "models/effect.h"
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
+#include "sim/core/parse_json.h"
 
 namespace rollrig::validation {
 namespace {
@@ -72,7 +73,7 @@ SettingsComparison compare_settings(const Json& recorded, const Json& now) {
 
 Json read_settings(const std::string& file) {
   try {
-    Json settings = Json::parse(read_text_file(file));
+    Json settings = read_json(file);
     if (settings.at("format") == kSettingsFormat && settings.at("effects").is_object()) return settings;
   } catch (const Json::exception&) {  // said below
   }

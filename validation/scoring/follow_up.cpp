@@ -12,6 +12,7 @@
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
 #include "sim/core/interrupt.h"
+#include "sim/core/parse_json.h"
 #include "sim/core/random.h"
 #include "sim/core/units.h"
 #include "validation/files.h"
@@ -147,7 +148,7 @@ std::vector<FollowUpPlan> read_plans(const std::string& folder) {
   const std::string file = (fs::path(folder) / "plans.json").string();
   std::vector<FollowUpPlan> plans;
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = read_json(file);
     if (json.at("format") != kPlansFormat) {
       throw InputError(
           {"not the plans of a validation set", file, 0, "format", json.at("format").dump(), kPlansFormat, ""});

@@ -8,7 +8,7 @@
 
 #include "sim/core/error.h"
 #include "sim/core/file_io.h"
-#include "sim/core/json.h"
+#include "sim/core/parse_json.h"
 #include "validation/files.h"
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ using diagnosis::Verdict;
 void read_upper_bound(const std::string& set, const std::string& file, std::vector<Case>& cases) {
   if (file.empty()) return;
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = read_json(file);
     const bool is_of_another =
         json.contains("truth_sha256") && json["truth_sha256"] != calc_sha256(read_text_file(set + "/truth.json"));
     if (is_of_another) {
@@ -54,7 +54,7 @@ void read_locations(const std::string& set, const std::string& file, std::vector
   if (file.empty()) return;
   const std::string command = "rollrig_validation locations " + set;
   try {
-    const Json json = Json::parse(read_text_file(file));
+    const Json json = read_json(file);
     if (json.at("format") != kLocationsFormat) {
       throw InputError(
           {"no locations of a validation set", file, 0, "format", json["format"].dump(), kLocationsFormat, ""});

@@ -228,3 +228,15 @@ from = "05.03.2024 13:29:43,5"
   CHECK(measurements::parse_log_time(mapping.torque_log, read, mapping.runs[0].from, "from", {}) ==
         Approx(1709641783.5).margin(1e-6));
 }
+
+TEST_CASE("a time stamp may be as long as it likes: it is refused", "[fast]") {
+  using namespace rollrig::measurements;
+  const std::string blanks(50000, ' '), digits(50000, '1'), colons(50000, ':');
+  for (const std::string& text : {blanks, digits, colons, "1 " + blanks, "2024-03-05T" + digits, "2024-03-05T" + colons,
+                                  "2024-03-05T12:00:00." + digits, digits + "T12:00:00"}) {
+    CHECK_THROWS_AS(parse_iso_8601(text), std::invalid_argument);
+    CHECK_THROWS_AS(parse_clock_s(text), std::invalid_argument);
+    CHECK_THROWS_AS(parse_date_days(text, "dmy"), std::invalid_argument);
+    CHECK_THROWS_AS(parse_date_time_s(text, "dmy"), std::invalid_argument);
+  }
+}

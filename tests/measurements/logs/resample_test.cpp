@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <ctime>
 
 using namespace rollrig;
 using measurements::Log;
@@ -142,4 +143,32 @@ TEST_CASE("the noise of a mean over samples is the smaller, but for what roundin
   CHECK(measurements::average_sensor(noisy, 25.0).drift_sd == noisy.drift_sd);
   const models::SensorParameters coarse{0.0, 0.0, 60.0, 0.0, 1.0};
   CHECK(measurements::average_sensor(coarse, 1000.0).noise_sd == Approx(1.0 / std::sqrt(12.0)));
+}
+
+TEST_CASE("a log in which every second value is missing takes no longer for each row when it is long", "[fast]") {
+  constexpr std::size_t kRows = 300000;
+  Log log = make_log("torque_log", 0.0, 1.0, kRows);
+  for (std::size_t i = 0; i < kRows; ++i) {
+    log.columns["speed_km_h"].push_back(20.0);
+    log.columns["load_N"].push_back(5000.0);
+    log.columns["ambient_degC"].push_back(298.0);
+    log.columns["drum_torque_Nm"].push_back(i % 2 == 0 ? 10.0 : std::nan(""));
+    if (i % 2 == 1) {
+      log.marks.push_back({log.file, log.line[i], models::quantities::kDrumTorque, log.time_s[i], log.time_s[i],
+                           std::nullopt, i % 4 == 1 ? "no value" : "bad field"});
+    }
+  }
+  measurements::Mapping mapping;
+  mapping.set.kind = tests::kDrum;
+  const std::clock_t start = std::clock();
+  const auto run = measurements::resample_run(mapping, {&log, nullptr}, 1.0, 0.0, static_cast<double>(kRows - 1));
+  // A second or so with sanitizers; two minutes, were all marks looked at for each row.
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 15.0);
+  const auto rows_of = [&run](const char* reason) {
+    return std::count_if(run.empty.begin(), run.empty.end(), [reason](const measurements::EmptyRange& range) {
+      return range.column == models::quantities::kDrumTorque && range.reason == reason;
+    });
+  };
+  CHECK(rows_of("no value") > 70000);
+  CHECK(rows_of("bad field") > 70000);
 }
