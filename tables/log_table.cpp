@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "sim/core/error.h"
+#include "sim/core/file_io.h"
 #include "tables/formats.h"
 #include "tables/isolated.h"
 
@@ -29,6 +30,7 @@ bool has_at(const std::string& text, std::size_t at, const std::string& part) {
 
 /// None of a CSV file.
 std::optional<Columns> read_columns(const std::string& path) {
+  require_file(path);
   const std::string start = read_start(path, 1024);
   const std::string kHdf5 = "\x89HDF\r\n\x1a\n";
   if (has_at(start, 0, kHdf5) || has_at(start, 512, kHdf5))

@@ -68,7 +68,8 @@ InputError read_problem(const std::string& path, int error_number) {
   return file_problem(fmt::format("cannot read '{}': {}", path, std::strerror(error_number)), path);
 }
 
-/// Throws InputError for what is no file: it may never end, or nobody may ever write to it.
+}  // namespace
+
 void require_file(const std::string& path) {
   if (!decode_text(path, "utf-8").is_valid) {
     throw file_problem("the name of a file is not UTF-8 text", path, "a name in UTF-8; rename the file or its folder");
@@ -90,6 +91,8 @@ void require_file(const std::string& path) {
                        "a file: it is read more than once; write what the pipe gives to one first");
   }
 }
+
+namespace {
 
 InputError too_large(const std::string& path, std::uintmax_t largest_bytes) {
   return file_problem(fmt::format("'{}' is too large", path), path,

@@ -26,6 +26,10 @@ std::string read_text_file(const std::string& path, const std::string& encoding,
 /// The bytes of a table in a binary format, of at most kLargestTable_bytes. Throws InputError as read_text_file() does.
 std::string read_binary_file(const std::string& path);
 
+/// Throws InputError where a path is not that of a regular file: nothing is there, or a directory, a device or a pipe,
+/// which may never end, or which nobody may ever write to. For what opens a file by itself.
+void require_file(const std::string& path);
+
 /// Whether something is at a path. Throws InputError where the system cannot tell: the name is too long, its links go
 /// round in a loop, a folder on the way may not be searched.
 bool is_there(const std::string& path);

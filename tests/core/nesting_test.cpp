@@ -45,7 +45,7 @@ TEST_CASE("what stands in strings and comments is not counted", "[fast]") {
     INFO(start);
     CHECK_NOTHROW(check(start + deep));
   }
-  for (const std::string& start :
+  for (const std::string start :
        {"# \n", "x = \"\\\\\"", "x = '\\'", "x = ''' '''''", "x = \"\"\"\\\"\"\"\"", "x = \"\"", "x = \"no end\n"}) {
     INFO(start);
     CHECK_THROWS_WITH(check(start + deep), Contains("nested too deeply"));
