@@ -48,7 +48,7 @@ int import_command(const ImportOptions& options) {
   Output output(options.output);
   const Report imported = read_and_import(options);
   output.stage(imported);
-  output.finish(imported.text);
+  output.commit(imported.text);
   if (options.output.is_silent()) return kDone;
   std::cout << format_checks(options.output.folder)
             << fmt::format("  written to {}/: set.toml, one CSV for each run, import.json, marks.csv\n",

@@ -105,16 +105,20 @@ void Output::stage(OutputFolder& folder, const FolderFiles& files) {
 }
 
 void Output::finish(const std::string& text, const std::string& notes) {
+  commit(text);
+  if (options_.is_silent()) return;
+  std::cout << note_page(options_.html);
+  if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
+  std::cout << notes;
+}
+
+void Output::commit(const std::string& text) {
   throw_if_interrupted();
   if (!options_.is_silent()) {
     std::cout << text;
     flush_standard_output();
   }
   commit_all(staged_files_, staged_folders_);
-  if (options_.is_silent()) return;
-  std::cout << note_page(options_.html);
-  if (!written_.empty()) std::cout << fmt::format("  written to {}/: {}\n", options_.folder, fmt::join(written_, " "));
-  std::cout << notes;
 }
 
 void commit_all(std::vector<StagedOutput>& files, const std::vector<OutputFolder*>& folders) {

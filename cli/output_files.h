@@ -77,6 +77,8 @@ class Output {
   /// Prints `text`, puts all that is staged in its place, and prints where that is, then `notes`; where is_silent(),
   /// nothing is printed. Throws Interrupted before the first is put there, InputError.
   void finish(const std::string& text, const std::string& notes = "");
+  /// The same without a word on where it is, which is the caller's to say.
+  void commit(const std::string& text);
   /// All of a report.
   void show(const Report& report) {
     stage(report);

@@ -27,10 +27,6 @@ namespace fs = std::filesystem;
 namespace rollrig {
 namespace {
 
-InputError standard_output_problem() {
-  return InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
-}
-
 constexpr mode_t kReadableByAll = 0644;  // less the umask
 constexpr mode_t kFolderOfAll = 0777;    // likewise
 
@@ -208,7 +204,9 @@ void StagedOutput::commit() {
     flush_standard_output();
     // As it is: what is printed through std::cout has its control characters shown (visible.h).
     const bool is_written = std::fwrite(content_.data(), 1, content_.size(), stdout) == content_.size();
-    if ((std::fflush(stdout) != 0 || !is_written) && !is_reader_gone()) throw standard_output_problem();
+    if ((std::fflush(stdout) != 0 || !is_written) && !is_reader_gone()) {
+      throw place_problem("cannot write to standard output", path_);
+    }
     return;
   }
   if (is_direct_) {
@@ -243,7 +241,7 @@ bool is_reader_gone() {
 
 void flush_standard_output() {
   if (std::cout.flush() || is_reader_gone()) return;
-  throw standard_output_problem();
+  throw InputError({"standard output cannot be written to", "", 0, "", "", "space for it", ""});
 }
 
 void require_writable(const std::string& path) {
