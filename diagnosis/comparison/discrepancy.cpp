@@ -158,14 +158,18 @@ Discrepancy::Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitude
 }
 
 void Discrepancy::add_basis(std::size_t channel, std::vector<std::size_t> series, const Eigen::MatrixXd& whitened) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whitened.transpose() * whitened);
+  // Of the two matrices with these strengths the smaller one: a few samples over a long time touch few of many hats.
+  const bool is_wide = whitened.cols() > whitened.rows();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(is_wide ? whitened * whitened.transpose()
+                                                                      : whitened.transpose() * whitened);
   const Eigen::VectorXd& values = solver.eigenvalues();  // increasing
   constexpr double kNegligible = 1e-9;
   const double largest = values[values.size() - 1];
   const Eigen::Index kept = (values.array() > kNegligible * largest).count();
-  Basis basis{channel, std::move(series), {}, values.tail(kept)};
-  basis.directions =
-      whitened * solver.eigenvectors().rightCols(kept) * basis.strengths.cwiseSqrt().cwiseInverse().asDiagonal();
+  Basis basis{channel, std::move(series), solver.eigenvectors().rightCols(kept), values.tail(kept)};
+  if (!is_wide) {
+    basis.directions = whitened * basis.directions * basis.strengths.cwiseSqrt().cwiseInverse().asDiagonal();
+  }
   bases_.push_back(std::move(basis));
 }
 

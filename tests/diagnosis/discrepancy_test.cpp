@@ -89,6 +89,22 @@ void check_inverse_root(const Discrepancy& discrepancy, const Amplitudes& amplit
 
 }  // namespace
 
+TEST_CASE("samples hours apart, of which each touches few of thousands of hats, have one direction each", "[fast]") {
+  measurements::MeasurementSet sparse = tests::make_gap_set({}, 1);
+  constexpr double kApart = 500.0;  // times as far apart
+  for (double& time_s : sparse.runs.front().time_s) time_s *= kApart;
+  const PreparedSet set(sparse);
+  const Discrepancy discrepancy(set);
+  for (std::size_t s = 0; s < set.series().size(); ++s) {
+    CHECK(discrepancy.bases()[s].strengths.size() == to_index(set.series()[s].size()));
+    // The constants of run and phase are whole in every sample, of the hats at least half.
+    const Eigen::VectorXd variances = make_rows_in_floors(discrepancy, s).rowwise().squaredNorm();
+    CHECK(variances.minCoeff() > 0.75 - 1e-9);
+    CHECK(variances.maxCoeff() < 1.0 + 1e-9);
+  }
+  check_inverse_root(discrepancy, Amplitudes(set.channels().size(), 0.7));
+}
+
 TEST_CASE("the squared length after whitening is r' Sigma^-1 r, of either kind", "[fast]") {
   const Discrepancy of_time(two_runs());
   check_inverse_root(of_time, {0.1, 2.0, 0.5});
