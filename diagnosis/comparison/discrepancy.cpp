@@ -160,8 +160,13 @@ Discrepancy::Discrepancy(const Discrepancy& of_time, const Amplitudes& amplitude
 void Discrepancy::add_basis(std::size_t channel, std::vector<std::size_t> series, const Eigen::MatrixXd& whitened) {
   // Of the two matrices with these strengths the smaller one: a few samples over a long time touch few of many hats.
   const bool is_wide = whitened.cols() > whitened.rows();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(is_wide ? whitened * whitened.transpose()
-                                                                      : whitened.transpose() * whitened);
+  Eigen::MatrixXd square;
+  if (is_wide) {
+    square = whitened * whitened.transpose();
+  } else {
+    square = whitened.transpose() * whitened;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(square);
   const Eigen::VectorXd& values = solver.eigenvalues();  // increasing
   constexpr double kNegligible = 1e-9;
   const double largest = values[values.size() - 1];
