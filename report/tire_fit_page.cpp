@@ -19,7 +19,8 @@ using estimation::TireFit;
 /// What the two-step regression says of a parameter, in the unit of its key.
 std::optional<double> find_two_step(const Json& two_step, const std::string& key) {
   const std::string last = last_part(key);
-  if (key.find("load_map") != std::string::npos || !two_step.contains(last)) return std::nullopt;
+  if (key.find("load_map") != std::string::npos || !two_step.contains(last) || two_step[last].is_null())
+    return std::nullopt;
   return two_step[last].get<double>();
 }
 
@@ -80,10 +81,10 @@ Table make_two_step(const TireFit& fit) {
   std::vector<std::string> numbers;
   const Json two_step = estimation::make_two_step_json(*fit.two_step);
   for (const auto& [key, value] : two_step.items()) {
-    const double number = value.get<double>();
-    numbers.push_back(std::isfinite(number)
-                          ? fmt::format("{} {:.5g} {}", name_without_unit(key), number, unit_of_key(key).symbol)
-                          : name_without_unit(key) + " not determined");
+    const std::string name = name_without_unit(key);
+    numbers.push_back(value.is_null()
+                          ? name + " not determined"
+                          : fmt::format("{} {:.5g} {}", name, value.get<double>(), unit_of_key(key).symbol));
   }
   return {"", {}, {{"two-step regression", fmt::format("{} (start of the fit)", fmt::join(numbers, ", "))}}};
 }

@@ -67,6 +67,14 @@ void add_in_range(FitUnknowns& unknowns, const std::string& key, const Field& fi
                                  find_bound(field.range.upper, field.range.upper_open)});
 }
 
+void add_gas_transfer(FitUnknowns& unknowns) {
+  const std::string wanted = "H_gas_W_per_K";
+  const auto add = [&](const Field& field, const double&) {
+    if (field.output_key() == wanted) add_in_range(unknowns, "tire.thermal." + wanted, field, 0.0);
+  };
+  models::TireThermalParameters<double>::visit(unknowns.start.tire.thermal, add);
+}
+
 bool asks_for(models::FitRole role, const Variety& variety) {
   switch (role) {
     case models::FitRole::kHeld:
@@ -171,7 +179,7 @@ FitUnknowns choose_unknowns(const measurements::MeasurementSet& set, const std::
   add_own_numbers(unknowns, variety);
   add_free(unknowns, "tire.thermal.z_W_per_K", 0.0, 0.0);
   if (variety.speeds) add_free(unknowns, "tire.thermal.f_W_s_per_m_K", 0.0, 0.0);
-  if (free_H) add_free(unknowns, "tire.thermal.H_gas_W_per_K", 1e-3, 0.0);
+  if (free_H) add_gas_transfer(unknowns);
   unknowns.asked_for = unknowns.parameters.size();
   add_tire_nuisances(set, level_speed_m_s, unknowns);
   add_rig_nuisances(set, unknowns);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "estimation/tire_fit/fit_tire.h"
 #include "sim/core/text.h"
 
@@ -38,8 +40,11 @@ std::vector<ParameterEstimate> list_parameters(const TireFit& fit) {
 Json make_two_step_json(const TwoStepEstimate& two_step) {
   Json json;
   models::SpeedLines<double>::visit(two_step, [&](const Field& line, double value) { json[line.key] = value; });
-  json["z_W_per_K"] = two_step.rest_conductance_W_per_K;
-  json["f_W_s_per_m_K"] = two_step.speed_conductance_W_s_per_m_K;
+  const auto put = [&json](const char* key, double value) {
+    json[key] = std::isfinite(value) ? Json(value) : Json(nullptr);  // null where the data do not determine it
+  };
+  put("z_W_per_K", two_step.rest_conductance_W_per_K);
+  put("f_W_s_per_m_K", two_step.speed_conductance_W_s_per_m_K);
   if (two_step.H_gas_W_per_K.has_value()) json["H_gas_W_per_K"] = *two_step.H_gas_W_per_K;
   return json;
 }

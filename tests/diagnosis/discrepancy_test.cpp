@@ -91,8 +91,12 @@ void check_inverse_root(const Discrepancy& discrepancy, const Amplitudes& amplit
 
 TEST_CASE("samples hours apart, of which each touches few of thousands of hats, have one direction each", "[fast]") {
   measurements::MeasurementSet sparse = tests::make_gap_set({}, 1);
-  constexpr double kApart = 500.0;  // times as far apart
-  for (double& time_s : sparse.runs.front().time_s) time_s *= kApart;
+  constexpr double kApart = 4000.0;  // times as far apart
+  measurements::MeasuredRun& run = sparse.runs.front();
+  constexpr std::size_t kRows = 30;
+  run.time_s.resize(kRows);
+  for (auto& [quantity, values] : run.columns) values.resize(kRows);
+  for (double& time_s : run.time_s) time_s *= kApart;
   const PreparedSet set(sparse);
   const Discrepancy discrepancy(set);
   for (std::size_t s = 0; s < set.series().size(); ++s) {

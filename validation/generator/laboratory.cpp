@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "validation/generator/machine.h"
 
 namespace rollrig::generator {
 namespace {
+
+/// JSON has no infinity.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// The form of effect `i` of an order: a stream of its own, so that size and shape do not change with it.
 const Form& choose_form(const SetOrder& order, std::size_t i) {
@@ -53,7 +58,7 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* desc
                           {"size", size},
                           {"unit", kind.size.unit},
                           {"size_is", kind.size.meaning},
-                          {"neutral", kind.size.neutral},
+                          {"neutral", finite_or_null(kind.size.neutral)},
                           {"form", form.name},
                           {"shape", shape},
                           {"law", form.law}});
