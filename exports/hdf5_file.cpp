@@ -76,9 +76,11 @@ void write_numbers(hid_t place, const std::string& link, const std::string& key,
   require_hdf5(H5Awrite(attribute, type, unit.data()));
 }
 
+/// HDF5 takes a slash for a path, and a name of C ends at a zero.
 std::string make_link(const std::string& name) {
   std::string link = name.empty() || name == "." ? "_" : name;
-  std::replace(link.begin(), link.end(), '/', '_');
+  const auto is_refused = [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; };
+  std::replace_if(link.begin(), link.end(), is_refused, '_');
   return link;
 }
 

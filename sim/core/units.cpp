@@ -110,10 +110,15 @@ std::vector<std::string> split_words(std::string_view key) {
   return words;
 }
 
-/// Index of the first word of the unit suffix; words.size() when there is none.
+/// Index of the first word of the unit suffix; words.size() when there is none. A unit has one "per" at most, and does
+/// not end with it.
 std::size_t find_suffix_start(const std::vector<std::string>& words) {
   std::size_t start = words.size();
-  while (start > 1 && (words[start - 1] == "per" || find_token(words[start - 1]) != nullptr)) --start;
+  for (bool is_below = true; start > 1; --start) {
+    const bool is_per = words[start - 1] == "per";
+    if (is_per ? !is_below || start == words.size() : find_token(words[start - 1]) == nullptr) break;
+    if (is_per) is_below = false;
+  }
   return start;
 }
 

@@ -34,6 +34,16 @@ TEST_CASE("the suffix of a key is its unit", "[fast]") {
   check_unit("road_share_of_z", "", 1.0, {});
 }
 
+TEST_CASE("of a key that is no name with a unit, the unit is what can be read", "[fast]") {
+  check_unit("rrc_N_per_N_per_kN", "N/kN", 1e-3, {});
+  check_unit("x_per_per_m", "1/m", 1.0, {0, -1, 0, 0});
+  check_unit("N_per", "", 1.0, {});
+  check_unit("x_N_per", "", 1.0, {});
+  check_unit("per_per", "", 1.0, {});
+  check_unit("", "", 1.0, {});
+  check_unit("_", "", 1.0, {});
+}
+
 TEST_CASE("a temperature has an offset, its difference and its standard deviation have none", "[fast]") {
   CHECK(unit_of_key("ambient_degC").to_si(25.0) == Approx(298.15));
   CHECK(unit_of_key("ambient_degC").from_si(298.15) == Approx(25.0));
