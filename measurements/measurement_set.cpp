@@ -19,7 +19,8 @@ namespace rollrig::measurements {
 namespace {
 
 std::string set_file_of(const std::string& folder) {
-  if (fs::is_directory(folder)) return (fs::path(folder) / "set.toml").string();
+  std::error_code none;  // a name that is too long, say, is none of a folder
+  if (fs::is_directory(folder, none)) return (fs::path(folder) / "set.toml").string();
   return folder;
 }
 
@@ -33,7 +34,8 @@ MeasuredRun read_run(const ConfigTable& table, const std::string& folder, const 
   const std::string file = reader.text("file");
   if (file.empty()) throw reader.problem("file", "a run needs a file", "a path relative to this file");
   run.file = place_data_file(reader, "file", folder, file);
-  if (!fs::exists(run.file)) {
+  std::error_code none;
+  if (!fs::exists(run.file, none)) {
     InputProblem missing =
         reader.problem("file", fmt::format("no such file '{}'", run.file), "a path relative to this file").problem();
     missing.nearest = nearest_file(run.file);

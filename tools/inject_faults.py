@@ -296,7 +296,7 @@ class Faults:
 
     def use_odd_names(self, command):
         fault = "odd names"
-        for odd in ("with space", "new\nline", "größe", "<script>", "a'b\"c", "-", "%s{}", os.fsdecode(b"caf\xe9")):
+        for odd in ("with space", "new\nline", "größe", "<script>", "a'b\"c", "-", "%s{}"):
             folder = self.new_folder()
             names = {output: odd + " " + output for output in command.outputs}
             status, errors = self.run(command.words(folder, names))

@@ -102,7 +102,8 @@ TEST_CASE("pages of tires, sets and runs whose names hold a script", "[slow]") {
   write_set(folder);
   const std::string set_file = read_file(folder.file("set/set.toml"));
   std::string named = set_file;
-  for (std::size_t from = named.find("speed-80"); from != std::string::npos; from = named.find("speed-80", from + 60)) {
+  for (std::size_t from = named.find("speed-80"); from != std::string::npos;
+       from = named.find("speed-80", from + name.size())) {
     named.replace(from, 8, name);
   }
   write_file(folder.file("set/set.toml"), named);

@@ -55,7 +55,7 @@ Effects draw_effects(const SetOrder& order, const Specimen& specimen, Json* desc
     Json shape = Json::object();
     for (const auto& [name, value] : effects.back().shape) shape[name] = value;
     described->push_back({{"id", kind.id},
-                          {"size", size},
+                          {"size", finite_or_null(size)},
                           {"unit", kind.size.unit},
                           {"size_is", kind.size.meaning},
                           {"neutral", finite_or_null(kind.size.neutral)},
