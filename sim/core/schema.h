@@ -28,8 +28,8 @@ struct Range {
 constexpr Range any_number() { return {}; }
 constexpr Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true, false}; }
 constexpr Range non_negative() { return {0.0, std::numeric_limits<double>::infinity(), false, false}; }
-/// Numbers of tires, rigs and vehicles are held within limits far beyond all that is built, so that a unit mistaken by a
-/// thousand is refused, and no simulation runs on without end. Assumed: these limits.
+/// Numbers of tires, rigs and vehicles are held within limits far beyond all that is built, so that a unit mistaken by
+/// a thousand is refused, and no simulation runs on without end. Assumed: these limits.
 constexpr Range between(double lower, double upper) { return {lower, upper, false, false}; }
 
 /// Declaration of one number of a file. The unit is read off the key's suffix.
