@@ -223,6 +223,7 @@ void scale_probability(double factor, Cause& cause) {
   cause.probability *= factor;
   if (cause.acts.has_value()) *cause.acts *= factor;
   if (cause.alone.has_value()) *cause.alone *= factor;
+  if (cause.complete.has_value()) *cause.complete *= factor;
   for (Partner& partner : cause.partners) partner.probability *= factor;
 }
 

@@ -10,18 +10,18 @@ namespace rollrig::diagnosis {
 
 /// Probabilities before the measurement (docs/how_the_diagnosis_reasons.md, "Which hypotheses are compared");
 /// what a kind has is shared evenly.
-/// Assumed: without a cause as likely as with one; one effect likelier than two; 4 % for a cause outside the catalog,
-/// in all.
+/// Assumed: of ten sets four without a cause; where there is one, a second effect in one of four sets and a third in
+/// one of twenty; 9 % for a cause outside the catalog, in all.
 struct ComparisonPriors {
-  double none = 0.50;
-  double singles = 0.40;
-  double pairs = 0.06;
-  double triples = 0.01;
-  double unknown = 0.01;         // on top of the baseline, of any form
-  double families = 0.01;        // a family of unknown effects (terms/unknown_terms.h), alone
-  double family_beside = 0.005;  // odds of one beside a named cause, over that cause alone
+  double none = 0.42;
+  double singles = 0.35;
+  double pairs = 0.12;
+  double triples = 0.02;
+  double unknown = 0.02;         // on top of the baseline, of any form
+  double families = 0.02;        // a family of unknown effects (terms/unknown_terms.h), alone
+  double family_beside = 0.015;  // odds of one beside a named cause, over that cause alone
   double look_alike =
-      0.02;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
+      0.045;  // on top of a single effect: like it, but something else; of pairs and triples in proportion
 };
 
 /// Sizes of model error, in noise floors and relative.

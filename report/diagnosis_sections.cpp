@@ -179,6 +179,10 @@ std::string describe_alone(const Cause& cause) {
     if (partners.size() == kMost) break;
     partners.push_back(fmt::format("{} ({})", partner.effect, show_probability(partner.probability)));
   }
+  if (!cause.indistinguishable_from.empty()) {
+    return fmt::format(" One of these and nothing else acts with a probability of {}; else most likely with {}.",
+                       show_probability(cause.complete.value_or(*cause.alone)), join(partners));
+  }
   return fmt::format(" It acts with a probability of {}, alone with {}; else most likely with {}.",
                      show_probability(*cause.acts), show_probability(*cause.alone), join(partners));
 }

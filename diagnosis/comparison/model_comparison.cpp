@@ -134,13 +134,49 @@ void add_on_top(const Study& study, const Evaluator& evaluator, const Addition& 
   }
 }
 
-/// Whether the likeliest hypothesis is one of so many terms, alone or with a discrepancy.
-bool asks_for(const Comparison& comparison, std::size_t terms) {
+/// The likeliest hypothesis with effects, alone or with a discrepancy; nullptr where none was fitted.
+const Candidate* find_likeliest(const Comparison& comparison) {
   const auto likeliest =
       std::max_element(comparison.candidates.begin(), comparison.candidates.end(),
                        [](const Candidate& a, const Candidate& b) { return a.posterior() < b.posterior(); });
-  return likeliest != comparison.candidates.end() && likeliest->fit.hypothesis.terms.size() == terms &&
+  return likeliest == comparison.candidates.end() ? nullptr : &*likeliest;
+}
+
+/// Whether the likeliest hypothesis is one of so many terms.
+bool asks_for(const Comparison& comparison, std::size_t terms) {
+  const Candidate* likeliest = find_likeliest(comparison);
+  return likeliest != nullptr && likeliest->fit.hypothesis.terms.size() == terms &&
          !likeliest->fit.hypothesis.has_unknown();
+}
+
+/// Screens on top of the likeliest hypothesis where that was not done, so that what may act beside it is known.
+void screen_on_top_of_likeliest(const Study& study, Comparison& comparison) {
+  const Candidate* likeliest = find_likeliest(comparison);
+  if (likeliest == nullptr || !std::isfinite(likeliest->fit.cost)) return;
+  const Hypothesis& hypothesis = likeliest->fit.hypothesis;
+  const bool is_known = std::any_of(comparison.on_top.begin(), comparison.on_top.end(),
+                                    [&](const ScreenedOnTop& one) { return one.hypothesis == hypothesis; });
+  if (is_known || hypothesis.has_unknown() || hypothesis.terms.size() >= kMostTerms) return;
+  std::vector<const Term*> others;
+  for (const Term* term : study.settings.terms) {
+    if (!hypothesis.contains(*term)) others.push_back(term);
+  }
+  comparison.on_top.push_back({hypothesis, screen(study, *likeliest, others)});
+}
+
+/// Makes room for what was not fitted: all probabilities together are one.
+void add_unfitted(Study& study, Comparison& comparison) {
+  comparison.unfitted = list_unfitted(study, comparison);
+  const double all = 1.0 + sum_probability(comparison.unfitted);
+  for (Unfitted& one : comparison.unfitted) one.probability /= all;
+  for (Candidate& one : comparison.candidates) {
+    one.probability /= all;
+    one.discrepancy_probability /= all;
+  }
+  study.null.probability /= all;
+  study.null.discrepancy_probability /= all;
+  comparison.unknown_probability /= all;
+  comparison.log_evidence += std::log(all);
 }
 
 }  // namespace
@@ -191,6 +227,8 @@ Comparison compare_models(Study& study) {
                comparison);
     assign_probabilities(study, comparison);
   }
+  screen_on_top_of_likeliest(study, comparison);
+  add_unfitted(study, comparison);
   return comparison;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnosis/comparison/screen.h"
+#include "diagnosis/comparison/unfitted.h"
 
 namespace rollrig::diagnosis {
 
@@ -19,6 +20,7 @@ struct Comparison {
   std::vector<Screened> screened;     // on top of the null
   std::vector<ScreenedOnTop> on_top;  // on top of others
   std::vector<Candidate> candidates;  // of a term, pairs and triples, the likeliest first
+  std::vector<Unfitted> unfitted;     // what was screened and not fitted; all probabilities add to 1 with theirs
   double log_evidence = 0.0;          // of all hypotheses together, with their prior probabilities
   double unknown_probability = 0.0;   // all hypotheses with a free discrepancy
 

@@ -47,16 +47,16 @@ Belief compare(const measurements::MeasurementSet& measured, const StudySettings
   return belief;
 }
 
-/// Probability of all hypotheses whose terms are all among these effects.
-double sum_within(const Comparison& comparison, const std::vector<std::string>& effects) {
+/// Probability that a cause or what it cannot be told from acts, alone or with others.
+double sum_of_cause(const Comparison& comparison, const rollrig::Cause& cause) {
+  std::vector<std::string> named = cause.effects;
+  named.insert(named.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
   double sum = 0.0;
-  for (const Candidate& candidate : comparison.candidates) {
-    const std::vector<std::string> names = candidate.fit.hypothesis.names();
-    const bool is_within = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-      return std::count(effects.begin(), effects.end(), name) > 0;
-    });
-    if (is_within) sum += candidate.probability;
-  }
+  const auto add = [&](const std::vector<std::string>& names, double probability) {
+    if (contains_all(named, names) || contains_all(names, cause.effects)) sum += probability;
+  };
+  for (const Candidate& candidate : comparison.candidates) add(candidate.fit.hypothesis.names(), candidate.probability);
+  for (const Unfitted& unfitted : comparison.unfitted) add(unfitted.names, unfitted.probability);
   return sum;
 }
 
@@ -102,12 +102,13 @@ void average_over_beliefs(const Beliefs& beliefs, std::map<std::string, double>&
       const std::vector<std::string> names = candidate.fit.hypothesis.names();
       if (std::count(names.begin(), names.end(), name) > 0) others += candidate.probability;
     }
+    for (const Unfitted& unfitted : other.comparison.unfitted) {
+      if (unfitted.contains(name)) others += unfitted.probability;
+    }
     value = average(value, others);
   }
   for (rollrig::Cause& cause : causes) {
-    std::vector<std::string> effects = cause.effects;
-    effects.insert(effects.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
-    const double averaged = average(cause.probability, sum_within(other.comparison, effects));
+    const double averaged = average(cause.probability, sum_of_cause(other.comparison, cause));
     if (cause.probability > 0.0) scale_probability(averaged / cause.probability, cause);
   }
   std::stable_sort(causes.begin(), causes.end(),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnosis/thresholds.h"
 
@@ -34,6 +35,25 @@ double calc_hidden(const Screened& clearest) {
   return sum > 0.0 ? hidden / sum : 0.0;
 }
 
+/// Probability that the set would not show a hypothesis that was not fitted: the mean of both signs of each effect, and
+/// of those the least.
+double calc_hidden(const Comparison& comparison, const Unfitted& unfitted) {
+  std::map<std::string, std::map<int, double>> by_effect;
+  for (const Screened& one : comparison.screened) {
+    const std::string& name = one.term.term->name();
+    if (!unfitted.contains(name)) continue;
+    const Screened* clearest = find_clearest_trial(comparison, one.term);
+    by_effect[name][one.term.sign] = clearest == nullptr ? 1.0 : calc_hidden(*clearest);
+  }
+  double hidden = 1.0;
+  for (const auto& [name, by_sign] : by_effect) {
+    double sum = 0.0;
+    for (const auto& [sign, of_sign] : by_sign) sum += of_sign;
+    hidden = std::min(hidden, sum / static_cast<double>(by_sign.size()));
+  }
+  return hidden;
+}
+
 /// Probability that the set would show no term of a hypothesis.
 double calc_hidden(const Comparison& comparison, const Hypothesis& hypothesis) {
   double hidden = 1.0;
@@ -51,6 +71,7 @@ double calc_nothing_detectable(const Study& study, const Comparison& comparison)
   for (const Candidate& candidate : comparison.candidates) {
     sum += candidate.probability * calc_hidden(comparison, candidate.fit.hypothesis);
   }
+  for (const Unfitted& one : comparison.unfitted) sum += one.probability * calc_hidden(comparison, one);
   return std::min(1.0, sum);
 }
 

@@ -216,6 +216,29 @@ void put_objections(const Study& study, const Candidate& lead, Cause& cause) {
                          cause.parameters.end());
 }
 
+/// Probability of what was not fitted and has all effects of one of these hypotheses.
+double sum_on_top_of(const std::vector<const Candidate*>& hypotheses, const std::vector<Unfitted>& unfitted) {
+  double sum = 0.0;
+  for (const Unfitted& one : unfitted) {
+    const bool is_on_top = std::any_of(hypotheses.begin(), hypotheses.end(), [&](const Candidate* candidate) {
+      return contains_all(one.names, candidate->fit.hypothesis.names());
+    });
+    if (is_on_top) sum += one.probability;
+  }
+  return sum;
+}
+
+/// Probability of those of the hypotheses whose effects a cause names all.
+double sum_named_whole(const std::vector<const Candidate*>& hypotheses, const Cause& cause) {
+  std::vector<std::string> named = cause.effects;
+  named.insert(named.end(), cause.indistinguishable_from.begin(), cause.indistinguishable_from.end());
+  double sum = 0.0;
+  for (const Candidate* candidate : hypotheses) {
+    if (contains_all(named, candidate->fit.hypothesis.names())) sum += candidate->probability;
+  }
+  return sum;
+}
+
 /// Whether the measurement left a hypothesis open beside the lead: one that predicts the same, but only with parameters
 /// that are most unusual, is told from it already.
 bool is_open_beside(const Candidate& lead, const Candidate& other) {
@@ -256,6 +279,9 @@ std::map<std::string, double> find_probabilities(const Study& study, const Compa
     for (const Candidate& candidate : comparison.candidates) {
       if (candidate.fit.hypothesis.contains(*term)) sum += candidate.probability;
     }
+    for (const Unfitted& unfitted : comparison.unfitted) {
+      if (unfitted.contains(term->name())) sum += unfitted.probability;
+    }
   }
   return probability;
 }
@@ -275,19 +301,23 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     Cause cause;
     cause.effects = lead->fit.hypothesis.names();
     std::map<std::string, double> beside;
+    std::vector<const Candidate*> alike;
     for (const Candidate* other : left) {
       if (taken.count(other) > 0) continue;
       if (other != lead && expected_log_bayes_factor(study, *lead, *other) >= thresholds::kToldApart_nats) continue;
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.terms.size() > lead->fit.hypothesis.terms.size()) continue;  // the lead with one more
+      alike.push_back(other);
       if (!is_open_beside(*lead, *other)) continue;
       for (const std::string& name : other->fit.hypothesis.names()) beside[name] += other->posterior();
     }
+    cause.probability += sum_on_top_of(alike, comparison.unfitted);
     cause.indistinguishable_from = find_named_beside(cause.effects, lead->posterior(), std::move(beside));
+    cause.complete = sum_named_whole(alike, cause);
     cause.parameters = estimate_parameters(study, *lead);
     if (causes.empty()) {
-      find_partners(study, comparison, *lead, cause);
+      find_partners(comparison, *lead, cause);
       put_objections(study, *lead, cause);
     }
     cause.adequate = cause.objections.empty();

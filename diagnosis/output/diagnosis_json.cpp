@@ -55,6 +55,7 @@ Json make_cause(const Cause& cause) {
           {"parameters", make_list(cause.parameters, make_parameter)},
           {"acts", number(cause.acts)},
           {"alone", number(cause.alone)},
+          {"complete", number(cause.complete)},
           {"partners", make_list(cause.partners, make_partner)},
           {"adequate", cause.adequate},
           {"objections", cause.objections},

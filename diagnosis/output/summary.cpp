@@ -162,7 +162,9 @@ std::string alone_line(const Findings& findings) {
     partners.push_back(fmt::format("{} {}", partner.effect, show_probability(partner.probability)));
   }
   const std::string text =
-      fmt::format("acts {}, alone {}", show_probability(*cause.acts), show_probability(*cause.alone));
+      cause.indistinguishable_from.empty()
+          ? fmt::format("acts {}, alone {}", show_probability(*cause.acts), show_probability(*cause.alone))
+          : fmt::format("one of these and nothing else {}", show_probability(cause.complete.value_or(*cause.alone)));
   return line(cause.effects.size() == 1 ? "  alone" : "  these alone",
               text + "; else with " + join_to_fit(partners, ", ", text_width() - 8));
 }

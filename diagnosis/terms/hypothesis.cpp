@@ -37,6 +37,11 @@ std::vector<std::string> Hypothesis::names() const {
   return names;
 }
 
+bool contains_all(const std::vector<std::string>& names, const std::vector<std::string>& some) {
+  return std::all_of(some.begin(), some.end(),
+                     [&](const std::string& name) { return std::count(names.begin(), names.end(), name) > 0; });
+}
+
 std::string Hypothesis::name() const { return terms.empty() ? "none" : fmt::format("{}", fmt::join(names(), " + ")); }
 
 bool Hypothesis::contains(const Term& term) const {

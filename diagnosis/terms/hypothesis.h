@@ -29,6 +29,9 @@ struct Hypothesis {
   Hypothesis with(const SignedTerm& added) const;
 };
 
+/// Whether names of effects hold all of some.
+bool contains_all(const std::vector<std::string>& names, const std::vector<std::string>& some);
+
 /// A parameter in units of its prior: u is standard normal before any measurement.
 /// Equation  log scale: x = s exp(m + h u), linear: x = m + h u; m, h the middle and half the width of the prior's
 ///           interval from low to high (of the logarithms), s the sign

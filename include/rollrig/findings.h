@@ -31,7 +31,7 @@ struct Partner {
 /// An effect, a pair of them, or effects that this set cannot tell apart.
 struct Cause {
   std::vector<std::string> effects;  // of the hypothesis: one, or two that act together
-  double probability = 0.0;          // of it with all that it cannot be told from
+  double probability = 0.0;          // that it, or what it cannot be told from, acts: alone or with others
   std::vector<std::string> indistinguishable_from;
   std::vector<ParameterEstimate> parameters;
   bool adequate = true;
@@ -41,6 +41,7 @@ struct Cause {
   std::optional<CauseChange> change = std::nullopt;  // of the first cause, and of a trace
   std::optional<double> acts = std::nullopt;         // of the first cause: that all its effects act, alone or not;
   std::optional<double> alone = std::nullopt;        // that they act and nothing else of the catalog does
+  std::optional<double> complete = std::nullopt;     // that all that acts is named: it, or what it cannot be told from
   std::vector<Partner> partners = {};                // what may act beside them, the likeliest first
 };
 

@@ -127,6 +127,12 @@ TEST_CASE("the summary says how likely the cause acts alone, and what else may a
   CHECK_THAT(join_lines(format_summary(made)),
              Contains("alone acts 98 %, alone 90 %; else with slow_leak 5 %, rim_heat 3 %"));
   check_layout(format_summary(made), 16);
+  SECTION("with an alternative, that it or the other is all") {
+    made.causes[0].indistinguishable_from = {"torque_zero_drift"};
+    made.causes[0].complete = 0.93;
+    CHECK_THAT(join_lines(format_summary(made)),
+               Contains("one of these and nothing else 93 %; else with slow_leak 5 %"));
+  }
   made.verdict = diagnosis::Verdict::kNoGap;
   CHECK(format_summary(made).find("acts 98 %") == std::string::npos);
 }

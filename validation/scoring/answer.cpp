@@ -37,6 +37,7 @@ diagnosis::Cause read_cause(const Json& json) {
   };
   cause.acts = read_optional("acts");
   cause.alone = read_optional("alone");
+  cause.complete = read_optional("complete");
   cause.adequate = json.at("adequate").get<bool>();
   cause.objections = json.at("objections").get<std::vector<std::string>>();
   return cause;

@@ -90,8 +90,7 @@ std::vector<std::string> Case::claims_above(double probability) const {
 
 std::vector<std::string> Case::false_claims_above(double probability) const {
   std::vector<std::string> claims = claims_above(probability);
-  const std::vector<std::string> ids = truth.ids();
-  const auto acts = [&](const std::string& name) { return std::count(ids.begin(), ids.end(), name) > 0; };
+  const auto acts = [this](const std::string& name) { return is_true_effect(name); };
   claims.erase(std::remove_if(claims.begin(), claims.end(), acts), claims.end());
   return claims;
 }
@@ -103,11 +102,17 @@ std::optional<Stated> Case::stated_alone() const {
 
 std::optional<Stated> Case::stated_acts() const {
   if (!is(Verdict::kExplained) || !has_cause() || !cause().acts.has_value()) return std::nullopt;
+  return Stated{*cause().acts, first_cause_acts()};
+}
+
+bool Case::is_true_effect(const std::string& id) const {
   const std::vector<std::string> ids = truth.ids();
-  const bool acts = std::all_of(cause().effects.begin(), cause().effects.end(), [&](const std::string& effect) {
-    return std::count(ids.begin(), ids.end(), effect) > 0;
-  });
-  return Stated{*cause().acts, acts};
+  return std::count(ids.begin(), ids.end(), id) > 0;
+}
+
+bool Case::first_cause_acts() const {
+  return std::all_of(cause().effects.begin(), cause().effects.end(),
+                     [this](const std::string& effect) { return is_true_effect(effect); });
 }
 
 bool Case::names_one_of_two() const {
@@ -116,12 +121,19 @@ bool Case::names_one_of_two() const {
                      [this](const TrueEffect& effect) { return effect.id == cause().effects.front(); });
 }
 
+double Case::stated_whole() const { return cause().complete.value_or(cause().probability); }
+
 bool Case::is_wrong_above(double probability) const {
-  return has_cause() && cause().probability > probability && !names_truth();
+  if (!has_cause()) return false;
+  const std::vector<std::string> all = list_named(answer.diagnosis);
+  const bool any_acts =
+      std::any_of(all.begin(), all.end(), [this](const std::string& effect) { return is_true_effect(effect); });
+  return (stated_whole() > probability && !names_truth()) || (cause().probability > probability && !any_acts) ||
+         (cause().acts.value_or(0.0) > probability && !first_cause_acts());
 }
 
 bool Case::is_right_above(double probability) const {
-  return has_cause() && cause().probability > probability && names_truth();
+  return has_cause() && stated_whole() > probability && names_truth();
 }
 
 std::size_t Case::rank_of_truth() const {
@@ -142,7 +154,7 @@ bool Case::is_right() const {
 }
 
 Stated Case::stated() const {
-  if (is(Verdict::kExplained) && has_cause()) return {cause().probability, is_right()};
+  if (is(Verdict::kExplained) && has_cause()) return {stated_whole(), is_right()};
   if (is(Verdict::kUnexplained)) return {probability_of(answer.diagnosis, "unknown"), is_right()};
   return {answer.diagnosis.nothing_detectable.value_or(probability_of(answer.diagnosis, "none")), is_right()};
 }

@@ -61,8 +61,15 @@ struct Case {
   std::optional<Stated> stated_alone() const;
   /// Whether all effects of the first cause act, alone or not, with the probability stated for that; likewise.
   std::optional<Stated> stated_acts() const;
+  /// Whether all effects of the first cause act.
+  bool first_cause_acts() const;
   /// Whether the first cause is one effect, which is one of the two true ones.
   bool names_one_of_two() const;
+  /// The probability stated for the first cause: that all that acts is named. Answers of programs that did not state it
+  /// count with the probability of the cause.
+  double stated_whole() const;
+  /// Whether something untrue is stated with more than that: that all that acts is named, that anything that is named
+  /// acts, or that the whole first cause does.
   bool is_wrong_above(double probability) const;
   bool is_right_above(double probability) const;
   /// How many effects are as likely as the true one or likelier.
@@ -89,6 +96,9 @@ struct Case {
   /// Whether a test that was done has split the named set: with its runs the verdict is explained, the new named set
   /// holds the truth and at most three effects, and fewer than before.
   bool is_split_by(const FollowUp& test) const;
+
+ private:
+  bool is_true_effect(const std::string& id) const;
 };
 
 }  // namespace rollrig::validation

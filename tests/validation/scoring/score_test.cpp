@@ -195,6 +195,32 @@ TEST_CASE("the probability of acting alone is right where the first cause is the
   CHECK(figure_of(validation::score_cases({single, pair}, {}), "ece_alone").value.value() == Approx(0.35));
 }
 
+TEST_CASE("half of a pair is wrong where it is said to be all that acts, not where only that it acts is sure",
+          "[fast]") {
+  Case half = say_cause(make_case("0001", {"rim_heat", "windage"}), {"rim_heat"}, 0.98);
+  CHECK(half.is_wrong_above(0.9));  // of a program that did not say more
+  diagnosis::Cause& cause = half.answer.diagnosis.causes.front();
+  cause.acts = 0.97;
+  cause.complete = 0.93;
+  CHECK(half.is_wrong_above(0.9));
+  CHECK(half.stated().probability == 0.93);
+  cause.complete = 0.8;
+  CHECK_FALSE(half.is_wrong_above(0.9));
+  CHECK_FALSE(half.is_right_above(0.9));
+  CHECK(half.stated().probability == 0.8);
+}
+
+TEST_CASE("a cause that does not act is wrong however little is said of being alone", "[fast]") {
+  Case other = say_cause(make_case("0001", {"rim_heat"}), {"windage"}, 0.95, {"slow_leak"});
+  other.answer.diagnosis.causes.front().complete = 0.5;
+  CHECK(other.is_wrong_above(0.9));
+  Case companion = say_cause(make_case("0002", {"rim_heat"}), {"rim_heat", "windage"}, 0.95);
+  companion.answer.diagnosis.causes.front().complete = 0.8;
+  CHECK_FALSE(companion.is_wrong_above(0.9));
+  companion.answer.diagnosis.causes.front().acts = 0.93;
+  CHECK(companion.is_wrong_above(0.9));
+}
+
 TEST_CASE("top-3 counts who is as likely as the truth against it", "[fast]") {
   Case one = say_cause(make_case("0001", {"rim_heat"}), {"windage"}, 0.5);
   auto& probability = one.answer.diagnosis.probability;
