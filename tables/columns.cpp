@@ -1,8 +1,21 @@
 #include "tables/columns.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "sim/core/file_io.h"
+
 namespace rollrig::tables {
+
+InputError make_too_large(const std::string& path) {
+  return InputError({"what the file holds is too large", path, 0, "", "",
+                     fmt::format("at most {} MiB of values, unpacked", kLargestTable_bytes >> 20), ""});
+}
+
+void require_table_size(std::uintmax_t bytes, const std::string& path) {
+  if (bytes > kLargestTable_bytes) throw make_too_large(path);
+}
 
 void add_matrix(const std::string& name, const std::string& group, std::size_t rows, std::size_t columns,
                 const std::vector<double>& values, Columns& out) {

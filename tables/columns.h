@@ -1,9 +1,12 @@
 #pragma once
 /// Columns of a file that is no CSV: the files of MATLAB, HDF5, TYDEX and MDF.
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "sim/core/error.h"
 
 namespace rollrig::tables {
 
@@ -22,6 +25,11 @@ struct Column {
 };
 
 using Columns = std::vector<Column>;
+
+/// For values that take more than a table may have, kLargestTable_bytes.
+InputError make_too_large(const std::string& path);
+/// Throws that where so many bytes of values do.
+void require_table_size(std::uintmax_t bytes, const std::string& path);
 
 /// The columns of a matrix whose longer side is its rows: "name.1", "name.2", ...; a vector is one column `name`.
 /// `values` are column by column. None of a single number.

@@ -81,7 +81,7 @@ bool is_number(H5T_class_t of) { return of == H5T_INTEGER || of == H5T_FLOAT; }
 
 class Hdf5Collector {
  public:
-  explicit Hdf5Collector(bool is_matlab) : separator_(is_matlab ? "." : "/") {}
+  Hdf5Collector(std::string path, bool is_matlab) : path_(std::move(path)), separator_(is_matlab ? "." : "/") {}
 
   /// All that is in a group whose name, with its separator, is `prefix`.
   void visit(hid_t group, const std::string& prefix, int depth = 0) {
@@ -140,10 +140,11 @@ class Hdf5Collector {
     if (rank < 1 || rank > 2 || H5Sget_simple_extent_type(space) != H5S_SIMPLE) return;
     hsize_t extent[2] = {1, 1};
     H5Sget_simple_extent_dims(space, extent, nullptr);
-    constexpr hsize_t kMost = 200'000'000;
-    if (extent[0] > kMost || extent[1] > kMost || extent[0] * extent[1] > kMost) throw Hdf5Refused();
+    for (const hsize_t one : extent) require_table_size(one * sizeof(double), path_);
     const auto rows = static_cast<std::size_t>(extent[0]);
     const auto count = static_cast<std::size_t>(extent[0] * extent[1]);
+    bytes_ += count * sizeof(double);
+    require_table_size(bytes_, path_);
     if (count < 2) return;
     const H5T_class_t of = H5Tget_class(type);
     const std::size_t first = columns_.size();
@@ -179,7 +180,9 @@ class Hdf5Collector {
     }
   }
 
+  std::string path_;
   std::string separator_;
+  std::uintmax_t bytes_ = 0;  // of all values, which fill values may make far more than the file has
   Columns columns_;
   std::set<haddr_t> visited_;
 };
@@ -197,7 +200,7 @@ Columns read_hdf5(const std::string& path) {
   try {
     const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     const Handle root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
-    Hdf5Collector collector(is_of_matlab(path));
+    Hdf5Collector collector(path, is_of_matlab(path));
     collector.visit(root, "");
     return collector.take();
   } catch (const Hdf5Refused&) {

@@ -1,14 +1,18 @@
 #include "tables/isolated.h"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
+#include <new>
 #include <stdexcept>
 
 #include "sim/core/error.h"
+#include "sim/core/file_io.h"
 
 namespace rollrig::tables {
 namespace {
@@ -101,14 +105,40 @@ void write_error(const InputProblem& problem, Writer& out) {
   for (const std::string& text : {problem.what, problem.key, problem.value, problem.allowed}) out.add(text);
 }
 
+/// A small file may unpack to more than the machine has. The child gets a few times what the largest table takes,
+/// beyond what the program holds already; sanitizers need more than any limit.
+void limit_memory() {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  constexpr rlim_t kTimes = 4;  // Assumed: values, bytes on their way, and what the libraries hold
+  std::ifstream sizes("/proc/self/statm");
+  rlim_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;  // pages
+  if (!(sizes >> total >> resident >> shared >> text >> library >> data)) return;
+  const rlim_t held_bytes = data * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+  const rlim_t most_bytes = held_bytes + kTimes * kLargestTable_bytes;
+  const rlimit limit{most_bytes, most_bytes};
+  ::setrlimit(RLIMIT_DATA, &limit);
+#endif
+}
+
+void require_small(const Columns& columns, const std::string& path) {
+  std::uintmax_t bytes = 0;
+  for (const Column& column : columns) bytes += column.size() * sizeof(double);
+  require_table_size(bytes, path);
+}
+
 /// Ends the child.
 [[noreturn]] void carry_out(const std::string& path, const std::function<Columns(const std::string&)>& read,
                             int descriptor) {
   Writer out;
   try {
-    write_columns(read(path), out);
+    limit_memory();
+    const Columns columns = read(path);
+    require_small(columns, path);
+    write_columns(columns, out);
   } catch (const InputError& error) {
     write_error(error.problem(), out);
+  } catch (const std::bad_alloc&) {
+    write_error(make_too_large(path).problem(), out);
   } catch (...) {
     ::_exit(1);  // the parent says that the file is damaged
   }

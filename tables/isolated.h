@@ -8,8 +8,8 @@
 
 namespace rollrig::tables {
 
-/// What `read` gives, called in a child process. Throws the InputError that it throws, and one for a damaged file where
-/// the process does not come to its end.
+/// What `read` gives, called in a child process. Throws the InputError that it throws, one for a damaged file where the
+/// process does not come to its end, and one where the values take more than kLargestTable_bytes.
 /// Checked  tests/tables/log_table_test.cpp
 Columns read_isolated(const std::string& path, const std::function<Columns(const std::string&)>& read);
 

@@ -3,10 +3,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "build_paths.h"
 #include "exports/tree.h"
 #include "sim/core/error.h"
+#include "tables/hdf5_handle.h"
+#include "tables/isolated.h"
 #include "tests/support/run_program.h"
 #include "tests/support/temporary_folder.h"
 
@@ -121,6 +124,36 @@ TEST_CASE("what export writes is read with its units and gaps", "[fast]") {
     CHECK(table.rows.line_of(299) == 300);
   }
 }
+
+TEST_CASE("a small file that unpacks to more than a table may have is refused", "[fast]") {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("huge.h5");
+  {
+    using tables::Hdf5Handle;
+    const Hdf5Handle to(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    const hsize_t rows = 70'000'000;  // 0.56 GB that no byte of the file holds: it is all fill value
+    const Hdf5Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
+    const Hdf5Handle how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const hsize_t chunk = 1'000'000;
+    H5Pset_chunk(how, 1, &chunk);
+    for (const char* name : {"a", "b"}) {
+      const Hdf5Handle set(H5Dcreate2(to, name, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
+    }
+  }
+  CHECK(std::filesystem::file_size(file) < 100'000);
+  CHECK(find_refusal(file, "a") == "what the file holds is too large");
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("a reader that asks for more memory than any table takes is stopped", "[fast]") {
+  const auto read_too_much = [](const std::string&) {
+    tables::Column column;
+    column.values = std::vector<double>(std::size_t{1} << 30);
+    return tables::Columns{column};
+  };
+  CHECK_THROWS_WITH(tables::read_isolated("some.mat", read_too_much), Catch::Contains("is too large"));
+}
+#endif
 
 TEST_CASE("a column that is not there is named beside those that are", "[fast]") {
   const TemporaryFolder folder;
