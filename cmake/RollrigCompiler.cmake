@@ -51,6 +51,7 @@ set(ROLLRIG_SANITIZE "" CACHE STRING "Value for -fsanitize=, or empty")
 if(ROLLRIG_SANITIZE)
   add_compile_options(-fsanitize=${ROLLRIG_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${ROLLRIG_SANITIZE})
+  add_compile_definitions(ROLLRIG_SANITIZED)
 endif()
 
 # Coverage for libFuzzer, by the preset fuzz (tools/fuzz)

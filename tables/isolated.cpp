@@ -108,7 +108,7 @@ void write_error(const InputProblem& problem, Writer& out) {
 /// A small file may unpack to more than the machine has. The child gets a few times what the largest table takes,
 /// beyond what the program holds already; sanitizers need more than any limit.
 void limit_memory() {
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef ROLLRIG_SANITIZED
   constexpr rlim_t kTimes = 4;  // Assumed: values, bytes on their way, and what the libraries hold
   std::ifstream sizes("/proc/self/statm");
   rlim_t total = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;  // pages
