@@ -29,9 +29,9 @@ DONE, DIFFERS, WRONG, FAILED, INTERNAL, STOPPED = 0, 1, 2, 3, 70, 130
 class Command:
     """A command with its outputs, which lie in the folder {o} of its arguments."""
 
-    def __init__(self, name, arguments, outputs, quick=True, statuses=(DONE,)):
+    def __init__(self, name, arguments, outputs, quick=True, has_threads=False):
         self.name, self.arguments, self.outputs = name, arguments, outputs
-        self.quick, self.statuses = quick, statuses
+        self.quick, self.has_threads = quick, has_threads
         self.takes_force = name in ("run", "sweep", "fit", "import", "new", "plan", "diagnose")
         self.reference, self.takes_s = None, 0.0
 
@@ -52,9 +52,9 @@ def make_commands(inputs):
         Command("run", ["run", "skim", "--tire", "a50", "--sensors", "source", "--out", "{o}/out", "--write-set",
                         "{o}/set", "--json", "{o}/run.json", "--html", "{o}/run.html"],
                 ["out", "set", "run.json", "run.html"]),
-        Command("sweep", ["sweep", "skim", "--tire", "a50", "--vary", "load_N=4000:6000:100", "--threads", "2", "--out",
-                          "{o}/out", "--json", "{o}/sweep.json", "--html", "{o}/sweep.html"],
-                ["out", "sweep.json", "sweep.html"]),
+        Command("sweep", ["sweep", "skim", "--tire", "a50", "--vary", "load_N=4000:6000:100", "--out", "{o}/out", "--json",
+                          "{o}/sweep.json", "--html", "{o}/sweep.html"],
+                ["out", "sweep.json", "sweep.html"], has_threads=True),
         Command("fit", ["fit", "road-load", coastdowns, "--mass", "2203", "--out", "{o}/out", "--json", "{o}/fit.json",
                         "--html", "{o}/fit.html"], ["out", "fit.json", "fit.html"]),
         Command("import", ["import", logs, "--out", "{o}/out", "--json", "{o}/import.json"], ["out", "import.json"]),
@@ -65,10 +65,16 @@ def make_commands(inputs):
         Command("convert", ["convert", "--force", "32", "--from-drum", "2.0", "--to-drum", "1.2", "--tire", "a50",
                             "--json", "{o}/loss.json"], ["loss.json"]),
         Command("plan", ["plan", "--rig", "drum", "--hours", "4", "--out", "{o}/out", "--json", "{o}/plan.json",
-                         "--html", "{o}/plan.html"], ["out", "plan.json", "plan.html"], quick=False),
+                         "--html", "{o}/plan.html"], ["out", "plan.json", "plan.html"], quick=False, has_threads=True),
         Command("diagnose", ["diagnose", EXAMPLES + "/hidden_effect", "--only", "bearing_warmup,torque_gain", "--plan",
                              "{o}/next", "--json", "{o}/why.json", "--html", "{o}/why.html"],
-                ["next", "why.json", "why.html"], quick=False),
+                ["next", "why.json", "why.html"], quick=False, has_threads=True),
+        Command("fit", ["fit", "drum-coastdown", EXAMPLES + "/drum_coastdown/coasts.toml", "--out", "{o}/out", "--json",
+                        "{o}/fit.json", "--html", "{o}/fit.html"], ["out", "fit.json", "fit.html"], quick=False),
+        Command("fit", ["fit", "tire", EXAMPLES + "/hidden_effect", "--out", "{o}/out", "--json", "{o}/fit.json",
+                        "--html", "{o}/fit.html"], ["out", "fit.json", "fit.html"], quick=False, has_threads=True),
+        Command("regress", ["regress", "--json", "{o}/all.json", "--html", "{o}/all.html"], ["all.json", "all.html"],
+                quick=False, has_threads=True),
     ]
 
 
@@ -294,6 +300,15 @@ class Faults:
         self.check_states(fault, command, folder, ["whole"])
         shutil.rmtree(folder)
 
+    def change_threads(self, command):
+        fault = "number of threads"
+        for threads in ("1", "2", "3"):
+            folder = self.new_folder()
+            status, errors = self.run(command.words(folder) + ["--threads", threads])
+            self.check(fault, command, status == DONE, "exits with %d: %s" % (status, errors))
+            self.check_states(fault, command, folder, ["whole"])
+            shutil.rmtree(folder)
+
     def use_odd_names(self, command):
         fault = "odd names"
         for odd in ("with space", "new\nline", "größe", "<script>", "a'b\"c", "-", "%s{}"):
@@ -351,6 +366,8 @@ def main():
             faults.take_folder_away(command)
             faults.lock_folder(command)
             faults.go_abroad(command, locales)
+            if command.has_threads:
+                faults.change_threads(command)
             if options.short and i > 0:
                 continue
             faults.fill_disk(command)

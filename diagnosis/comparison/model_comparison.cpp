@@ -164,6 +164,43 @@ void screen_on_top_of_likeliest(const Study& study, Comparison& comparison) {
   comparison.on_top.push_back({hypothesis, screen(study, *likeliest, others)});
 }
 
+/// The likeliest fit of the hypothesis with these effects; nullptr where there is none.
+Candidate* find_fitted(Comparison& comparison, const std::vector<std::string>& names) {
+  Candidate* best = nullptr;
+  for (Candidate& one : comparison.candidates) {
+    if (one.fit.hypothesis.names() != names) continue;
+    if (best == nullptr || one.log_evidence > best->log_evidence) best = &one;
+  }
+  return best;
+}
+
+/// The fitted hypothesis with one effect less that comes nearest to `larger`; nullptr where none was fitted.
+Candidate* find_nearest_smaller(Comparison& comparison, const Candidate& larger) {
+  const std::vector<std::string> all = larger.fit.hypothesis.names();
+  Candidate* nearest = nullptr;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<std::string> fewer = all;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+    Candidate* one = find_fitted(comparison, fewer);
+    if (one != nullptr && (nearest == nullptr || one->log_evidence > nearest->log_evidence)) nearest = one;
+  }
+  return nearest;
+}
+
+/// Moves to hypotheses with one effect less what their last effect may be an error of their law.
+void weigh_law_errors(Comparison& comparison) {
+  for (std::size_t terms = kMostTerms; terms > 1; --terms) {
+    for (Candidate& larger : comparison.candidates) {
+      if (larger.fit.hypothesis.terms.size() != terms || larger.fit.hypothesis.has_unknown()) continue;
+      Candidate* smaller = find_nearest_smaller(comparison, larger);
+      if (smaller == nullptr) continue;
+      const double moved = calc_law_error(larger.log_evidence - smaller->log_evidence) * larger.probability;
+      larger.probability -= moved;
+      smaller->probability += moved;
+    }
+  }
+}
+
 /// Makes room for what was not fitted: all probabilities together are one.
 void add_unfitted(Study& study, Comparison& comparison) {
   comparison.unfitted = list_unfitted(study, comparison);
@@ -194,6 +231,12 @@ double find_prior(const StudySettings& settings, const Hypothesis& hypothesis) {
   const auto families = static_cast<double>(settings.unknown_terms.size());
   if (hypothesis.terms.size() == 1) return settings.priors.families / families;
   return settings.priors.family_beside / families * find_prior(settings, hypothesis.terms.size() - 1);
+}
+
+double calc_law_error(double gain_nats) {
+  const double in_scale = std::max(0.0, gain_nats) / thresholds::kLawError_nats;
+  const double odds = thresholds::kLawErrorOdds * std::exp(-0.5 * in_scale * in_scale);
+  return odds / (1.0 + odds);
 }
 
 double Comparison::find_detectability(const Term& term) const {
@@ -227,6 +270,7 @@ Comparison compare_models(Study& study) {
                comparison);
     assign_probabilities(study, comparison);
   }
+  weigh_law_errors(comparison);
   screen_on_top_of_likeliest(study, comparison);
   add_unfitted(study, comparison);
   return comparison;

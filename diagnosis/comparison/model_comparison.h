@@ -34,8 +34,16 @@ double find_prior(const StudySettings& settings, std::size_t terms);
 /// Of one hypothesis, one of whose terms may be a family of unknown effects.
 double find_prior(const StudySettings& settings, const Hypothesis& hypothesis);
 
+/// Probability that an effect fitted beside others is an error of their laws and does not act.
+/// Equation  P = o/(1 + o), o = 2 exp(-(g/15)^2/2)
+/// Symbols   g >= 0 gain of log evidence by the effect, nats (below 0: as 0)
+/// Source    Assumed: thresholds.h, kLawErrorOdds
+/// Checked   tests/diagnosis/model_comparison_test.cpp
+double calc_law_error(double gain_nats);
+
 /// Fits the baseline (study.null), screens, refits every term that could matter from its best start, then pairs on
-/// top of the best, then triples on top of the best pair where two terms are asked for, and weighs all.
+/// top of the best, then triples on top of the best pair where two terms are asked for, and weighs all. Of pairs and
+/// triples the share calc_law_error() goes to the hypothesis without their weakest effect.
 /// Errors  RunFailure: the baseline cannot be fitted
 Comparison compare_models(Study& study);
 

@@ -245,6 +245,16 @@ bool is_open_beside(const Candidate& lead, const Candidate& other) {
   return other.posterior() >= std::exp(-thresholds::kToldApart_nats) * lead.posterior();
 }
 
+/// Whether what was left out confirms a cause although the interval of what it shrinks holds 0, as it may where the gap
+/// is hardly above the noise, or where few runs are judged.
+bool is_confirmed_otherwise(const Gap& gap) {
+  if (!(gap.left_out_nats.value_or(0.0) >= thresholds::kConfirmed_nats)) return false;
+  if (*gap.shrink_percent >= thresholds::kClearShrink_percent) return true;
+  if (gap.judged_by != JudgedBy::kRuns || !gap.stretches.has_value()) return false;
+  const Shrinkage& stretches = *gap.stretches;
+  return stretches.percent.value_or(0.0) >= thresholds::kClearShrink_percent && stretches.ci95_percent[0] > 0.0;
+}
+
 }  // namespace
 
 double expected_log_bayes_factor(const Study& study, const Candidate& a, const Candidate& b) {
@@ -304,7 +314,11 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
     std::vector<const Candidate*> alike;
     for (const Candidate* other : left) {
       if (taken.count(other) > 0) continue;
-      if (other != lead && expected_log_bayes_factor(study, *lead, *other) >= thresholds::kToldApart_nats) continue;
+      const bool is_larger = other->fit.hypothesis.terms.size() > lead->fit.hypothesis.terms.size() &&
+                             contains_all(other->fit.hypothesis.names(), cause.effects);
+      const bool is_told_apart =
+          other != lead && expected_log_bayes_factor(study, *lead, *other) >= thresholds::kToldApart_nats;
+      if (is_told_apart && !is_larger) continue;
       taken.insert(other);
       cause.probability += other->probability;
       if (other->fit.hypothesis.terms.size() > lead->fit.hypothesis.terms.size()) continue;  // the lead with one more
@@ -344,7 +358,8 @@ void weigh_objections(const Gap& gap, std::vector<Cause>& causes, std::map<std::
     first.objections.push_back(fmt::format("it makes the {} that were left out worse, not better", parts));
     first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);
   }
-  if (gap.shrink_percent.has_value() && gap.shrink_ci95_percent[0] <= 0.0) {
+  const bool holds_0 = gap.shrink_percent.has_value() && gap.shrink_ci95_percent[0] <= 0.0;
+  if (holds_0 && !is_confirmed_otherwise(gap)) {
     first.objections.push_back(
         fmt::format("the {} left out do not confirm it: the interval of what it shrinks holds 0 %", parts));
     first.kept = std::min(first.kept, thresholds::kKeptUnconfirmed);

@@ -94,6 +94,18 @@ TEST_CASE("a cause that the runs left out do not confirm is no explanation", "[f
   CHECK(judge(gap) == Verdict::kUnexplained);
   gap.shrink_ci95_percent = {1.0, 18.0};
   CHECK(judge(gap) == Verdict::kExplained);
+  gap.shrink_percent = 62.0;  // of a gap that is hardly above the noise: the likelihood decides
+  gap.shrink_ci95_percent = {-2.0, 100.0};
+  CHECK(judge(gap) == Verdict::kUnexplained);
+  gap.left_out_nats = 50.0;
+  CHECK(judge(gap) == Verdict::kExplained);
+  gap.shrink_percent = 12.0;
+  CHECK(judge(gap) == Verdict::kUnexplained);
+  gap.judged_by = JudgedBy::kRuns;  // which do not decide, where the stretches do
+  gap.stretches = Shrinkage{{1.2, 0.65}, 46.0, {31.0, 61.0}, std::nullopt};
+  CHECK(judge(gap) == Verdict::kExplained);
+  gap.stretches->ci95_percent[0] = -1.0;
+  CHECK(judge(gap) == Verdict::kUnexplained);
   gap.shrink_percent.reset();  // no gap above the noise: what was left out judges by its likelihood
   gap.judged_by = JudgedBy::kNothing;
   gap.left_out_nats = 10.0;
