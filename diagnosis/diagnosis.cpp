@@ -76,6 +76,18 @@ void judge_cause(const Study& study, const Comparison& comparison, Diagnosis& di
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
 }
 
+/// Whether a cause with a further effect, which has a tenth of its probability, is large enough to matter.
+bool may_matter_with_others(const Study& study, const Comparison& comparison, const Cause& cause,
+                            double smallest_effect_percent) {
+  constexpr double kLikely = 0.1;
+  return std::any_of(comparison.candidates.begin(), comparison.candidates.end(), [&](const Candidate& one) {
+    const Hypothesis& hypothesis = one.fit.hypothesis;
+    if (hypothesis.has_unknown() || hypothesis.terms.size() <= cause.effects.size()) return false;
+    if (one.probability < kLikely * cause.probability || !contains_all(hypothesis.names(), cause.effects)) return false;
+    return !is_immaterial(measure_change(study, one), smallest_effect_percent);
+  });
+}
+
 /// A first cause that is too small to matter is set aside, before anything else is said of it.
 void weigh_materiality(const Study& study, const Comparison& comparison, double smallest_effect_percent,
                        Diagnosis& diagnosis) {
@@ -85,6 +97,7 @@ void weigh_materiality(const Study& study, const Comparison& comparison, double 
   diagnosis.causes.front().change = measure_change(study, *lead);
   const bool is_likelier_than_unknown = diagnosis.causes.front().probability > diagnosis.probability.at("unknown");
   if (!is_likelier_than_unknown || !is_immaterial(*diagnosis.causes.front().change, smallest_effect_percent)) return;
+  if (may_matter_with_others(study, comparison, diagnosis.causes.front(), smallest_effect_percent)) return;
   diagnosis.trace = set_aside_trace(diagnosis.causes, diagnosis.probability);
   diagnosis.verdict = find_verdict(diagnosis.probability, diagnosis.causes);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <tuple>
 
@@ -216,6 +217,30 @@ void put_objections(const Study& study, const Candidate& lead, Cause& cause) {
                          cause.parameters.end());
 }
 
+/// The hypothesis with those effects of the likeliest one that act with at least half of the probability that any of
+/// them acts (the median probability model); the likeliest itself where that was not fitted.
+const Candidate* leave_out_unlikely(const std::vector<const Candidate*>& fitted, const Candidate& likeliest) {
+  const std::vector<std::string> all = likeliest.fit.hypothesis.names();
+  std::map<std::string, double> acts;
+  double any_acts = 0.0;
+  for (const Candidate* one : fitted) {
+    bool has_any = false;
+    for (const std::string& name : one->fit.hypothesis.names()) {
+      if (std::count(all.begin(), all.end(), name) == 0) continue;
+      acts[name] += one->probability;
+      has_any = true;
+    }
+    if (has_any) any_acts += one->probability;
+  }
+  std::vector<std::string> kept;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(kept),
+               [&](const std::string& name) { return acts[name] >= 0.5 * any_acts; });
+  if (kept.size() == all.size()) return &likeliest;
+  const auto known = std::find_if(fitted.begin(), fitted.end(),
+                                  [&](const Candidate* one) { return one->fit.hypothesis.names() == kept; });
+  return known == fitted.end() ? &likeliest : *known;
+}
+
 /// Probability of what was not fitted and has all effects of one of these hypotheses.
 double sum_on_top_of(const std::vector<const Candidate*>& hypotheses, const std::vector<Unfitted>& unfitted) {
   double sum = 0.0;
@@ -308,6 +333,7 @@ std::vector<Cause> find_causes(const Study& study, const Comparison& comparison)
   for (const Candidate* lead : left) {
     if (taken.count(lead) > 0) continue;
     if (!causes.empty() && lead->posterior() < thresholds::kWorthNaming) break;
+    if (causes.empty()) lead = leave_out_unlikely(left, *lead);
     Cause cause;
     cause.effects = lead->fit.hypothesis.names();
     std::map<std::string, double> beside;

@@ -133,11 +133,11 @@ TEST_CASE("noise alone has no gap and no cause", "[fast]") {
   }
 }
 
-TEST_CASE("three effects at once are named together", "[fast]") {
+TEST_CASE("three clear effects at once are named together", "[fast]") {
   const std::vector<models::ActiveEffect> three{
       tests::make_active(models::find_effect("bearing_warmup"), {0.03, 20.0, 15.0, 1.0}),
       tests::make_active(models::find_effect("load_exponent"), {1.1}),
-      tests::make_active(models::find_effect("slow_leak"), {3.0 * 1e3 / 3600.0})};
+      tests::make_active(models::find_effect("slow_leak"), {9.0 * 1e3 / 3600.0})};
   const Diagnosis found = diagnose(tests::add_noise(tests::make_gap_set(three, 2), 3),
                                    only({"bearing_warmup", "slow_leak", "load_exponent"}));
   INFO(text_of(found));
