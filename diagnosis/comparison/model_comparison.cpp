@@ -165,7 +165,7 @@ void screen_on_top_of_likeliest(const Study& study, Comparison& comparison) {
 }
 
 /// The likeliest fit of the hypothesis with these effects; nullptr where there is none.
-Candidate* find_fitted(Comparison& comparison, const std::vector<std::string>& names) {
+Candidate* find_likeliest_fit(Comparison& comparison, const std::vector<std::string>& names) {
   Candidate* best = nullptr;
   for (Candidate& one : comparison.candidates) {
     if (one.fit.hypothesis.names() != names) continue;
@@ -181,7 +181,7 @@ Candidate* find_nearest_smaller(Comparison& comparison, const Candidate& larger)
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<std::string> fewer = all;
     fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
-    Candidate* one = find_fitted(comparison, fewer);
+    Candidate* one = find_likeliest_fit(comparison, fewer);
     if (one != nullptr && (nearest == nullptr || one->log_evidence > nearest->log_evidence)) nearest = one;
   }
   return nearest;
