@@ -65,7 +65,8 @@ def make_commands(inputs):
         Command("convert", ["convert", "--force", "32", "--from-drum", "2.0", "--to-drum", "1.2", "--tire", "a50",
                             "--json", "{o}/loss.json"], ["loss.json"]),
         Command("plan", ["plan", "--rig", "drum", "--hours", "4", "--out", "{o}/out", "--json", "{o}/plan.json",
-                         "--html", "{o}/plan.html"], ["out", "plan.json", "plan.html"], quick=False, has_threads=True),
+                         "--html", "{o}/plan.html"], ["out", "plan.json", "plan.html"], quick=False,
+                has_threads=True),
         Command("diagnose", ["diagnose", EXAMPLES + "/hidden_effect", "--only", "bearing_warmup,torque_gain", "--plan",
                              "{o}/next", "--json", "{o}/why.json", "--html", "{o}/why.html"],
                 ["next", "why.json", "why.html"], quick=False, has_threads=True),
@@ -244,7 +245,8 @@ class Faults:
         time.sleep(self.draw_moment_s(command))
         shutil.rmtree(folder, ignore_errors=True)
         errors = process.communicate()[1].decode("utf-8", "replace")
-        self.check(fault, command, process.returncode in (DONE, WRONG), "exits with %d: %s" % (process.returncode, errors))
+        self.check(fault, command, process.returncode in (DONE, WRONG),
+                   "exits with %d: %s" % (process.returncode, errors))
         os.makedirs(folder, exist_ok=True)
         shutil.rmtree(folder)
         os.mkdir(folder)
